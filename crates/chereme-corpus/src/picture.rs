@@ -42,6 +42,8 @@ const LONGEST: i64 = 120_000_000;
 const SYMBOLS: &str = "hamnosys";
 /// What the faces of SiGML's non-manuals are called beside the inventories.
 const FACES: &str = "faces";
+/// The size in pixels up to which a handshape is drawn to be read at that size.
+const SMALL_HAND: usize = 160;
 /// How high one picture of movement is, in pixels.
 const HEIGHT: usize = 260;
 /// How high a symbol of notation is drawn, in pixels of a picture that can be shown at any size.
@@ -400,11 +402,14 @@ impl Corpus {
         let pose = |value: &chereme_sign::inventory::InventoryValue| {
             value.hand_pose(&configurations.inventory)
         };
-        let mut shape = HandshapeOptions {
-            side,
-            ..HandshapeOptions::default()
+        let usual = HandshapeOptions::default();
+        let size = options.height.unwrap_or(usual.size);
+        let shape = if size <= SMALL_HAND {
+            HandshapeOptions::small(size)
+        } else {
+            HandshapeOptions { size, ..usual }
         };
-        shape.size = options.height.unwrap_or(shape.size);
+        let shape = HandshapeOptions { side, ..shape };
         let (image, title, frames) = match value {
             Some(text) => {
                 let found = stored.inventory.find(text);

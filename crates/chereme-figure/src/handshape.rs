@@ -10,7 +10,7 @@ use crate::camera::Camera;
 use crate::error::{FigureError, checked_size, checked_view};
 use crate::font;
 use crate::image::Image;
-use crate::palette::{Palette, Theme};
+use crate::palette::{Colour, HandColours, Palette, Theme};
 use crate::raster::{Raster, Style};
 
 /// The direction of view onto a single hand; the fingers point up.
@@ -38,6 +38,8 @@ pub struct HandshapeOptions {
     pub size: usize,
     /// The colours of the hand.
     pub palette: Palette,
+    /// Whether the picture is cut close around the largest hand.
+    pub tight: bool,
     /// Paper, light and lines.
     pub style: Style,
 }
@@ -49,11 +51,41 @@ impl Default for HandshapeOptions {
             view: HandView::default(),
             size: 128,
             palette: Palette::default(),
+            tight: false,
             style: Style {
                 samples: 3,
                 step: 0.006,
                 ..Style::default()
             },
+        }
+    }
+}
+
+impl HandshapeOptions {
+    /// Returns options for a picture of `size` pixels that is to be read at that size: clear lines, many samples, a
+    /// palm much lighter than the back, and a close crop.
+    #[must_use]
+    pub fn small(size: usize) -> Self {
+        let hand = HandColours {
+            palm: Colour::hex(0xFD_E6_CC),
+            back: Colour::hex(0xB5_7C_4E),
+            nail: Colour::hex(0xFF_EE_E0),
+        };
+        Self {
+            palette: Palette {
+                right: hand,
+                left: hand,
+                ..Palette::default()
+            },
+            size,
+            tight: true,
+            style: Style {
+                samples: 4,
+                step: 0.006,
+                line: 0.9,
+                ..Style::default()
+            },
+            ..Self::default()
         }
     }
 }
@@ -149,13 +181,13 @@ impl<'a> Artist<'a> {
         let mut pose = skeleton.rest_pose();
         anatomy.set_hand_angles(skeleton, self.options.side, angles, &mut pose);
         let mesh = self.body.mesh(&ModelPose::of(skeleton, &pose));
-        let camera = camera(self.options.view, self.options.side);
+        let camera = camera(self.options.view, self.options.side, self.options.tight);
         self.raster.draw(&mesh, &camera, size, &self.options.style)
     }
 }
 
 /// Returns the camera of a view; the hand is at the origin, its palm towards +Z.
-fn camera(view: HandView, side: Side) -> Camera {
+fn camera(view: HandView, side: Side, tight: bool) -> Camera {
     let thumb = -side.sign() as f32;
     let towards = match view {
         HandView::ThreeQuarter => Vec3::new(0.42 * thumb, 0.30, 1.0),
@@ -168,7 +200,7 @@ fn camera(view: HandView, side: Side) -> Camera {
         eye: target + towards.normalize() * 0.9,
         target,
         up: Vec3::Y,
-        half_height: 0.116,
+        half_height: if tight { 0.102 } else { 0.116 },
         near: 0.0,
     }
 }

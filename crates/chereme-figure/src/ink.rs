@@ -15,8 +15,6 @@ use crate::image::Image;
 use crate::palette::Colour;
 use crate::raster::Style;
 
-/// Half the width of a line, in pixels of the finished picture.
-const LINE: f32 = 0.6;
 /// Reach of a shade, in pixels of the finished picture.
 const SHADE: f32 = 2.5;
 /// Strength of the darkest shade.
@@ -40,6 +38,11 @@ const MARKS: u32 = (FLAT as u32) << 24;
 
 fn reach(samples: usize, pixels: f32) -> usize {
     (samples as f32 * pixels).round().max(1.0) as usize
+}
+
+/// Returns half the width of a line, in samples; not wider than the margin allows.
+fn line(samples: usize, style: &Style) -> usize {
+    reach(samples, style.line.clamp(0.0, SHADE))
 }
 
 /// Returns the width of the paper margin around the picture, in samples.
@@ -75,14 +78,14 @@ pub(crate) fn finish(
 ) {
     let ink = Ink {
         outline: style.theme.outline().0.map(f32::from),
-        near: around(reach(samples, LINE), buffers.stride),
+        near: around(line(samples, style), buffers.stride),
         far: around(reach(samples, SHADE), buffers.stride),
         step: style.step,
         touch: TOUCH_STEP,
         opacity: opacity.clamp(0.0, 1.0),
     };
     // Everything beyond the used area and the reach of a line is paper.
-    let beside = reach(samples, LINE);
+    let beside = line(samples, style);
     let touched = |axis: usize, size: usize| {
         let used = &buffers.used[axis];
         let first = used.start.saturating_sub(beside) / samples;

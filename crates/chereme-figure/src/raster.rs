@@ -31,6 +31,8 @@ pub struct Style {
     pub fill_light: Vec3,
     /// The depth step from which a line is drawn within one part of the body, in metres.
     pub step: f32,
+    /// Half the width of a line, in pixels of the finished picture.
+    pub line: f32,
     /// The number of drawing threads, at least one; it does not change the picture.
     pub threads: usize,
 }
@@ -43,6 +45,7 @@ impl Default for Style {
             key_light: Vec3::new(-0.42, 0.52, 0.75),
             fill_light: Vec3::new(0.80, 0.10, 0.55),
             step: 0.012,
+            line: 0.6,
             threads: 1,
         }
     }

@@ -326,10 +326,9 @@ fn hand_alone(
     size: [usize; 2],
     theme: Theme,
 ) -> Option<Image> {
-    let usual = HandshapeOptions::default();
+    let usual = HandshapeOptions::small(size[0].min(size[1]));
     let options = HandshapeOptions {
         side: if left { Side::Left } else { Side::Right },
-        size: size[0].min(size[1]),
         style: Style {
             theme,
             ..usual.style

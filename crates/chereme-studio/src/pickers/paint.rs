@@ -155,9 +155,8 @@ fn hand(ui: &Ui, rect: Rect, dark: bool, angles: &HandAngles) {
     angles.to_array().map(f64::to_bits).hash(&mut hasher);
     let angles = *angles;
     let texture = gallery::picture(ui.ctx(), hasher.finish(), move || {
-        let usual = HandshapeOptions::default();
+        let usual = HandshapeOptions::small(HAND);
         let options = HandshapeOptions {
-            size: HAND,
             style: Style {
                 theme: theme(dark),
                 ..usual.style
