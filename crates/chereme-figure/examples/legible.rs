@@ -1,4 +1,4 @@
-//! Measures how well handshapes are told apart in small pictures: `cargo run --release --example legible -- FILE`.
+//! Measures how well handshapes are distinguished in small pictures: `cargo run --release --example legible -- FILE`.
 //!
 //! FILE is an inventory of handshapes, such as `schema/inventories/configurations.json`. Draws every handshape at 24,
 //! 48 and 96 pixels, and prints for each size the mean and the fifth percentile of the distance to the nearest other

@@ -77,7 +77,7 @@ pub struct Framing {
     hand: f32,
     /// The joint that the corners are relative to if the body travels: the camera follows it.
     follow: Option<usize>,
-    /// Whether the body turns so far that the camera goes round with it.
+    /// Whether the camera goes round with the body, because it turns far.
     turns: bool,
 }
 
@@ -205,6 +205,7 @@ impl Framing {
             for (side, arm) in Side::BOTH.into_iter().zip(arms) {
                 let Some(arm) = arm else { continue };
                 always.around(at(pose, arm.upper), Vec3::new(0.075, 0.32, 0.07) * size);
+                always.around(at(pose, arm.forearm), Vec3::new(0.07, 0.06, 0.07) * size);
                 let hand = at(pose, arm.hand);
                 if hips.is_some_and(|hips| hand.y < hips + 0.1 * size) {
                     continue;
