@@ -99,8 +99,9 @@ impl Head {
             "chin" => spot([0.045, 0.045, 0.465], 61.0, 16.0, true),
             "cheek" => spot([0.22, 0.325, 0.37], 64.0, 16.0, true),
             "throat" => Spot {
-                at: self.throat + DVec3::new(0.04, 0.0, 0.05),
-                ..spot([0.0; 3], 54.0, 34.0, true)
+                // In front of a collar, the wrist well before the chest.
+                at: self.throat + DVec3::new(0.04, 0.0, 0.13),
+                ..spot([0.0; 3], 54.0, 48.0, true)
             },
             "rest" => spot([0.42, -0.55, 0.85], 45.0, 4.0, false),
             _ => return None,
