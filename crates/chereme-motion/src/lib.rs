@@ -34,6 +34,7 @@
 //! | [`anatomy`] | which joint is what, whatever the skeleton calls it; landmarks, measures, finger angles |
 //! | [`hand`] | the posture of a hand as joint angles |
 //! | [`face`] | the posture of a face as a few numbers |
+//! | [`fit`] | a skeleton that follows optical markers |
 //! | [`ik`] | where the elbow goes when the wrist is moved |
 
 pub use glam;
@@ -46,6 +47,7 @@ pub mod curves;
 pub mod ends;
 pub mod euler;
 pub mod face;
+pub mod fit;
 pub mod hand;
 pub mod ik;
 pub mod interpolation;

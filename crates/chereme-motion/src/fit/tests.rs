@@ -1,0 +1,141 @@
+use super::*;
+use crate::anatomy::fixtures::{PLAIN, Wear, body, roles};
+use crate::axes::Convention;
+use crate::column::Column;
+use crate::markers::Marker;
+
+/// Labels with the places of their markers in metres from where a table expects them, as skin puts them.
+const SET: [(&str, [f64; 3]); 30] = [
+    ("LFHD", [0.07, 0.12, 0.1]),
+    ("RFHD", [-0.07, 0.12, 0.1]),
+    ("LBHD", [0.07, 0.12, -0.1]),
+    ("RBHD", [-0.07, 0.12, -0.1]),
+    ("C7", [0.0, 0.0, -0.06]),
+    ("CLAV", [0.0, -0.04, 0.08]),
+    ("STRN", [0.0, 0.0, 0.12]),
+    ("T10", [0.0, -0.02, -0.12]),
+    ("LSHO", [0.01, 0.05, 0.0]),
+    ("RSHO", [-0.01, 0.05, 0.0]),
+    ("LUPA", [0.0, 0.04, 0.02]),
+    ("RUPA", [0.0, 0.04, 0.03]),
+    ("LELB", [0.01, 0.03, -0.03]),
+    ("RELB", [-0.01, 0.03, -0.03]),
+    ("LFRM", [0.0, 0.03, 0.01]),
+    ("RFRM", [0.0, 0.03, 0.01]),
+    ("LWRA", [0.0, 0.01, 0.03]),
+    ("RWRA", [0.0, 0.01, 0.03]),
+    ("LWRB", [0.0, 0.01, -0.03]),
+    ("RWRB", [0.0, 0.01, -0.03]),
+    ("LFIN", [0.0, 0.02, 0.0]),
+    ("RFIN", [0.0, 0.02, 0.0]),
+    ("LASI", [0.1, 0.05, 0.1]),
+    ("RASI", [-0.1, 0.05, 0.1]),
+    ("LPSI", [0.05, 0.06, -0.1]),
+    ("RPSI", [-0.05, 0.06, -0.1]),
+    ("LKNE", [0.05, 0.0, 0.02]),
+    ("RKNE", [-0.05, 0.0, 0.02]),
+    ("LANK", [0.04, 0.0, 0.0]),
+    ("RANK", [-0.04, 0.0, 0.0]),
+];
+
+/// A body of another size that walks a step and raises an arm, as markers, with its joints' places.
+fn capture(size: f64, frames: usize) -> (Markers, Vec<ModelPose>, Anatomy) {
+    let skeleton = scaled(&body(PLAIN), size).expect("a body");
+    let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
+    let rest = skeleton.rest_model_pose();
+    let joint = |part| anatomy.joint(part).expect("a joint");
+    let models: Vec<ModelPose> = (0..frames)
+        .map(|frame| {
+            let t = frame as f64 / 25.0;
+            let mut pose = skeleton.rest_pose();
+            let turn = |angle: f64| DQuat::from_rotation_z(angle);
+            pose.translations[0] += DVec3::new(1.0, 0.0, 0.3 * t);
+            pose.rotations[0] = DQuat::from_rotation_y(2.0 + 0.2 * t);
+            pose.rotations[joint(Part::UpperArm(Side::Left))] = turn(-1.2 + 0.5 * t);
+            pose.rotations[joint(Part::UpperArm(Side::Right))] = turn(1.2);
+            pose.rotations[joint(Part::Forearm(Side::Left))] =
+                DQuat::from_rotation_y(-0.6 - 0.5 * (2.0 * t).sin());
+            pose.rotations[joint(Part::Head)] = DQuat::from_rotation_y(0.3 * (3.0 * t).sin());
+            ModelPose::of(&skeleton, &pose)
+        })
+        .collect();
+    let points = SET.iter().map(|(name, offset)| {
+        let label = attachment(name).expect(name);
+        let (on, place) = anchored(label, &rest, &skeleton, &anatomy).expect(name);
+        let place = place + rest.rotation(on).inverse() * DVec3::from(*offset);
+        let at = |axis: usize| {
+            let value = |model: &ModelPose| model.point(on, place)[axis];
+            Column::doubles(models.iter().map(value).collect())
+        };
+        Marker::new(format!("Anna:{name}"), vec![at(0), at(1), at(2)])
+    });
+    let times = Times::Even(Rate::new(25, 1).expect("a rate"));
+    let markers = Markers::new(times, Space::World(Convention::MODEL), points.collect());
+    (markers.expect("a track"), models, anatomy)
+}
+
+#[test]
+fn a_skeleton_of_another_size_and_rest_posture_follows_markers() {
+    let (markers, truth, anatomy) = capture(1.08, 40);
+    let other = body(Wear {
+        lowered: 0.5,
+        ..PLAIN
+    });
+    let own = Anatomy::with_roles(&other, &roles(&other)).expect("a body");
+    let fitted = fit(&markers, &other, &own).expect("a fit");
+    assert!(fitted.unused.is_empty() && fitted.held == 0);
+    assert!((fitted.scale - 1.08).abs() < 0.12, "{}", fitted.scale);
+    assert!(fitted.median() < 0.012, "{:?}", fitted.markers);
+    for part in [
+        Part::Hand(Side::Left),
+        Part::Forearm(Side::Right),
+        Part::Head,
+    ] {
+        let (a, b) = (anatomy.joint(part), own.joint(part));
+        let (a, b) = (a.expect("a joint"), b.expect("a joint"));
+        for frame in [0, 20, 39] {
+            let is = fitted.clip.model_pose(frame).position(b);
+            let off = is.distance(truth[frame].position(a));
+            assert!(off < 0.08, "{part} in frame {frame} is {off:.3} m off");
+        }
+    }
+}
+
+#[test]
+fn unknown_labels_gaps_and_films_are_reported() {
+    let (markers, ..) = capture(1.0, 4);
+    let skeleton = body(PLAIN);
+    let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
+    let renamed: Vec<Marker> = markers
+        .points()
+        .iter()
+        .enumerate()
+        .map(|(n, point)| Marker {
+            name: if n < 5 {
+                point.name.clone()
+            } else {
+                format!("Q{n}")
+            },
+            ..point.clone()
+        })
+        .collect();
+    let renamed = Markers::new(markers.times().clone(), *markers.space(), renamed);
+    let few = fit(&renamed.expect("a track"), &skeleton, &anatomy);
+    assert!(
+        matches!(few, Err(FitError::Few { known: 5, .. })),
+        "{few:?}"
+    );
+    let gaps: Vec<Marker> = markers
+        .points()
+        .iter()
+        .map(|point| Marker {
+            place: vec![Column::doubles(vec![f64::NAN; 4]); 3],
+            ..point.clone()
+        })
+        .collect();
+    let gaps = Markers::new(markers.times().clone(), *markers.space(), gaps);
+    let gaps = fit(&gaps.expect("a track"), &skeleton, &anatomy);
+    assert!(matches!(gaps, Err(FitError::Gaps(_))), "{gaps:?}");
+    assert_eq!(attachment("TakeoMonday:LWRA"), attachment("l.wrist"));
+    assert_eq!(attachment("CentreOfMass"), None);
+}
