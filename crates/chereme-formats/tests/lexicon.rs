@@ -509,3 +509,57 @@ proptest! {
         prop_assert_eq!(cells(&again), cells(&lexicon));
     }
 }
+
+#[test]
+fn exports_of_signbank_and_asl_lex_are_understood_by_their_titles() {
+    let signbank = "Signbank ID,Dataset,Lemma ID Gloss (Dutch),Lemma ID Gloss (English),Annotation ID Gloss (Dutch),\
+        Annotation ID Gloss (English),Senses (Dutch),Handedness,Strong Hand,Weak Hand,Location,Contact Type,\
+        Movement Direction,Repeated Movement,Orientation Change,Mouthing\n\
+        12,NGT,PET,CAP,PET-A,CAP-A,pet,2a,B,B,head,brush,backwards,True,-,pet\n";
+    let (lexicon, _) = read(signbank);
+    assert_eq!(lexicon.entries[0].gloss, "PET");
+    let codings = codings(&lexicon, 0);
+    for wanted in [
+        "dominant.configuration=B",
+        "weak.configuration=B",
+        "placement=head",
+        "placement.contact=brush",
+        "movement.direction=backwards",
+        "nonmanual.mouthing=pet",
+    ] {
+        assert!(
+            codings.iter().any(|it| it == wanted),
+            "{wanted}: {codings:?}"
+        );
+    }
+    let asl_lex = "EntryID,LemmaID,SignFrequency(Z),SignType.2.0,MajorLocation.2.0,MinorLocation.2.0,SecondMinorLocation.2.0,\
+        Movement.2.0,RepeatedMovement.2.0,Contact.2.0,Handshape.2.0,NonDominantHandshape.2.0,SelectedFingers.2.0,Flexion.2.0,\
+        Spread.2.0,ThumbPosition.2.0,UlnarRotation.2.0\n\
+        cat,cat,0.31,OneHanded,Head,CheekNose,NA,Straight,1,1,f,NA,imrp,4,1,Open,0\n";
+    let (lexicon, _) = read(asl_lex);
+    let all = self::codings(&lexicon, 0);
+    for wanted in [
+        "configuration.handedness=OneHanded",
+        "placement=Head",
+        "placement.minor=CheekNose",
+        "dominant.configuration=f",
+        "dominant.configuration.selected-fingers=imrp",
+        "dominant.configuration.flexion=4",
+        "dominant.configuration.spread=1",
+        "dominant.configuration.thumb-position=Open",
+        "orientation.ulnar-rotation=0",
+    ] {
+        assert!(all.iter().any(|it| it == wanted), "{wanted}: {all:?}");
+    }
+    assert!(
+        !all.iter().any(|it| it.ends_with("=NA")),
+        "NA is no value: {all:?}"
+    );
+    let title = |column: &chereme_formats::lexicon::Column| {
+        (column.title == "SignFrequency(Z)").then(|| column.meaning.clone())
+    };
+    assert_eq!(
+        lexicon.columns.iter().find_map(title),
+        Some(Meaning::Attribute)
+    );
+}
