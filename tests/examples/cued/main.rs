@@ -5,6 +5,12 @@
 //! that nothing of it was captured. `… -- fable` prints the keys of a fable of La Fontaine, line by line; the same text
 //! is cued with `chereme cue CORPUS "$(cat tests/examples/cued/fable.txt)"`.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "the table is the program's result"
+)]
+
 mod session;
 mod table;
 

@@ -598,13 +598,7 @@ fn cuer(table: &mut Table) {
     options.reading.pace = Some(1.6);
     let done = corpus.cue(text, &options, None).expect("cued");
     let start = Instant::now();
-    let done = corpus
-        .cue(
-            &done.recipe.split('"').nth(1).unwrap_or(text).to_owned(),
-            &options,
-            None,
-        )
-        .unwrap_or(done);
+    let done = corpus.cue(text, &options, None).unwrap_or(done);
     let took = start.elapsed().as_secs_f64();
     let seconds = done.duration_us as f64 / 1e6;
     table.row(

@@ -432,16 +432,14 @@ fn moved(
                 *angle = from + (*angle - from) * share(key.times[2], key.times[3], lags[k]);
             }
         }
-        let (mut at, mut level, mut fist) = (postures[n].1, postures[n].2, f64::from(n == 0));
+        let (mut at, mut level) = (postures[n].1, postures[n].2);
         let mut shape = n.checked_sub(1).map_or(0, |n| keys[n].shape);
         if let Some(key) = n.checked_sub(1).map(|n| &keys[n]) {
             let share = share(key.times[0], key.times[1], 0.0);
             at = postures[n - 1].1.lerp(at, share);
             level = postures[n - 1].2 + (level - postures[n - 1].2) * share;
-            fist = 0.0;
             shape = key.shape;
         }
-        let _ = fist;
         if free {
             at = DVec3::new(-150.0, 0.0, 250.0);
         }
