@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use chereme_compose::Material;
 use chereme_formats::bvh::convert::{self, ClipBuilder};
-use chereme_formats::bvh::raw::{Block, ChannelFix, Reader};
+use chereme_formats::bvh::raw::{Block, ChannelFix, Decimal, Number, Reader, Writer};
 use chereme_motion::{Anatomy, Clip};
 use chereme_sign::Handedness;
 use chereme_sign::hamnosys::Notated;
@@ -24,8 +24,16 @@ pub(crate) fn stage(path: &Path) -> Result<Material> {
 
 /// Reads a BVH file with all its frames.
 pub(crate) fn movement(path: &Path) -> Result<Material> {
-    let clip = match build(path, None)? {
-        (_, Some(fix)) => build(path, Some(fix))?.0,
+    let name = path.file_stem().unwrap_or_default();
+    read(&name.to_string_lossy(), |fix| build(path, fix))
+}
+
+fn read(
+    name: &str,
+    build: impl Fn(Option<ChannelFix>) -> Result<(Clip, Option<ChannelFix>)>,
+) -> Result<Material> {
+    let clip = match build(None)? {
+        (_, Some(fix)) => build(Some(fix))?.0,
         (clip, None) => clip,
     };
     let skeleton = clip.skeleton();
@@ -33,10 +41,9 @@ pub(crate) fn movement(path: &Path) -> Result<Material> {
     let guess = Anatomy::detect(skeleton).convention(skeleton, pose.as_ref());
     let clip = guess.convention.clip(&clip);
     let anatomy = Anatomy::detect(clip.skeleton()).with_clip(&clip);
-    let name = path.file_stem().unwrap_or_default();
     Ok(Material {
         curves: Vec::new(),
-        address: name.to_string_lossy().into_owned(),
+        address: name.to_owned(),
         hash: String::new(),
         gloss: String::new(),
         signer: None,
@@ -47,8 +54,33 @@ pub(crate) fn movement(path: &Path) -> Result<Material> {
     })
 }
 
+/// Writes a clip as BVH and reads it again, with the anatomy that is found in it.
+#[allow(dead_code, reason = "only the transcriber's example needs it")]
+pub(crate) fn again(clip: &Clip) -> Result<(Clip, Arc<Anatomy>)> {
+    const DECIMALS: u8 = 6;
+    let hierarchy = convert::widened(&convert::hierarchy(clip.skeleton(), DECIMALS), clip);
+    let columns = convert::columns(clip, &hierarchy, DECIMALS)?;
+    let time = Decimal::rounded(clip.rate().frame_time(), 9).map(Number::from);
+    let motion = Some((time.as_ref(), clip.frames() as u64));
+    let mut bytes = Vec::new();
+    let mut writer = Writer::new(&mut bytes, &hierarchy, motion)?;
+    let frames = clip.frames();
+    writer.block(&Block {
+        first_frame: 0,
+        frames,
+        columns,
+    })?;
+    writer.finish()?;
+    let whole = read("again", |fix| from(bytes.as_slice(), fix))?;
+    Ok((whole.clip, whole.anatomy))
+}
+
 fn build(path: &Path, fix: Option<ChannelFix>) -> Result<(Clip, Option<ChannelFix>)> {
-    let mut reader = Reader::open(File::open(path)?)?;
+    from(File::open(path)?, fix)
+}
+
+fn from(bytes: impl std::io::Read, fix: Option<ChannelFix>) -> Result<(Clip, Option<ChannelFix>)> {
+    let mut reader = Reader::open(bytes)?;
     let rate = convert::rate(reader.header().frame_time.as_ref())?;
     let mut builder = ClipBuilder::new(reader.hierarchy(), fix)?;
     let mut block = Block::default();
@@ -61,6 +93,12 @@ fn build(path: &Path, fix: Option<ChannelFix>) -> Result<(Clip, Option<ChannelFi
 
 /// Reads every sign of a folder's SiGML files, in the order of their names, each with its file's.
 pub(crate) fn signs(folder: &Path) -> Result<Vec<(String, Notated)>> {
+    let all = signs_with_findings(folder)?.into_iter();
+    Ok(all.map(|(name, notated, _)| (name, notated)).collect())
+}
+
+/// Like [`signs`], each with the number of findings of its file.
+pub(crate) fn signs_with_findings(folder: &Path) -> Result<Vec<(String, Notated, usize)>> {
     let mut paths: Vec<_> = std::fs::read_dir(folder)?
         .map(|entry| entry.map(|entry| entry.path()))
         .collect::<std::io::Result<_>>()?;
@@ -73,8 +111,9 @@ pub(crate) fn signs(folder: &Path) -> Result<Vec<(String, Notated)>> {
             .unwrap_or_default()
             .to_string_lossy()
             .into_owned();
-        let (entries, _) = chereme_formats::sigml::read(&std::fs::read(&path)?)?;
-        all.extend(entries.into_iter().map(|entry| (name.clone(), entry.sign)));
+        let (entries, findings) = chereme_formats::sigml::read(&std::fs::read(&path)?)?;
+        let each = entries.into_iter();
+        all.extend(each.map(|entry| (name.clone(), entry.sign, findings.len())));
     }
     Ok(all)
 }

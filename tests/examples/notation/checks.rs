@@ -131,14 +131,14 @@ fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
 /// The trunk's surface in one frame, which goes with what carries the collar bones: through the landmarks of its
 /// front, an ellipse at each height.
 #[derive(Clone)]
-struct Trunk {
+pub(crate) struct Trunk {
     frame: BodyFrame,
     front: Vec<DVec3>,
     joint: Option<usize>,
 }
 
 impl Trunk {
-    fn of(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
+    pub(crate) fn of(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
         let frame = anatomy.body_frame(model)?;
         let names = [
             "throat",
@@ -163,7 +163,7 @@ impl Trunk {
     }
 
     /// Returns the surface as it is in a frame, from how it is at rest.
-    fn moved(&self, rest: &ModelPose, model: &ModelPose) -> Self {
+    pub(crate) fn moved(&self, rest: &ModelPose, model: &ModelPose) -> Self {
         let Some(joint) = self.joint else {
             return self.clone();
         };
@@ -183,6 +183,12 @@ impl Trunk {
 
     /// Returns how far a point within the trunk is from its front and sides, in metres, level.
     fn depth(&self, at: DVec3) -> f64 {
+        self.depth_with(at, 0.0)
+    }
+
+    /// Like `depth`, of a ball of a radius about the point.
+    pub(crate) fn depth_with(&self, at: DVec3, radius: f64) -> f64 {
+        let more = radius / self.frame.scale;
         let v = self.frame.to_body(at);
         for (n, pair) in self.front.windows(2).enumerate() {
             let [above, below] = [pair[0], pair[1]];
@@ -191,8 +197,8 @@ impl Trunk {
             }
             let w = (above.y - v.y) / (above.y - below.y);
             // Between throat and chest the shoulders slope.
-            let half = 0.42 - 0.17 * (1.0 - w) * f64::from(u8::from(n == 0));
-            let front = above.z + (below.z - above.z) * w;
+            let half = 0.42 - 0.17 * (1.0 - w) * f64::from(u8::from(n == 0)) + more;
+            let front = above.z + (below.z - above.z) * w + more;
             if v.z < -0.2 || (v.x / half).powi(2) + (v.z.max(0.0) / front).powi(2) >= 1.0 {
                 return 0.0;
             }

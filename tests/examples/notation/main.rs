@@ -3,14 +3,19 @@
 //! `cargo run --release -p chereme-tests --example notation -- table FOLDER BODY.bvh...` animates every
 //! `.sigml` file of a folder on each body and prints what came of it. `... -- draw FOLDER BODY.bvh OUT
 //! GLOSS...` draws contact sheets of some. `... -- list FOLDER BODY.bvh` prints a line for each sign:
-//! its worst values, and what is said of it.
+//! its worst values, and what is said of it. `... -- faults FOLDER BODY.bvh [FILE.md]` counts what makes
+//! movement look unlike a person's, and writes the table between the marks of a file; `sample N` after
+//! `faults` takes one sign out of N.
 
 #![allow(clippy::print_stdout)]
 
 mod bodies;
+mod bulk;
 mod checks;
 mod draw;
+mod faults;
 mod table;
+mod walk;
 
 use std::error::Error;
 use std::path::Path;
@@ -24,10 +29,17 @@ fn main() -> Result<()> {
         ["table", folder, bodies @ ..] if !bodies.is_empty() => {
             table::print(Path::new(folder), bodies)
         }
+        ["faults", "sample", every, folder, body] => {
+            faults::count(Path::new(folder), body, every.parse::<usize>()?.max(1), None)
+        }
+        ["faults", folder, body] => faults::count(Path::new(folder), body, 1, None),
+        ["faults", folder, body, into] => {
+            faults::count(Path::new(folder), body, 1, Some(Path::new(into)))
+        }
         ["list", folder, body] => table::list(Path::new(folder), body),
         ["draw", folder, body, out, glosses @ ..] => {
             draw::sheets(Path::new(folder), Path::new(body), Path::new(out), glosses)
         }
-        _ => Err("say `table FOLDER BODY.bvh...`, `draw FOLDER BODY.bvh OUT GLOSS...` or `list FOLDER BODY.bvh`".into()),
+        _ => Err("say `table FOLDER BODY.bvh...`, `draw FOLDER BODY.bvh OUT GLOSS...` `list FOLDER BODY.bvh` or `faults FOLDER BODY.bvh [FILE.md]`".into()),
     }
 }

@@ -59,7 +59,7 @@ pub(crate) fn list(folder: &Path, path: &str) -> Result<()> {
 }
 
 /// Returns by how many degrees hands are said to be turned otherwise than written.
-fn turned_by(warnings: &[String]) -> f64 {
+pub(crate) fn turned_by(warnings: &[String]) -> f64 {
     let degrees = warnings.iter().filter_map(|warning| {
         let (_, rest) = warning.split_once("turned up to ")?;
         rest.split_once('°')?.0.parse().ok()

@@ -4,6 +4,7 @@
 //! `.sigml` file of a folder on a body, transcribes what came of it, and prints how often each feature
 //! is what was written, also of the half of the signs on which thresholds are tuned and of the other half;
 //! `... -- plain FOLDER BODY.bvh` does so without proving where hands are;
+//! `... -- blind FOLDER BODY.bvh` exports each sign as BVH, and transcribes that as any other capture;
 //! `... -- why FEATURE FOLDER BODY.bvh` prints where it is not, `... -- confusions FEATURE ...` counts what
 //! is taken for what, both in the half that is tuned on. In place of the folder a text file with a sign a line in
 //! HamNoSys characters will do. All are animated at the body's own frames a second, or at as many as stand behind it.
@@ -30,6 +31,7 @@ fn main() -> Result<()> {
     match words.as_slice() {
         ["notation", folder, body, rate @ ..] => closed(folder, body, rate, More::Nothing),
         ["plain", folder, body, rate @ ..] => closed(folder, body, rate, More::Plain),
+        ["blind", folder, body, rate @ ..] => closed(folder, body, rate, More::Blind),
         ["why", feature, folder, body, rate @ ..] => {
             closed(folder, body, rate, More::Why(feature))
         }
@@ -38,7 +40,7 @@ fn main() -> Result<()> {
         }
         ["movement", files @ ..] if !files.is_empty() => movement::table(files),
         _ => Err(
-            "say `notation FOLDER BODY.bvh`, `plain FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh` or `confusions FEATURE \
+            "say `notation FOLDER BODY.bvh`, `plain FOLDER BODY.bvh`, `blind FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh` or `confusions FEATURE \
              FOLDER BODY.bvh`, the frames a second behind it where they are others than the body's; or `movement FILE.bvh...`"
                 .into(),
         ),

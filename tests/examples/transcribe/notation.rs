@@ -24,6 +24,8 @@ pub(crate) enum More<'a> {
     Nothing,
     /// Nothing, of what is told without being proven.
     Plain,
+    /// Nothing, of the whole movement exported as BVH and read as any other capture.
+    Blind,
     /// Every disagreement about a feature, or `all`, or `show` with each; only the half that is tuned on.
     Why(&'a str),
     /// What is taken for what how often, in the half that is tuned on.
@@ -57,7 +59,10 @@ pub(crate) fn table(folder: &Path, body: &Path, rate: Option<u32>, more: More<'_
         },
         ..Settings::default()
     };
-    let options = Options::made();
+    let options = match more {
+        More::Blind => Options::default(),
+        _ => Options::made(),
+    };
     let mut counts: BTreeMap<&'static str, Counts> = BTreeMap::new();
     let mut confusions: BTreeMap<(String, String), usize> = BTreeMap::new();
     let (mut parts, mut whole, mut failed, mut slow) = (0, 0, 0, 0.0_f64);
@@ -68,7 +73,9 @@ pub(crate) fn table(folder: &Path, body: &Path, rate: Option<u32>, more: More<'_
     };
     let todo: Vec<(&str, &Notated, &Manual)> = signs
         .iter()
-        .filter(|(name, _)| matches!(more, More::Nothing | More::Plain) || is_tuned_on(name))
+        .filter(|(name, _)| {
+            matches!(more, More::Nothing | More::Plain | More::Blind) || is_tuned_on(name)
+        })
         .flat_map(|(name, entry)| {
             entry
                 .sign
@@ -245,6 +252,9 @@ fn again(
         .iter()
         .find(|note| note.about == chereme_compose::About::Gloss)?
         .span;
+    if more == More::Blind {
+        return blind(made, options);
+    }
     let rate = made.clip.rate();
     let (first, last) = (rate.frame_at(span.start()), rate.frame_at(span.end()));
     let clip = made.clip.slice(first..last + 1);
@@ -255,7 +265,35 @@ fn again(
         _ => transcribe_proven(&clip, &made.anatomy, options, &performs).ok()?,
     };
     let seconds = began.elapsed().as_secs_f64();
-    let short = made.report.warnings.iter().any(|warning| {
+    let short = is_short(&made);
+    Some(Again {
+        found,
+        clip,
+        anatomy: made.anatomy,
+        short,
+        seconds,
+    })
+}
+
+/// Exports movement as BVH, imports it without its notation, and transcribes that as a capture.
+fn blind(made: chereme_compose::Made, options: &Options) -> Option<Again> {
+    let short = is_short(&made);
+    let (clip, anatomy) = bodies::again(&made.clip).ok()?;
+    let began = Clock::now();
+    let found = transcribe(&clip, &anatomy, options).ok()?;
+    let seconds = began.elapsed().as_secs_f64();
+    Some(Again {
+        found,
+        clip,
+        anatomy,
+        short,
+        seconds,
+    })
+}
+
+/// Returns whether the animator reports that the body fell short of the notation.
+fn is_short(made: &chereme_compose::Made) -> bool {
+    made.report.warnings.iter().any(|warning| {
         [
             "less than written",
             "short of its place",
@@ -263,13 +301,6 @@ fn again(
         ]
         .iter()
         .any(|words| warning.contains(words))
-    });
-    Some(Again {
-        found,
-        clip,
-        anatomy: made.anatomy,
-        short,
-        seconds,
     })
 }
 

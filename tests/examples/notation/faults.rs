@@ -1,0 +1,667 @@
+//! Counts, sign by sign, the faults that make synthesised movement look unlike a person's, and writes the
+//! table between two marks of a file.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use chereme_compose::notation::{Settings, animate};
+use chereme_compose::{About, Made, Material};
+use chereme_motion::glam::DVec3;
+use chereme_motion::{ModelPose, Part, Rate, Side, Span};
+use chereme_sign::hamnosys::{Contact, MotionKind, NonmanualPart, Notated, WristMotion};
+use chereme_sign::{Component, Reading};
+
+use crate::bulk::{Hand, Tube, deepest};
+use crate::checks::{Trunk, worst};
+use crate::walk::{each_motion, interlocked, places};
+use crate::{Result, bodies};
+
+/// The marks between which the table stands.
+const MARKS: [&str; 2] = ["<!-- faults -->", "<!-- /faults -->"];
+
+/// One fault: its name, and how a sign is judged: `None` if the fault cannot occur in it.
+type Judge = (&'static str, fn(&Seen<'_>) -> Option<bool>);
+
+const FAULTS: [Judge; 18] = [
+    (
+        "a thumb across lies more than 3 mm off its finger or palm",
+        thumb_off,
+    ),
+    ("the approach is faster than the stroke", hasty),
+    (
+        "strokes take less than 30 % of the time from first movement to last",
+        short_stroke,
+    ),
+    ("head or trunk stand still", frozen),
+    ("lids never move", unblinking),
+    (
+        "hands pass 8 mm or more into each other, unreported",
+        merged,
+    ),
+    ("the same, reported or not", merged_at_all),
+    ("an elbow's path is over 1.5 of its wrist's", pumping),
+    (
+        "an elbow stands out by more than 60° with the hand low",
+        standing_out,
+    ),
+    ("an elbow is more than 3 cm above its shoulder", raised),
+    ("flesh of a hand more than 5 mm in the trunk", buried),
+    (
+        "at a turned or tilted head, a touch is more than 1.5 cm off its site",
+        off_face,
+    ),
+    ("a wave is outside 2.5 to 4 Hz", trembling),
+    ("a swing moves the fingertip less than 2.5 cm", faint),
+    (
+        "a movement with a target starts more than 45° off its direction",
+        astray,
+    ),
+    ("a hand is turned more than 45° off, as reported", turned),
+    (
+        "fast is no faster than usual would be, slow no slower",
+        untold,
+    ),
+    ("notation that is dropped with a warning", dropped),
+];
+
+/// A sign with its movement.
+struct Seen<'a> {
+    notated: &'a Notated,
+    findings: usize,
+    made: Made,
+    /// The same without its non-manuals, if it has some.
+    plain: Option<Made>,
+    /// The model in each frame.
+    models: Vec<ModelPose>,
+    rate: f64,
+}
+
+impl Seen<'_> {
+    fn sign(&self) -> Option<(usize, usize)> {
+        let gloss = self
+            .made
+            .notes
+            .iter()
+            .find(|note| note.about == About::Gloss)?;
+        Some(self.frames(gloss.span))
+    }
+
+    fn frames(&self, span: Span) -> (usize, usize) {
+        let at = |n| (n as usize).min(self.models.len() - 1);
+        let rate = self.made.clip.rate();
+        (
+            at(rate.frame_at(span.start())),
+            at(rate.frame_at(span.end())),
+        )
+    }
+
+    fn phases(&self, name: &str) -> Vec<(Side, (usize, usize))> {
+        let phase = About::Component(Component::Movement, Some("phase".into()));
+        let notes = self.made.notes.iter().filter(|note| match name {
+            "transition" => note.about == About::Transition,
+            _ => note.about == phase && note.value == Reading::Value(name.into()),
+        });
+        notes
+            .filter_map(|note| Some((note.hand?, self.frames(note.span))))
+            .collect()
+    }
+
+    fn wrist(&self, side: Side, frame: usize) -> Option<DVec3> {
+        Some(self.models[frame].position(self.made.anatomy.arm(side)?.hand))
+    }
+
+    fn dominant(&self) -> Side {
+        match self.made.handedness {
+            chereme_sign::Handedness::Left => Side::Left,
+            _ => Side::Right,
+        }
+    }
+
+    /// Returns the path of a joint between two frames, in metres.
+    fn path(&self, joint: usize, (from, to): (usize, usize)) -> f64 {
+        let steps = self.models[from..=to].windows(2);
+        steps
+            .map(|two| two[0].position(joint).distance(two[1].position(joint)))
+            .sum()
+    }
+
+    /// Returns the fastest that a wrist goes between two frames, in metres per second.
+    fn peak(&self, side: Side, (from, to): (usize, usize)) -> f64 {
+        let Some(arm) = self.made.anatomy.arm(side) else {
+            return 0.0;
+        };
+        let steps = self.models[from..=to].windows(2);
+        let steps = steps.map(|two| {
+            two[0]
+                .position(arm.hand)
+                .distance(two[1].position(arm.hand))
+        });
+        steps.fold(0.0, f64::max) * self.rate
+    }
+
+    fn strokes(&self) -> Vec<(usize, usize)> {
+        let own = self.dominant();
+        let all = self.phases("stroke").into_iter();
+        all.filter(|(side, span)| *side == own && span.1 > span.0)
+            .map(|(_, span)| span)
+            .collect()
+    }
+
+    fn approach(&self) -> Option<(usize, usize)> {
+        let own = self.dominant();
+        let all = self.phases("transition").into_iter();
+        all.filter(|(side, _)| *side == own)
+            .map(|(_, span)| span)
+            .min()
+    }
+
+    /// Returns whether the stroke moves the wrist and is not played by fingers or wrist alone.
+    fn moves(&self) -> bool {
+        let own = self.dominant();
+        let Some(arm) = self.made.anatomy.arm(own) else {
+            return false;
+        };
+        self.strokes()
+            .iter()
+            .any(|&span| self.path(arm.hand, span) > 0.05)
+    }
+}
+
+fn thumb_off(seen: &Seen<'_>) -> Option<bool> {
+    let (at, _) = seen.sign()?;
+    let mut judged = None;
+    for part in seen.notated.sign.parts.iter().take(1) {
+        let sides = [seen.dominant(), seen.dominant().other()];
+        let both = matches!(part.hands, chereme_sign::hamnosys::HandsUsed::Both(_));
+        let shapes = [
+            part.posture.shape.dominant(),
+            part.posture.shape.other().or(if both {
+                part.posture.shape.dominant()
+            } else {
+                None
+            }),
+        ];
+        for (side, shape) in sides.into_iter().zip(shapes) {
+            let Some(shape) = shape else { continue };
+            let Some(hand) = Hand::of(
+                &seen.made.anatomy,
+                seen.made.clip.skeleton(),
+                &seen.models[at],
+                side,
+            ) else {
+                continue;
+            };
+            let Some(off) = hand.thumb_off(shape) else {
+                continue;
+            };
+            judged = Some(judged.unwrap_or(false) || off > 0.003);
+        }
+    }
+    judged
+}
+
+fn hasty(seen: &Seen<'_>) -> Option<bool> {
+    if !seen.moves() {
+        return None;
+    }
+    let own = seen.dominant();
+    let strokes = seen.strokes().into_iter().map(|span| seen.peak(own, span));
+    Some(seen.peak(own, seen.approach()?) > 1.02 * strokes.fold(0.0, f64::max))
+}
+
+fn short_stroke(seen: &Seen<'_>) -> Option<bool> {
+    if !seen.moves() {
+        return None;
+    }
+    Some(stroke_share(seen)? < 0.3)
+}
+
+/// Returns the share of the strokes in the time from the first movement to the end of the sign.
+fn stroke_share(seen: &Seen<'_>) -> Option<f64> {
+    let (from, to) = (seen.approach()?.0, seen.sign()?.1);
+    let strokes: usize = seen.strokes().iter().map(|span| span.1 - span.0).sum();
+    Some(strokes as f64 / (to - from).max(1) as f64)
+}
+
+fn frozen(seen: &Seen<'_>) -> Option<bool> {
+    let anatomy = &seen.made.anatomy;
+    let joints = [Part::Head, Part::Chest];
+    let still = joints
+        .into_iter()
+        .filter_map(|part| anatomy.joint(part))
+        .any(|joint| {
+            let first = seen.models[0].rotation(joint);
+            let turned = seen
+                .models
+                .iter()
+                .map(|model| model.rotation(joint).angle_between(first));
+            turned.fold(0.0, f64::max) < 0.3_f64.to_radians()
+        });
+    Some(still)
+}
+
+fn unblinking(seen: &Seen<'_>) -> Option<bool> {
+    Some(
+        !seen
+            .made
+            .curves
+            .iter()
+            .any(|curve| curve.name.starts_with("lids.")),
+    )
+}
+
+fn merged(seen: &Seen<'_>) -> Option<bool> {
+    let told = seen
+        .made
+        .report
+        .warnings
+        .iter()
+        .any(|warning| warning.contains("each other"));
+    Some(merged_at_all(seen)? && !told)
+}
+
+fn merged_at_all(seen: &Seen<'_>) -> Option<bool> {
+    if interlocked(seen.notated) {
+        return None;
+    }
+    let (from, to) = seen.sign()?;
+    let hands = |model: &ModelPose| {
+        let skeleton = seen.made.clip.skeleton();
+        let hands = Side::BOTH.map(|side| Hand::of(&seen.made.anatomy, skeleton, model, side));
+        match hands {
+            [Some(a), Some(b)] => deepest(&a, &b),
+            _ => 0.0,
+        }
+    };
+    let steps = (from..=to).step_by(2);
+    Some(
+        steps
+            .map(|frame| hands(&seen.models[frame]))
+            .fold(0.0, f64::max)
+            > 0.008,
+    )
+}
+
+fn pumping(seen: &Seen<'_>) -> Option<bool> {
+    let span = seen.sign()?;
+    let arms = Side::BOTH
+        .into_iter()
+        .filter_map(|side| seen.made.anatomy.arm(side));
+    let paths = arms.map(|arm| [arm.forearm, arm.hand].map(|joint| seen.path(joint, span)));
+    Some(
+        paths
+            .into_iter()
+            .any(|[elbow, wrist]| elbow > 0.05 && elbow > 1.5 * wrist),
+    )
+}
+
+fn standing_out(seen: &Seen<'_>) -> Option<bool> {
+    let (from, to) = seen.sign()?;
+    let frame = seen.made.anatomy.body_frame(&seen.models[0])?;
+    let arms = Side::BOTH
+        .into_iter()
+        .filter_map(|side| Some((side, seen.made.anatomy.arm(side)?)));
+    let out = arms.into_iter().any(|(side, arm)| {
+        seen.models[from..=to].iter().any(|model| {
+            let [shoulder, elbow, wrist] =
+                [arm.upper, arm.forearm, arm.hand].map(|j| model.position(j));
+            let upper = elbow - shoulder;
+            let low = shoulder.y - wrist.y > 0.4 * upper.length();
+            let aside = upper.dot(frame.left) * side.sign();
+            low && aside.atan2(-upper.y) > 60_f64.to_radians()
+        })
+    });
+    Some(out)
+}
+
+fn raised(seen: &Seen<'_>) -> Option<bool> {
+    Some(worst(&seen.made).above > 0.03)
+}
+
+fn buried(seen: &Seen<'_>) -> Option<bool> {
+    let (from, to) = seen.sign()?;
+    let anatomy = &seen.made.anatomy;
+    let skeleton = seen.made.clip.skeleton();
+    let still = Trunk::of(anatomy, skeleton, &seen.models[0])?;
+    let deep = (from..=to).step_by(3).any(|n| {
+        let model = &seen.models[n];
+        let trunk = still.moved(&seen.models[0], model);
+        let hands = Side::BOTH
+            .into_iter()
+            .filter_map(|side| Hand::of(anatomy, skeleton, model, side));
+        hands.into_iter().any(|hand| {
+            hand.tubes.iter().any(|Tube { ends, radius, .. }| {
+                ends.iter().any(|&at| trunk.depth_with(at, *radius) > 0.005)
+            })
+        })
+    });
+    Some(deep)
+}
+
+fn off_face(seen: &Seen<'_>) -> Option<bool> {
+    let plain = seen.plain.as_ref()?;
+    let turned = seen.notated.nonmanual.acts().any(|(_, act)| {
+        matches!(act.part, NonmanualPart::Head | NonmanualPart::Body)
+            && !matches!(act.code(), "NO" | "ND" | "SH")
+    });
+    let head = seen.made.anatomy.joint(Part::Head)?;
+    let touching = places(seen.notated).into_iter().any(|place| {
+        let at = place.site.as_ref().map(|site| site.at);
+        use chereme_sign::hamnosys::BodyLocation as B;
+        place.contact == Some(Contact::Touch)
+            && at.is_some_and(|at| {
+                (B::Head as u8..=B::UnderChin as u8).contains(&(at as u8))
+                    || matches!(at, B::Ear | B::EarLobe | B::Cheek)
+            })
+    });
+    if !turned || !touching {
+        return None;
+    }
+    let side = seen.dominant();
+    let (first, _) = seen.sign()?;
+    let span = plain
+        .notes
+        .iter()
+        .find(|note| note.about == About::Gloss)?
+        .span;
+    let other = plain.clip.model_pose(
+        (plain.clip.rate().frame_at(span.start()) as usize).min(plain.clip.frames() - 1),
+    );
+    let hand = |model: &ModelPose| {
+        let hand = Hand::of(&seen.made.anatomy, seen.made.clip.skeleton(), model, side)?;
+        let at = hand
+            .tubes
+            .iter()
+            .find(|tube| tube.digit == 1 && tube.bone == 3)?
+            .ends[1];
+        Some(model.rotation(head).inverse() * (at - model.position(head)))
+    };
+    Some(hand(&seen.models[first])?.distance(hand(&other)?) > 0.015)
+}
+
+fn trembling(seen: &Seen<'_>) -> Option<bool> {
+    let mut any = false;
+    each_motion(seen.notated, &mut |motion| {
+        any |= match &motion.kind {
+            MotionKind::Directed(directed) => directed.zigzag.is_some(),
+            MotionKind::Circular(circular) => circular.zigzag.is_some(),
+            _ => false,
+        };
+    });
+    if !any {
+        return None;
+    }
+    let side = seen.dominant();
+    let rates: Vec<f64> = seen
+        .strokes()
+        .into_iter()
+        .filter_map(|span| seen.frequency(side, span))
+        .collect();
+    let first = *rates.first()?;
+    Some(!(2.3..=4.2).contains(&first))
+}
+
+impl Seen<'_> {
+    /// Returns how often a second a wrist goes to and fro across its way; `None` if it hardly does.
+    fn frequency(&self, side: Side, (from, to): (usize, usize)) -> Option<f64> {
+        let at = |n: usize| self.wrist(side, n);
+        let (first, last) = (at(from)?, at(to)?);
+        let along = (last - first).try_normalize().unwrap_or(DVec3::ZERO);
+        let off: Vec<DVec3> = (from..=to)
+            .filter_map(at)
+            .map(|v| {
+                let v = v - first;
+                v - along * v.dot(along)
+            })
+            .collect();
+        let main = off
+            .iter()
+            .copied()
+            .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
+        let most = main.length();
+        let main = main.try_normalize().filter(|_| most > 0.01)?;
+        let off: Vec<f64> = off.iter().map(|v| v.dot(main)).collect();
+        let (mut turns, mut ends) = (Vec::new(), (0.0, 0));
+        let mut up = true;
+        for (n, &now) in off.iter().enumerate() {
+            let better = if up { now > ends.0 } else { now < ends.0 };
+            if better {
+                ends = (now, n);
+            } else if (ends.0 - now).abs() > 0.35 * most {
+                turns.push(ends.1);
+                up = !up;
+                ends = (now, n);
+            }
+        }
+        let (a, b) = (turns.first()?, turns.last()?);
+        (turns.len() > 1).then(|| (turns.len() - 1) as f64 / 2.0 * self.rate / (b - a) as f64)
+    }
+}
+
+fn faint(seen: &Seen<'_>) -> Option<bool> {
+    let mut any = false;
+    each_motion(seen.notated, &mut |motion| {
+        any |= matches!(&motion.kind, MotionKind::Wrist { motion: WristMotion::Swinging, size } if *size != Some(chereme_sign::hamnosys::Size::Small));
+    });
+    if !any {
+        return None;
+    }
+    let side = seen.dominant();
+    let skeleton = seen.made.clip.skeleton();
+    let (from, to) = seen.sign()?;
+    let tips: Vec<DVec3> = (from..=to)
+        .filter_map(|n| {
+            let hand = Hand::of(&seen.made.anatomy, skeleton, &seen.models[n], side)?;
+            let arm = seen.made.anatomy.arm(side)?;
+            let turned = seen.models[n].rotation(arm.forearm);
+            Some(turned.inverse() * (hand.palm_end - hand.wrist))
+        })
+        .collect();
+    let far = tips
+        .iter()
+        .flat_map(|a| tips.iter().step_by(4).map(move |b| a.distance(*b)));
+    Some(far.fold(0.0, f64::max) * 2.0 < 0.025)
+}
+
+fn astray(seen: &Seen<'_>) -> Option<bool> {
+    let mut found = None;
+    if let Some(MotionKind::Target {
+        motion: Some(inner),
+        posture,
+    }) = seen
+        .notated
+        .sign
+        .parts
+        .first()
+        .and_then(|part| Some(&part.actions.first()?.kind))
+        && posture.place.is_some()
+        && let MotionKind::Directed(directed) = &inner.kind
+        && directed.curve.is_none()
+        && directed.zigzag.is_none()
+        && matches!(
+            seen.notated.sign.parts[0].hands,
+            chereme_sign::hamnosys::HandsUsed::Dominant
+                | chereme_sign::hamnosys::HandsUsed::Both(_)
+        )
+    {
+        let v = DVec3::from(directed.direction.vector());
+        let second = directed
+            .second
+            .map_or(v, |second| DVec3::from(second.vector()));
+        found = Some((v + second).normalize_or(v));
+    }
+    let way = found?;
+    let frame = seen.made.anatomy.body_frame(&seen.models[0])?;
+    let side = seen.dominant();
+    let left = if side == Side::Left { -way.x } else { way.x };
+    let way = frame.left * left + DVec3::Y * way.y + frame.forward * way.z;
+    let &(from, to) = seen.strokes().first()?;
+    let start = seen.wrist(side, from)?;
+    let arm = seen.made.anatomy.arm(side)?;
+    let whole = seen.path(arm.hand, (from, to));
+    let early = (from..=to).find(|&n| seen.path(arm.hand, (from, n)) > 0.25 * whole)?;
+    let went = (seen.wrist(side, early)? - start)
+        .try_normalize()
+        .filter(|_| whole > 0.03)?;
+    Some(went.angle_between(way) > 45_f64.to_radians())
+}
+
+fn turned(seen: &Seen<'_>) -> Option<bool> {
+    Some(crate::table::turned_by(&seen.made.report.warnings) > 45.0)
+}
+
+fn untold(seen: &Seen<'_>) -> Option<bool> {
+    let mut manner = None;
+    each_motion(seen.notated, &mut |motion| {
+        let small =
+            matches!(&motion.kind, MotionKind::Directed(directed) if directed.zigzag.is_none());
+        if small && (motion.manner.fast || motion.manner.slow) {
+            manner = manner.or(Some(motion.manner.fast));
+        }
+    });
+    let fast = manner?;
+    let side = seen.dominant();
+    let peaks = seen.strokes().into_iter().map(|span| seen.peak(side, span));
+    let peak = peaks.fold(0.0, f64::max);
+    Some(if fast { peak < 1.0 } else { peak > 1.0 })
+}
+
+fn dropped(seen: &Seen<'_>) -> Option<bool> {
+    Some(seen.findings > 0)
+}
+
+/// The counts of one fault: signs that have it, and signs in which it could occur.
+#[derive(Debug, Default, Clone)]
+struct Count {
+    found: usize,
+    of: usize,
+    names: Vec<String>,
+}
+
+/// Counts every fault over the signs of a folder on a body. `every` thins the signs out; `into` is a file
+/// whose table between the marks is replaced, its column of earlier counts kept.
+pub(crate) fn count(folder: &Path, body: &str, every: usize, into: Option<&Path>) -> Result<()> {
+    let stage = bodies::stage(Path::new(body))?;
+    let settings = Settings {
+        rate: Rate::new(60, 1)?,
+        ..Settings::default()
+    };
+    let mut counts = vec![Count::default(); FAULTS.len()];
+    let mut times: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+    let mut signs = 0;
+    for (name, notated, findings) in bodies::signs_with_findings(folder)?.iter().step_by(every) {
+        signs += 1;
+        let seen = see(notated, *findings, &stage, &settings)?;
+        for (count, (_, judge)) in counts.iter_mut().zip(FAULTS) {
+            let Some(found) = judge(&seen) else { continue };
+            count.of += 1;
+            if found {
+                count.found += 1;
+                count.names.push(name.clone());
+            }
+        }
+        if seen.moves() {
+            let own = seen.dominant();
+            let mut add = |what, value| times.entry(what).or_default().push(value);
+            let strokes = seen.strokes().into_iter();
+            add(
+                "peak of the stroke, m/s",
+                strokes.map(|span| seen.peak(own, span)).fold(0.0, f64::max),
+            );
+            if let Some(span) = seen.approach() {
+                add("peak of the approach, m/s", seen.peak(own, span));
+                add(
+                    "duration of the approach, s",
+                    (span.1 - span.0) as f64 / seen.rate,
+                );
+            }
+            if let Some(share) = stroke_share(&seen) {
+                add("share of the strokes", share);
+            }
+        }
+    }
+    println!("{signs} signs on {body}");
+    for ((what, _), count) in FAULTS.iter().zip(&counts) {
+        let some: Vec<&str> = count
+            .names
+            .iter()
+            .step_by(1 + count.names.len() / 8)
+            .map(String::as_str)
+            .collect();
+        println!(
+            "{what}: {} of {}: {}",
+            count.found,
+            count.of,
+            some.join(", ")
+        );
+    }
+    for (what, all) in &mut times {
+        all.sort_by(f64::total_cmp);
+        let at = |share: f64| all[((all.len() - 1) as f64 * share) as usize];
+        println!(
+            "{what}: median {:.2}, quartiles {:.2} and {:.2}",
+            at(0.5),
+            at(0.25),
+            at(0.75)
+        );
+    }
+    if let Some(path) = into {
+        let text = std::fs::read_to_string(path)?;
+        std::fs::write(path, written(&text, &counts)?)?;
+    }
+    Ok(())
+}
+
+fn see<'a>(
+    notated: &'a Notated,
+    findings: usize,
+    stage: &Material,
+    settings: &Settings,
+) -> Result<Seen<'a>> {
+    let made = animate(&[notated], stage, settings)?;
+    let plain = (notated.nonmanual.acts().next().is_some())
+        .then(|| {
+            let mut bare = notated.clone();
+            bare.nonmanual.tiers.clear();
+            animate(&[&bare], stage, settings)
+        })
+        .transpose()?;
+    let models = (0..made.clip.frames())
+        .map(|n| made.clip.model_pose(n))
+        .collect();
+    Ok(Seen {
+        notated,
+        findings,
+        made,
+        plain,
+        models,
+        rate: settings.rate.per_second(),
+    })
+}
+
+/// Returns the text with today's counts in the table between the marks.
+fn written(text: &str, counts: &[Count]) -> Result<String> {
+    let [open, close] = MARKS;
+    let (head, rest) = text
+        .split_once(open)
+        .ok_or("the file has no mark <!-- faults -->")?;
+    let (old, tail) = rest
+        .split_once(close)
+        .ok_or("the file has no mark <!-- /faults -->")?;
+    let known: BTreeMap<&str, &str> = old
+        .lines()
+        .filter_map(|line| {
+            let mut cells = line.trim_matches('|').split('|').map(str::trim);
+            Some((cells.next()?, cells.next()?))
+        })
+        .collect();
+    let mut table = String::from(
+        "\n| fault | before | today | signs in which it can occur |\n|---|--:|--:|--:|\n",
+    );
+    for ((what, _), count) in FAULTS.iter().zip(counts) {
+        let now = count.found.to_string();
+        let before = known.get(what).copied().unwrap_or(now.as_str());
+        table.push_str(&format!("| {what} | {before} | {now} | {} |\n", count.of));
+    }
+    Ok(format!("{head}{open}\n{table}\n{close}{tail}"))
+}

@@ -1,0 +1,73 @@
+//! Walks through the tree of a sign.
+
+use chereme_sign::hamnosys::{BodyPlace, Contact, Motion, MotionKind, Notated, Place};
+
+/// Returns whether hands interlock or cross somewhere in a sign.
+pub(crate) fn interlocked(notated: &Notated) -> bool {
+    fn has(place: &Place) -> bool {
+        match place {
+            Place::Hands(hands) => {
+                matches!(hands.contact, Some(Contact::Interlock | Contact::Cross))
+            }
+            Place::Hand(site) => site.contact == Some(Contact::Interlock),
+            Place::Split(a, b) => [a, b].into_iter().flatten().any(|place| has(place)),
+            _ => false,
+        }
+    }
+    let mut any = notated
+        .sign
+        .parts
+        .iter()
+        .any(|part| part.posture.place.as_ref().is_some_and(has));
+    each_motion(notated, &mut |motion| {
+        if let MotionKind::Target { posture, .. } = &motion.kind {
+            any |= posture.place.as_ref().is_some_and(has);
+        }
+    });
+    any
+}
+
+/// Returns the places on the body at which the parts of a sign begin.
+pub(crate) fn places(notated: &Notated) -> Vec<&BodyPlace> {
+    let firsts = notated
+        .sign
+        .parts
+        .iter()
+        .filter_map(|part| part.posture.place.as_ref());
+    firsts
+        .filter_map(|place| match place {
+            Place::Body(body) => Some(body),
+            _ => None,
+        })
+        .collect()
+}
+
+/// Visits every motion of a sign, outer ones first.
+pub(crate) fn each_motion(notated: &Notated, see: &mut impl FnMut(&Motion)) {
+    fn walk(motion: &Motion, see: &mut impl FnMut(&Motion)) {
+        see(motion);
+        match &motion.kind {
+            MotionKind::Split(a, b) => {
+                for motion in [a, b].into_iter().flatten() {
+                    walk(motion, see);
+                }
+            }
+            MotionKind::Sequence { motions, .. } | MotionKind::Parallel(motions) => {
+                for motion in motions {
+                    walk(motion, see);
+                }
+            }
+            MotionKind::Target {
+                motion: Some(motion),
+                ..
+            }
+            | MotionKind::Repeated { motion, .. } => walk(motion, see),
+            _ => {}
+        }
+    }
+    for part in &notated.sign.parts {
+        for motion in &part.actions {
+            walk(motion, see);
+        }
+    }
+}
