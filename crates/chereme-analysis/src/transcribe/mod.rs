@@ -17,12 +17,14 @@
 //! | `way`, `acts` | paths through space; the acts of a hand |
 //! | `hands` | symmetry of the two hands |
 //! | `tree` | the sign's tree and its features |
+//! | `precision` | how exactly the hands keep what they mean |
 //! | `proof` | verification of hand placement by re-synthesis |
 
 mod acts;
 mod aim;
 mod hands;
 mod place;
+mod precision;
 mod proof;
 mod scene;
 mod shape;
@@ -59,7 +61,8 @@ pub struct Options {
 
 impl Default for Options {
     /// Settings for a captured signer: right-handed, the program's own body language, half-way directions,
-    /// tokens of at most 60 seconds, and 2 cm of slack about places.
+    /// tokens of at most 60 seconds, and 2 cm of slack about places; less if the hands keep their
+    /// directions as exactly as synthesised ones.
     fn default() -> Self {
         Self {
             dominant: Side::Right,
@@ -314,8 +317,17 @@ fn looked_at(
     let steadied = steady::steadied(clip);
     let clip = steadied.as_ref().map_or(clip, |steadied| &steadied.clip);
     let scene = scene::Scene::of(clip, anatomy, options)?;
+    let exact = Options {
+        slack: MADE,
+        ..options.clone()
+    };
     let sight = tree::Sight::new(&scene, options);
-    let mut found = proof::written(&sight, performs);
+    let mut found = if options.slack > MADE && precision::is_exact(&scene, &sight) {
+        let scene = scene::Scene::of(clip, anatomy, &exact)?;
+        proof::written(&tree::Sight::new(&scene, &exact), performs)
+    } else {
+        proof::written(&sight, performs)
+    };
     if let Some(steady::Steadied { most, joints, .. }) = steadied {
         found.findings.push(format!(
             "{joints} joints tremble from frame to frame, by {most:.1}° at most: they were smoothed"

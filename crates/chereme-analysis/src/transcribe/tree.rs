@@ -52,9 +52,9 @@ const MOST: usize = 12;
 /// The readings of one hand in one frame.
 #[derive(Debug, Clone)]
 pub(super) struct Seen {
-    shape: Option<Found<Handshape>>,
-    extended: Found<Aim<Direction>>,
-    palm: Option<Found<Aim<Compass>>>,
+    pub(super) shape: Option<Found<Handshape>>,
+    pub(super) extended: Found<Aim<Direction>>,
+    pub(super) palm: Option<Found<Aim<Compass>>>,
     /// Degrees by which the reading lies beyond the limit of wrist or forearm.
     beyond: f64,
 }
