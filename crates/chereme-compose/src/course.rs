@@ -28,11 +28,23 @@ impl Courses {
     }
 }
 
+/// The number of recordings that are named.
+const NAMED: usize = 3;
+
 /// Returns what learned courses were learned from, for people.
 pub(crate) fn told(learned: &LearnedProfile) -> String {
     let count = |course: &Option<LearnedCourse>, whose: &str| {
         let course = course.as_ref()?;
-        Some(format!("{} transitions of {whose}", course.transitions))
+        let names = &course.recordings;
+        let more = match names.len().saturating_sub(NAMED) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let of = match names.is_empty() {
+            true => String::new(),
+            false => format!(" in {}{more}", names[..names.len().min(NAMED)].join(", ")),
+        };
+        Some(format!("{} transitions of {whose}{of}", course.transitions))
     };
     let counts = [
         count(&learned.arms, "arms"),

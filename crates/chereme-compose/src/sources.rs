@@ -151,6 +151,9 @@ pub struct LearnedCourse {
     pub shares: Vec<f64>,
     /// How many transitions it was learned from.
     pub transitions: usize,
+    /// The recordings that they are of, by their names.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub recordings: Vec<String>,
 }
 
 impl LearnedProfile {

@@ -450,6 +450,7 @@ impl Sources for Shelf {
         Ok(Some(LearnedProfile {
             arms: None,
             fingers: Some(LearnedCourse {
+                recordings: Vec::new(),
                 shares: vec![0.0, 0.1, 0.9, 1.0],
                 transitions: 12,
             }),

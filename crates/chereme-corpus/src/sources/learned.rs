@@ -27,14 +27,15 @@ const MOST_SPANS: usize = 50_000;
 /// Handshapes farther apart than this do not follow one another, in microseconds.
 const APART: i64 = 1_000_000;
 
-/// Returns the usual courses of the wrists' and the fingers' transitions in captured movement, or,
-/// where nothing was captured, in generated movement; never in what recipes made.
+/// Returns the usual courses of the wrists' and the fingers' transitions: in captured recordings with
+/// glosses, which are of signing; else in other captured ones, else in generated movement; never in what
+/// recipes made. Each course names its recordings.
 ///
 /// Of a large corpus pieces are taken that lie evenly over it, so that the time is bounded.
 pub(super) fn profile(connection: &Connection) -> Result<Option<LearnedProfile>> {
     let mut learners = [
-        (Mover::Wrist, CourseLearner::default()),
-        (Mover::Fingers, CourseLearner::default()),
+        (Mover::Wrist, CourseLearner::default(), Vec::new()),
+        (Mover::Fingers, CourseLearner::default(), Vec::new()),
     ];
     for (recording, first) in pieces(connection)? {
         let track = Track::of(connection, recording)?;
@@ -46,20 +47,24 @@ pub(super) fn profile(connection: &Connection) -> Result<Option<LearnedProfile>>
         ];
         let clip = track.clip(connection, first..first + PIECE, &limbs)?;
         let anatomy = track.anatomy(connection)?;
+        let name = recordings::recording(connection, recording)?.name;
         for side in Side::BOTH {
-            for (mover, learner) in &mut learners {
+            for (mover, learner, names) in &mut learners {
                 let joints = mover.joints(&anatomy, side);
                 for frames in strokes(&clip, &anatomy, side, *mover) {
-                    learner.add(&Stretch {
+                    let told = learner.add(&Stretch {
                         clip: &clip,
                         joints: &joints,
                         frames,
                     });
+                    if told && !names.contains(&name) {
+                        names.push(name.clone());
+                    }
                 }
             }
         }
     }
-    let [arms, fingers] = learners.map(|(_, learner)| {
+    let [arms, fingers] = learners.map(|(_, learner, recordings)| {
         let transitions = learner.transitions();
         let shares = learner
             .course()
@@ -67,6 +72,7 @@ pub(super) fn profile(connection: &Connection) -> Result<Option<LearnedProfile>>
         Some(LearnedCourse {
             shares,
             transitions,
+            recordings,
         })
     });
     let known = arms.is_some() || fingers.is_some();
@@ -76,9 +82,16 @@ pub(super) fn profile(connection: &Connection) -> Result<Option<LearnedProfile>>
 /// Returns the recordings and first frames of the pieces that are looked at.
 fn pieces(connection: &Connection) -> Result<Vec<(i64, usize)>> {
     let all = recordings::recordings(connection)?;
-    for origin in ["captured", "generated"] {
+    for (origin, signing) in [
+        ("captured", true),
+        ("captured", false),
+        ("generated", false),
+    ] {
         let mut pieces = Vec::new();
         for recording in all.iter().filter(|it| it.origin == origin) {
+            if signing && !has_glosses(connection, recording.id)? {
+                continue;
+            }
             let Some(track) = recordings::body_track(connection, recording.id)? else {
                 continue;
             };
@@ -92,6 +105,12 @@ fn pieces(connection: &Connection) -> Result<Vec<(i64, usize)>> {
         }
     }
     Ok(Vec::new())
+}
+
+/// Returns whether a recording has a tier of glosses, as recordings of signing have.
+fn has_glosses(connection: &Connection, recording: i64) -> Result<bool> {
+    let tiers = tiers::tiers(connection, recording)?;
+    Ok(tiers.iter().any(|tier| tier.role == "gloss"))
 }
 
 /// Returns how long hands hold a handshape that follows or precedes another within a second on the
