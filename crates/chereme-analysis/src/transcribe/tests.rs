@@ -649,3 +649,22 @@ fn noise_in_every_joint_makes_no_ways_of_its_own() {
     assert!(found.findings.iter().any(|it| it.contains("tremble")));
     assert!(!plain.findings.iter().any(|it| it.contains("tremble")));
 }
+
+#[test]
+fn exact_hands_are_taken_for_synthesised_ones_and_others_are_not() {
+    use chereme_sign::hamnosys::Bend;
+    let options = Options::default();
+    let is_exact = |turned: f64, bend: Option<Bend>| {
+        let mut held = Held::new([-0.15, -0.25, 0.35], "ol", "l", HandClass::Flat);
+        held.shape.bends = [None, bend, bend, None, bend];
+        let held = held.turned(DQuat::from_rotation_y(turned.to_radians()));
+        let (clip, anatomy) = clip(0.5, |_| [Some(held.clone()), None]);
+        let scene = scene::Scene::of(&clip, &anatomy, &options).expect("a scene");
+        precision::is_exact(&scene, &tree::Sight::new(&scene, &options))
+    };
+    let odd = Some(Bend::Joints([0.9, 0.5, 0.3]));
+    assert!(is_exact(0.0, None));
+    assert!(is_exact(0.0, odd), "by its direction");
+    assert!(is_exact(7.0, None), "by its shape");
+    assert!(!is_exact(7.0, odd));
+}

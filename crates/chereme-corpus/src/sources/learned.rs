@@ -232,7 +232,7 @@ mod tests {
         for want in [
             "0.25 s, the median of 30",
             "0.27 s, the median of 25",
-            "transitions of arms",
+            "transitions of arms in ",
         ] {
             assert!(told.contains(want), "{told}");
         }
