@@ -87,7 +87,7 @@ impl Seen<'_> {
     }
 
     fn frames(&self, span: Span) -> (usize, usize) {
-        let at = |n| (n as usize).min(self.models.len() - 1);
+        let at = |n: usize| n.min(self.models.len() - 1);
         let rate = self.made.clip.rate();
         (
             at(rate.frame_at(span.start())),
@@ -365,7 +365,11 @@ fn off_face(seen: &Seen<'_>) -> Option<bool> {
         .find(|note| note.about == About::Gloss)?
         .span;
     let other = plain.clip.model_pose(
-        (plain.clip.rate().frame_at(span.start()) as usize).min(plain.clip.frames() - 1),
+        plain
+            .clip
+            .rate()
+            .frame_at(span.start())
+            .min(plain.clip.frames() - 1),
     );
     let hand = |model: &ModelPose| {
         let hand = Hand::of(&seen.made.anatomy, seen.made.clip.skeleton(), model, side)?;
