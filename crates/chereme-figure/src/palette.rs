@@ -146,6 +146,9 @@ const TONES: [u32; 10] = [
     0x42_2F_28, 0x30_24_1F,
 ];
 
+/// Shares of light in the palms of each tone, small if the clothes are light too.
+const PALMS: [f32; 10] = [0.55, 0.55, 0.55, 0.55, 0.55, 0.06, 0.20, 0.28, 0.34, 0.38];
+
 impl Palette {
     /// Returns the colours of a signer with a tone of skin, from 1, the lightest, to 10; other numbers are taken to
     /// the nearest. Clothes are dark before light hands and light before dark ones.
@@ -156,14 +159,7 @@ impl Palette {
         let light = Colour::hex(0xFC_DE_C2);
         let dark = tone > 5;
         let hand = HandColours {
-            palm: skin.mixed(
-                light,
-                if dark {
-                    0.30 + 0.03 * (tone - 5) as f32
-                } else {
-                    0.55
-                },
-            ),
+            palm: skin.mixed(light, PALMS[tone - 1]),
             back: skin.scaled(0.87).mixed(Colour::hex(0x9A_4A_28), 0.10),
             nail: skin.mixed(Colour::hex(0xFF_EE_E6), if dark { 0.45 } else { 0.6 }),
         };
@@ -218,5 +214,49 @@ impl Palette {
 impl Default for Palette {
     fn default() -> Self {
         Self::of_tone(5)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the contrast of two colours as in the web's guidelines, from 1 to 21.
+    fn contrast(a: Colour, b: Colour) -> f32 {
+        let bright = |colour: Colour| {
+            let [r, g, b] = colour.0.map(|part| {
+                let part = f32::from(part) / 255.0;
+                if part <= 0.040_45 {
+                    part / 12.92
+                } else {
+                    ((part + 0.055) / 1.055).powf(2.4)
+                }
+            });
+            0.2126 * r + 0.7152 * g + 0.0722 * b + 0.05
+        };
+        let (a, b) = (bright(a), bright(b));
+        a.max(b) / a.min(b)
+    }
+
+    #[test]
+    fn hands_and_face_stand_out_from_the_clothes_on_every_tone() {
+        for tone in 1..=10 {
+            let palette = Palette::of_tone(tone);
+            for cloth in [palette.torso, palette.sleeves] {
+                for skin in [palette.face, palette.right.palm, palette.left.back] {
+                    let found = contrast(skin, cloth);
+                    assert!(
+                        found >= 2.75,
+                        "tone {tone}: {found} of {skin:?} on {cloth:?}"
+                    );
+                    if cloth == palette.torso {
+                        assert!(
+                            found >= 3.0,
+                            "tone {tone}: {found} of {skin:?} on {cloth:?}"
+                        );
+                    }
+                }
+            }
+        }
     }
 }
