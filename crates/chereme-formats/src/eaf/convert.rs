@@ -22,10 +22,19 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 /// their own. A finding reports each of these cases.
 #[must_use]
 pub fn from_raw(document: &Document<'_>) -> (Transcript, Vec<Finding>) {
+    let (transcript, _, findings) = from_raw_placed(document);
+    (transcript, findings)
+}
+
+/// Does what [`from_raw`] does, and returns the place of each annotation, counted over all tiers; an
+/// annotation that was left out has none.
+pub(super) fn from_raw_placed(
+    document: &Document<'_>,
+) -> (Transcript, Vec<Option<Place>>, Vec<Finding>) {
     let (resolved, mut told) = resolve(document);
     let mut findings = Findings::default();
     let times = SlotTimes::new(document, &resolved, &mut findings);
-    let tiers = Tiers::new(document, &resolved, &times).convert(&mut findings);
+    let (tiers, places) = Tiers::new(document, &resolved, &times).convert(&mut findings);
     told.extend(findings.finish());
     let transcript = Transcript {
         author: document.author.to_string(),
@@ -51,7 +60,7 @@ pub fn from_raw(document: &Document<'_>) -> (Transcript, Vec<Finding>) {
         tiers,
         vocabularies: vocabularies(document),
     };
-    (transcript, told)
+    (transcript, places, told)
 }
 
 /// Returns the controlled vocabularies of a document, for example of an `.ecv` file.
@@ -295,12 +304,12 @@ impl<'d> Tiers<'d> {
         }
     }
 
-    fn convert(mut self, findings: &mut Findings) -> Vec<Tier> {
+    fn convert(mut self, findings: &mut Findings) -> (Vec<Tier>, Vec<Option<Place>>) {
         for at in self.resolved.order.clone() {
             self.tier(at, findings);
         }
         self.fresh_ids();
-        self.tiers
+        (self.tiers, self.places)
     }
 
     fn tier(&mut self, at: usize, findings: &mut Findings) {

@@ -20,8 +20,12 @@ mod back;
 mod check;
 mod error;
 mod fields;
+mod layout;
 mod model;
+mod output;
+mod patch;
 mod read;
+mod style;
 mod write;
 mod xml;
 
@@ -30,6 +34,7 @@ pub mod raw;
 
 pub use convert::{Transcript, from_raw, to_raw};
 pub use error::Error;
+pub use patch::{patched, same_meaning};
 
 use crate::finding::Finding;
 

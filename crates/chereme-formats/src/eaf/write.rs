@@ -1,7 +1,8 @@
 //! Writes a raw document as EAF 3.0.
 
+use super::output::Output;
 use super::raw::*;
-use super::xml::is_xml;
+use super::style::Style;
 use std::io::{self, Write};
 
 /// The stereotypes in ELAN's order and words ("refering" is ELAN's own).
@@ -26,7 +27,8 @@ const CONSTRAINTS: [(&str, &str); 4] = [
 
 const SCHEMA: &str = "http://www.mpi.nl/tools/elan/EAFv3.0.xsd";
 
-/// Writes `document` as EAF 3.0 in UTF-8: one element per line, indented by four blanks.
+/// Writes `document` as ELAN 6 writes EAF 3.0: in UTF-8, an element per line, indented by four blanks, long
+/// start tags broken at column 72.
 ///
 /// The same document gives the same bytes. The document is [`upgraded`] first; time slots keep their ids
 /// and order, so that annotations continue to share slots. Characters that XML cannot hold become U+FFFD.
@@ -35,10 +37,8 @@ const SCHEMA: &str = "http://www.mpi.nl/tools/elan/EAFv3.0.xsd";
 /// The errors of `out`.
 pub fn write(document: &Document<'_>, out: impl Write) -> io::Result<()> {
     let document = upgraded(document.clone());
-    let mut xml = Output {
-        out: io::BufWriter::new(out),
-        depth: 0,
-    };
+    let style = Style::elan();
+    let mut xml = Output::new(io::BufWriter::new(out), &style, "");
     xml.out
         .write_all(b"<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n")?;
     root(&document, &mut xml)?;
@@ -112,118 +112,11 @@ fn upgrade_vocabulary(vocabulary: &mut Vocabulary<'_>) -> bool {
     legacy
 }
 
-type Pair<'p> = (&'p str, Option<&'p str>);
-
-struct Output<W: Write> {
-    out: io::BufWriter<W>,
-    depth: usize,
-}
-
-impl<W: Write> Output<W> {
-    fn indent(&mut self) -> io::Result<()> {
-        const BLANKS: &[u8] = &[b' '; 64];
-        self.out.write_all(&BLANKS[..(self.depth * 4).min(64)])
-    }
-
-    fn tag(
-        &mut self,
-        name: &str,
-        pairs: &[Pair<'_>],
-        kept: &Kept<'_>,
-        end: &str,
-    ) -> io::Result<()> {
-        self.indent()?;
-        write!(self.out, "<{name}")?;
-        for (attribute, value) in pairs {
-            if let Some(value) = value {
-                self.attribute(attribute, value)?;
-            }
-        }
-        for (attribute, value) in kept.iter().flat_map(|kept| &kept.attributes) {
-            self.attribute(attribute, value)?;
-        }
-        self.out.write_all(end.as_bytes())
-    }
-
-    fn attribute(&mut self, name: &str, value: &str) -> io::Result<()> {
-        write!(self.out, " {name}=\"")?;
-        escape(&mut self.out, value, true)?;
-        self.out.write_all(b"\"")
-    }
-
-    /// Writes an element without children, except for its kept ones.
-    fn leaf(&mut self, name: &str, pairs: &[Pair<'_>], kept: &Kept<'_>) -> io::Result<()> {
-        self.element(name, pairs, kept, true, |_| Ok(()))
-    }
-
-    /// Writes an element with the children that `inner` writes; no children if it is `empty`.
-    fn element(
-        &mut self,
-        name: &str,
-        pairs: &[Pair<'_>],
-        kept: &Kept<'_>,
-        empty: bool,
-        inner: impl FnOnce(&mut Self) -> io::Result<()>,
-    ) -> io::Result<()> {
-        let more = kept.iter().flat_map(|kept| &kept.elements);
-        if empty && more.clone().next().is_none() {
-            return self.tag(name, pairs, kept, "/>\n");
-        }
-        self.tag(name, pairs, kept, ">\n")?;
-        self.depth += 1;
-        inner(self)?;
-        for source in more {
-            self.indent()?;
-            self.out.write_all(source.as_bytes())?;
-            self.out.write_all(b"\n")?;
-        }
-        self.depth -= 1;
-        self.indent()?;
-        writeln!(self.out, "</{name}>")
-    }
-
-    fn text(
-        &mut self,
-        name: &str,
-        pairs: &[Pair<'_>],
-        kept: &Kept<'_>,
-        text: &str,
-    ) -> io::Result<()> {
-        if text.is_empty() {
-            return self.tag(name, pairs, kept, "/>\n");
-        }
-        self.tag(name, pairs, kept, ">")?;
-        escape(&mut self.out, text, false)?;
-        writeln!(self.out, "</{name}>")
-    }
-}
-
-fn escape(out: &mut impl Write, text: &str, attribute: bool) -> io::Result<()> {
-    let mut from = 0;
-    for (at, c) in text.char_indices() {
-        let replacement = match c {
-            '&' => "&amp;",
-            '<' => "&lt;",
-            '>' if !attribute => "&gt;",
-            '"' if attribute => "&quot;",
-            '\n' if attribute => "&#10;",
-            '\t' if attribute => "&#9;",
-            '\r' => "&#13;",
-            c if !is_xml(c) => "\u{fffd}",
-            _ => continue,
-        };
-        out.write_all(&text.as_bytes()[from..at])?;
-        out.write_all(replacement.as_bytes())?;
-        from = at + c.len_utf8();
-    }
-    out.write_all(&text.as_bytes()[from..])
-}
-
 fn flag(value: Option<bool>) -> Option<&'static str> {
     value.map(|value| if value { "true" } else { "false" })
 }
 
-fn root<W: Write>(doc: &Document<'_>, xml: &mut Output<W>) -> io::Result<()> {
+fn root<W: Write>(doc: &Document<'_>, xml: &mut Output<'_, W>) -> io::Result<()> {
     let pairs = [
         ("AUTHOR", Some(&*doc.author)),
         ("DATE", Some(&*doc.date)),
@@ -274,7 +167,7 @@ fn root<W: Write>(doc: &Document<'_>, xml: &mut Output<W>) -> io::Result<()> {
     })
 }
 
-fn header<W: Write>(header: &Header<'_>, xml: &mut Output<W>) -> io::Result<()> {
+fn header<W: Write>(header: &Header<'_>, xml: &mut Output<'_, W>) -> io::Result<()> {
     let pairs = [
         ("MEDIA_FILE", Some(&*header.media_file)),
         ("TIME_UNITS", header.time_units.as_deref()),
@@ -282,17 +175,7 @@ fn header<W: Write>(header: &Header<'_>, xml: &mut Output<W>) -> io::Result<()> 
     let empty =
         header.media.is_empty() && header.linked_files.is_empty() && header.properties.is_empty();
     xml.element("HEADER", &pairs, &header.kept, empty, |xml| {
-        for media in &header.media {
-            let origin = media.time_origin.map(|ms| ms.to_string());
-            let pairs = [
-                ("EXTRACTED_FROM", media.extracted_from.as_deref()),
-                ("MEDIA_URL", Some(&*media.url)),
-                ("MIME_TYPE", Some(&*media.mime_type)),
-                ("RELATIVE_MEDIA_URL", media.relative_url.as_deref()),
-                ("TIME_ORIGIN", origin.as_deref()),
-            ];
-            xml.leaf("MEDIA_DESCRIPTOR", &pairs, &media.kept)?;
-        }
+        header.media.iter().try_for_each(|it| media(it, xml))?;
         for file in &header.linked_files {
             let origin = file.time_origin.map(|ms| ms.to_string());
             let pairs = [
@@ -304,18 +187,41 @@ fn header<W: Write>(header: &Header<'_>, xml: &mut Output<W>) -> io::Result<()> 
             ];
             xml.leaf("LINKED_FILE_DESCRIPTOR", &pairs, &file.kept)?;
         }
-        header.properties.iter().try_for_each(|property| {
-            xml.text(
-                "PROPERTY",
-                &[("NAME", property.name.as_deref())],
-                &property.kept,
-                &property.value,
-            )
-        })
+        header
+            .properties
+            .iter()
+            .try_for_each(|it| property(it, xml))
     })
 }
 
-fn time_slot<W: Write>(slot: &TimeSlot<'_>, xml: &mut Output<W>) -> io::Result<()> {
+pub(super) fn media<W: Write>(
+    media: &MediaDescriptor<'_>,
+    xml: &mut Output<'_, W>,
+) -> io::Result<()> {
+    let origin = media.time_origin.map(|ms| ms.to_string());
+    let pairs = [
+        ("EXTRACTED_FROM", media.extracted_from.as_deref()),
+        ("MEDIA_URL", Some(&*media.url)),
+        ("MIME_TYPE", Some(&*media.mime_type)),
+        ("RELATIVE_MEDIA_URL", media.relative_url.as_deref()),
+        ("TIME_ORIGIN", origin.as_deref()),
+    ];
+    xml.leaf("MEDIA_DESCRIPTOR", &pairs, &media.kept)
+}
+
+pub(super) fn property<W: Write>(
+    property: &Property<'_>,
+    xml: &mut Output<'_, W>,
+) -> io::Result<()> {
+    xml.text(
+        "PROPERTY",
+        &[("NAME", property.name.as_deref())],
+        &property.kept,
+        &property.value,
+    )
+}
+
+pub(super) fn time_slot<W: Write>(slot: &TimeSlot<'_>, xml: &mut Output<'_, W>) -> io::Result<()> {
     let value = slot.value.map(|value| value.to_string());
     xml.leaf(
         "TIME_SLOT",
@@ -327,7 +233,7 @@ fn time_slot<W: Write>(slot: &TimeSlot<'_>, xml: &mut Output<W>) -> io::Result<(
     )
 }
 
-fn tier<W: Write>(tier: &Tier<'_>, xml: &mut Output<W>) -> io::Result<()> {
+pub(super) fn tier<W: Write>(tier: &Tier<'_>, xml: &mut Output<'_, W>) -> io::Result<()> {
     let pairs = [
         ("ANNOTATOR", tier.annotator.as_deref()),
         ("DEFAULT_LOCALE", tier.locale.as_deref()),
@@ -351,14 +257,18 @@ fn tier<W: Write>(tier: &Tier<'_>, xml: &mut Output<W>) -> io::Result<()> {
     )
 }
 
-fn annotation<W: Write>(annotation: &Annotation<'_>, xml: &mut Output<W>) -> io::Result<()> {
+pub(super) fn annotation<W: Write>(
+    annotation: &Annotation<'_>,
+    xml: &mut Output<'_, W>,
+) -> io::Result<()> {
     let id = ("ANNOTATION_ID", Some(&*annotation.id));
     let own = [
         ("CVE_REF", annotation.entry.as_deref()),
         ("EXT_REF", annotation.external_ref.as_deref()),
         ("LANG_REF", annotation.language.as_deref()),
     ];
-    let value = |xml: &mut Output<W>| xml.text("ANNOTATION_VALUE", &[], &None, &annotation.value);
+    let value =
+        |xml: &mut Output<'_, W>| xml.text("ANNOTATION_VALUE", &[], &None, &annotation.value);
     xml.element("ANNOTATION", &[], &None, false, |xml| {
         match &annotation.anchor {
             Anchor::Slots { start, end } => {
@@ -401,7 +311,10 @@ fn annotation<W: Write>(annotation: &Annotation<'_>, xml: &mut Output<W>) -> io:
     })
 }
 
-fn linguistic_type<W: Write>(kind: &LinguisticType<'_>, xml: &mut Output<W>) -> io::Result<()> {
+pub(super) fn linguistic_type<W: Write>(
+    kind: &LinguisticType<'_>,
+    xml: &mut Output<'_, W>,
+) -> io::Result<()> {
     let pairs = [
         ("CONSTRAINTS", kind.constraints.as_deref()),
         ("CONTROLLED_VOCABULARY_REF", kind.vocabulary.as_deref()),
@@ -414,7 +327,7 @@ fn linguistic_type<W: Write>(kind: &LinguisticType<'_>, xml: &mut Output<W>) -> 
     xml.leaf("LINGUISTIC_TYPE", &pairs, &kind.kept)
 }
 
-fn locale<W: Write>(locale: &Locale<'_>, xml: &mut Output<W>) -> io::Result<()> {
+pub(super) fn locale<W: Write>(locale: &Locale<'_>, xml: &mut Output<'_, W>) -> io::Result<()> {
     let pairs = [
         ("COUNTRY_CODE", locale.country.as_deref()),
         ("LANGUAGE_CODE", Some(&*locale.language)),
@@ -423,7 +336,10 @@ fn locale<W: Write>(locale: &Locale<'_>, xml: &mut Output<W>) -> io::Result<()> 
     xml.leaf("LOCALE", &pairs, &locale.kept)
 }
 
-fn language<W: Write>(language: &Language<'_>, xml: &mut Output<W>) -> io::Result<()> {
+pub(super) fn language<W: Write>(
+    language: &Language<'_>,
+    xml: &mut Output<'_, W>,
+) -> io::Result<()> {
     let pairs = [
         ("LANG_DEF", language.definition.as_deref()),
         ("LANG_ID", Some(&*language.id)),
@@ -432,7 +348,10 @@ fn language<W: Write>(language: &Language<'_>, xml: &mut Output<W>) -> io::Resul
     xml.leaf("LANGUAGE", &pairs, &language.kept)
 }
 
-fn constraint<W: Write>(constraint: &Constraint<'_>, xml: &mut Output<W>) -> io::Result<()> {
+pub(super) fn constraint<W: Write>(
+    constraint: &Constraint<'_>,
+    xml: &mut Output<'_, W>,
+) -> io::Result<()> {
     let pairs = [
         ("DESCRIPTION", constraint.description.as_deref()),
         ("STEREOTYPE", Some(&*constraint.stereotype)),
@@ -440,7 +359,7 @@ fn constraint<W: Write>(constraint: &Constraint<'_>, xml: &mut Output<W>) -> io:
     xml.leaf("CONSTRAINT", &pairs, &constraint.kept)
 }
 
-fn vocabulary<W: Write>(cv: &Vocabulary<'_>, xml: &mut Output<W>) -> io::Result<()> {
+pub(super) fn vocabulary<W: Write>(cv: &Vocabulary<'_>, xml: &mut Output<'_, W>) -> io::Result<()> {
     let pairs = [
         ("CV_ID", Some(&*cv.id)),
         ("EXT_REF", cv.external_ref.as_deref()),
@@ -456,31 +375,33 @@ fn vocabulary<W: Write>(cv: &Vocabulary<'_>, xml: &mut Output<W>) -> io::Result<
                 &description.text,
             )?;
         }
-        cv.entries.iter().try_for_each(|entry| {
-            let pairs = [
-                ("CVE_ID", entry.id.as_deref()),
-                ("EXT_REF", entry.external_ref.as_deref()),
-            ];
-            xml.element(
-                "CV_ENTRY_ML",
-                &pairs,
-                &entry.kept,
-                entry.values.is_empty(),
-                |xml| {
-                    entry.values.iter().try_for_each(|value| {
-                        let pairs = [
-                            ("DESCRIPTION", value.description.as_deref()),
-                            ("LANG_REF", value.language.as_deref()),
-                        ];
-                        xml.text("CVE_VALUE", &pairs, &value.kept, &value.value)
-                    })
-                },
-            )
-        })
+        cv.entries.iter().try_for_each(|it| entry(it, xml))
     })
 }
 
-fn lexicon_ref<W: Write>(lexicon: &LexiconRef<'_>, xml: &mut Output<W>) -> io::Result<()> {
+pub(super) fn entry<W: Write>(entry: &Entry<'_>, xml: &mut Output<'_, W>) -> io::Result<()> {
+    let pairs = [
+        ("CVE_ID", entry.id.as_deref()),
+        ("EXT_REF", entry.external_ref.as_deref()),
+    ];
+    xml.element(
+        "CV_ENTRY_ML",
+        &pairs,
+        &entry.kept,
+        entry.values.is_empty(),
+        |xml| {
+            entry.values.iter().try_for_each(|value| {
+                let pairs = [
+                    ("DESCRIPTION", value.description.as_deref()),
+                    ("LANG_REF", value.language.as_deref()),
+                ];
+                xml.text("CVE_VALUE", &pairs, &value.kept, &value.value)
+            })
+        },
+    )
+}
+
+fn lexicon_ref<W: Write>(lexicon: &LexiconRef<'_>, xml: &mut Output<'_, W>) -> io::Result<()> {
     let pairs = [
         ("DATCAT_ID", lexicon.category_id.as_deref()),
         ("DATCAT_NAME", lexicon.category_name.as_deref()),
@@ -494,7 +415,7 @@ fn lexicon_ref<W: Write>(lexicon: &LexiconRef<'_>, xml: &mut Output<W>) -> io::R
     xml.leaf("LEXICON_REF", &pairs, &lexicon.kept)
 }
 
-fn ref_link_set<W: Write>(set: &RefLinkSet<'_>, xml: &mut Output<W>) -> io::Result<()> {
+fn ref_link_set<W: Write>(set: &RefLinkSet<'_>, xml: &mut Output<'_, W>) -> io::Result<()> {
     let pairs = [
         ("CV_REF", set.vocabulary.as_deref()),
         ("EXT_REF", set.external_ref.as_deref()),
@@ -511,7 +432,7 @@ fn ref_link_set<W: Write>(set: &RefLinkSet<'_>, xml: &mut Output<W>) -> io::Resu
     )
 }
 
-fn ref_link<W: Write>(link: &RefLink<'_>, xml: &mut Output<W>) -> io::Result<()> {
+fn ref_link<W: Write>(link: &RefLink<'_>, xml: &mut Output<'_, W>) -> io::Result<()> {
     let mut pairs = vec![
         ("CVE_REF", link.entry.as_deref()),
         ("EXT_REF", link.external_ref.as_deref()),
@@ -543,7 +464,10 @@ fn ref_link<W: Write>(link: &RefLink<'_>, xml: &mut Output<W>) -> io::Result<()>
     xml.text(name, &pairs, &link.kept, &link.text)
 }
 
-fn external_ref<W: Write>(reference: &ExternalRef<'_>, xml: &mut Output<W>) -> io::Result<()> {
+pub(super) fn external_ref<W: Write>(
+    reference: &ExternalRef<'_>,
+    xml: &mut Output<'_, W>,
+) -> io::Result<()> {
     let pairs = [
         ("EXT_REF_ID", Some(&*reference.id)),
         ("TYPE", Some(&*reference.kind)),

@@ -1,0 +1,305 @@
+//! Time slots: those of moved ends, those that nothing uses any more, and those of new annotations.
+
+use super::{Refs, Work, ends, is_alignable};
+use crate::eaf::model::Place;
+use crate::eaf::output::written;
+use crate::eaf::raw::{Anchor, TimeSlot};
+use crate::eaf::write;
+use chereme_sign::Stereotype;
+use std::collections::{BTreeMap, HashMap};
+
+/// One end of an annotation at a slot.
+struct User {
+    /// Its new place; nothing for one that was left out on reading.
+    place: Option<Place>,
+    side: usize,
+    /// Its new time, if it moved.
+    moved: Option<Option<i64>>,
+}
+
+/// The slots of the file, and what becomes of them.
+struct Slots {
+    names: Vec<String>,
+    elements: Vec<usize>,
+    values: Vec<Option<i64>>,
+    retimed: Vec<bool>,
+    removed: Vec<bool>,
+    fresh: Vec<(String, i64)>,
+    last: u64,
+}
+
+impl Work<'_, '_> {
+    /// Returns the slots of all new annotations, and changes the time order of the file.
+    pub(super) fn slots(&mut self) -> Option<Refs> {
+        let mut slots = self.slots_of_file()?;
+        let index: HashMap<&str, usize> = self
+            .document
+            .time_order
+            .iter()
+            .enumerate()
+            .rev()
+            .map(|(at, slot)| (&*slot.id, at))
+            .collect();
+        let mut users: Vec<Vec<User>> = slots.names.iter().map(|_| Vec::new()).collect();
+        let mut used = vec![false; slots.names.len()];
+        let mut refs = Refs::new();
+        for (place, _, raw) in self.annotations_of_file() {
+            let Anchor::Slots { start, end } = &raw.anchor else {
+                continue;
+            };
+            let new = match place {
+                Some(old) => self.kept(old).map(Some),
+                None => Some(None),
+            };
+            let moved = self.moved(place, new.flatten());
+            let both = [index.get(&**start), index.get(&**end)];
+            if let [Some(from), Some(to)] = both
+                && moved != [None; 2]
+                && slots.values[*from]
+                    .zip(slots.values[*to])
+                    .is_some_and(|(a, b)| a > b)
+            {
+                return None;
+            }
+            if let Some(Some(place)) = new {
+                refs.insert(place, [start.to_string(), end.to_string()]);
+            }
+            for (side, slot) in both.into_iter().enumerate() {
+                let Some(&slot) = slot else { continue };
+                used[slot] = true;
+                if let Some(place) = new {
+                    let moved = moved[side];
+                    users[slot].push(User { place, side, moved });
+                }
+            }
+        }
+        let mut order: Vec<usize> = (0..users.len()).collect();
+        order.sort_by_key(|slot| users[*slot].iter().any(|user| self.divides(user.place)));
+        for slot in order {
+            slots.removed[slot] = used[slot] && users[slot].is_empty();
+            self.place_users(slot, &users[slot], &mut slots, &mut refs)?;
+        }
+        self.place_added(&mut slots, &mut refs)?;
+        let milliseconds = self.document.header.time_units.as_deref();
+        if milliseconds.is_some_and(|units| units != "milliseconds") && slots.is_changed() {
+            return None;
+        }
+        self.write_slots(slots)?;
+        Some(refs)
+    }
+
+    fn slots_of_file(&self) -> Option<Slots> {
+        let all = &self.document.time_order;
+        let element = |slot: &TimeSlot<'_>| self.layout.starting(slot.at.0 as usize);
+        let number = |slot: &TimeSlot<'_>| slot.id.strip_prefix("ts")?.parse::<u64>().ok();
+        Some(Slots {
+            names: all.iter().map(|slot| slot.id.to_string()).collect(),
+            elements: all.iter().map(element).collect::<Option<_>>()?,
+            values: all.iter().map(|slot| slot.value).collect(),
+            retimed: vec![false; all.len()],
+            removed: vec![false; all.len()],
+            fresh: Vec::new(),
+            last: all
+                .iter()
+                .filter_map(number)
+                .max()
+                .unwrap_or(0)
+                .min(u64::MAX / 2),
+        })
+    }
+
+    /// Returns the new times of the ends of an annotation that moved.
+    fn moved(&self, old: Option<Place>, new: Option<Place>) -> [Option<Option<i64>>; 2] {
+        let Some((old, new)) = old.and_then(|old| self.before.annotation(old)).zip(new) else {
+            return [None; 2];
+        };
+        let (before, after) = (ends(old), ends(self.wanted(new)));
+        [0, 1].map(|side| (before[side] != after[side]).then_some(after[side]))
+    }
+
+    fn divides(&self, place: Option<Place>) -> bool {
+        place.is_some_and(|place| {
+            self.after.tiers[place.tier].stereotype == Some(Stereotype::TimeSubdivision)
+        })
+    }
+
+    /// Finds slots for the ends at a slot of the file that moved.
+    fn place_users(
+        &self,
+        slot: usize,
+        users: &[User],
+        slots: &mut Slots,
+        refs: &mut Refs,
+    ) -> Option<()> {
+        let mut stays = users.iter().any(|user| user.moved.is_none());
+        let mut groups: BTreeMap<i64, Vec<&User>> = BTreeMap::new();
+        for user in users {
+            if let Some(time) = user.moved {
+                groups.entry(time?).or_default().push(user);
+            }
+        }
+        for (time, group) in groups {
+            let shared = group.iter().find_map(|user| {
+                let place = user.place.filter(|_| self.divides(user.place))?;
+                let parent = self.wanted(place).parent?;
+                let at = ends(self.wanted(parent))[user.side] == Some(time);
+                let name = &refs.get(&parent).filter(|_| at)?[user.side];
+                (*name != slots.names[slot]).then(|| name.clone())
+            });
+            let name = match shared {
+                Some(name) => name,
+                None if !stays => {
+                    stays = true;
+                    slots.values[slot] = Some(time);
+                    slots.retimed[slot] = true;
+                    slots.names[slot].clone()
+                }
+                None => slots.add(time),
+            };
+            for user in group {
+                if let Some(place) = user.place {
+                    refs.get_mut(&place)?[user.side].clone_from(&name);
+                }
+            }
+        }
+        slots.removed[slot] |= !users.is_empty() && !stays;
+        Some(())
+    }
+
+    /// Finds slots for annotations that the file does not have; those of a Time_Subdivision share them.
+    fn place_added(&self, slots: &mut Slots, refs: &mut Refs) -> Option<()> {
+        let depth = |tier: usize| {
+            std::iter::successors(Some(tier), |at| self.after.tiers[*at].parent)
+                .take(self.after.tiers.len() + 1)
+                .count()
+        };
+        let mut order: Vec<usize> = (0..self.after.tiers.len()).collect();
+        order.sort_by_key(|tier| (depth(*tier), *tier));
+        for tier in order {
+            if !is_alignable(self.after, tier) {
+                continue;
+            }
+            let all = &self.after.tiers[tier].annotations;
+            let divides = self.divides(Some(Place { tier, index: 0 }));
+            let mut known: HashMap<(Option<Place>, i64), String> = HashMap::new();
+            let mut added: Vec<Place> = Vec::new();
+            for (index, it) in all.iter().enumerate() {
+                let place = Place { tier, index };
+                match refs.get(&place) {
+                    None => added.push(place),
+                    Some(names) if divides => {
+                        for (time, name) in ends(it).into_iter().zip(names) {
+                            known.insert((it.parent, time.unwrap_or(i64::MIN)), name.clone());
+                        }
+                    }
+                    Some(_) => {}
+                }
+            }
+            added.sort_by_key(|place| all[place.index].span);
+            for place in added {
+                let it = &all[place.index];
+                let above = it.parent.filter(|_| divides);
+                let above =
+                    above.and_then(|parent| Some((ends(self.wanted(parent)), refs.get(&parent)?)));
+                let mut names = [String::new(), String::new()];
+                for (side, time) in ends(it).into_iter().enumerate() {
+                    let time = time?;
+                    let shared = known.get(&(it.parent, time)).filter(|_| divides).cloned();
+                    let of_parent = above
+                        .as_ref()
+                        .filter(|(times, _)| times[side] == Some(time))
+                        .map(|(_, names)| names[side].clone());
+                    names[side] = shared.or(of_parent).unwrap_or_else(|| slots.add(time));
+                    known.insert((it.parent, time), names[side].clone());
+                }
+                refs.insert(place, names);
+            }
+        }
+        Some(())
+    }
+
+    fn write_slots(&mut self, slots: Slots) -> Option<()> {
+        if !slots.is_changed() {
+            return Some(());
+        }
+        let root = self.root()?;
+        let container = self.layout.child(root, "TIME_ORDER")?;
+        let mut fresh = slots.fresh.clone();
+        let gone = slots.out_of_order();
+        for (slot, gone) in gone.iter().enumerate() {
+            if slots.removed[slot] || *gone {
+                let span = self.layout.lines(slots.elements[slot]);
+                self.edits.remove(span);
+            }
+            if let Some(time) = slots.values[slot].filter(|_| slots.retimed[slot]) {
+                if *gone {
+                    fresh.push((slots.names[slot].clone(), time));
+                } else {
+                    let time = time.to_string();
+                    self.attribute(slots.elements[slot], "TIME_VALUE", Some(&time));
+                }
+            }
+        }
+        fresh.sort_by_key(|(_, time)| *time);
+        let indent = self.indent_in(container);
+        let mut added: BTreeMap<Option<usize>, Vec<String>> = BTreeMap::new();
+        for (name, time) in fresh {
+            let slot = TimeSlot {
+                id: name.into(),
+                value: Some(time),
+                ..TimeSlot::default()
+            };
+            let block = written(self.style, &indent, |xml| write::time_slot(&slot, xml))?;
+            let mut before = (0..slots.names.len()).rev().filter(|at| !gone[*at]);
+            let before = before.find(|at| slots.values[*at].is_some_and(|value| value <= time));
+            let before = before.map(|at| slots.elements[at]);
+            added.entry(before).or_default().push(block);
+        }
+        for (after, blocks) in added {
+            self.insert(container, after, &blocks);
+        }
+        Some(())
+    }
+}
+
+impl Slots {
+    fn add(&mut self, time: i64) -> String {
+        self.last += 1;
+        let name = format!("ts{}", self.last);
+        self.fresh.push((name.clone(), time));
+        name
+    }
+
+    fn is_changed(&self) -> bool {
+        !self.fresh.is_empty() || self.removed.contains(&true) || self.retimed.contains(&true)
+    }
+
+    /// Returns the slots that are removed, or that their new time takes past a neighbour.
+    fn out_of_order(&self) -> Vec<bool> {
+        let mut gone = self.removed.clone();
+        loop {
+            let mut last = None;
+            let mut next: Vec<Option<i64>> = vec![None; gone.len()];
+            for slot in (0..gone.len()).rev() {
+                next[slot] = last;
+                last = self.values[slot].filter(|_| !gone[slot]).or(last);
+            }
+            let (mut before, mut more) = (None, false);
+            for slot in 0..gone.len() {
+                let Some(time) = self.values[slot].filter(|_| !gone[slot]) else {
+                    continue;
+                };
+                let past =
+                    before.is_some_and(|it| it > time) || next[slot].is_some_and(|it| it < time);
+                if past && self.retimed[slot] {
+                    (gone[slot], more) = (true, true);
+                } else {
+                    before = Some(time);
+                }
+            }
+            if !more {
+                return gone;
+            }
+        }
+    }
+}
