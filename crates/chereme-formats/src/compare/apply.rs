@@ -1,0 +1,141 @@
+//! Applies differences to a document.
+
+use super::loose::{Loose, Pieces};
+use super::{Above, Difference, Said, TierChange};
+use crate::eaf::Transcript;
+use std::collections::BTreeMap;
+
+/// Returns `a` with the differences that [`diff`](super::diff) found from it to another document: the meaning of
+/// the other one. An id that `a` has already goes to nobody else: the annotation gets a new one.
+#[must_use]
+pub fn apply(difference: &Difference, a: &Transcript) -> Transcript {
+    let mut pieces = Pieces::of(a);
+    if let Some(rest) = &difference.rest {
+        pieces.rest = (**rest).clone();
+    }
+    for change in &difference.tiers {
+        if let Some(to) = &change.to {
+            pieces.rename(&change.tier, to);
+        }
+    }
+    for change in &difference.tiers {
+        match change.change {
+            "added" => pieces
+                .tiers
+                .push((change.whole.clone(), change.parent.clone())),
+            "changed" => change_tier(&mut pieces, change),
+            _ => {}
+        }
+    }
+    for gone in &difference.removed {
+        pieces.all.remove(&gone.id);
+    }
+    for change in difference.tiers.iter().filter(|it| it.change == "removed") {
+        pieces.tiers.retain(|(tier, _)| tier.name != change.tier);
+        pieces.all.retain(|_, it| it.tier != change.tier);
+    }
+    let mut fresh = BTreeMap::new();
+    for said in in_order(difference.added.iter()) {
+        let loose = loose(&pieces, said, &fresh);
+        let id = pieces.add(loose);
+        fresh.insert(said.id.clone(), id);
+    }
+    let old: BTreeMap<&str, &str> = difference
+        .moved
+        .iter()
+        .map(|it| (it.said.id.as_str(), it.id.as_str()))
+        .collect();
+    for moved in in_order(difference.moved.iter().map(|it| &it.said)) {
+        if let Some(id) = old.get(moved.id.as_str()) {
+            place(&mut pieces, id, moved, &fresh);
+        }
+    }
+    for change in &difference.revalued {
+        if let Some(own) = pieces.all.get_mut(&change.id) {
+            revalue(own, &change.said);
+        }
+    }
+    pieces.whole()
+}
+
+/// Writes what a tier is in the other document, but for its name.
+fn change_tier(pieces: &mut Pieces, change: &TierChange) {
+    let name = change.whole.name.clone();
+    if let Some((tier, above)) = pieces.tier(&name) {
+        *tier = change.whole.clone();
+        if change.fields.contains_key("parent") {
+            above.clone_from(&change.parent);
+        }
+    }
+}
+
+/// Returns annotations so that those come first that others refer to.
+pub(super) fn in_order<'s>(all: impl Iterator<Item = &'s Said>) -> Vec<&'s Said> {
+    let mut all: Vec<&Said> = all.collect();
+    let ids: BTreeMap<&str, &Said> = all.iter().map(|it| (it.id.as_str(), *it)).collect();
+    let depth = |said: &Said| {
+        let above = |it: &&Said| match &it.above {
+            Some(Above::New(id)) => ids.get(id.as_str()).copied(),
+            _ => None,
+        };
+        std::iter::successors(ids.get(said.id.as_str()).copied(), above)
+            .take(64)
+            .count()
+    };
+    all.sort_by_cached_key(|it| (depth(it), it.whole.order));
+    all
+}
+
+/// Writes the text of an annotation as the other document has it.
+pub(super) fn revalue(own: &mut Loose, said: &Said) {
+    own.it.value.clone_from(&said.whole.value);
+    own.it.entry.clone_from(&said.whole.entry);
+    own.it.language.clone_from(&said.whole.language);
+    own.it.external_ref.clone_from(&said.whole.external_ref);
+}
+
+/// Moves an annotation to where the other document has it.
+fn place(pieces: &mut Pieces, id: &str, said: &Said, fresh: &BTreeMap<String, String>) {
+    let new = loose(pieces, said, fresh);
+    if let Some(own) = pieces.all.get_mut(id) {
+        own.it.span = new.it.span;
+        own.it.millis = new.it.millis;
+        own.it.timing = new.it.timing;
+        own.tier = new.tier;
+        own.above = new.above;
+        own.rank = new.rank;
+    }
+}
+
+/// Returns an annotation of the other document with references to those of this one.
+pub(super) fn loose(pieces: &Pieces, said: &Said, fresh: &BTreeMap<String, String>) -> Loose {
+    let name = |it: &Above| match it {
+        Above::Known(id) => id.clone(),
+        Above::New(id) => fresh.get(id).unwrap_or(id).clone(),
+    };
+    let above = said.above.as_ref().map(name);
+    let before = said.before.as_ref().map(name);
+    Loose {
+        rank: rank(pieces, &said.tier, above.as_deref(), before.as_deref()),
+        it: said.whole.clone(),
+        tier: said.tier.clone(),
+        above,
+    }
+}
+
+/// Returns a rank right after a sibling, or before all of them.
+fn rank(pieces: &Pieces, tier: &str, above: Option<&str>, before: Option<&str>) -> f64 {
+    let siblings = pieces.all.values();
+    let siblings = siblings.filter(|it| it.tier == tier && it.above.as_deref() == above);
+    let ranks: Vec<f64> = siblings.map(|it| it.rank).collect();
+    let Some(own) = before.and_then(|id| pieces.all.get(id)).map(|it| it.rank) else {
+        return ranks.iter().copied().fold(1.0, f64::min) - 1.0;
+    };
+    let next = ranks.into_iter().filter(|it| *it > own);
+    let next = next.fold(f64::INFINITY, f64::min);
+    if next.is_finite() {
+        f64::midpoint(own, next)
+    } else {
+        own + 1.0
+    }
+}

@@ -1,0 +1,250 @@
+//! Which annotation of one document is which of another.
+
+use super::{TOLERANCE, get, is_symbolic, places};
+use crate::eaf::Transcript;
+use crate::eaf::convert::{Annotation, Place};
+use std::collections::{BTreeMap, HashMap};
+
+/// The annotations and tiers that two documents share.
+#[derive(Debug, Default)]
+pub(super) struct Matching {
+    /// The tier of the second document for each of the first.
+    pub(super) tiers: Vec<Option<usize>>,
+    /// The annotation of the second document for each of the first that it has.
+    pub(super) pairs: BTreeMap<Place, Place>,
+    /// The same the other way round.
+    pub(super) back: BTreeMap<Place, Place>,
+}
+
+impl Matching {
+    fn pair(&mut self, a: Place, b: Place) {
+        if !self.pairs.contains_key(&a) && !self.back.contains_key(&b) {
+            self.pairs.insert(a, b);
+            self.back.insert(b, a);
+        }
+    }
+}
+
+/// Matches tiers by name, else by what they are; annotations by id if the documents descend from one, else by
+/// time and value.
+pub(super) fn matched(a: &Transcript, b: &Transcript) -> Matching {
+    let ids: HashMap<&str, Place> = places(b)
+        .into_iter()
+        .map(|place| (get(b, place).id.as_str(), place))
+        .collect();
+    let trusted = descend(a, b, &ids);
+    let mut matching = Matching {
+        tiers: tiers(a, b, if trusted { Some(&ids) } else { None }),
+        ..Matching::default()
+    };
+    if trusted {
+        for place in places(a) {
+            let own = get(a, place);
+            let Some(other) = ids.get(own.id.as_str()) else {
+                continue;
+            };
+            let same_tier = matching.tiers[place.tier] == Some(other.tier);
+            let same_value = own.value == get(b, *other).value;
+            let near = overlap(own, get(b, *other)) > 0.0 || alike(own, get(b, *other));
+            let symbolic = is_symbolic(a, place.tier) && is_symbolic(b, other.tier);
+            if (same_tier && (near || same_value || symbolic)) || (near && same_value) {
+                matching.pair(place, *other);
+            }
+        }
+    }
+    for at in parents_first(a) {
+        if let Some(other) = matching.tiers[at] {
+            if is_symbolic(a, at) {
+                by_place(a, b, (at, other), &mut matching);
+            } else {
+                by_time(a, b, (at, other), &mut matching);
+            }
+        }
+    }
+    matching
+}
+
+/// Reports whether ids mean the same in both: they have one URN, or nine in ten ids agree.
+fn descend(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>) -> bool {
+    let urn = |it: &Transcript| {
+        let found = it.properties.iter().find(|(name, _)| name == "URN");
+        found
+            .map(|(_, value)| value.clone())
+            .filter(|value| !value.is_empty())
+    };
+    if urn(a).is_some() && urn(a) == urn(b) {
+        return true;
+    }
+    let (mut shared, mut agree) = (0usize, 0usize);
+    for place in places(a) {
+        let own = get(a, place);
+        if let Some(other) = ids.get(own.id.as_str()) {
+            shared += 1;
+            let same = a.tiers[place.tier].name == b.tiers[other.tier].name;
+            let there = get(b, *other);
+            agree += usize::from(same && (overlap(own, there) > 0.0 || alike(own, there)));
+        }
+    }
+    shared > 0 && 10 * agree >= 9 * shared
+}
+
+fn tiers(a: &Transcript, b: &Transcript, ids: Option<&HashMap<&str, Place>>) -> Vec<Option<usize>> {
+    let by_name: HashMap<&str, usize> = b
+        .tiers
+        .iter()
+        .enumerate()
+        .map(|(at, tier)| (tier.name.as_str(), at))
+        .collect();
+    let mut found: Vec<Option<usize>> = a
+        .tiers
+        .iter()
+        .map(|tier| by_name.get(tier.name.as_str()).copied())
+        .collect();
+    for at in 0..a.tiers.len() {
+        if found[at].is_some() {
+            continue;
+        }
+        let own = &a.tiers[at];
+        let free = (0..b.tiers.len()).filter(|it| !found.contains(&Some(*it)));
+        let same_kind = |it: &usize| {
+            let other = &b.tiers[*it];
+            (&own.kind, own.stereotype, &own.participant)
+                == (&other.kind, other.stereotype, &other.participant)
+        };
+        let mut best: Option<(usize, usize)> = None;
+        for other in free.filter(same_kind) {
+            let shared = own.annotations.iter().filter(|it| match ids {
+                Some(ids) => ids
+                    .get(it.id.as_str())
+                    .is_some_and(|place| place.tier == other),
+                None => {
+                    let there = &b.tiers[other].annotations;
+                    there.iter().take(2000).any(|that| alike(it, that))
+                }
+            });
+            let shared = shared.count();
+            if 2 * shared > own.annotations.len() && best.is_none_or(|(most, _)| shared > most) {
+                best = Some((shared, other));
+            }
+        }
+        found[at] = best.map(|(_, other)| other);
+    }
+    found
+}
+
+/// Matches the rest of two tiers by the share of time in common, at least half; equal values first.
+fn by_time(a: &Transcript, b: &Transcript, (tier, other): (usize, usize), matching: &mut Matching) {
+    let left = |it: &Transcript, tier: usize, known: &BTreeMap<Place, Place>| -> Vec<Place> {
+        (0..it.tiers[tier].annotations.len())
+            .map(|index| Place { tier, index })
+            .filter(|place| !known.contains_key(place))
+            .collect()
+    };
+    let mine = left(a, tier, &matching.pairs);
+    let mut theirs = left(b, other, &matching.back);
+    theirs.sort_by_key(|place| get(b, *place).span);
+    let longest = theirs
+        .iter()
+        .map(|place| get(b, *place).span.micros())
+        .max();
+    let longest = longest.unwrap_or(0);
+    let mut candidates: Vec<(f64, bool, Place, Place)> = Vec::new();
+    for place in mine {
+        let own = get(a, place);
+        let from = own.span.start().micros().saturating_sub(longest);
+        let first = theirs.partition_point(|it| get(b, *it).span.start().micros() < from);
+        for that in &theirs[first..] {
+            let there = get(b, *that);
+            if there.span.start() > own.span.end() {
+                break;
+            }
+            let share = if alike(own, there) {
+                1.0
+            } else {
+                overlap(own, there)
+            };
+            if share >= 0.5 {
+                candidates.push((share, own.value == there.value, place, *that));
+            }
+        }
+    }
+    candidates.sort_by(|x, y| {
+        let key = |it: &(f64, bool, Place, Place)| (it.1, it.2, it.3);
+        y.0.total_cmp(&x.0)
+            .then_with(|| y.1.cmp(&x.1))
+            .then_with(|| key(x).cmp(&key(y)))
+    });
+    for (_, _, mine, theirs) in candidates {
+        matching.pair(mine, theirs);
+    }
+}
+
+/// Matches the rest of two symbolic tiers below the same parents: equal values, then equal places.
+fn by_place(
+    a: &Transcript,
+    b: &Transcript,
+    (tier, other): (usize, usize),
+    matching: &mut Matching,
+) {
+    let mut below: HashMap<Place, Vec<Place>> = HashMap::new();
+    for (index, it) in b.tiers[other].annotations.iter().enumerate() {
+        let place = Place { tier: other, index };
+        if let Some(parent) = it.parent.filter(|_| !matching.back.contains_key(&place)) {
+            below.entry(parent).or_default().push(place);
+        }
+    }
+    for exact in [true, false] {
+        for (index, it) in a.tiers[tier].annotations.iter().enumerate() {
+            let place = Place { tier, index };
+            if matching.pairs.contains_key(&place) {
+                continue;
+            }
+            let parent = it.parent.and_then(|place| matching.pairs.get(&place));
+            let Some(siblings) = parent.and_then(|parent| below.get(parent)) else {
+                continue;
+            };
+            let fits = |that: &&Place| {
+                let there = get(b, **that);
+                !matching.back.contains_key(*that)
+                    && if exact {
+                        there.value == it.value
+                    } else {
+                        there.order == it.order
+                    }
+            };
+            if let Some(that) = siblings.iter().find(fits).copied() {
+                matching.pair(place, that);
+            }
+        }
+    }
+}
+
+/// Reports whether two annotations have the same times.
+pub(super) fn alike(a: &Annotation, b: &Annotation) -> bool {
+    let near = |x: i64, y: i64| x.abs_diff(y) <= TOLERANCE.unsigned_abs();
+    near(a.span.start().micros(), b.span.start().micros())
+        && near(a.span.end().micros(), b.span.end().micros())
+}
+
+/// Returns the share of time that two annotations have in common, of all the time that they cover.
+fn overlap(a: &Annotation, b: &Annotation) -> f64 {
+    let start = a.span.start().max(b.span.start()).micros();
+    let end = a.span.end().min(b.span.end()).micros();
+    let whole =
+        a.span.end().max(b.span.end()).micros() - a.span.start().min(b.span.start()).micros();
+    if end <= start || whole <= 0 {
+        return 0.0;
+    }
+    (end - start) as f64 / whole as f64
+}
+
+fn parents_first(it: &Transcript) -> Vec<usize> {
+    let depth = |tier: usize| {
+        std::iter::successors(Some(tier), |at| it.tiers[*at].parent)
+            .take(it.tiers.len() + 1)
+            .count()
+    };
+    let mut order: Vec<usize> = (0..it.tiers.len()).collect();
+    order.sort_by_key(|tier| (depth(*tier), *tier));
+    order
+}

@@ -1,0 +1,603 @@
+//! A three-way merge of annotation documents.
+
+use super::apply::{in_order, loose, revalue};
+use super::identity::{Matching, alike, matched};
+use super::loose::Pieces;
+use super::{Above, Said, diff, get, is_symbolic, places};
+use crate::eaf::Transcript;
+use crate::eaf::convert::{Annotation, Place};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Two documents brought together.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Merged {
+    /// What both say; of a conflict what mine says.
+    pub document: Transcript,
+    /// The annotations on which they do not agree.
+    pub conflicts: Vec<Conflict>,
+}
+
+/// An annotation on which two documents do not agree, or for which one has no room.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Conflict {
+    /// The tier.
+    pub tier: String,
+    /// Its state before both changes; nothing if it was not there.
+    pub base: Option<Said>,
+    /// The candidate of one side, which stands; nothing if that side removed it or never had it.
+    pub mine: Option<Said>,
+    /// The candidate of the other side; nothing if that side removed it.
+    pub theirs: Option<Said>,
+}
+
+/// Merges `theirs` into `mine`; `base` is their common state.
+///
+/// A change of one side alone is taken, equal changes of both are one. If one side moves an end and the other
+/// the text or the other end, both count. Two changes of one thing, a change of what the other side removed,
+/// and an annotation without room on its tier are conflicts: mine stands, and the other candidate is in the
+/// list. Children follow their parents, and new ids count on from the last that any side used.
+#[must_use]
+pub fn merge(base: &Transcript, mine: &Transcript, theirs: &Transcript) -> Merged {
+    let own = matched(base, mine);
+    let mut work = Work {
+        base,
+        mine,
+        theirs,
+        names: names(base, mine, &own),
+        places: places(base)
+            .into_iter()
+            .map(|place| (get(base, place).id.clone(), place))
+            .collect(),
+        own,
+        pieces: Pieces::of(mine),
+        conflicts: Vec::new(),
+        brought: Vec::new(),
+        fresh: BTreeMap::new(),
+    };
+    for place in places(theirs) {
+        work.pieces.note_id(&get(theirs, place).id);
+    }
+    let changes = diff(base, theirs);
+    work.tiers(&changes);
+    let mut touched: BTreeMap<String, [Option<Said>; 2]> = BTreeMap::new();
+    for moved in changes.moved {
+        touched.entry(moved.id).or_default()[0] = Some(moved.said);
+    }
+    for revalued in changes.revalued {
+        touched.entry(revalued.id).or_default()[1] = Some(revalued.said);
+    }
+    for said in in_order(changes.added.iter()) {
+        work.add(said);
+    }
+    for (id, [moved, revalued]) in &touched {
+        work.change(id, moved.as_ref(), revalued.as_ref());
+    }
+    for said in in_order(changes.removed.iter()).into_iter().rev() {
+        work.remove(said);
+    }
+    work.make_room();
+    work.drop_tiers(&changes.tiers);
+    work.rest();
+    Merged {
+        document: work.pieces.whole(),
+        conflicts: work.conflicts,
+    }
+}
+
+/// Merges two documents without a common state.
+///
+/// An annotation of one of them alone is taken; if both have it in different ways, it is a conflict, and mine
+/// stands.
+#[must_use]
+pub fn merge_two(mine: &Transcript, theirs: &Transcript) -> Merged {
+    let matching = matched(mine, theirs);
+    let mut base = Pieces::of(theirs);
+    let shared: BTreeSet<&str> = matching
+        .back
+        .keys()
+        .map(|place| get(theirs, *place).id.as_str())
+        .collect();
+    base.all.retain(|id, _| shared.contains(id.as_str()));
+    let tiers: BTreeSet<&str> = matching
+        .tiers
+        .iter()
+        .flatten()
+        .map(|at| theirs.tiers[*at].name.as_str())
+        .collect();
+    base.tiers
+        .retain(|(tier, _)| tiers.contains(tier.name.as_str()));
+    let base = base.whole();
+    let mut merged = merge(&base, mine, theirs);
+    let changes = diff(mine, theirs);
+    let moved = changes.moved.into_iter().map(|it| (it.id, it.said));
+    let revalued = changes.revalued.into_iter().map(|it| (it.id, it.said));
+    let differ: BTreeMap<String, Said> = moved.chain(revalued).collect();
+    let places: BTreeMap<&str, Place> = places(mine)
+        .into_iter()
+        .map(|place| (get(mine, place).id.as_str(), place))
+        .collect();
+    for (id, said) in differ {
+        let own = places.get(id.as_str());
+        let own = own.map(|place| super::said((mine, None), *place));
+        merged.conflicts.push(Conflict {
+            tier: own.as_ref().map_or(&said.tier, |it| &it.tier).clone(),
+            base: None,
+            mine: own,
+            theirs: Some(said),
+        });
+    }
+    merged
+}
+
+/// Returns `merged` with the other candidates of its conflicts on tiers next to their own, called
+/// `NAME (theirs)`, so that a file of one document keeps both.
+#[must_use]
+pub fn with_candidates(merged: &Merged) -> Transcript {
+    let mut pieces = Pieces::of(&merged.document);
+    for conflict in &merged.conflicts {
+        let Some(theirs) = &conflict.theirs else {
+            continue;
+        };
+        let name = format!("{} (theirs)", conflict.tier);
+        if pieces.tier(&name).is_none() {
+            pieces.tiers.push((
+                crate::eaf::convert::Tier {
+                    name: name.clone(),
+                    ..crate::eaf::convert::Tier::default()
+                },
+                None,
+            ));
+        }
+        let mut it = theirs.whole.clone();
+        it.parent = None;
+        it.entry = None;
+        it.timing = crate::eaf::convert::Timing::Own;
+        it.id = String::new();
+        pieces.add(super::loose::Loose {
+            it,
+            tier: name,
+            above: None,
+            rank: 0.0,
+        });
+    }
+    pieces.whole()
+}
+
+/// Returns the id in `mine` of each annotation of the base that is there.
+fn names(base: &Transcript, mine: &Transcript, own: &Matching) -> BTreeMap<String, String> {
+    let pairs = own.pairs.iter();
+    pairs
+        .map(|(old, new)| (get(base, *old).id.clone(), get(mine, *new).id.clone()))
+        .collect()
+}
+
+struct Work<'w> {
+    base: &'w Transcript,
+    mine: &'w Transcript,
+    theirs: &'w Transcript,
+    own: Matching,
+    names: BTreeMap<String, String>,
+    /// The annotations of the base by id.
+    places: BTreeMap<String, Place>,
+    pieces: Pieces,
+    conflicts: Vec<Conflict>,
+    /// Annotations from the other side: the id, its candidate, and the one that mine had before.
+    brought: Vec<(String, Said, Option<Said>)>,
+    /// The ids that additions of the other side got.
+    fresh: BTreeMap<String, String>,
+}
+
+impl Work<'_> {
+    fn tiers(&mut self, changes: &super::Difference) {
+        for change in &changes.tiers {
+            let mine = self.tier_of_mine(&change.tier);
+            match change.change {
+                "added" if self.pieces.tier(&change.tier).is_none() => {
+                    let parent = change.parent.clone();
+                    self.pieces.tiers.push((change.whole.clone(), parent));
+                }
+                "renamed" => {
+                    let to = change.to.clone().unwrap_or_default();
+                    if mine.as_deref() == Some(&change.tier) && self.pieces.tier(&to).is_none() {
+                        self.pieces.rename(&change.tier, &to);
+                    }
+                }
+                "changed" => {
+                    let Some(name) = mine else { continue };
+                    let base = self.base.tiers.iter().find(|it| it.name == change.tier);
+                    let Some(base) = base.cloned() else { continue };
+                    let new = change.to.clone().unwrap_or(name.clone());
+                    let found = [name, new, change.whole.name.clone()]
+                        .into_iter()
+                        .find(|name| self.pieces.tier(name).is_some());
+                    let Some((tier, _)) = found.and_then(|name| self.pieces.tier(&name)) else {
+                        continue;
+                    };
+                    let theirs = &change.whole;
+                    take(&mut tier.kind, &base.kind, &theirs.kind);
+                    take(
+                        &mut tier.participant,
+                        &base.participant,
+                        &theirs.participant,
+                    );
+                    take(&mut tier.annotator, &base.annotator, &theirs.annotator);
+                    take(&mut tier.language, &base.language, &theirs.language);
+                    take(&mut tier.locale, &base.locale, &theirs.locale);
+                    take(&mut tier.vocabulary, &base.vocabulary, &theirs.vocabulary);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Returns the name in mine of a tier of the base.
+    fn tier_of_mine(&self, name: &str) -> Option<String> {
+        let at = self.base.tiers.iter().position(|it| it.name == name)?;
+        let own = self.own.tiers.get(at).copied().flatten()?;
+        Some(self.mine.tiers[own].name.clone())
+    }
+
+    /// Returns an annotation of theirs in terms of mine; nothing if what it hangs below is gone.
+    fn translated(&self, said: &Said) -> Option<Said> {
+        let refer = |it: &Above| match it {
+            Above::Known(id) => self.names.get(id).cloned().map(Above::Known),
+            Above::New(id) => self.fresh.get(id).cloned().map(Above::Known),
+        };
+        let mut new = said.clone();
+        new.above = match &said.above {
+            Some(above) => Some(refer(above)?),
+            None => None,
+        };
+        new.before = said.before.as_ref().and_then(refer);
+        if let Some(name) = self.tier_of_mine(&said.tier)
+            && self.tier_now(&name)
+        {
+            new.tier = name;
+        }
+        self.tier_now(&new.tier).then_some(new)
+    }
+
+    fn tier_now(&self, name: &str) -> bool {
+        self.pieces.tiers.iter().any(|(tier, _)| tier.name == name)
+    }
+
+    fn add(&mut self, said: &Said) {
+        let Some(new) = self.translated(said) else {
+            return self.conflict(None, None, Some(said.clone()));
+        };
+        let above = match &new.above {
+            Some(Above::Known(id)) => Some(id.clone()),
+            _ => None,
+        };
+        let symbolic = self.theirs.tiers.iter().position(|it| it.name == said.tier);
+        let symbolic = symbolic.is_some_and(|tier| is_symbolic(self.theirs, tier));
+        let base: BTreeSet<&String> = self.names.values().collect();
+        let brought: BTreeSet<&String> = self.fresh.values().collect();
+        let twin = self.pieces.all.iter().find(|(id, it)| {
+            let own = !base.contains(id) && !brought.contains(id) && it.tier == new.tier;
+            let there = if symbolic {
+                it.above == above
+            } else {
+                alike(&it.it, &new.whole)
+            };
+            own && there && it.it.value == new.value
+        });
+        if let Some((id, _)) = twin {
+            let id = id.clone();
+            self.fresh.insert(said.id.clone(), id);
+            return;
+        }
+        let mut loose = loose(&self.pieces, &new, &self.fresh);
+        if symbolic {
+            self.after_mine(&mut loose, &base.into_iter().cloned().collect());
+        }
+        let id = self.pieces.add(loose);
+        self.fresh.insert(said.id.clone(), id.clone());
+        self.brought.push((id, new, None));
+    }
+
+    /// Puts additions of both sides at one place of a chain into the order of their texts.
+    fn after_mine(&self, loose: &mut super::loose::Loose, base: &BTreeSet<String>) {
+        let siblings = self.pieces.all.values();
+        let mut siblings: Vec<_> = siblings
+            .filter(|it| it.tier == loose.tier && it.above == loose.above && it.rank > loose.rank)
+            .collect();
+        siblings.sort_by(|x, y| x.rank.total_cmp(&y.rank));
+        for (at, it) in siblings.iter().enumerate() {
+            if base.contains(&it.it.id) || it.it.value >= loose.it.value {
+                break;
+            }
+            let next = siblings.get(at + 1).map_or(it.rank + 1.0, |next| next.rank);
+            loose.rank = f64::midpoint(it.rank, next);
+        }
+    }
+
+    fn change(&mut self, id: &str, moved: Option<&Said>, revalued: Option<&Said>) {
+        let Some(said) = moved.or(revalued) else {
+            return;
+        };
+        let before = self.said_in_base(id);
+        let own = self
+            .names
+            .get(id)
+            .filter(|id| self.pieces.all.contains_key(*id));
+        let Some(own) = own.cloned() else {
+            return self.conflict(before, None, Some(said.clone()));
+        };
+        let Some(old) = before.as_ref().map(|it| it.whole.clone()) else {
+            return;
+        };
+        let Some(new) = self.translated(said) else {
+            let mine = self.said_now(&own);
+            return self.conflict(before, mine, Some(said.clone()));
+        };
+        let mine = self.said_now(&own);
+        let Some(mut loose_own) = self.pieces.all.get(&own).cloned() else {
+            return;
+        };
+        let mut fails = false;
+        if moved.is_some() {
+            fails |= self.move_one(&mut loose_own, (&old, &new), before.as_ref());
+        }
+        if let Some(said) = revalued {
+            let (value, entry) = (&old.value, &old.entry);
+            if loose_own.it.value == *value && loose_own.it.entry == *entry {
+                revalue(&mut loose_own, said);
+            } else if loose_own.it.value != said.whole.value {
+                fails = true;
+            }
+        }
+        if loose_own.it.span.end() <= loose_own.it.span.start() && old.span.end() > old.span.start()
+        {
+            fails = true;
+            loose_own.it.span = self.pieces.all[&own].it.span;
+        }
+        self.pieces.all.insert(own.clone(), loose_own);
+        if fails {
+            self.conflict(before, mine, Some(new));
+        } else if moved.is_some() {
+            self.brought.push((own, new, mine));
+        }
+    }
+
+    /// Moves an annotation as theirs did; reports whether mine moved the same end elsewhere.
+    fn move_one(
+        &self,
+        own: &mut super::loose::Loose,
+        (old, new): (&Annotation, &Said),
+        before: Option<&Said>,
+    ) -> bool {
+        let near = |a: i64, b: i64| a.abs_diff(b) <= super::TOLERANCE.unsigned_abs();
+        let (theirs, mine) = (&new.whole, own.it.clone());
+        let mut fails = false;
+        let mut merged = |old: i64, mine: i64, theirs: i64| {
+            if near(old, theirs) || near(mine, theirs) {
+                return mine;
+            }
+            fails |= !near(old, mine);
+            if near(old, mine) { theirs } else { mine }
+        };
+        let micros = |it: &Annotation| [it.span.start().micros(), it.span.end().micros()];
+        let ([a, b], [c, d], [e, f]) = (micros(old), micros(&mine), micros(theirs));
+        let symbolic = old.parent.is_some() && own.above.is_some() && new.whole.millis.is_none();
+        let (start, end) = (merged(a, c, e), merged(b, d, f));
+        if !symbolic {
+            let instant = chereme_motion::Instant::from_micros;
+            if [start, end] == [e, f] {
+                own.it.span = theirs.span;
+                own.it.millis = theirs.millis;
+                own.it.timing = theirs.timing;
+            } else if [start, end] != [c, d] {
+                own.it.span = chereme_motion::Span::between(instant(start), instant(end));
+                own.it.millis = None;
+            }
+        } else {
+            fails = false;
+        }
+        let base_tier = before.map(|it| it.tier.clone()).unwrap_or_default();
+        let base_tier = self.tier_of_mine(&base_tier).unwrap_or(base_tier);
+        if own.tier == base_tier && new.tier != base_tier {
+            own.tier.clone_from(&new.tier);
+        }
+        if let Some(Above::Known(id)) = &new.above {
+            let known = before.and_then(|it| match &it.above {
+                Some(Above::Known(id)) => self.names.get(id),
+                _ => None,
+            });
+            if own.above.as_ref() == known {
+                let placed = loose(&self.pieces, new, &self.fresh);
+                own.above = Some(id.clone());
+                if symbolic {
+                    own.rank = placed.rank;
+                }
+            }
+        }
+        fails
+    }
+
+    fn remove(&mut self, said: &Said) {
+        let Some(own) = self.names.get(&said.id).cloned() else {
+            return;
+        };
+        let Some(now) = self.pieces.all.get(&own) else {
+            return;
+        };
+        let same =
+            now.it.value == said.value && (alike(&now.it, &said.whole) || now.above.is_some());
+        let children = self.pieces.all.values();
+        let mut children = children.filter(|it| it.above.as_deref() == Some(&own));
+        if same && children.next().is_none() {
+            self.pieces.all.remove(&own);
+            return;
+        }
+        let mine = self.said_now(&own);
+        self.conflict(Some(said.clone()), mine, None);
+    }
+
+    /// Takes back what came from the other side and lies over something of mine.
+    fn make_room(&mut self) {
+        let mut by_tier: BTreeMap<String, Vec<(i64, i64, String)>> = BTreeMap::new();
+        for (id, it) in &self.pieces.all {
+            let span = it.it.span;
+            let times = (span.start().micros(), span.end().micros(), id.clone());
+            by_tier.entry(it.tier.clone()).or_default().push(times);
+        }
+        for all in by_tier.values_mut() {
+            all.sort();
+        }
+        let came: BTreeSet<String> = self.brought.iter().map(|it| it.0.clone()).collect();
+        let changes = diff(self.base, self.mine);
+        let mut changed: BTreeSet<String> = changes.added.into_iter().map(|it| it.id).collect();
+        changed.extend(changes.moved.into_iter().map(|it| it.said.id));
+        let gone = self.conflicts.iter().filter(|it| it.theirs.is_none());
+        changed.extend(gone.filter_map(|it| Some(it.mine.as_ref()?.id.clone())));
+        for (id, said, before) in std::mem::take(&mut self.brought) {
+            let Some(own) = self.pieces.all.get(&id).cloned() else {
+                continue;
+            };
+            let symbolic = self
+                .pieces
+                .tier(&own.tier)
+                .is_some_and(|(tier, _)| tier.stereotype.is_some_and(|it| !it.is_alignable()));
+            let (start, end) = (own.it.span.start().micros(), own.it.span.end().micros());
+            let over = by_tier.get(&own.tier).into_iter().flatten().any(|it| {
+                it.2 != id
+                    && changed.contains(&it.2)
+                    && !came.contains(&it.2)
+                    && it.0 < end
+                    && start < it.1
+                    && self.pieces.all.contains_key(&it.2)
+            });
+            if symbolic || !over {
+                continue;
+            }
+            match &before {
+                None => {
+                    let below: Vec<String> = self
+                        .pieces
+                        .all
+                        .iter()
+                        .filter(|(_, it)| it.above.as_deref() == Some(&id))
+                        .map(|(id, _)| id.clone())
+                        .collect();
+                    for child in below {
+                        let said = self.said_now(&child);
+                        self.pieces.all.remove(&child);
+                        self.conflict(None, None, said);
+                    }
+                    self.pieces.all.remove(&id);
+                }
+                Some(mine) => {
+                    if let Some(it) = self.pieces.all.get_mut(&id) {
+                        it.it.span = mine.whole.span;
+                        it.it.millis = mine.whole.millis;
+                        it.it.timing = mine.whole.timing;
+                        it.tier.clone_from(&mine.tier);
+                    }
+                }
+            }
+            self.conflict(None, before, Some(said));
+        }
+    }
+
+    /// Removes the tiers that theirs removed and that hold nothing any more.
+    fn drop_tiers(&mut self, changes: &[super::TierChange]) {
+        for change in changes.iter().filter(|it| it.change == "removed") {
+            let Some(name) = self.tier_of_mine(&change.tier) else {
+                continue;
+            };
+            let empty = self.pieces.all.values().all(|it| it.tier != name);
+            let above =
+                |it: &(crate::eaf::convert::Tier, Option<String>)| it.1.as_ref() == Some(&name);
+            if empty && !self.pieces.tiers.iter().any(above) {
+                self.pieces.tiers.retain(|(tier, _)| tier.name != name);
+            }
+        }
+    }
+
+    /// Takes properties, media and vocabularies that theirs alone changed or added.
+    fn rest(&mut self) {
+        let (base, theirs, own) = (self.base, self.theirs, &mut self.pieces.rest);
+        take(&mut own.author, &base.author, &theirs.author);
+        take(&mut own.media, &base.media, &theirs.media);
+        take(
+            &mut own.linked_files,
+            &base.linked_files,
+            &theirs.linked_files,
+        );
+        for (name, value) in &theirs.properties {
+            let old = base.properties.iter().find(|it| it.0 == *name);
+            match own.properties.iter_mut().find(|it| it.0 == *name) {
+                Some(mine) if old == Some(&*mine) => value.clone_into(&mut mine.1),
+                Some(_) => {}
+                None if old.is_none() => own.properties.push((name.clone(), value.clone())),
+                None => {}
+            }
+        }
+        let kept = |it: &(String, String)| {
+            !base.properties.contains(it) || theirs.properties.iter().any(|that| that.0 == it.0)
+        };
+        own.properties.retain(kept);
+        for vocabulary in &theirs.vocabularies {
+            let old = base.vocabularies.iter().find(|it| it.id == vocabulary.id);
+            match own
+                .vocabularies
+                .iter_mut()
+                .find(|it| it.id == vocabulary.id)
+            {
+                Some(mine) if old == Some(&*mine) => mine.clone_from(vocabulary),
+                Some(mine) => {
+                    let more = vocabulary.entries.iter();
+                    let more = more.filter(|entry| {
+                        let known = |it: &crate::eaf::convert::Entry| it.values == entry.values;
+                        !mine.entries.iter().any(known)
+                            && !old.is_some_and(|old| old.entries.iter().any(known))
+                    });
+                    let more: Vec<_> = more.cloned().collect();
+                    mine.entries.extend(more);
+                }
+                None if old.is_none() => own.vocabularies.push(vocabulary.clone()),
+                None => {}
+            }
+        }
+    }
+
+    fn conflict(&mut self, base: Option<Said>, mine: Option<Said>, theirs: Option<Said>) {
+        let first = [&mine, &base, &theirs].into_iter().flatten().next();
+        let tier = first.map(|it| it.tier.clone()).unwrap_or_default();
+        self.conflicts.push(Conflict {
+            tier,
+            base,
+            mine,
+            theirs,
+        });
+    }
+
+    fn said_in_base(&self, id: &str) -> Option<Said> {
+        let place = self.places.get(id)?;
+        Some(super::said((self.base, None), *place))
+    }
+
+    /// Returns an annotation as the merged document has it so far.
+    fn said_now(&self, id: &str) -> Option<Said> {
+        let loose = self.pieces.all.get(id)?;
+        Some(Said {
+            tier: loose.tier.clone(),
+            id: id.to_owned(),
+            start_us: loose.it.span.start().micros(),
+            end_us: loose.it.span.end().micros(),
+            value: loose.it.value.clone(),
+            whole: loose.it.clone(),
+            above: loose.above.clone().map(Above::Known),
+            before: None,
+        })
+    }
+}
+
+/// Takes what theirs says if mine says what the base said.
+fn take<T: Clone + PartialEq>(mine: &mut T, base: &T, theirs: &T) {
+    if mine == base {
+        mine.clone_from(theirs);
+    }
+}
