@@ -2,6 +2,7 @@
 
 pub mod bvh;
 pub mod c3d;
+pub mod compare;
 pub mod curves;
 pub mod eaf;
 pub mod faces;

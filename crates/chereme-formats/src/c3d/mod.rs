@@ -7,6 +7,7 @@
 pub mod raw;
 #[cfg(test)]
 mod tests;
+mod write;
 
 use std::collections::BTreeSet;
 
@@ -22,6 +23,7 @@ use crate::tracks::{Content, Track, Tracks, axes_with_up, events, rate_of, uniqu
 use raw::Document;
 
 pub use raw::Error;
+pub use write::write;
 
 /// Reads a C3D file.
 ///

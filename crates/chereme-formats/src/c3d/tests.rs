@@ -276,3 +276,67 @@ fn files_of_others_hold_the_known_values() {
         );
     }
 }
+
+#[test]
+fn markers_come_back_from_c3d() {
+    let places = |shift: f32| -> Vec<Column> {
+        (0..3)
+            .map(|axis| {
+                Column::singles(
+                    (0..5)
+                        .map(|frame| frame as f32 + shift + axis as f32 * 10.0)
+                        .collect(),
+                )
+            })
+            .collect()
+    };
+    let gaps = Gaps::at([2u32]);
+    let marker = |name: &str, group: &str, shift: f32| Marker {
+        group: group.into(),
+        name: name.into(),
+        place: places(shift)
+            .into_iter()
+            .map(|column| column.with_gaps(&gaps).expect("as long"))
+            .collect(),
+        quality: Some(
+            Column::doubles(vec![0.5, 1.0, 0.0, 2.0, 4.0])
+                .with_gaps(&gaps)
+                .expect("as long"),
+        ),
+    };
+    let many: Vec<Marker> = (0..300)
+        .map(|n| marker(&format!("M{n}"), "", n as f32))
+        .collect();
+    let some = vec![marker("LFIN", "Anna", 0.25), marker("RFIN", "Anna", 7.5)];
+    for (points, metres_per_unit) in [(some, 0.001), (many, 1.0)] {
+        let space = Space::World(Convention {
+            metres_per_unit,
+            axes: "+Z,+X".parse().expect("axes"),
+        });
+        let times = Times::Even(crate::tracks::rate_of(120.0).expect("a rate"));
+        let markers = Markers::new(times, space, points)
+            .expect("markers")
+            .rated(Quality::Residual);
+        let bytes = super::write(&markers, Instant::from_millis(500)).expect("written");
+        let (tracks, _) = read(&bytes).expect("read");
+        let Content::Markers(again) = &tracks.tracks[0].content else {
+            panic!("markers");
+        };
+        assert_eq!(
+            (again.frames(), again.points().len()),
+            (5, markers.points().len())
+        );
+        assert_eq!(again.space(), markers.space());
+        assert_eq!(tracks.tracks[0].offset, Instant::from_millis(500));
+        for (x, y) in markers.points().iter().zip(again.points()) {
+            assert!(y.name.ends_with(&x.name), "{} {}", x.name, y.name);
+            for frame in 0..5 {
+                assert_eq!(x.at(frame), y.at(frame));
+                let both = [x, y].map(|it| it.quality.as_ref().and_then(|it| it.value(frame)));
+                if let [Some(a), Some(b)] = both {
+                    assert!((a - b).abs() < 0.01, "{a} {b}");
+                }
+            }
+        }
+    }
+}

@@ -1,7 +1,8 @@
 //! glTF 2.0: writes movement as GLB for Blender, three.js and game engines, and reads skeletons with
 //! movement.
 //!
-//! [`write()`] makes a GLB with a skin, a small mesh of bones and the annotations; [`read`] returns the
+//! [`write()`] makes a GLB with a skin, a small mesh of bones and the annotations, [`vrma`] the movement of a
+//! humanoid for avatars; [`read`] returns the
 //! skeleton, its movement and the weights of morph targets. Source: the glTF 2.0 specification of the
 //! Khronos Group.
 
@@ -12,6 +13,7 @@ mod read;
 mod sample;
 #[cfg(test)]
 mod tests;
+pub mod vrma;
 mod write;
 
 pub use error::Error;

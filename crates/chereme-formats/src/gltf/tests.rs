@@ -324,3 +324,101 @@ fn files_of_others_are_read_or_refused_with_the_reason() {
     }
     assert_eq!(seen, 6);
 }
+
+/// A figure with hips, arms, legs and hands in a pose that is no T-pose.
+fn figure() -> Skeleton {
+    let side = |name: &str, way: f64| {
+        let joint = move |part: &str, parent: usize, offset: DVec3| {
+            Joint::new(format!("{name}{part}"), Some(parent), offset)
+        };
+        [
+            joint("Arm", 2, DVec3::new(0.2 * way, 0.1, 0.0)),
+            joint("ForeArm", 0, DVec3::new(0.0, -0.3, 0.0)),
+            joint("Hand", 0, DVec3::new(0.0, -0.25, 0.05)),
+            joint("UpLeg", 0, DVec3::new(0.1 * way, -0.1, 0.0)),
+            joint("Leg", 0, DVec3::new(0.0, -0.4, 0.05)),
+            joint("Foot", 0, DVec3::new(0.0, -0.4, 0.0)),
+        ]
+    };
+    let mut joints = vec![
+        Joint::new("Hips", None, DVec3::ZERO),
+        Joint::new("Spine", Some(0), DVec3::Y * 0.2),
+        Joint::new("Spine1", Some(1), DVec3::Y * 0.2),
+        Joint::new("Neck", Some(2), DVec3::Y * 0.2),
+        Joint::new("Head", Some(3), DVec3::Y * 0.1),
+    ];
+    for (name, way) in [("Left", 1.0), ("Right", -1.0)] {
+        let first = joints.len();
+        for (at, mut joint) in side(name, way).into_iter().enumerate() {
+            if [1, 2, 4, 5].contains(&at) {
+                joint.parent = Some(first + at - 1);
+            }
+            joints.push(joint);
+        }
+    }
+    Skeleton::new(joints).expect("a skeleton")
+}
+
+#[test]
+fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
+    let skeleton = Arc::new(figure());
+    let anatomy = chereme_motion::Anatomy::detect(&skeleton);
+    let rest = vrma::t_pose(&skeleton, &anatomy);
+    let at = |name: &str| skeleton.find(name).expect("a joint");
+    for (name, way) in [("Left", DVec3::X), ("Right", -DVec3::X)] {
+        for (from, to, want) in [
+            ("Arm", "ForeArm", way),
+            ("ForeArm", "Hand", way),
+            ("UpLeg", "Leg", -DVec3::Y),
+        ] {
+            let [from, to] = [from, to].map(|part| rest.position(at(&format!("{name}{part}"))));
+            assert!(
+                (to - from).normalize().distance(want) < 1e-6,
+                "{name} {from} {to}"
+            );
+        }
+    }
+    let mut channels: Vec<Channel> = (0..skeleton.len())
+        .map(|joint| Channel {
+            rotations: (0..10)
+                .map(|frame| DQuat::from_rotation_x(0.05 * frame as f64 * (joint % 3) as f64))
+                .collect(),
+            translations: None,
+        })
+        .collect();
+    channels[0].translations = Some(
+        (0..10)
+            .map(|frame| DVec3::new(0.0, 0.9, 0.01 * frame as f64))
+            .collect(),
+    );
+    let clip = Clip::new(
+        Arc::clone(&skeleton),
+        Rate::new(30, 1).expect("a rate"),
+        channels,
+    )
+    .expect("a clip");
+    let smile = vrma::Expression {
+        name: "happy".into(),
+        weights: vec![0.5; 10],
+    };
+    let bytes = vrma::write(&clip, &anatomy, &[smile], &About::default()).expect("written");
+    let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
+    let document: serde_json::Value =
+        serde_json::from_slice(&bytes[20..20 + length]).expect("JSON");
+    let extension = &document["extensions"]["VRMC_vrm_animation"];
+    assert!(extension["humanoid"]["humanBones"]["leftLowerLeg"]["node"].is_number());
+    assert!(extension["expressions"]["preset"]["happy"]["node"].is_number());
+    for node in document["nodes"].as_array().expect("nodes") {
+        assert!(node.get("rotation").is_none() && node.get("scale").is_none());
+    }
+    // A chain of whole bones turns as in the clip: its world rotation is that of the clip from the T-pose on.
+    let (scene, _) = parse(&bytes).expect("a GLB");
+    let again = scene.clip;
+    let hand = at("LeftHand");
+    let own = again.skeleton().find("leftHand").expect("a hand");
+    for frame in 0..10 {
+        let want = clip.model_pose(frame).rotation(hand) * rest.rotation(hand).inverse();
+        let got = again.model_pose(frame).rotation(own);
+        assert!(want.angle_between(got) < 1e-3, "{frame}");
+    }
+}

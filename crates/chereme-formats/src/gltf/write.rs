@@ -44,10 +44,10 @@ const SHORTEST: f64 = 1e-4;
 
 /// The parts of a document under construction.
 #[derive(Default)]
-struct Parts {
-    bytes: Vec<u8>,
-    views: Vec<Value>,
-    accessors: Vec<Value>,
+pub(super) struct Parts {
+    pub(super) bytes: Vec<u8>,
+    pub(super) views: Vec<Value>,
+    pub(super) accessors: Vec<Value>,
 }
 
 impl Parts {
@@ -73,7 +73,13 @@ impl Parts {
         self.accessors.len() - 1
     }
 
-    fn floats(&mut self, values: &[f32], shape: &str, width: usize, target: Option<u32>) -> usize {
+    pub(super) fn floats(
+        &mut self,
+        values: &[f32],
+        shape: &str,
+        width: usize,
+        target: Option<u32>,
+    ) -> usize {
         let bytes: Vec<u8> = values
             .iter()
             .flat_map(|value| value.to_le_bytes())
@@ -83,7 +89,7 @@ impl Parts {
     }
 
     /// Writes the least and the greatest of each column into an accessor.
-    fn bounds(&mut self, accessor: usize, values: &[f32], width: usize) {
+    pub(super) fn bounds(&mut self, accessor: usize, values: &[f32], width: usize) {
         let fold = |start: f32, pick: fn(f32, f32) -> f32| -> Vec<f32> {
             let column = |at: usize| {
                 values
@@ -149,7 +155,7 @@ pub fn write(clip: &Clip, about: &About) -> Vec<u8> {
 }
 
 /// Packs JSON and numbers into the chunks of a GLB.
-fn container(document: &Value, mut numbers: Vec<u8>) -> Vec<u8> {
+pub(super) fn container(document: &Value, mut numbers: Vec<u8>) -> Vec<u8> {
     let mut text = document.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
     numbers.resize(numbers.len().next_multiple_of(4), 0);
@@ -168,7 +174,7 @@ fn container(document: &Value, mut numbers: Vec<u8>) -> Vec<u8> {
 }
 
 /// Replaces all characters except letters, digits and underscores, as some readers change them.
-fn plain(name: &str) -> String {
+pub(super) fn plain(name: &str) -> String {
     let change = |letter: char| {
         if letter.is_alphanumeric() {
             letter
@@ -207,12 +213,12 @@ fn nodes(skeleton: &Skeleton) -> Vec<Value> {
     nodes
 }
 
-fn vector(at: DVec3) -> [f32; 3] {
+pub(super) fn vector(at: DVec3) -> [f32; 3] {
     at.as_vec3().to_array()
 }
 
 /// Returns a rotation as glTF writes it: unit length in 32 bits, x y z w.
-fn turn(rotation: DQuat) -> [f32; 4] {
+pub(super) fn turn(rotation: DQuat) -> [f32; 4] {
     rotation.normalize().as_quat().normalize().to_array()
 }
 

@@ -1,0 +1,309 @@
+//! A clip as VRMA: movement of a humanoid for avatars (VRMC_vrm_animation 1.0).
+//!
+//! Each bone stands for itself: the file's rest pose is the T-pose without rotations, and a frame's rotations are
+//! those from there, so that every avatar can take them. Source: the VRM specification of the VRM Consortium.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Anatomy, Clip, Finger, ModelPose, Part, Pose, Side, Skeleton};
+use serde_json::{Map, Value, json};
+
+use super::write::{About, Parts, container, plain, turn, vector};
+
+/// How much of a face movement there is in each frame, from 0 to 1.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Expression {
+    /// The name.
+    pub name: String,
+    /// The weight in each frame.
+    pub weights: Vec<f64>,
+}
+
+/// The names of presets that VRM defines; other expressions are custom ones.
+const PRESETS: [&str; 14] = [
+    "happy",
+    "angry",
+    "sad",
+    "relaxed",
+    "surprised",
+    "aa",
+    "ih",
+    "ou",
+    "ee",
+    "oh",
+    "blink",
+    "blinkLeft",
+    "blinkRight",
+    "neutral",
+];
+
+/// Returns a clip in metres of model space as VRMA.
+///
+/// Rotations of joints that VRM does not know count for the bones below them. Only the hips move from their
+/// place. Feet of the rest pose stand at height 0.
+///
+/// # Errors
+/// A sentence if the skeleton has no hips or no arms, or the clip no frame.
+pub fn write(
+    clip: &Clip,
+    anatomy: &Anatomy,
+    expressions: &[Expression],
+    about: &About,
+) -> Result<Vec<u8>, String> {
+    let skeleton = clip.skeleton();
+    if clip.frames() == 0 {
+        return Err("the movement has no frames".to_owned());
+    }
+    let mut bones: Vec<(String, usize)> = Vec::new();
+    for (part, joint, _) in anatomy.found() {
+        let known = bones.iter().any(|(_, taken)| *taken == joint);
+        if let Some(name) = name(part).filter(|_| !known) {
+            bones.push((name, joint));
+        }
+    }
+    for needed in ["hips", "leftUpperArm", "rightUpperArm"] {
+        if !bones.iter().any(|(name, _)| name == needed) {
+            return Err(format!("the skeleton has no {needed}, which avatars need"));
+        }
+    }
+    bones.sort_by_key(|(_, joint)| *joint);
+    let rest = t_pose(skeleton, anatomy);
+    let parents: Vec<Option<usize>> = bones
+        .iter()
+        .map(|(_, joint)| {
+            let above = skeleton.ancestors(*joint);
+            let mut above = above.filter(|it| it != joint);
+            above.find_map(|it| bones.iter().position(|(_, bone)| *bone == it))
+        })
+        .collect();
+    // The hips come first: other roots hang below them.
+    let hips = bones
+        .iter()
+        .position(|(name, _)| name == "hips")
+        .unwrap_or(0);
+    let parent = |at: usize| parents[at].or((at != hips).then_some(hips));
+    let lowest = bones.iter().map(|(_, joint)| rest.position(*joint).y);
+    let lift = -lowest.fold(f64::INFINITY, f64::min);
+    let place = |at: usize| rest.position(bones[at].1) + DVec3::Y * lift;
+    let mut nodes: Vec<Value> = Vec::new();
+    for (at, (name, joint)) in bones.iter().enumerate() {
+        let from = parent(at).map_or(DVec3::ZERO, place);
+        let children: Vec<usize> = (0..bones.len())
+            .filter(|it| parent(*it) == Some(at))
+            .collect();
+        let mut node = json!({"name": name, "translation": vector(place(at) - from),
+            "extras": {"name": skeleton.joint(*joint).name}});
+        if !children.is_empty() {
+            node["children"] = json!(children);
+        }
+        nodes.push(node);
+    }
+    let mut parts = Parts::default();
+    let rate = clip.rate();
+    let times: Vec<f32> = (0..clip.frames())
+        .map(|frame| (frame as f64 * rate.frame_time()) as f32)
+        .collect();
+    let input = parts.floats(&times, "SCALAR", 1, None);
+    parts.bounds(input, &times, 1);
+    let (mut samplers, mut channels) = (Vec::new(), Vec::new());
+    let mut add = |node: usize, path: &str, output: usize| {
+        channels.push(json!({"sampler": samplers.len(), "target": {"node": node, "path": path}}));
+        samplers.push(json!({"input": input, "output": output, "interpolation": "LINEAR"}));
+    };
+    let poses: Vec<ModelPose> = (0..clip.frames()).map(|it| clip.model_pose(it)).collect();
+    for (at, (_, joint)) in bones.iter().enumerate() {
+        let from_rest = |pose: &ModelPose, at: usize| {
+            let joint = bones[at].1;
+            pose.rotation(joint) * rest.rotation(joint).inverse()
+        };
+        let mut before = DQuat::IDENTITY;
+        let mut turns = Vec::with_capacity(4 * poses.len());
+        for pose in &poses {
+            let above = parent(at).map_or(DQuat::IDENTITY, |parent| from_rest(pose, parent));
+            let own = above.inverse() * from_rest(pose, at);
+            let near = if before.dot(own) < 0.0 { -own } else { own };
+            turns.extend(turn(near));
+            before = near;
+        }
+        let output = parts.floats(&turns, "VEC4", 4, None);
+        add(at, "rotation", output);
+        if at == hips {
+            let places = poses.iter().flat_map(|pose| vector(pose.position(*joint)));
+            let places: Vec<f32> = places.collect();
+            let output = parts.floats(&places, "VEC3", 3, None);
+            add(at, "translation", output);
+        }
+    }
+    let (mut presets, mut customs) = (Map::new(), Map::new());
+    let mut roots = vec![hips];
+    for expression in expressions
+        .iter()
+        .filter(|it| it.weights.len() == poses.len())
+    {
+        let node = nodes.len();
+        let name = plain(&expression.name);
+        nodes.push(json!({"name": format!("expression_{name}")}));
+        roots.push(node);
+        let weights = expression.weights.iter();
+        let weights: Vec<f32> = weights
+            .flat_map(|weight| [weight.clamp(0.0, 1.0) as f32, 0.0, 0.0])
+            .collect();
+        let output = parts.floats(&weights, "VEC3", 3, None);
+        add(node, "translation", output);
+        let preset = PRESETS.contains(&name.as_str());
+        let all = if preset { &mut presets } else { &mut customs };
+        all.insert(name, json!({"node": node}));
+    }
+    let human: Map<String, Value> = bones
+        .iter()
+        .enumerate()
+        .map(|(at, (name, _))| (name.clone(), json!({"node": at})))
+        .collect();
+    let mut extension = json!({"specVersion": "1.0", "humanoid": {"humanBones": human}});
+    if !presets.is_empty() || !customs.is_empty() {
+        extension["expressions"] = json!({"preset": presets, "custom": customs});
+    }
+    let mut document = json!({
+        "asset": {"version": "2.0", "generator": format!("Chereme {}", env!("CARGO_PKG_VERSION"))},
+        "extensionsUsed": ["VRMC_vrm_animation"],
+        "extensions": {"VRMC_vrm_animation": extension},
+        "scene": 0,
+        "scenes": [{"name": about.name, "nodes": roots}],
+        "nodes": nodes,
+        "animations": [{
+            "name": about.name,
+            "channels": channels,
+            "samplers": samplers,
+            "extras": {"annotations": about.notes, "frames_per_second": rate.per_second()},
+        }],
+        "buffers": [{"byteLength": parts.bytes.len()}],
+        "bufferViews": parts.views,
+        "accessors": parts.accessors,
+    });
+    if let Some(licence) = &about.licence {
+        document["asset"]["copyright"] = licence.as_str().into();
+    }
+    Ok(container(&document, parts.bytes))
+}
+
+/// Returns the name of VRM 1.0 for a part.
+fn name(part: Part) -> Option<String> {
+    let sided = |side: Side, name: &str| match side {
+        Side::Left => format!("left{name}"),
+        Side::Right => format!("right{name}"),
+    };
+    Some(match part {
+        Part::Hips => "hips".to_owned(),
+        Part::Spine => "spine".to_owned(),
+        Part::Chest => "chest".to_owned(),
+        Part::Neck => "neck".to_owned(),
+        Part::Head => "head".to_owned(),
+        Part::Clavicle(side) => sided(side, "Shoulder"),
+        Part::UpperArm(side) => sided(side, "UpperArm"),
+        Part::Forearm(side) => sided(side, "LowerArm"),
+        Part::Hand(side) => sided(side, "Hand"),
+        Part::Thigh(side) => sided(side, "UpperLeg"),
+        Part::Shin(side) => sided(side, "LowerLeg"),
+        Part::Foot(side) => sided(side, "Foot"),
+        Part::Toes(side) => sided(side, "Toes"),
+        Part::Thumb(side, at) => {
+            let end = ["Metacarpal", "Proximal", "Distal"].get(usize::from(at))?;
+            sided(side, &format!("Thumb{end}"))
+        }
+        Part::Finger(side, finger, at) => {
+            let end =
+                ["Proximal", "Intermediate", "Distal"].get(usize::from(at).checked_sub(1)?)?;
+            let finger = match finger {
+                Finger::Index => "Index",
+                Finger::Middle => "Middle",
+                Finger::Ring => "Ring",
+                Finger::Little => "Little",
+            };
+            sided(side, &format!("{finger}{end}"))
+        }
+        Part::Jaw | Part::Eye(_) => return None,
+    })
+}
+
+/// Returns the T-pose of a skeleton: upright, facing +Z, arms along X with palms down, thumbs between X and +Z.
+#[must_use]
+pub fn t_pose(skeleton: &Skeleton, anatomy: &Anatomy) -> ModelPose {
+    let mut pose: Pose = skeleton.rest_pose();
+    let mut model = ModelPose::of(skeleton, &pose);
+    let joint = |part: Part| anatomy.joint(part);
+    let mut aims: Vec<(usize, usize, DVec3)> = Vec::new();
+    let mut aim = |from: Option<usize>, to: Option<usize>, way: DVec3| {
+        if let (Some(from), Some(to)) = (from, to) {
+            aims.push((from, to, way));
+        }
+    };
+    for side in [Side::Left, Side::Right] {
+        let out = if side == Side::Left {
+            DVec3::X
+        } else {
+            -DVec3::X
+        };
+        aim(joint(Part::UpperArm(side)), joint(Part::Forearm(side)), out);
+        aim(joint(Part::Forearm(side)), joint(Part::Hand(side)), out);
+        let middle = joint(Part::Finger(side, Finger::Middle, 1));
+        aim(joint(Part::Hand(side)), middle, out);
+        for finger in Finger::ALL {
+            for at in 1..3 {
+                let next = joint(Part::Finger(side, finger, at + 1));
+                aim(joint(Part::Finger(side, finger, at)), next, out);
+            }
+        }
+        let thumb = (out + DVec3::Z).normalize();
+        for at in 0..2 {
+            let next = joint(Part::Thumb(side, at + 1));
+            aim(joint(Part::Thumb(side, at)), next, thumb);
+        }
+        aim(joint(Part::Thigh(side)), joint(Part::Shin(side)), -DVec3::Y);
+        aim(joint(Part::Shin(side)), joint(Part::Foot(side)), -DVec3::Y);
+    }
+    let hands: Vec<(usize, usize, usize, DVec3)> = [Side::Left, Side::Right]
+        .into_iter()
+        .filter_map(|side| {
+            let index = joint(Part::Finger(side, Finger::Index, 1))?;
+            let little = joint(Part::Finger(side, Finger::Little, 1))?;
+            let out = if side == Side::Left {
+                DVec3::X
+            } else {
+                -DVec3::X
+            };
+            Some((joint(Part::Hand(side))?, index, little, out))
+        })
+        .collect();
+    let turn_by = |pose: &mut Pose, model: &mut ModelPose, from: usize, by: DQuat| {
+        let above = skeleton
+            .parent(from)
+            .map_or(DQuat::IDENTITY, |it| model.rotation(it));
+        pose.rotations[from] = (above.inverse() * by * model.rotation(from)).normalize();
+        model.set(skeleton, pose);
+    };
+    for (from, to, way) in aims {
+        let now = (model.position(to) - model.position(from)).normalize_or_zero();
+        if now != DVec3::ZERO {
+            turn_by(
+                &mut pose,
+                &mut model,
+                from,
+                DQuat::from_rotation_arc(now, way),
+            );
+        }
+        // A palm faces down if the knuckle of the index is in front.
+        if let Some((hand, index, little, out)) = hands.iter().find(|it| it.0 == from) {
+            let across = model.position(*index) - model.position(*little);
+            let across = (across - *out * across.dot(*out)).normalize_or_zero();
+            if across != DVec3::ZERO {
+                let angle = across.cross(DVec3::Z).dot(*out).atan2(across.dot(DVec3::Z));
+                turn_by(
+                    &mut pose,
+                    &mut model,
+                    *hand,
+                    DQuat::from_axis_angle(*out, angle),
+                );
+            }
+        }
+    }
+    model
+}
