@@ -14,6 +14,7 @@ use crate::db::{OperationRow, history_log};
 use crate::error::Result;
 use crate::inventories::{self, StoredInventory};
 use crate::kept::{self, KeptSearch};
+use crate::merge::CorpusConflict;
 
 /// A corpus at a glance, at one moment.
 #[derive(Debug, Clone, Default)]
@@ -34,6 +35,8 @@ pub struct Overview {
     pub searches: Vec<KeptSearch>,
     /// The newest operations, the newest first.
     pub operations: Vec<OperationRow>,
+    /// The conflicts of merges that wait for a decision.
+    pub conflicts: Vec<CorpusConflict>,
 }
 
 /// A recording at a glance.
@@ -185,6 +188,7 @@ impl Corpus {
                 .collect::<Result<_>>()?,
             searches: kept::searches(&reading)?,
             operations: history_log(&reading, operations)?,
+            conflicts: crate::merge::waiting(&reading)?,
         })
     }
 

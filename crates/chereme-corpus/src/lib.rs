@@ -9,6 +9,7 @@ mod annotate;
 mod around;
 mod check;
 pub(crate) mod codec;
+mod compare;
 mod contents;
 mod cue;
 mod curves;
@@ -27,6 +28,7 @@ mod kinematics;
 mod list;
 mod log;
 mod media;
+mod merge;
 mod movement;
 mod notation;
 mod pairs;
@@ -78,7 +80,11 @@ pub use chereme_analysis::phases::NoPath;
 pub use chereme_analysis::{Score, ScoreOptions};
 pub use chereme_compose::Curve;
 pub use chereme_figure::SPEEDS;
+pub use chereme_formats::compare::{
+    Conflict as FileConflict, Difference, Moved, Revalued, Said, TierChange as TierDifference,
+};
 pub use chereme_sign::query::{facet_condition, narrow, wants, without};
+pub use compare::{CompareSide, FileMerge, merge_files};
 pub use contents::{
     AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents, ValueState,
 };
@@ -113,6 +119,7 @@ pub use kinematics::Curves;
 pub use list::{ListFilter, ListKind, Listing, cell_text, components_text};
 pub use log::{ChangeKind, Changed, FieldChange, OperationDetail};
 pub use media::{MediaChange, MediaPlace, find_media};
+pub use merge::{Candidate, CorpusConflict, Decision, MergeReport};
 pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};
 pub use pairs::{Dense, Empty, FIELD_SETS, Pair, PairOptions, Pairs};

@@ -13,13 +13,15 @@ use crate::streams;
 /// Write out movement, annotations, tables, or the whole enriched database
 ///
 /// The extension of --to says the format: .bvh (movement of a recording or token), .glb (the same as glTF, for
-/// Blender and the web, with the annotations), .eaf or .TextGrid (a recording's tiers, for ELAN or Praat), .srt or
+/// Blender and the web, with the annotations), .vrma (movement for avatars), .c3d, .trc or .markers.csv (markers), .eaf
+/// or .TextGrid (a recording's tiers, for ELAN or Praat), .elan.txt (the same as ELAN's tab-delimited text), .srt or
 /// .vtt (its translations or glosses as subtitles), .csv or .tsv (tokens with all components), .curves.csv (how much there is of each
 /// non-manual, frame by frame), .sigml (notated signs as gestural SiGML),
 /// .hsigml (the same as HamNoSys's symbols), .hns or .txt (as HamNoSys text, a sign a line). A name
 /// without an extension is a folder: with --format it gets a file of that format for each recording
 /// or token; without it, for all, the database, a data dictionary with example queries, a table a file, the
 /// recordings, the inventories, checksums and provenance. With --to - the file goes to standard output.
+/// An EAF file that nobody changed comes back byte for byte, and a change changes its own lines only.
 /// The same corpus always gives the same bytes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\

@@ -7,6 +7,7 @@ mod choose;
 mod completions;
 mod cue;
 mod demo;
+mod diff;
 mod export;
 mod face;
 mod history;
@@ -14,6 +15,7 @@ mod import;
 mod inventory;
 mod keys;
 mod list;
+mod merge;
 mod milestones;
 mod new;
 mod onsets;
@@ -65,6 +67,9 @@ pub(crate) enum Command {
     Cue(cue::Args),
     Keys(keys::Args),
     Check(check::Args),
+    Diff(diff::Args),
+    Merge(merge::MergeArgs),
+    Conflicts(merge::ConflictsArgs),
     Export(export::Args),
     Undo(history::UndoArgs),
     Redo(history::RedoArgs),
@@ -86,6 +91,9 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Export(args) => export::run(cli, args, output).map_err(offer_force),
         Command::New(args) => new::run(cli, args, output),
         Command::Import(args) => return import::run(cli, args, output),
+        Command::Diff(args) => return diff::run(cli, args, output),
+        Command::Merge(args) => merge::merge(cli, args, output),
+        Command::Conflicts(args) => merge::conflicts(cli, args, output),
         Command::Check(args) => return check::run(cli, args, output).map_err(past_checking),
         Command::Score(args) => score::run(cli, args, output).map_err(offer_force),
         Command::Face(args) => face::run(cli, args, output),

@@ -5,7 +5,7 @@
 //! `[table, kind, before, after, uids of the rows referred to]`. Undo applies the inverse as a new
 //! operation, redo the inverse of that.
 
-mod tracked;
+pub(super) mod tracked;
 
 use std::collections::BTreeMap;
 

@@ -13,6 +13,7 @@ pub(crate) mod info;
 pub(crate) mod inventories;
 pub(crate) mod kept;
 pub(crate) mod list;
+pub(crate) mod merge;
 pub(crate) mod motion;
 pub(crate) mod notations;
 mod open;

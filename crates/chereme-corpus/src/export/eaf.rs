@@ -1,7 +1,7 @@
 //! A recording's tiers as a file of ELAN.
 //!
-//! What came from such files and was not changed goes back as it was: ids, milliseconds,
-//! vocabularies, and what the file said beside the tiers.
+//! Unchanged parts of such a file go back byte for byte; a changed annotation changes its
+//! own lines in the layout of the file.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -11,7 +11,7 @@ use std::path::Path;
 use chereme_formats::eaf::convert::{
     Annotation, Entry, EntryValue, Media, Place, Tier, Timing, Transcript, Vocabulary,
 };
-use chereme_formats::eaf::{from_raw, raw, to_raw};
+use chereme_formats::eaf::{from_raw, patched, raw, to_raw};
 use chereme_formats::roles::{self, Hands, Mapping};
 use chereme_motion::{Instant, Span};
 use chereme_sign::Stereotype;
@@ -35,7 +35,7 @@ pub(super) fn write_file(
     write(connection, recording, &mut file)
 }
 
-/// Writes the tiers of a recording.
+/// Writes the tiers of a recording: the bytes of the file that they came from, changed only where they were.
 pub(super) fn write(
     connection: &Connection,
     recording: &RecordingRow,
@@ -45,12 +45,17 @@ pub(super) fn write(
     let documents = documents(&files, recording)?;
     let template = documents.first().cloned().unwrap_or_default();
     let transcript = transcript(connection, recording, &documents)?;
-    raw::write(&to_raw(&transcript, &template), out)
-        .map_err(|error| Error::wrong(format!("the file cannot be written: {error}")))
+    let fault = |error| Error::wrong(format!("the file cannot be written: {error}"));
+    if let Some((_, bytes)) = files.first()
+        && let Ok(Some(patched)) = patched(bytes, &transcript)
+    {
+        return out.write_all(&patched).map_err(fault);
+    }
+    raw::write(&to_raw(&transcript, &template), out).map_err(fault)
 }
 
 /// Returns the tiers of a recording for files of other programs.
-pub(super) fn tiers_of(connection: &Connection, recording: &RecordingRow) -> Result<Transcript> {
+pub(crate) fn tiers_of(connection: &Connection, recording: &RecordingRow) -> Result<Transcript> {
     let files = files(connection, recording)?;
     let documents = documents(&files, recording)?;
     transcript(connection, recording, &documents)

@@ -1,18 +1,19 @@
-//! Movement as glTF, tiers as TextGrid and subtitles.
+//! Movement as glTF and VRMA, markers as C3D and TRC, tiers as TextGrid, subtitles and a table of ELAN.
 
 use std::io::Write;
 
 use chereme_formats::eaf::Transcript;
-use chereme_formats::{gltf, subtitles, textgrid};
+use chereme_formats::{c3d, gltf, subtitles, textgrid, trc};
 use chereme_motion::{Instant, Span};
 use chereme_sign::TierRole;
 use rusqlite::Connection;
 
 use crate::address::Stretch;
 use crate::db::recordings::RecordingRow;
-use crate::db::tiers;
+use crate::db::{tiers, tracks};
 use crate::error::{Error, Result};
 use crate::movement::{ChannelGroup, Track};
+use crate::track::{self, TrackKind};
 
 /// Writes the movement of a stretch as GLB, in metres, with the annotations that lie in it.
 ///
@@ -37,6 +38,177 @@ pub(super) fn glb(connection: &Connection, stretch: &Stretch, out: &mut dyn Writ
         notes: notes(connection, stretch.recording.id, Span::between(first, last))?,
     };
     put(out, &gltf::write(&clip, &about))
+}
+
+/// Writes the movement of a stretch as VRMA, for avatars; non-manuals are expressions.
+///
+/// # Errors
+/// If the recording has no movement of a humanoid, or writing fails.
+pub(super) fn vrma(connection: &Connection, stretch: &Stretch, out: &mut dyn Write) -> Result<()> {
+    let track = Track::of(connection, stretch.recording.id)?;
+    let frames = match stretch.token {
+        Some(_) => track.frames_in(stretch.span),
+        None => 0..track.frames(),
+    };
+    let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
+    let anatomy = track.anatomy(connection)?;
+    let (first, last) = (
+        clip.rate().instant(frames.start),
+        clip.rate().instant(frames.end),
+    );
+    let curves = crate::curves::of_track(connection, &track, frames)?;
+    let expressions: Vec<gltf::vrma::Expression> = curves
+        .into_iter()
+        .map(|curve| gltf::vrma::Expression {
+            name: curve.name,
+            weights: curve.values,
+        })
+        .collect();
+    let about = gltf::About {
+        name: stretch.recording.name.clone(),
+        licence: stretch.recording.licence.clone(),
+        notes: notes(connection, stretch.recording.id, Span::between(first, last))?,
+    };
+    let bytes = gltf::vrma::write(&clip, &anatomy, &expressions, &about).map_err(|error| {
+        Error::wrong(error).advise("say which joint is what with `chereme track`, or write .glb")
+    })?;
+    put(out, &bytes)
+}
+
+/// The formats of marker tracks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Points {
+    C3d,
+    Trc,
+}
+
+/// Writes the markers of a stretch as C3D or TRC, on the recording's clock.
+///
+/// # Errors
+/// If the recording has no markers, or they are none of a room, or writing fails.
+pub(super) fn points(
+    connection: &Connection,
+    stretch: &Stretch,
+    form: Points,
+    out: &mut dyn Write,
+    notes: &mut Vec<String>,
+) -> Result<()> {
+    let row = only(connection, stretch, TrackKind::Markers, notes)?;
+    let span = stretch.token.as_ref().map(|_| stretch.span);
+    let markers = track::read::markers(connection, &row, span)?;
+    let offset = Instant::from_micros(row.offset_us.max(0));
+    let fault = |error: String| {
+        Error::wrong(error).advise("export the folder of everything for its exact numbers as CSV")
+    };
+    let bytes = match form {
+        Points::C3d => c3d::write(&markers, offset).map_err(fault)?,
+        Points::Trc => trc::write(&row.name, &markers, offset)
+            .map_err(fault)?
+            .into_bytes(),
+    };
+    put(out, &bytes)
+}
+
+/// Writes the curves or markers of a stretch as a table, a frame a row.
+///
+/// # Errors
+/// If the recording has neither, or writing fails.
+pub(super) fn numbers(
+    connection: &Connection,
+    stretch: &Stretch,
+    kind: TrackKind,
+    delimiter: u8,
+    out: &mut dyn Write,
+    notes: &mut Vec<String>,
+) -> Result<()> {
+    let row = only(connection, stretch, kind, notes)?;
+    let span = stretch.token.as_ref().map(|_| stretch.span);
+    let track = track::read::track(connection, &row, span)?;
+    track::table::write(&track, delimiter, out)
+}
+
+/// Reports whether a recording has a track of that kind.
+pub(super) fn has(connection: &Connection, recording: i64, kind: TrackKind) -> Result<bool> {
+    Ok(tracks::tracks(connection, recording)?
+        .iter()
+        .any(|row| row.kind == kind))
+}
+
+/// Returns the first track of a kind; a note names the others.
+fn only(
+    connection: &Connection,
+    stretch: &Stretch,
+    kind: TrackKind,
+    notes: &mut Vec<String>,
+) -> Result<tracks::TrackRow> {
+    let mut all = tracks::tracks(connection, stretch.recording.id)?;
+    all.retain(|row| row.kind == kind);
+    let names: Vec<String> = all
+        .iter()
+        .skip(1)
+        .map(|row| format!("{:?}", row.name))
+        .collect();
+    let first = all.into_iter().next().ok_or_else(|| {
+        let name = &stretch.recording.name;
+        Error::wrong(format!(
+            "the recording {name:?} has no track of {}",
+            kind.name()
+        ))
+        .advise("`chereme track CORPUS RECORDING` lists its tracks")
+    })?;
+    if !names.is_empty() {
+        notes.push(format!(
+            "the file holds the track {:?}; not written: {}",
+            first.name,
+            names.join(", ")
+        ));
+    }
+    Ok(first)
+}
+
+/// Writes the tiers of a recording as ELAN's tab-delimited text: tier, participant, begin, end and duration in
+/// two forms each, value.
+///
+/// # Errors
+/// If the rows or files of the recording are damaged, or writing fails.
+pub(super) fn elan_table(
+    connection: &Connection,
+    recording: &RecordingRow,
+    out: &mut dyn Write,
+) -> Result<()> {
+    let transcript = super::eaf::tiers_of(connection, recording)?;
+    put(out, tab_table(&transcript).as_bytes())
+}
+
+fn tab_table(transcript: &Transcript) -> String {
+    let clock = |ms: i64| {
+        let (seconds, rest) = (ms / 1000, ms % 1000);
+        let (minutes, seconds) = (seconds / 60, seconds % 60);
+        format!(
+            "{:02}:{:02}:{seconds:02}.{rest:03}",
+            minutes / 60,
+            minutes % 60
+        )
+    };
+    let both = |ms: i64| format!("{}\t{}.{:03}", clock(ms), ms / 1000, ms % 1000);
+    let cell = |text: &str| text.replace(['\t', '\r', '\n'], " ");
+    let mut rows = String::new();
+    for tier in &transcript.tiers {
+        let participant = cell(tier.participant.as_deref().unwrap_or_default());
+        for it in &tier.annotations {
+            let span = [it.span.start().millis(), it.span.end().millis()];
+            let [start, end] = it.millis.unwrap_or(span);
+            rows.push_str(&format!(
+                "{}\t{participant}\t{}\t{}\t{}\t{}\n",
+                cell(&tier.name),
+                both(start),
+                both(end),
+                both(end - start),
+                cell(&it.value)
+            ));
+        }
+    }
+    rows
 }
 
 /// Returns the annotations that lie in a span, cut to it, in seconds from its start.

@@ -3,10 +3,12 @@
 mod bvh;
 mod csv;
 mod dictionary;
-mod eaf;
+pub(crate) mod eaf;
 mod enriched;
 mod foreign;
 mod notation;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod several;
 #[cfg(test)]
 mod tests;
@@ -29,6 +31,7 @@ use crate::db::search as rows;
 use crate::db::{list, recordings, signs};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
+use crate::track::TrackKind;
 use crate::values;
 use crate::words::counted;
 
@@ -87,8 +90,13 @@ impl Corpus {
     /// | `.eaf` | the tiers of one recording, for ELAN |
     /// | `.bvh` | the movement of one recording or token |
     /// | `.glb` | the same as glTF with a skin, bones to look at and the annotations, for Blender and the web |
+    /// | `.vrma` | the movement of a humanoid for avatars, its non-manuals as expressions |
+    /// | `.c3d`, `.trc` | the markers of one recording or token |
+    /// | `.markers.csv`, `.markers.tsv` | the same as a table of exact numbers, a frame a row |
     /// | `.TextGrid` | the tiers of one recording, for Praat |
+    /// | `.elan.txt` | the same as ELAN exports tab-delimited text |
     /// | `.srt`, `.vtt` | the glosses and translations of one recording as subtitles |
+    /// | `.parquet`, `.annotations.parquet`, `.frames.parquet` | tokens, annotations, frames of movement as long tables |
     /// | `.sigml` | notated tokens as gestural SiGML |
     /// | `.hsigml` | notated tokens as H-SiGML, HamNoSys's symbols as elements |
     /// | `.hns`, `.txt` | notated tokens as HamNoSys text, a sign a line: the gloss, a tab, the text |
@@ -130,11 +138,11 @@ impl Corpus {
             }
             (Some(extension), _) => {
                 let reading = rows::begin_reading(connection)?;
-                let curves = is_of_curves(to);
+                let inner = inner_extension(to);
                 let format = match form {
                     Some((format, _)) => format,
                     None => Format::of(extension)
-                        .map(|format| format.of_curves(curves))
+                        .map(|format| format.within(&inner))
                         .ok_or_else(|| unknown(to, extension))?,
                 };
                 let file = whole(to, options.force, &mut |out| {
@@ -170,11 +178,8 @@ impl Corpus {
 /// Returns the format that people call by its extension, and the extension.
 fn named(format: &str) -> Result<(Format, String)> {
     let extension = format.trim().trim_start_matches('.').to_lowercase();
-    let (curves, last) = match extension.strip_prefix("curves.") {
-        Some(last) => (true, last),
-        None => (false, extension.as_str()),
-    };
-    let found = Format::of(last).map(|format| format.of_curves(curves));
+    let (inner, last) = extension.split_once('.').unwrap_or(("", &extension));
+    let found = Format::of(last).map(|format| format.within(inner));
     match found {
         Some(format) => Ok((format, extension)),
         None => Err(unknown(Path::new(format), &extension)),
@@ -216,9 +221,24 @@ enum Format {
     Bvh,
     Json,
     Glb,
+    Parquet(Long),
+    Vrma,
+    /// Markers as a file of their own.
+    Points(foreign::Points),
+    /// Markers as a table with this between its cells.
+    Markers(u8),
     TextGrid,
+    ElanTable,
     Subtitles(subtitles::Form),
     Notation(notation::Form),
+}
+
+/// The long tables of Parquet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Long {
+    Tokens,
+    Annotations,
+    Frames,
 }
 
 impl Format {
@@ -230,6 +250,10 @@ impl Format {
             "bvh" => Some(Self::Bvh),
             "json" => Some(Self::Json),
             "glb" => Some(Self::Glb),
+            "parquet" => Some(Self::Parquet(Long::Tokens)),
+            "vrma" => Some(Self::Vrma),
+            "c3d" => Some(Self::Points(foreign::Points::C3d)),
+            "trc" => Some(Self::Points(foreign::Points::Trc)),
             "textgrid" => Some(Self::TextGrid),
             "srt" => Some(Self::Subtitles(subtitles::Form::Srt)),
             "vtt" => Some(Self::Subtitles(subtitles::Form::Vtt)),
@@ -240,20 +264,34 @@ impl Format {
         }
     }
 
-    /// Returns the format of curves instead of that of tokens.
-    fn of_curves(self, curves: bool) -> Self {
-        match self {
-            Self::Table(delimiter) if curves => Self::Curves(delimiter),
-            other => other,
+    /// Returns the format that an extension before the last one makes of it, such as that of `x.curves.csv`.
+    fn within(self, inner: &str) -> Self {
+        match (self, inner) {
+            (Self::Table(delimiter), "curves") => Self::Curves(delimiter),
+            (Self::Table(delimiter), "markers") => Self::Markers(delimiter),
+            (Self::Notation(notation::Form::Text), "elan") => Self::ElanTable,
+            (Self::Parquet(_), "annotations") => Self::Parquet(Long::Annotations),
+            (Self::Parquet(_), "frames") => Self::Parquet(Long::Frames),
+            (other, _) => other,
         }
+    }
+
+    /// Reports whether it holds tiers, in which a token stands for its recording.
+    fn is_of_tiers(self) -> bool {
+        matches!(
+            self,
+            Self::Eaf | Self::TextGrid | Self::ElanTable | Self::Subtitles(_)
+        )
     }
 }
 
-/// Tells whether a file's name ends in `.curves` before its extension.
-fn is_of_curves(to: &Path) -> bool {
+/// Returns the extension before the last one, in lower case: `curves` of `x.curves.csv`.
+fn inner_extension(to: &Path) -> String {
     let stem = to.file_stem().map(Path::new);
     let inner = stem.and_then(Path::extension);
-    inner.is_some_and(|inner| inner.eq_ignore_ascii_case("curves"))
+    inner
+        .map(|it| it.to_string_lossy().to_lowercase())
+        .unwrap_or_default()
 }
 
 fn write_file(
@@ -280,12 +318,24 @@ fn write_file(
         (Format::Table(delimiter), ExportWhat::Address(Address::Tier(tier))) => {
             csv::annotations(connection, *tier, delimiter, out)
         }
+        (Format::Table(delimiter), ExportWhat::Address(Address::Recording(_)))
+            if let Ok(stretch) = stretch(connection, what)
+                && tokens(connection, what)?.is_empty()
+                && foreign::has(connection, stretch.recording.id, TrackKind::Curves)? =>
+        {
+            notes.push("the recording has no tokens: the table holds its curves".to_owned());
+            foreign::numbers(connection, &stretch, TrackKind::Curves, delimiter, out, notes)
+        }
         (Format::Table(delimiter), _) => {
             let tokens = tokens(connection, what)?;
             csv::tokens(connection, &tokens, delimiter, out, notes, progress)
         }
         (Format::Curves(delimiter), _) => {
             let stretch = stretch(connection, what)?;
+            let moves = recordings::body_track(connection, stretch.recording.id)?.is_some();
+            if !moves && foreign::has(connection, stretch.recording.id, TrackKind::Curves)? {
+                return foreign::numbers(connection, &stretch, TrackKind::Curves, delimiter, out, notes);
+            }
             curves::write_table(connection, &stretch, delimiter, out)
         }
         (Format::Eaf, _) => {
@@ -304,6 +354,23 @@ fn write_file(
             let stretch = stretch(connection, what)?;
             foreign::glb(connection, &stretch, out)
         }
+        (Format::Parquet(long), _) => long_table(connection, what, long, out, notes, progress),
+        (Format::Vrma, _) => {
+            let stretch = stretch(connection, what)?;
+            foreign::vrma(connection, &stretch, out)
+        }
+        (Format::Points(form), _) => {
+            let stretch = stretch(connection, what)?;
+            foreign::points(connection, &stretch, form, out, notes)
+        }
+        (Format::Markers(delimiter), _) => {
+            let stretch = stretch(connection, what)?;
+            foreign::numbers(connection, &stretch, TrackKind::Markers, delimiter, out, notes)
+        }
+        (Format::ElanTable, _) => {
+            let stretch = stretch(connection, what)?;
+            foreign::elan_table(connection, &stretch.recording, out)
+        }
         (Format::TextGrid, _) => {
             let stretch = stretch(connection, what)?;
             foreign::text_grid(connection, &stretch.recording, out, notes)
@@ -319,9 +386,55 @@ fn write_file(
     }
 }
 
+/// Writes a long table as Parquet.
+#[cfg(feature = "parquet")]
+fn long_table(
+    connection: &Connection,
+    what: &ExportWhat,
+    long: Long,
+    out: &mut dyn Write,
+    notes: &mut Vec<String>,
+    progress: &mut Progress<'_>,
+) -> Result<()> {
+    if long == Long::Tokens {
+        let tokens = tokens(connection, what)?;
+        let mut table = Vec::new();
+        csv::tokens(connection, &tokens, b',', &mut table, notes, progress)?;
+        return parquet::tokens(&table, out);
+    }
+    let all = match what {
+        ExportWhat::All => recordings::recordings(connection)?,
+        what => vec![stretch(connection, what)?.recording],
+    };
+    parquet::recordings(connection, &all, long, out, progress)
+}
+
+/// Refuses Parquet, which this program was built without.
+#[cfg(not(feature = "parquet"))]
+fn long_table(
+    _connection: &Connection,
+    _what: &ExportWhat,
+    long: Long,
+    _out: &mut dyn Write,
+    _notes: &mut Vec<String>,
+    _progress: &mut Progress<'_>,
+) -> Result<()> {
+    let remedy = match long {
+        Long::Tokens => "write .csv, or build it with `cargo build --features parquet`",
+        Long::Annotations => {
+            "export a tier as .csv, or build it with `cargo build --features parquet`"
+        }
+        Long::Frames => {
+            "export a folder of everything, or build it with `cargo build --features parquet`"
+        }
+    };
+    Err(Error::wrong("this program was built without Parquet").advise(remedy))
+}
+
 fn no_format(to: &Path, message: &str) -> Error {
     Error::wrong(message).at(to.display().to_string()).advise(
-        "end the name in .csv, .tsv, .curves.csv, .eaf, .bvh, .glb, .TextGrid, .srt, .vtt, .sigml, .hsigml or .hns, an \
+        "end the name in .csv, .tsv, .curves.csv, .markers.csv, .eaf, .bvh, .glb, .vrma, .c3d, .trc, .parquet, .TextGrid, \
+         .elan.txt, .srt, .vtt, .sigml, .hsigml or .hns, an \
          inventory's in .json; a name without a dot is a folder of everything, or with --format of a file for each \
          recording or token",
     )

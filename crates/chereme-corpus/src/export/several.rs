@@ -34,6 +34,20 @@ pub(super) fn write(
     fs::create_dir_all(to).map_err(|error| Error::file(to, error))?;
     let mut taken = BTreeSet::new();
     let mut report = ExportReport::default();
+    if format == Format::Glb {
+        let path = to.join("annotations_to_markers.py");
+        // It is the same whenever it is written.
+        let file = whole(&path, true, &mut |out| {
+            let text = include_bytes!("annotations_to_markers.py");
+            out.write_all(text)
+                .map_err(|error| Error::wrong(format!("the script cannot be written: {error}")))
+        })?;
+        report.files.push(file);
+        report.notes.push(
+            "annotations_to_markers.py turns the annotations into markers of Blender's timeline"
+                .to_owned(),
+        );
+    }
     for (done, (name, address)) in each.iter().enumerate() {
         let name = file_name(name, &mut taken);
         let path = to.join(format!("{name}.{extension}"));
@@ -64,7 +78,7 @@ fn each(
     let token = |id: i64| -> Result<Option<(String, Address)>> {
         let row = signs::token(connection, id)?;
         Ok(match (format, row.recording_id) {
-            (Format::Eaf | Format::TextGrid | Format::Subtitles(_), Some(id)) => {
+            (format, Some(id)) if format.is_of_tiers() => {
                 let name = row.recording.unwrap_or_default();
                 Some(recording(id, &name))
             }
@@ -78,12 +92,7 @@ fn each(
     match what {
         ExportWhat::All => {
             for row in recordings::recordings(connection)? {
-                if recordings::body_track(connection, row.id)?.is_some()
-                    || matches!(
-                        format,
-                        Format::Eaf | Format::TextGrid | Format::Subtitles(_)
-                    )
-                {
+                if recordings::body_track(connection, row.id)?.is_some() || format.is_of_tiers() {
                     all.push(recording(row.id, &row.name));
                 }
             }

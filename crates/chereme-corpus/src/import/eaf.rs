@@ -186,6 +186,12 @@ fn update(
         job.count("annotations", updated.changes.added);
         job.counts.changed("annotations", updated.changes.changed);
         job.counts.removed("annotations", updated.changes.removed);
+        if merge {
+            for (mine, theirs) in &updated.conflicts {
+                let from = job.file_name.as_str();
+                crate::merge::keep_annotation(job.connection, from, *mine, theirs.as_ref())?;
+            }
+        }
         updated.report(&sides, report);
         if merge && let Some(rule) = rules_broken(job, recording)?.difference(&broken).next() {
             return Err(Error::wrong(format!(

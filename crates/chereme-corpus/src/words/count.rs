@@ -3,11 +3,12 @@
 use super::Language;
 
 /// Nouns as plural, singular, French singular and French plural.
-const NOUNS: [(&str, &str, &str, &str); 24] = [
+const NOUNS: [(&str, &str, &str, &str); 25] = [
     ("annotations", "annotation", "annotation", "annotations"),
     ("blocks", "block", "bloc", "blocs"),
     ("changes", "change", "modification", "modifications"),
     ("columns", "column", "colonne", "colonnes"),
+    ("conflicts", "conflict", "conflit", "conflits"),
     ("curves", "curve", "courbe", "courbes"),
     ("files", "file", "fichier", "fichiers"),
     ("frames", "frame", "image", "images"),

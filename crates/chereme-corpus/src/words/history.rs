@@ -87,6 +87,8 @@ pub fn sentence(it: &OperationRow, language: Language) -> String {
         "change signer" => Some(say(DID_CHANGE_SIGNER, &[("what", &summary)])),
         "change sign" => Some(say(DID_CHANGE_SIGN, &[("what", &summary)])),
         "set citation" => Some(say(DID_CITE, &[("what", &summary)])),
+        "merge" => Some(say(super::merge::DID_MERGE, &[("what", &summary)])),
+        "decide" => Some(say(super::merge::DID_DECIDE, &[("what", &summary)])),
         "transcribe" => Some(say(DID_TRANSCRIBE, &[("what", &summary)])),
         _ => None,
     };

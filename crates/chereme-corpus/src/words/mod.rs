@@ -25,6 +25,7 @@ macro_rules! texts {
 mod count;
 pub mod deeds;
 pub mod history;
+pub mod merge;
 mod messages;
 pub mod trouble;
 
@@ -98,7 +99,7 @@ pub fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 3] = [deeds::ALL, history::ALL, trouble::ALL];
+    const TABLES: [&[(&str, Text)]; 4] = [deeds::ALL, history::ALL, merge::ALL, trouble::ALL];
 
     fn blanks(text: &str) -> Vec<&str> {
         let mut names: Vec<&str> = text

@@ -4,7 +4,7 @@
 //! into the table of its part; to add a table, name it in `TABLES` of the tests below.
 
 pub use chereme_corpus::words::Language;
-pub(crate) use chereme_corpus::words::{Text, fill, history, trouble};
+pub(crate) use chereme_corpus::words::{Text, fill, history, merge, trouble};
 
 /// Declares the texts of one part of the window.
 macro_rules! texts {

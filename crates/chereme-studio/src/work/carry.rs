@@ -70,6 +70,9 @@ pub(super) fn carry(
         Work::Check { mend } => Outcome::Checked(corpus.check(mend, progress)?),
         Work::Propose(component) => Outcome::Proposed(corpus.propose_coding(component, progress)?),
         Work::Look(thing) => Outcome::Looked(look(corpus, thing)?),
+        Work::Decide(number, decision) => corpus
+            .decide(&[number], decision)
+            .map(|_| Outcome::Changed)?,
         Work::Undo => Outcome::Undone(corpus.undo()?),
         Work::Redo => Outcome::Redone(corpus.redo()?),
         Work::Search(query, options) => {

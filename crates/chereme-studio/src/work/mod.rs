@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
-    Copied, Curves, Details, Error, ExportOptions, ExportReport, ExportWhat, ImportOptions,
+    Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat, ImportOptions,
     ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier, OperationRow, Picture,
     PictureOptions, Proposed, Recombination, RecordingChange, Scheme, SearchOptions, SignChange,
     SignerChange, Suggestions, TierChange, TierName, TrackChange, Unit,
@@ -61,6 +61,8 @@ pub(crate) enum Work {
         /// The recording of the former sign.
         recording: i64,
     },
+    /// Decides a conflict of a merge.
+    Decide(usize, Decision),
     /// Takes files in.
     Import(Vec<PathBuf>, Box<ImportOptions>),
     /// Takes the newest operation back.
@@ -272,6 +274,7 @@ impl Work {
             | Self::OrderTiers(..)
             | Self::Recombine { .. }
             | Self::RecombineAgain { .. }
+            | Self::Decide(..)
             | Self::Import(..)
             | Self::Walk { .. }
             | Self::ChangeRecording(..)

@@ -5,7 +5,7 @@ use rusqlite::Connection;
 use crate::error::Result;
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-pub(super) const TRACKED: [(&str, &[(&str, &str)]); 21] = [
+pub(in crate::db) const TRACKED: [(&str, &[(&str, &str)]); 21] = [
     ("meta", &[]),
     ("signer", &[]),
     ("skeleton", &[]),
@@ -169,14 +169,14 @@ pub(in crate::db) fn record_changes(connection: &Connection) -> Result<()> {
 }
 
 /// A column of a tracked table.
-pub(super) struct Column {
-    pub(super) name: String,
+pub(in crate::db) struct Column {
+    pub(in crate::db) name: String,
     /// Whether it holds bytes, which JSON has in hexadecimal.
-    pub(super) blob: bool,
+    pub(in crate::db) blob: bool,
 }
 
 /// Returns the columns of a table in their order.
-pub(super) fn columns(connection: &Connection, table: &str) -> Result<Vec<Column>> {
+pub(in crate::db) fn columns(connection: &Connection, table: &str) -> Result<Vec<Column>> {
     let mut statement =
         connection.prepare_cached("SELECT name, type FROM pragma_table_info(?1) ORDER BY cid")?;
     let columns = statement
@@ -191,7 +191,7 @@ pub(super) fn columns(connection: &Connection, table: &str) -> Result<Vec<Column
 }
 
 /// Returns the SQL of a row as JSON.
-pub(super) fn row_image(columns: &[Column], row: &str) -> String {
+pub(in crate::db) fn row_image(columns: &[Column], row: &str) -> String {
     let fields: Vec<String> = columns
         .iter()
         .map(|Column { name, blob }| {
@@ -213,7 +213,7 @@ pub(crate) fn refers_to(table: &str, column: &str) -> Option<&'static str> {
 }
 
 /// Returns the SQL of a column's value in the row `?1` as JSON.
-pub(super) fn from_image(column: &Column) -> String {
+pub(in crate::db) fn from_image(column: &Column) -> String {
     let name = &column.name;
     if column.blob {
         format!("unhex(json_extract(?1, '$.{name}'))")

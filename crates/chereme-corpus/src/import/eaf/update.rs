@@ -34,6 +34,8 @@ pub(super) struct Changes {
 pub(super) struct Updated {
     pub(super) changes: Changes,
     pub(super) edits: Vec<OwnEdit>,
+    /// The conflicts: the row of the corpus, and the annotation of the file.
+    pub(super) conflicts: Vec<(Option<i64>, Option<AnnotationRow>)>,
     /// The changes of the file, for people.
     told: Vec<String>,
     /// How many are kept that the file never had.
@@ -105,6 +107,7 @@ pub(super) fn annotations(
         done: Updated {
             changes: Changes::default(),
             edits: Vec::new(),
+            conflicts: Vec::new(),
             told: Vec::new(),
             kept: 0,
         },
@@ -335,6 +338,7 @@ impl Update<'_> {
             }
             if before.is_some() || !free {
                 self.edit(tier, None, Some(theirs), Outcome::Conflict);
+                self.done.conflicts.push((None, Some(new)));
                 return Ok(None);
             }
         } else if before.is_some() {
@@ -380,6 +384,7 @@ impl Update<'_> {
             let room = free || *time.0 == mine.time;
             if time.1 || value.1 || above.1 || !room {
                 self.edit(tier, Some(&mine), Some(theirs), Outcome::Conflict);
+                self.done.conflicts.push((Some(id), Some(new.clone())));
             } else if lost {
                 self.edit(tier, Some(&mine), Some(theirs), Outcome::Kept);
             }
@@ -450,6 +455,7 @@ impl Update<'_> {
         if self.sides.merge && (own || !below.is_empty()) {
             if own && before.is_some() {
                 self.edit(tier, Some(&mine), None, Outcome::Conflict);
+                self.done.conflicts.push((Some(row.id), None));
             } else {
                 self.done.kept += 1;
             }
@@ -534,7 +540,7 @@ impl Updated {
         some(&told(Outcome::Lost), &mut |text| {
             report.findings.push(lost(text))
         });
-        let conflict = warn("change it by hand, if the file is right");
+        let conflict = warn("`chereme conflicts CORPUS` lists both candidates; decide there");
         some(&told(Outcome::Conflict), &mut |text| {
             report.findings.push(conflict(text))
         });

@@ -1,5 +1,6 @@
 //! What was done, by whom, the newest first; back to any point and forward again.
 
+mod conflicts;
 pub(crate) mod data;
 
 use std::sync::Arc;
@@ -144,6 +145,7 @@ impl Pane for History {
     fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         self.follow(seen);
         self.buttons(ui, seen, out);
+        conflicts::show(ui, seen, out);
         let operations = &seen.snapshot.overview.operations;
         if operations.is_empty() {
             ui.label(seen.say(words::EMPTY));

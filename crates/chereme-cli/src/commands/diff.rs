@@ -1,0 +1,130 @@
+//! `chereme diff`.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::Result;
+use chereme_corpus::words::fill;
+use chereme_corpus::words::merge as words;
+use chereme_corpus::{CompareSide, Difference, Error};
+
+use crate::args::Cli;
+use crate::output::Output;
+use crate::streams;
+
+/// Compare two annotation files, or two recordings, by meaning
+///
+/// It lists annotations that were added, removed, moved or say something else, and changes of tiers. Time slots,
+/// the order of elements and the spelling of a file make no difference; times within a millisecond are equal.
+/// Annotations are the same by their ids if both files descend from one, else by tier and time. Both sides are
+/// files (.eaf, .etf, .TextGrid, .srt, .vtt; - is standard input), or a corpus comes first and the sides are
+/// addresses such as recording:3 or files. With --json it prints {"added", "removed", "moved", "revalued",
+/// "tiers", "document"}. It exits with 0 if it could compare, with 1 if it could not or, with --exit-code, if
+/// there are differences, and with 2 on wrong usage.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme diff mine.eaf theirs.eaf
+  chereme diff mine.chereme recording:1 recording:2
+  chereme diff mine.chereme recording:1 theirs.eaf --json")]
+pub(crate) struct Args {
+    /// Two files, or a corpus and then two recordings or files
+    #[arg(required = true, num_args = 2..=3, value_name = "SIDE")]
+    sides: Vec<PathBuf>,
+    /// Exit with 1 if there are differences
+    #[arg(long)]
+    exit_code: bool,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCode> {
+    let found = match args.sides.as_slice() {
+        [a, b] => file(a)?.diff(&file(b)?)?,
+        [corpus, a, b] => cli.open(corpus)?.diff(&side(a)?, &side(b)?)?,
+        _ => Difference::default(),
+    };
+    print(&found, output)?;
+    let differ = !found.is_empty();
+    output.document(found)?;
+    Ok(ExitCode::from(u8::from(args.exit_code && differ)))
+}
+
+/// Reads a file, or takes an address for what it says.
+fn side(path: &Path) -> Result<CompareSide> {
+    if streams::is_standard(path) || path.is_file() {
+        return file(path);
+    }
+    let text = path.to_string_lossy();
+    Ok(CompareSide::Recording(text.parse()?))
+}
+
+pub(super) fn file(path: &Path) -> Result<CompareSide> {
+    Ok(CompareSide::File {
+        name: path.display().to_string(),
+        bytes: bytes(path)?,
+    })
+}
+
+pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
+    if streams::is_standard(path) {
+        return streams::read();
+    }
+    Ok(std::fs::read(path).map_err(|error| Error::file(path, error))?)
+}
+
+/// Prints differences a line each.
+pub(super) fn print(found: &Difference, output: &mut Output) -> Result<()> {
+    let time = |us: i64| format!("{:.3}", us as f64 / 1e6);
+    let span = |from: i64, to: i64| format!("{}–{}", time(from), time(to));
+    for it in &found.tiers {
+        let fields: Vec<String> = it
+            .fields
+            .iter()
+            .map(|(name, [from, to])| format!("{name} {from:?} → {to:?}"))
+            .collect();
+        let text = match it.change {
+            "added" => words::TIER_ADDED,
+            "removed" => words::TIER_REMOVED,
+            "renamed" => words::TIER_RENAMED,
+            _ => words::TIER_CHANGED,
+        };
+        let to = format!("{:?}", it.to.as_deref().unwrap_or_default());
+        let tier = format!("{:?}", it.tier);
+        let fields = fields.join(", ");
+        let parts: [(&str, &dyn std::fmt::Display); 3] =
+            [("tier", &tier), ("to", &to), ("what", &fields)];
+        output.line(fill(output.say(text), &parts))?;
+    }
+    for it in &found.removed {
+        let times = span(it.start_us, it.end_us);
+        output.line(format!("- {} {times} {:?}", it.tier, it.value))?;
+    }
+    for it in &found.added {
+        let times = span(it.start_us, it.end_us);
+        output.line(format!("+ {} {times} {:?}", it.tier, it.value))?;
+    }
+    for it in &found.moved {
+        let (from, to) = (span(it.from[0], it.from[1]), span(it.to[0], it.to[1]));
+        let tier = it
+            .to_tier
+            .as_ref()
+            .map(|it| format!(" {it}"))
+            .unwrap_or_default();
+        output.line(format!("> {} {from} → {to}{tier} {:?}", it.tier, it.value))?;
+    }
+    for it in &found.revalued {
+        let times = span(it.start_us, it.end_us);
+        output.line(format!("~ {} {times} {:?} → {:?}", it.tier, it.from, it.to))?;
+    }
+    for it in &found.document {
+        output.line(it)?;
+    }
+    let line = format!(
+        "{} +, {} -, {} >, {} ~, {}",
+        found.added.len(),
+        found.removed.len(),
+        found.moved.len(),
+        found.revalued.len(),
+        output.counted(found.tiers.len() as u64, "tiers")
+    );
+    output.line(line)
+}

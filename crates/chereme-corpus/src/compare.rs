@@ -1,0 +1,152 @@
+//! Annotation files and recordings side by side: their differences, and merges of files.
+
+use chereme_formats::compare::{self, Conflict, Difference, Merged};
+use chereme_formats::eaf::{self, Transcript, patched, raw, to_raw};
+use chereme_formats::{subtitles, textgrid};
+use serde::Serialize;
+
+use crate::Corpus;
+use crate::address::{self, Address};
+use crate::error::{Error, Result};
+
+/// One side of a comparison.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum CompareSide {
+    /// The tiers of a recording.
+    Recording(Address),
+    /// An annotation file.
+    File {
+        /// Its name, for errors.
+        name: String,
+        /// Its bytes.
+        bytes: Vec<u8>,
+    },
+}
+
+/// Annotation files brought together.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct FileMerge {
+    /// The merged file, in the format and layout of mine.
+    #[serde(skip)]
+    pub bytes: Vec<u8>,
+    /// The differences from mine to the merged file.
+    pub changes: Difference,
+    /// Annotations that both changed in different ways. Mine stands; the other candidate is on a tier `NAME (theirs)`.
+    pub conflicts: Vec<Conflict>,
+}
+
+/// The formats of annotation files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Eaf,
+    TextGrid,
+    Subtitles,
+}
+
+impl CompareSide {
+    /// Returns the differences between two annotation files.
+    ///
+    /// # Errors
+    /// If one of them is a recording, for which [`Corpus::diff`] is needed, or cannot be read.
+    pub fn diff(&self, other: &Self) -> Result<Difference> {
+        let read = |side: &Self| match side {
+            Self::File { name, bytes } => read(name, bytes).map(|it| it.0),
+            Self::Recording(address) => Err(Error::wrong("a recording is in a corpus")
+                .at(address.to_string())
+                .advise("name the corpus first: `chereme diff CORPUS recording:1 recording:2`")),
+        };
+        Ok(compare::diff(&read(self)?, &read(other)?))
+    }
+}
+
+impl Corpus {
+    /// Returns the differences between the tiers of two recordings, or of a recording and a file, by meaning.
+    ///
+    /// # Errors
+    /// If an address names no recording, or a file cannot be read.
+    pub fn diff(&self, a: &CompareSide, b: &CompareSide) -> Result<Difference> {
+        Ok(compare::diff(&self.document(a)?, &self.document(b)?))
+    }
+
+    fn document(&self, side: &CompareSide) -> Result<Transcript> {
+        match side {
+            CompareSide::File { name, bytes } => read(name, bytes).map(|it| it.0),
+            CompareSide::Recording(address) => {
+                let connection = self.store.read();
+                let stretch = address::stretch(connection, address)?;
+                crate::export::eaf::tiers_of(connection, &stretch.recording)
+            }
+        }
+    }
+}
+
+/// Merges an annotation file into another; `base` is the file that both were copies of, if it is known.
+///
+/// # Errors
+/// If a file cannot be read, or the merged one cannot be written in the format of mine.
+pub fn merge_files(
+    base: Option<(&str, &[u8])>,
+    mine: (&str, &[u8]),
+    theirs: (&str, &[u8]),
+) -> Result<FileMerge> {
+    let (own, format) = read(mine.0, mine.1)?;
+    let (other, _) = read(theirs.0, theirs.1)?;
+    let merged = match base {
+        Some((name, bytes)) => compare::merge(&read(name, bytes)?.0, &own, &other),
+        None => compare::merge_two(&own, &other),
+    };
+    let whole = compare::with_candidates(&merged);
+    let bytes = match format {
+        Format::Eaf => write_eaf(mine.1, &whole)?,
+        Format::TextGrid => {
+            let (text, _) = textgrid::write(&whole, textgrid::Form::Long, whole.end());
+            text.into_bytes()
+        }
+        Format::Subtitles => {
+            return Err(
+                Error::wrong("subtitles are not merged: their lines have no tiers")
+                    .at(mine.0)
+                    .advise("merge the .eaf or .TextGrid, and export subtitles from it"),
+            );
+        }
+    };
+    let Merged { conflicts, .. } = merged;
+    Ok(FileMerge {
+        bytes,
+        changes: compare::diff(&own, &whole),
+        conflicts,
+    })
+}
+
+fn write_eaf(mine: &[u8], whole: &Transcript) -> Result<Vec<u8>> {
+    let fault = |error: eaf::Error| Error::wrong(error.to_string());
+    if let Some(bytes) = patched(mine, whole).map_err(fault)? {
+        return Ok(bytes);
+    }
+    let (template, _) = raw::read(mine).map_err(fault)?;
+    let mut bytes = Vec::new();
+    raw::write(&to_raw(whole, &template), &mut bytes)
+        .map_err(|error| Error::wrong(error.to_string()))?;
+    Ok(bytes)
+}
+
+/// Reads a document by its contents, whatever its name ends in.
+fn read(name: &str, bytes: &[u8]) -> Result<(Transcript, Format)> {
+    let head = &bytes[..bytes.len().min(4096)];
+    let plain: Vec<u8> = head.iter().copied().filter(|byte| *byte != 0).collect();
+    let says = |word: &[u8]| plain.windows(word.len()).any(|it| it == word);
+    let fault = |error: String| Error::wrong(error).at(name);
+    if says(b"ooTextFile") || says(b"ooBinaryFile") {
+        let (it, _) = textgrid::read(bytes).map_err(|error| fault(error.to_string()))?;
+        return Ok((it, Format::TextGrid));
+    }
+    if says(b"-->") && !says(b"<?xml") {
+        let (it, _) = subtitles::read(bytes).map_err(|error| fault(error.to_string()))?;
+        return Ok((it, Format::Subtitles));
+    }
+    let (it, _) = eaf::read(bytes).map_err(|error| {
+        fault(error.to_string())
+            .advise("name annotation files: .eaf, .etf, .TextGrid, .srt or .vtt")
+    })?;
+    Ok((it, Format::Eaf))
+}

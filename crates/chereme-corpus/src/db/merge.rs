@@ -1,0 +1,512 @@
+//! Rows of two corpora that went apart: the changes since, with references by uid instead of number.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, HashMap};
+
+use rusqlite::{Connection, OptionalExtension, params};
+use serde_json::{Map, Value};
+
+use super::history;
+use super::history::tracked::{TRACKED, columns, from_image, refers_to, row_image};
+use crate::error::Result;
+
+/// A row as JSON; columns that refer to other rows hold their uids.
+pub(crate) type Image = Map<String, Value>;
+
+/// The table and uid of a row.
+pub(crate) type Key = (String, String);
+
+/// The uids that numbers of rows stood for at an earlier time; nothing for rows that were not there.
+type Gone = BTreeMap<(String, i64), Option<String>>;
+
+/// A corpus since it went its own way.
+pub(crate) struct Side<'c> {
+    pub(crate) connection: &'c Connection,
+    /// The rows that changed, as they were before; nothing for those that were not there.
+    pub(crate) touched: BTreeMap<Key, Option<Image>>,
+    /// The rows of tables by uid, read when they are first asked for.
+    ids: RefCell<HashMap<String, HashMap<String, i64>>>,
+}
+
+/// Returns the last operations that two corpora have in common, each by its number there; nothing if they have
+/// no common beginning.
+pub(crate) fn fork(mine: &Connection, other: &Connection) -> Result<Option<(i64, i64)>> {
+    let read = |connection: &Connection| -> Result<Vec<(i64, String)>> {
+        let mut statement = connection.prepare("SELECT id, hex(uid) FROM operation ORDER BY id")?;
+        let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
+        Ok(rows.collect::<rusqlite::Result<_>>()?)
+    };
+    let (a, b) = (read(mine)?, read(other)?);
+    let shared = a.iter().zip(&b).take_while(|(x, y)| x.1 == y.1).last();
+    if let Some((x, y)) = shared {
+        return Ok(Some((x.0, y.0)));
+    }
+    // Copies of a corpus in which nothing was done yet share what every corpus begins with.
+    let first = |connection: &Connection| -> Result<Option<String>> {
+        let sql = "SELECT hex(uid) FROM inventory ORDER BY id LIMIT 1";
+        Ok(connection.query_row(sql, [], |row| row.get(0)).optional()?)
+    };
+    let (a, b) = (first(mine)?, first(other)?);
+    Ok((a.is_some() && a == b).then_some((0, 0)))
+}
+
+/// Returns the newest operation after one whose uid another corpus has written down as merged.
+pub(crate) fn merged_before(
+    connection: &Connection,
+    after: i64,
+    other: &Connection,
+) -> Result<Option<i64>> {
+    let mut newest = None;
+    for (key, _) in notes(other, MERGED)? {
+        let sql = "SELECT id FROM operation WHERE uid = unhex(?1) AND id > ?2";
+        let found: Option<i64> = connection
+            .prepare_cached(sql)?
+            .query_row(params![&key[MERGED.len()..], after], |row| row.get(0))
+            .optional()?;
+        newest = newest.max(found);
+    }
+    Ok(newest)
+}
+
+/// Writes down that all operations of another corpus were merged.
+pub(crate) fn note_merged(connection: &Connection, other: &Connection) -> Result<()> {
+    let sql = "SELECT hex(uid) FROM operation ORDER BY id DESC LIMIT 1";
+    let newest: Option<String> = other.query_row(sql, [], |row| row.get(0)).optional()?;
+    match newest {
+        Some(uid) => set_note(connection, &format!("{MERGED}{uid}"), "1"),
+        None => Ok(()),
+    }
+}
+
+/// The beginning of the keys under which merged operations are written down.
+const MERGED: &str = "merged:";
+
+impl<'c> Side<'c> {
+    /// Reads a corpus as it stands.
+    pub(crate) fn now(connection: &'c Connection) -> Self {
+        Self {
+            connection,
+            touched: BTreeMap::new(),
+            ids: RefCell::default(),
+        }
+    }
+
+    /// Reads what the operations after one changed.
+    pub(crate) fn since(connection: &'c Connection, after: i64) -> Result<Self> {
+        let mut gone: Gone = BTreeMap::new();
+        let mut first: BTreeMap<Key, Option<Image>> = BTreeMap::new();
+        let sql = "SELECT id FROM operation WHERE id > ?1 ORDER BY id";
+        let operations: Vec<i64> = connection
+            .prepare(sql)?
+            .query_map([after], |row| row.get(0))?
+            .collect::<rusqlite::Result<_>>()?;
+        for operation in operations {
+            history::each_change(connection, operation, |change| {
+                let any = if change.after.is_null() {
+                    &change.before
+                } else {
+                    &change.after
+                };
+                let uid = any.get("uid").and_then(Value::as_str);
+                if let Some(uid) = uid.map(str::to_owned) {
+                    let before = change.before.as_object().cloned();
+                    // Numbers are given again: the first change of one says whose it was before.
+                    if let Some(id) = any.get("id").and_then(Value::as_i64) {
+                        let own = before.is_some().then(|| uid.clone());
+                        gone.entry((change.table.clone(), id)).or_insert(own);
+                    }
+                    first.entry((change.table, uid)).or_insert(before);
+                }
+                Ok(())
+            })?;
+        }
+        let mut side = Self {
+            connection,
+            touched: BTreeMap::new(),
+            ids: RefCell::default(),
+        };
+        for ((table, uid), image) in first {
+            let image = match image {
+                Some(image) => Some(side.by_uid(&table, image, &gone)?),
+                None => None,
+            };
+            side.touched.insert((table, uid), image);
+        }
+        Ok(side)
+    }
+
+    /// Reads what differs from another corpus, which is the state before.
+    pub(crate) fn against(connection: &'c Connection, base: &Connection) -> Result<Self> {
+        let mut side = Self {
+            connection,
+            touched: BTreeMap::new(),
+            ids: RefCell::default(),
+        };
+        let before = Side {
+            connection: base,
+            touched: BTreeMap::new(),
+            ids: RefCell::default(),
+        };
+        for (table, _) in TRACKED {
+            if !has_uid(connection, table)? {
+                continue;
+            }
+            let (old, new) = (before.all(table)?, side.all(table)?);
+            for (uid, image) in &old {
+                if new.get(uid) != Some(image) {
+                    let key = (table.to_owned(), uid.clone());
+                    side.touched.insert(key, Some(image.clone()));
+                }
+            }
+            for uid in new.keys().filter(|uid| !old.contains_key(*uid)) {
+                side.touched.insert((table.to_owned(), uid.clone()), None);
+            }
+        }
+        Ok(side)
+    }
+
+    /// Returns a row as it stands.
+    pub(crate) fn row(&self, table: &str, uid: &str) -> Result<Option<Image>> {
+        let Some(id) = self.id(table, uid)? else {
+            return Ok(None);
+        };
+        let image = row_image(&columns(self.connection, table)?, "r");
+        let sql = format!("SELECT {image} FROM main.{table} AS r WHERE id = ?1");
+        let text: Option<String> = self
+            .connection
+            .prepare_cached(&sql)?
+            .query_row([id], |row| row.get(0))
+            .optional()?;
+        match text.and_then(|text| serde_json::from_str(&text).ok()) {
+            Some(image) => Ok(Some(self.by_uid(table, image, &BTreeMap::new())?)),
+            None => Ok(None),
+        }
+    }
+
+    /// Returns the number of a row.
+    pub(crate) fn id(&self, table: &str, uid: &str) -> Result<Option<i64>> {
+        let mut ids = self.ids.borrow_mut();
+        if let Some(known) = ids.get(table) {
+            return Ok(known.get(uid).copied());
+        }
+        let sql = format!("SELECT hex(uid), id FROM main.{table}");
+        let mut statement = self.connection.prepare(&sql)?;
+        let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
+        let all: HashMap<String, i64> = rows.collect::<rusqlite::Result<_>>()?;
+        let found = all.get(uid).copied();
+        ids.insert(table.to_owned(), all);
+        Ok(found)
+    }
+
+    /// Has a uid stand for a row from now on; nothing for a row that is gone.
+    pub(crate) fn know(&self, table: &str, uid: &str, id: Option<i64>) -> Result<()> {
+        self.id(table, uid)?;
+        if let Some(all) = self.ids.borrow_mut().get_mut(table) {
+            match id {
+                Some(id) => all.insert(uid.to_owned(), id),
+                None => all.remove(uid),
+            };
+        }
+        Ok(())
+    }
+
+    fn all(&self, table: &str) -> Result<BTreeMap<String, Image>> {
+        let image = row_image(&columns(self.connection, table)?, "r");
+        let sql = format!("SELECT hex(uid), {image} FROM main.{table} AS r");
+        let mut statement = self.connection.prepare(&sql)?;
+        let mut rows = statement.query([])?;
+        let mut all = BTreeMap::new();
+        while let Some(row) = rows.next()? {
+            let text: String = row.get(1)?;
+            if let Ok(image) = serde_json::from_str(&text) {
+                all.insert(row.get(0)?, self.by_uid(table, image, &BTreeMap::new())?);
+            }
+        }
+        Ok(all)
+    }
+
+    /// Replaces numbers of rows by their uids; `gone` knows those that stood for others.
+    fn by_uid(&self, table: &str, mut image: Image, gone: &Gone) -> Result<Image> {
+        image.remove("id");
+        for (column, value) in &mut image {
+            let Some(other) = refers_to(table, column) else {
+                continue;
+            };
+            let Some(id) = value.as_i64() else { continue };
+            let uid = match gone.get(&(other.to_owned(), id)) {
+                Some(own) => own.clone(),
+                None => uid_of(self.connection, other, id)?,
+            };
+            *value = uid.map_or(Value::Null, Value::String);
+        }
+        Ok(image)
+    }
+}
+
+/// Reports whether rows of a table have uids.
+pub(crate) fn has_uid(connection: &Connection, table: &str) -> Result<bool> {
+    Ok(columns(connection, table)?
+        .iter()
+        .any(|it| it.name == "uid"))
+}
+
+/// Returns the uid of a row.
+pub(crate) fn uid_of(connection: &Connection, table: &str, id: i64) -> Result<Option<String>> {
+    let sql = format!("SELECT hex(uid) FROM main.{table} WHERE id = ?1");
+    let mut statement = connection.prepare_cached(&sql)?;
+    Ok(statement.query_row([id], |row| row.get(0)).optional()?)
+}
+
+/// Inserts a row, whose references are numbers already, and returns its number.
+pub(crate) fn insert(connection: &Connection, table: &str, image: &Image) -> Result<i64> {
+    let all = columns(connection, table)?;
+    let own: Vec<_> = all
+        .iter()
+        .filter(|it| image.contains_key(&it.name) && it.name != "id")
+        .collect();
+    let names: Vec<&str> = own.iter().map(|it| it.name.as_str()).collect();
+    let values: Vec<String> = own.iter().map(|it| from_image(it)).collect();
+    let sql = format!(
+        "INSERT INTO main.{table} ({}) VALUES ({})",
+        names.join(","),
+        values.join(",")
+    );
+    let text = Value::Object(image.clone()).to_string();
+    connection.prepare_cached(&sql)?.execute([text])?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Writes some columns of a row, whose references are numbers already.
+pub(crate) fn update(connection: &Connection, table: &str, id: i64, image: &Image) -> Result<()> {
+    let all = columns(connection, table)?;
+    let settings: Vec<String> = all
+        .iter()
+        .filter(|it| image.contains_key(&it.name) && it.name != "id")
+        .map(|it| format!("{} = {}", it.name, from_image(it)))
+        .collect();
+    if settings.is_empty() {
+        return Ok(());
+    }
+    let sql = format!(
+        "UPDATE main.{table} SET {} WHERE id = ?2",
+        settings.join(",")
+    );
+    let text = Value::Object(image.clone()).to_string();
+    connection
+        .prepare_cached(&sql)?
+        .execute(params![text, id])?;
+    Ok(())
+}
+
+/// Deletes a row.
+pub(crate) fn delete(connection: &Connection, table: &str, id: i64) -> Result<()> {
+    let sql = format!("DELETE FROM main.{table} WHERE id = ?1");
+    connection.prepare_cached(&sql)?.execute([id])?;
+    Ok(())
+}
+
+/// Returns the row that stands in the way of another, for no two have its name.
+pub(crate) fn namesake(connection: &Connection, table: &str, image: &Image) -> Result<Option<i64>> {
+    let keys: &[&str] = match table {
+        "signer" | "kept_search" | "recording" => &["name"],
+        "skeleton" => &["hash"],
+        "inventory" => &["key"],
+        "inventory_value" => &["inventory_id", "key"],
+        "sign" => &["gloss"],
+        "tier" | "track" => &["recording_id", "name"],
+        "attribute" => &["token_id", "name"],
+        "recipe" => &["recording_id"],
+        "channel" => &["track_id", "position"],
+        _ => return Ok(None),
+    };
+    let conditions: Vec<String> = keys
+        .iter()
+        .map(|key| format!("{key} = json_extract(?1, '$.{key}')"))
+        .collect();
+    let sql = format!(
+        "SELECT id FROM main.{table} WHERE {}",
+        conditions.join(" AND ")
+    );
+    let text = Value::Object(image.clone()).to_string();
+    let mut statement = connection.prepare_cached(&sql)?;
+    Ok(statement.query_row([text], |row| row.get(0)).optional()?)
+}
+
+/// Copies the rows that belong to one and have no uid, such as the blocks of a track, from another corpus.
+pub(crate) fn copy_parts(
+    (from, old): (&Connection, i64),
+    (into, new): (&Connection, i64),
+    table: &str,
+) -> Result<()> {
+    match table {
+        "track" => {
+            let sql = "SELECT channel_group, first_frame, frames, b.hash, b.data FROM track_block t
+                       JOIN block b ON b.hash = t.hash WHERE track_id = ?1";
+            let mut statement = from.prepare_cached(sql)?;
+            let mut rows = statement.query([old])?;
+            while let Some(row) = rows.next()? {
+                let (group, first, frames): (String, i64, i64) =
+                    (row.get(0)?, row.get(1)?, row.get(2)?);
+                let (hash, data): (Vec<u8>, Vec<u8>) = (row.get(3)?, row.get(4)?);
+                super::tracks::ensure_group(into, &group)?;
+                into.prepare_cached("INSERT OR IGNORE INTO block (hash, data) VALUES (?1, ?2)")?
+                    .execute(params![hash, data])?;
+                into.prepare_cached(
+                    "INSERT INTO track_block (track_id, channel_group, first_frame, frames, hash)
+                     VALUES (?1, ?2, ?3, ?4, ?5)",
+                )?
+                .execute(params![new, group, first, frames, hash])?;
+            }
+        }
+        "token" => copy_rows((from, old), (into, new), "token_value", "token_id")?,
+        "recipe" => copy_rows((from, old), (into, new), "recipe_input", "recipe_id")?,
+        "sign" => {
+            let sql = "SELECT language, text FROM sign_text WHERE sign_id = ?1";
+            let mut statement = from.prepare_cached(sql)?;
+            let mut rows = statement.query([old])?;
+            while let Some(row) = rows.next()? {
+                let (language, text): (String, String) = (row.get(0)?, row.get(1)?);
+                into.prepare_cached(
+                    "INSERT OR IGNORE INTO sign_text (sign_id, language, text) VALUES (?1, ?2, ?3)",
+                )?
+                .execute(params![new, language, text])?;
+            }
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Copies the rows of a part, with references to rows that both corpora have by uid.
+fn copy_rows(
+    (from, old): (&Connection, i64),
+    (into, new): (&Connection, i64),
+    part: &str,
+    owner: &str,
+) -> Result<()> {
+    let known: i64 = into.query_row(
+        &format!("SELECT count(*) FROM main.{part} WHERE {owner} = ?1"),
+        [new],
+        |row| row.get(0),
+    )?;
+    if known > 0 {
+        return Ok(());
+    }
+    let image = row_image(&columns(from, part)?, "r");
+    let sql = format!("SELECT {image} FROM main.{part} AS r WHERE {owner} = ?1 ORDER BY id");
+    let mut statement = from.prepare(&sql)?;
+    let rows: Vec<String> = statement
+        .query_map([old], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    for text in rows {
+        let Ok(mut image) = serde_json::from_str::<Image>(&text) else {
+            continue;
+        };
+        for (column, value) in &mut image {
+            let Some(other) = refers_to(part, column) else {
+                continue;
+            };
+            let Some(id) = value.as_i64() else { continue };
+            let uid = uid_of(from, other, id)?;
+            let sql = format!("SELECT id FROM main.{other} WHERE uid = unhex(?1)");
+            let here: Option<i64> = match uid {
+                Some(uid) => into
+                    .prepare_cached(&sql)?
+                    .query_row([uid], |row| row.get(0))
+                    .optional()?,
+                None => None,
+            };
+            *value = here.map_or(Value::Null, Value::from);
+        }
+        image.insert(owner.to_owned(), Value::from(new));
+        insert(into, part, &image)?;
+    }
+    Ok(())
+}
+
+/// Returns the token of an annotation.
+pub(crate) fn token_of(connection: &Connection, annotation: i64) -> Result<Option<i64>> {
+    let sql = "SELECT id FROM token WHERE annotation_id = ?1";
+    let mut statement = connection.prepare_cached(sql)?;
+    Ok(statement
+        .query_row([annotation], |row| row.get(0))
+        .optional()?)
+}
+
+/// Returns an entry of the corpus's own notes whose key begins so, by key.
+pub(crate) fn notes(connection: &Connection, prefix: &str) -> Result<Vec<(String, String)>> {
+    let sql = "SELECT key, value FROM meta WHERE substr(key, 1, length(?1)) = ?1 ORDER BY key";
+    let mut statement = connection.prepare_cached(sql)?;
+    let rows = statement.query_map([prefix], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Writes an entry of the corpus's own notes.
+pub(crate) fn set_note(connection: &Connection, key: &str, value: &str) -> Result<()> {
+    let known: Option<String> = connection
+        .prepare_cached("SELECT value FROM meta WHERE key = ?1")?
+        .query_row([key], |row| row.get(0))
+        .optional()?;
+    let sql = match known {
+        Some(known) if known == value => return Ok(()),
+        Some(_) => "UPDATE meta SET value = ?2 WHERE key = ?1",
+        None => "INSERT INTO meta (key, value) VALUES (?1, ?2)",
+    };
+    connection.prepare_cached(sql)?.execute([key, value])?;
+    Ok(())
+}
+
+/// Reports whether anything refers to a sign.
+pub(crate) fn sign_is_used(connection: &Connection, sign: i64) -> Result<bool> {
+    let sql = "SELECT EXISTS (SELECT 1 FROM token WHERE sign_id = ?1)";
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([sign], |row| row.get(0))?)
+}
+
+/// Reports whether a track has numbers.
+pub(crate) fn has_blocks(connection: &Connection, track: i64) -> Result<bool> {
+    let sql = "SELECT EXISTS (SELECT 1 FROM track_block WHERE track_id = ?1)";
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([track], |row| row.get(0))?)
+}
+
+/// Reports whether a row is one that others refer to, but for its own parts and for tokens, which follow.
+pub(crate) fn is_referred_to(connection: &Connection, table: &str, id: i64) -> Result<bool> {
+    for (other, references) in TRACKED {
+        let follows = table == "annotation" && ["token", "token_value"].contains(&other);
+        if follows || PARTS.contains(&(table, other)) {
+            continue;
+        }
+        for (column, _) in references.iter().filter(|it| it.1 == table) {
+            let sql = format!("SELECT EXISTS (SELECT 1 FROM main.{other} WHERE {column} = ?1)");
+            if connection
+                .prepare_cached(&sql)?
+                .query_row([id], |row| row.get(0))?
+            {
+                return Ok(true);
+            }
+        }
+    }
+    Ok(false)
+}
+
+/// The tables whose rows are parts of a row of another one.
+const PARTS: [(&str, &str); 6] = [
+    ("track", "track_block"),
+    ("sign", "sign_text"),
+    ("token", "token_value"),
+    ("token", "notation"),
+    ("token", "attribute"),
+    ("recipe", "recipe_input"),
+];
+
+/// Deletes the parts of a row.
+pub(crate) fn delete_parts(connection: &Connection, table: &str, id: i64) -> Result<()> {
+    for (_, part) in PARTS.iter().filter(|it| it.0 == table) {
+        let sql = format!("DELETE FROM main.{part} WHERE {table}_id = ?1");
+        connection.prepare_cached(&sql)?.execute([id])?;
+    }
+    Ok(())
+}

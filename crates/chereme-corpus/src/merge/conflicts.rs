@@ -1,0 +1,487 @@
+//! Conflicts of a merge: both candidates are kept, listed, and decided one by one.
+
+use chereme_motion::Instant;
+use rusqlite::Connection;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+
+use crate::Corpus;
+use crate::db::history::refers_to;
+use crate::db::merge::{self as db, Image, Side};
+use crate::db::tiers::{self, AnnotationRow, TierRow};
+use crate::db::{edits, recordings};
+use crate::error::{Error, Result};
+use crate::inventories;
+use crate::tokens;
+
+/// The beginning of the keys under which conflicts are stored.
+const PREFIX: &str = "conflict:";
+
+/// Something on which two sides of a merge do not agree.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct CorpusConflict {
+    /// Its number, by which it is decided.
+    pub number: usize,
+    /// The kind of thing: `annotation`, `tier`, `recording`, `signer`, `sign` and so on.
+    pub what: String,
+    /// The place: the tier and recording of an annotation, else the name.
+    pub place: String,
+    /// The common state; nothing if it was not there.
+    pub base: Option<Candidate>,
+    /// The candidate of this corpus, which stands; nothing if it was removed here.
+    pub mine: Option<Candidate>,
+    /// The other candidate; nothing if it was removed there.
+    pub theirs: Option<Candidate>,
+    /// The corpus or file that the other candidate comes from.
+    pub from: String,
+    /// The decision, once there is one.
+    pub decided: Option<Decision>,
+}
+
+/// One side of a conflict.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Candidate {
+    /// The start in microseconds, of an annotation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_us: Option<i64>,
+    /// The first microsecond after it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_us: Option<i64>,
+    /// The value of an annotation, or what differs of something else.
+    pub text: String,
+}
+
+impl std::fmt::Display for Candidate {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:?}", self.text)?;
+        if let Some((start, end)) = self.start_us.zip(self.end_us) {
+            let [start, end] = [start, end].map(Instant::from_micros);
+            write!(f, " from {start} to {end}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The outcome of a conflict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Decision {
+    /// This corpus stays as it is.
+    Mine,
+    /// The other candidate takes its place.
+    Theirs,
+    /// Both stay: the other annotation goes on its tier if there is room, else on a tier next to it.
+    Both,
+}
+
+/// A conflict as it is stored.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Open {
+    pub(crate) table: String,
+    pub(crate) uid: String,
+    pub(crate) base: Option<Image>,
+    pub(crate) mine: Option<Image>,
+    pub(crate) theirs: Option<Image>,
+    /// The annotation here that is in the way of the other candidate.
+    pub(crate) other: Option<String>,
+    pub(crate) from: String,
+    pub(crate) decided: Option<Decision>,
+}
+
+/// Stores a conflict, unless the same one was kept before.
+pub(crate) fn keep(connection: &Connection, open: &Open) -> Result<()> {
+    let all = db::notes(connection, PREFIX)?;
+    let same = |known: &Open| {
+        (&known.table, &known.uid, &known.theirs) == (&open.table, &open.uid, &open.theirs)
+    };
+    if all
+        .iter()
+        .filter_map(|(_, text)| read(text))
+        .any(|it| same(&it))
+    {
+        return Ok(());
+    }
+    let number = all.len() + 1;
+    let text = serde_json::to_string(open).map_err(|error| Error::wrong(error.to_string()))?;
+    db::set_note(connection, &format!("{PREFIX}{number:06}"), &text)
+}
+
+/// Stores a conflict about an annotation between this corpus and a file that was imported again.
+pub(crate) fn keep_annotation(
+    connection: &Connection,
+    from: &str,
+    mine: Option<i64>,
+    theirs: Option<&AnnotationRow>,
+) -> Result<()> {
+    let side = Side::now(connection);
+    let mut other = None;
+    let theirs = match theirs {
+        Some(row) => {
+            let near = tiers::annotations_near(connection, row.tier_id, row.start_us, row.end_us)?;
+            let over = near.iter().find(|it| {
+                Some(it.id) != mine && it.start_us < row.end_us && row.start_us < it.end_us
+            });
+            if let Some(over) = over {
+                other = db::uid_of(connection, "annotation", over.id)?;
+            }
+            Some(image(connection, row)?)
+        }
+        None => None,
+    };
+    let uid = match (mine, &theirs) {
+        (Some(id), _) => db::uid_of(connection, "annotation", id)?,
+        (None, Some(image)) => Some(made_uid(image)),
+        (None, None) => None,
+    };
+    let Some(uid) = uid else { return Ok(()) };
+    let theirs = theirs.map(|mut image| {
+        image.insert("uid".into(), Value::from(uid.clone()));
+        image
+    });
+    let open = Open {
+        table: "annotation".to_owned(),
+        mine: side.row("annotation", &uid)?,
+        base: None,
+        theirs,
+        other,
+        from: from.to_owned(),
+        decided: None,
+        uid,
+    };
+    keep(connection, &open)
+}
+
+/// Returns an annotation with references by uid.
+fn image(connection: &Connection, row: &AnnotationRow) -> Result<Image> {
+    let value = serde_json::to_value(row).map_err(|error| Error::wrong(error.to_string()))?;
+    let mut image = value.as_object().cloned().unwrap_or_default();
+    image.remove("id");
+    let tier = db::uid_of(connection, "tier", row.tier_id)?;
+    image.insert("tier_id".into(), tier.map_or(Value::Null, Value::String));
+    let parent = match row.parent_id {
+        Some(parent) => db::uid_of(connection, "annotation", parent)?,
+        None => None,
+    };
+    image.insert(
+        "parent_id".into(),
+        parent.map_or(Value::Null, Value::String),
+    );
+    Ok(image)
+}
+
+/// Returns a uid for an annotation that a file alone has: the same one whenever the file comes again.
+fn made_uid(image: &Image) -> String {
+    let text = format!("{:?} {:?}", image.get("tier_id"), image.get("external_id"));
+    crate::db::motion::hex(&Sha256::digest(text.as_bytes())[..16]).to_uppercase()
+}
+
+fn read(text: &str) -> Option<Open> {
+    serde_json::from_str(text).ok()
+}
+
+/// Returns all conflicts, decided ones among them.
+pub(crate) fn list(connection: &Connection) -> Result<Vec<CorpusConflict>> {
+    let side = Side::now(connection);
+    let mut all = Vec::new();
+    for (key, text) in db::notes(connection, PREFIX)? {
+        let Some(open) = read(&text) else { continue };
+        let number = key[PREFIX.len()..].parse().unwrap_or(0);
+        let known = open
+            .mine
+            .as_ref()
+            .or(open.base.as_ref())
+            .or(open.theirs.as_ref());
+        let mine = match &open.other {
+            Some(other) => side.row("annotation", other)?.or(open.mine.clone()),
+            None => open.mine.clone(),
+        };
+        let against = |own: &Option<Image>, other: &Option<Image>| {
+            own.as_ref()
+                .map(|it| candidate(&open.table, it, other.as_ref()))
+        };
+        all.push(CorpusConflict {
+            number,
+            what: open.table.replace('_', " "),
+            place: match known {
+                Some(known) => place(connection, &side, &open.table, known)?,
+                None => String::new(),
+            },
+            base: against(&open.base, &mine),
+            mine: against(&mine, &open.theirs),
+            theirs: against(&open.theirs, &mine),
+            from: open.from,
+            decided: open.decided,
+        });
+    }
+    Ok(all)
+}
+
+/// Returns the conflicts that nobody has decided yet.
+pub(crate) fn waiting(connection: &Connection) -> Result<Vec<CorpusConflict>> {
+    let mut all = list(connection)?;
+    all.retain(|it| it.decided.is_none());
+    Ok(all)
+}
+
+fn candidate(table: &str, own: &Image, other: Option<&Image>) -> Candidate {
+    let text = |column: &str| own.get(column).and_then(Value::as_str).unwrap_or_default();
+    if table == "annotation" {
+        let value = match text("state") {
+            "not-applicable" => "n/a",
+            "unclear" => "unclear",
+            _ => text("value"),
+        };
+        return Candidate {
+            start_us: own.get("start_us").and_then(Value::as_i64),
+            end_us: own.get("end_us").and_then(Value::as_i64),
+            text: value.to_owned(),
+        };
+    }
+    let differs =
+        |column: &str, value: &Value| other.is_none_or(|it| it.get(column) != Some(value));
+    let shown = |value: &Value| match value {
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    };
+    let silent = ["uid", "data", "document", "source", "hash"];
+    let said: Vec<String> = own
+        .iter()
+        .filter(|(column, value)| differs(column, value) && !value.is_null())
+        .filter(|(column, _)| {
+            !silent.contains(&column.as_str()) && refers_to(table, column).is_none()
+        })
+        .map(|(column, value)| format!("{column} {}", shown(value)))
+        .collect();
+    Candidate {
+        start_us: None,
+        end_us: None,
+        text: said.join(", "),
+    }
+}
+
+fn place(connection: &Connection, side: &Side<'_>, table: &str, row: &Image) -> Result<String> {
+    let text = |column: &str| row.get(column).and_then(Value::as_str);
+    if table == "annotation" {
+        let tier = text("tier_id")
+            .map(|uid| side.id("tier", uid))
+            .transpose()?;
+        let Some(tier) = tier.flatten() else {
+            return Ok("a tier that is gone".to_owned());
+        };
+        let tier = tiers::tier(connection, tier)?;
+        let recording = recordings::recording(connection, tier.recording_id)?;
+        return Ok(format!("{}: {}", recording.name, tier.name));
+    }
+    let name = ["name", "gloss", "key", "text"].into_iter().find_map(text);
+    Ok(name.unwrap_or_default().to_owned())
+}
+
+impl Corpus {
+    /// Returns the conflicts of merges that nobody has decided yet; all of them if `decided`.
+    ///
+    /// # Errors
+    /// If the database fails.
+    pub fn conflicts(&self, decided: bool) -> Result<Vec<CorpusConflict>> {
+        let mut all = list(self.store.read())?;
+        all.retain(|it| decided || it.decided.is_none());
+        Ok(all)
+    }
+
+    /// Decides conflicts as one operation, and returns them.
+    ///
+    /// # Errors
+    /// If there is no such open conflict, or both candidates cannot stand: only annotations can be there twice.
+    pub fn decide(&mut self, numbers: &[usize], decision: Decision) -> Result<Vec<CorpusConflict>> {
+        self.store.operation("decide", |connection| {
+            edits::defer_references(connection)?;
+            for number in numbers {
+                let key = format!("{PREFIX}{number:06}");
+                let found = db::notes(connection, &key)?;
+                let open = found.first().and_then(|(_, text)| read(text));
+                let mut open = open.filter(|it| it.decided.is_none()).ok_or_else(|| {
+                    Error::wrong(format!("there is no open conflict {number}"))
+                        .at(number.to_string())
+                        .advise("`chereme conflicts CORPUS` lists them")
+                })?;
+                match decision {
+                    Decision::Mine => {}
+                    Decision::Theirs => theirs(connection, &open)?,
+                    Decision::Both => both(connection, &open)?,
+                }
+                open.decided = Some(decision);
+                let text = serde_json::to_string(&open)
+                    .map_err(|error| Error::wrong(error.to_string()))?;
+                db::set_note(connection, &key, &text)?;
+            }
+            let all = list(connection)?.into_iter();
+            let all: Vec<CorpusConflict> = all.filter(|it| numbers.contains(&it.number)).collect();
+            let word = match decision {
+                Decision::Mine => "mine",
+                Decision::Theirs => "theirs",
+                Decision::Both => "both",
+            };
+            let names: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+            let summary = format!("conflict {}: {word}", names.join(", "));
+            Ok((all, summary))
+        })
+    }
+}
+
+/// Returns a stored row with the numbers of this corpus.
+fn local(side: &Side<'_>, table: &str, image: &Image) -> Result<Image> {
+    let mut local = image.clone();
+    for (column, value) in &mut local {
+        let Some(other) = refers_to(table, column) else {
+            continue;
+        };
+        let Some(uid) = value.as_str().map(str::to_owned) else {
+            continue;
+        };
+        let id = side.id(other, &uid)?.ok_or_else(|| {
+            Error::wrong(format!("the {other} that it belongs to was removed here"))
+                .advise("undo the removal first, or decide for mine")
+        })?;
+        *value = Value::from(id);
+    }
+    Ok(local)
+}
+
+fn theirs(connection: &Connection, open: &Open) -> Result<()> {
+    let side = Side::now(connection);
+    let id = side.id(&open.table, &open.uid)?;
+    if let Some(other) = &open.other
+        && let Some(other) = side.id("annotation", other)?
+        && Some(other) != id
+    {
+        remove(connection, other)?;
+    }
+    match (&open.theirs, id) {
+        (Some(theirs), Some(id)) => {
+            let mut image = local(&side, &open.table, theirs)?;
+            image.remove("uid");
+            if open.table != "annotation" {
+                let mine = side.row(&open.table, &open.uid)?.unwrap_or_default();
+                let base = open.base.clone().unwrap_or_default();
+                image.retain(|column, _| {
+                    theirs.get(column) != base.get(column) && theirs.get(column) != mine.get(column)
+                });
+            }
+            db::update(connection, &open.table, id, &image)?;
+        }
+        (Some(theirs), None) => {
+            let image = local(&side, &open.table, theirs)?;
+            db::insert(connection, &open.table, &image)?;
+        }
+        (None, Some(id)) if open.table == "annotation" => remove(connection, id)?,
+        (None, Some(id)) => {
+            if db::is_referred_to(connection, &open.table, id)? {
+                return Err(Error::wrong(format!(
+                    "the {} holds more than the other side removed",
+                    open.table.replace('_', " ")
+                ))
+                .advise("remove by hand what is in it, or decide for mine"));
+            }
+            db::delete_parts(connection, &open.table, id)?;
+            db::delete(connection, &open.table, id)?;
+        }
+        (None, None) => {}
+    }
+    follow(connection, open)
+}
+
+/// Removes an annotation with those below it.
+fn remove(connection: &Connection, id: i64) -> Result<()> {
+    for child in tiers::children(connection, id)? {
+        remove(connection, child.id)?;
+    }
+    tiers::delete_annotation(connection, id)
+}
+
+fn both(connection: &Connection, open: &Open) -> Result<()> {
+    let side = Side::now(connection);
+    let Some(theirs) = open.theirs.as_ref().filter(|_| open.table == "annotation") else {
+        return match open.table.as_str() {
+            // One side removed it: there is no second candidate to add.
+            "annotation" => Ok(()),
+            other => Err(Error::wrong(format!(
+                "there can be one {} only",
+                other.replace('_', " ")
+            ))
+            .advise("decide for mine or theirs")),
+        };
+    };
+    let mut image = local(&side, "annotation", theirs)?;
+    let number =
+        |image: &Image, column: &str| image.get(column).and_then(Value::as_i64).unwrap_or(0);
+    let tier = tiers::tier(connection, number(&image, "tier_id"))?;
+    let (start, end) = (number(&image, "start_us"), number(&image, "end_us"));
+    let near = tiers::annotations_near(connection, tier.id, start, end)?;
+    let meets = near.iter().any(|it| it.start_us < end && start < it.end_us);
+    let symbolic = tier
+        .stereotype
+        .as_deref()
+        .is_some_and(|it| it.starts_with("Symbolic"));
+    if meets || symbolic {
+        let next = next_to(connection, &tier)?;
+        image.insert("tier_id".into(), Value::from(next));
+        image.insert("parent_id".into(), Value::Null);
+        image.insert("position".into(), Value::from(0));
+    }
+    image.remove("uid");
+    image.insert("external_id".into(), Value::Null);
+    db::insert(connection, "annotation", &image)?;
+    follow(connection, open)
+}
+
+/// Returns the tier for second candidates of a tier, which is made if it is missing.
+fn next_to(connection: &Connection, tier: &TierRow) -> Result<i64> {
+    let name = format!("{} (theirs)", tier.name);
+    let all = tiers::tiers(connection, tier.recording_id)?;
+    if let Some(known) = all.iter().find(|it| it.name == name) {
+        return Ok(known.id);
+    }
+    let last = all.iter().map(|it| it.position).max().unwrap_or(0);
+    tiers::insert_tier(
+        connection,
+        &TierRow {
+            recording_id: tier.recording_id,
+            name,
+            position: last + 1,
+            role: "free".to_owned(),
+            participant: tier.participant.clone(),
+            annotator: tier.annotator.clone(),
+            language: tier.language.clone(),
+            inventory_id: tier.inventory_id,
+            ..TierRow::default()
+        },
+    )
+}
+
+/// Brings the tokens along.
+fn follow(connection: &Connection, open: &Open) -> Result<()> {
+    let side = Side::now(connection);
+    let images = [&open.theirs, &open.mine, &open.base].into_iter().flatten();
+    let column = match open.table.as_str() {
+        "annotation" => "tier_id",
+        "tier" => "recording_id",
+        _ => return Ok(()),
+    };
+    for image in images {
+        let Some(uid) = image.get(column).and_then(Value::as_str) else {
+            continue;
+        };
+        let recording = match open.table.as_str() {
+            "annotation" => match side.id("tier", uid)? {
+                Some(tier) => Some(tiers::tier(connection, tier)?.recording_id),
+                None => None,
+            },
+            _ => side.id("recording", uid)?,
+        };
+        if let Some(recording) = recording {
+            let inventories = inventories::load_of(connection, recording)?;
+            return tokens::derive(connection, recording, None, &inventories);
+        }
+    }
+    Ok(())
+}

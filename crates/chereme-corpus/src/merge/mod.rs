@@ -1,0 +1,554 @@
+//! Two corpora that went apart, brought together: a change of one side alone is taken, different changes of
+//! both wait for a decision.
+
+mod conflicts;
+mod rows;
+#[cfg(test)]
+mod tests;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use rusqlite::Connection;
+use serde::Serialize;
+use serde_json::Value;
+
+pub use conflicts::{Candidate, CorpusConflict, Decision};
+use conflicts::{Open, keep};
+pub(crate) use conflicts::{keep_annotation, waiting};
+
+use crate::Corpus;
+use crate::db::merge::{self as db, Image, Key, Side};
+use crate::db::{edits, recordings, tiers, tracks};
+use crate::error::{Error, Result};
+use crate::inventories;
+use crate::progress::{Progress, Step, Unit};
+use crate::tokens;
+use crate::words::counted;
+
+/// The result of a merge of corpora.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct MergeReport {
+    /// How many rows of each kind came from the other corpus.
+    pub added: BTreeMap<String, u64>,
+    /// How many rows of each kind follow the other corpus now.
+    pub changed: BTreeMap<String, u64>,
+    /// How many rows of each kind went, as in the other corpus.
+    pub removed: BTreeMap<String, u64>,
+    /// The rows that both corpora changed in different ways; mine stands until somebody decides.
+    pub conflicts: Vec<CorpusConflict>,
+    /// Notes for people.
+    pub notes: Vec<String>,
+}
+
+/// The tables that are merged, those first that others refer to. Tokens of annotations follow from these.
+const ORDER: [&str; 15] = [
+    "signer",
+    "skeleton",
+    "inventory",
+    "inventory_value",
+    "recording",
+    "source_file",
+    "track",
+    "channel",
+    "tier",
+    "annotation",
+    "sign",
+    "token",
+    "recipe",
+    "kept_search",
+    "attribute",
+];
+
+impl Corpus {
+    /// Brings another corpus into this one as one operation; one is a copy of the other, or both are copies of a
+    /// third.
+    ///
+    /// Rows are the same by their uids. A change of one side alone is taken, field by field. Different changes
+    /// of both, a change of a row that the other side removed, and annotations without room on their tier are
+    /// conflicts: this corpus stays as it is there, and the other candidate is kept until
+    /// [`decide`](Self::decide) is called. Their common state is that of the last operation that their
+    /// histories share, or `base`.
+    ///
+    /// # Errors
+    /// If the corpora have no common beginning and there is no `base`.
+    pub fn merge(
+        &mut self,
+        other: &Path,
+        base: Option<&Path>,
+        progress: &mut Progress<'_>,
+    ) -> Result<MergeReport> {
+        let author = "merge";
+        let theirs = Self::open(other, author)?;
+        let base = base.map(|path| Self::open(path, author)).transpose()?;
+        let from = other
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned())
+            .unwrap_or_default();
+        self.store
+            .operation_told("merge", progress, |connection, progress| {
+                edits::defer_references(connection)?;
+                let there = theirs.store.read();
+                let (mine, theirs, back) = match &base {
+                    Some(base) => {
+                        let base = base.store.read();
+                        let theirs = Side::against(there, base)?;
+                        (Side::against(connection, base)?, theirs, None)
+                    }
+                    None => {
+                        let (own, fork) =
+                            db::fork(connection, there)?.ok_or_else(|| no_beginning(other))?;
+                        // An earlier merge, in either direction, is a later common state.
+                        let known = db::merged_before(there, fork, connection)?;
+                        let back = db::merged_before(connection, own, there)?;
+                        let back = back.map(|own| Side::since(connection, own)).transpose()?;
+                        let theirs = Side::since(there, known.unwrap_or(fork))?;
+                        (Side::since(connection, own)?, theirs, back)
+                    }
+                };
+                let mut work = Work {
+                    connection,
+                    mine,
+                    theirs,
+                    back,
+                    from: from.clone(),
+                    report: MergeReport::default(),
+                    recordings: BTreeSet::new(),
+                    came: BTreeSet::new(),
+                };
+                work.all(progress)?;
+                db::note_merged(connection, there)?;
+                let report = work.report;
+                let summary = summary(&from, &report);
+                Ok((report, summary))
+            })
+    }
+}
+
+fn no_beginning(other: &Path) -> Error {
+    Error::wrong("the two corpora have no common beginning: neither is a copy of the other")
+        .at(other.display().to_string())
+        .advise(
+            "name the copy that both come from with --base; else export its recordings as .eaf \
+             and import these with --merge",
+        )
+}
+
+fn summary(from: &str, report: &MergeReport) -> String {
+    let total = |all: &BTreeMap<String, u64>| all.values().sum::<u64>();
+    let [added, changed, removed] = [&report.added, &report.changed, &report.removed].map(total);
+    let conflicts = counted(report.conflicts.len() as u64, "conflicts");
+    format!("{from}: {added} added, {changed} changed, {removed} removed, {conflicts}")
+}
+
+struct Work<'c> {
+    connection: &'c Connection,
+    mine: Side<'c>,
+    theirs: Side<'c>,
+    /// This side since the other one merged it.
+    back: Option<Side<'c>>,
+    from: String,
+    report: MergeReport,
+    /// The recordings whose tokens follow from other annotations now.
+    recordings: BTreeSet<i64>,
+    /// The annotations that came from the other side, or moved as there.
+    came: BTreeSet<String>,
+}
+
+impl Work<'_> {
+    fn all(&mut self, progress: &mut Progress<'_>) -> Result<()> {
+        let touched: Vec<Key> = self.theirs.touched.keys().cloned().collect();
+        let mut gone: Vec<Key> = Vec::new();
+        let mut done = 0u64;
+        for table in ORDER {
+            if table == "attribute" {
+                self.derive()?;
+            }
+            let mut waiting: Vec<Key> = touched
+                .iter()
+                .filter(|key| key.0 == table)
+                .cloned()
+                .collect();
+            // Rows of one table may refer to each other: those above go first.
+            loop {
+                let before = waiting.len();
+                let mut later = Vec::new();
+                for key in waiting {
+                    done += 1;
+                    if done % 256 == 0 {
+                        progress.tell(Step {
+                            task: "merging",
+                            done,
+                            total: Some(touched.len() as u64),
+                            unit: Unit::Items,
+                        })?;
+                    }
+                    if self.theirs.row(table, &key.1)?.is_none() {
+                        gone.push(key);
+                    } else if !self.row(&key)? {
+                        later.push(key);
+                    }
+                }
+                if later.is_empty() || later.len() == before {
+                    for key in later {
+                        self.homeless(&key)?;
+                    }
+                    break;
+                }
+                waiting = later;
+            }
+        }
+        for table in ORDER.iter().rev() {
+            let mut waiting: Vec<Key> =
+                gone.iter().filter(|key| key.0 == *table).cloned().collect();
+            loop {
+                let before = waiting.len();
+                let mut later = Vec::new();
+                for key in waiting {
+                    if !self.remove(&key)? {
+                        later.push(key);
+                    }
+                }
+                if later.is_empty() || later.len() == before {
+                    for key in later {
+                        self.disagree(&key, None)?;
+                    }
+                    break;
+                }
+                waiting = later;
+            }
+        }
+        self.derive()?;
+        self.report.conflicts = conflicts::list(self.connection)?
+            .into_iter()
+            .filter(|it| it.decided.is_none() && it.from == self.from)
+            .collect();
+        Ok(())
+    }
+
+    /// Brings the tokens of recordings to what their tiers say now.
+    fn derive(&mut self) -> Result<()> {
+        for recording in std::mem::take(&mut self.recordings) {
+            let inventories = inventories::load_of(self.connection, recording)?;
+            tokens::derive(self.connection, recording, None, &inventories)?;
+        }
+        Ok(())
+    }
+
+    /// Merges a row that the other side has; reports whether it could, for it may refer to one that comes later.
+    fn row(&mut self, key: &Key) -> Result<bool> {
+        let (table, uid) = (key.0.as_str(), key.1.as_str());
+        let Some(theirs) = self.theirs.row(table, uid)? else {
+            return Ok(true);
+        };
+        let bases = self.bases(key)?;
+        let follows = theirs.get("annotation_id").is_some_and(|it| !it.is_null());
+        if bases.contains(&theirs) || (table == "token" && follows) {
+            return Ok(true);
+        }
+        let Some(local) = self.resolved(table, &theirs)? else {
+            return Ok(false);
+        };
+        match self.mine.row(table, uid)? {
+            Some(mine) => self.change(key, &bases, &mine, &theirs)?,
+            None if bases.is_empty() => self.add(key, &theirs, local)?,
+            None => self.disagree(key, Some(&theirs))?,
+        }
+        Ok(true)
+    }
+
+    /// Returns the common states of a row: before the other side changed it, and as this side was when the other
+    /// one merged it.
+    fn bases(&self, key: &Key) -> Result<Vec<Image>> {
+        let mut bases: Vec<Image> = self
+            .theirs
+            .touched
+            .get(key)
+            .cloned()
+            .flatten()
+            .into_iter()
+            .collect();
+        if let Some(back) = &self.back {
+            let known = match back.touched.get(key) {
+                Some(before) => before.clone(),
+                None => self.mine.row(&key.0, &key.1)?,
+            };
+            bases.extend(known);
+        }
+        Ok(bases)
+    }
+
+    /// Returns a row with the numbers of the rows that it refers to; nothing if one of them is not there.
+    fn resolved(&self, table: &str, image: &Image) -> Result<Option<Image>> {
+        let mut local = image.clone();
+        for (column, value) in &mut local {
+            let Some(other) = crate::db::history::refers_to(table, column) else {
+                continue;
+            };
+            let Some(uid) = value.as_str().map(str::to_owned) else {
+                continue;
+            };
+            let mut id = self.mine.id(other, &uid)?;
+            if id.is_none() && other == "token" {
+                id = self.token(&uid)?;
+            }
+            let Some(id) = id else { return Ok(None) };
+            *value = Value::from(id);
+        }
+        Ok(Some(local))
+    }
+
+    /// Returns the token here of the annotation that a token is of there.
+    fn token(&self, uid: &str) -> Result<Option<i64>> {
+        let there = self.theirs.row("token", uid)?;
+        let annotation = there.and_then(|row| Some(row.get("annotation_id")?.as_str()?.to_owned()));
+        let Some(annotation) = annotation else {
+            return Ok(None);
+        };
+        match self.mine.id("annotation", &annotation)? {
+            Some(annotation) => db::token_of(self.connection, annotation),
+            None => Ok(None),
+        }
+    }
+
+    fn add(&mut self, key: &Key, theirs: &Image, mut local: Image) -> Result<()> {
+        let (table, uid) = (key.0.as_str(), key.1.as_str());
+        if let Some(there) = db::namesake(self.connection, table, &local)? {
+            let text = |column: &str| local[column].as_str().unwrap_or_default().to_owned();
+            match table {
+                "recording" => {
+                    let name = recordings::free_name(self.connection, &text("name"))?;
+                    self.report.notes.push(format!(
+                        "both have a recording {:?}: that of {} is {name:?} here",
+                        text("name"),
+                        self.from
+                    ));
+                    local.insert("name".into(), Value::from(name));
+                }
+                "track" => {
+                    let recording = local["recording_id"].as_i64().unwrap_or_default();
+                    let name = tracks::free_name(self.connection, recording, &text("name"))?;
+                    local.insert("name".into(), Value::from(name));
+                }
+                _ => return self.join(key, theirs, there),
+            }
+        }
+        if table == "annotation" {
+            if let Some(twin) = rows::twin(self.connection, &local)? {
+                return self.mine.know(table, uid, Some(twin));
+            }
+            if let Some(other) = self.in_the_way(None, &local)? {
+                return self.conflict(key, (None, Some(theirs)), Some(other));
+            }
+            self.came.insert(uid.to_owned());
+        }
+        let id = db::insert(self.connection, table, &local)?;
+        self.mine.know(table, uid, Some(id))?;
+        self.parts(table, uid, id)?;
+        self.touch(table, &local, id)?;
+        *self.report.added.entry(table.to_owned()).or_default() += 1;
+        Ok(())
+    }
+
+    /// Takes a row for one of this side that has its name: both were made apart.
+    fn join(&mut self, key: &Key, theirs: &Image, there: i64) -> Result<()> {
+        let (table, uid) = (key.0.as_str(), key.1.as_str());
+        self.mine.know(table, uid, Some(there))?;
+        self.parts(table, uid, there)?;
+        let Some(own) = db::uid_of(self.connection, table, there)? else {
+            return Ok(());
+        };
+        let mut theirs = theirs.clone();
+        theirs.insert("uid".into(), Value::from(own.clone()));
+        match self.mine.row(table, &own)? {
+            Some(mine) => self.change(&(table.to_owned(), own), &[], &mine, &theirs),
+            None => Ok(()),
+        }
+    }
+
+    fn parts(&self, table: &str, uid: &str, id: i64) -> Result<()> {
+        let Some(old) = self.theirs.id(table, uid)? else {
+            return Ok(());
+        };
+        let from = (self.theirs.connection, old);
+        if table == "track" && db::has_blocks(self.connection, id)? {
+            return Ok(());
+        }
+        db::copy_parts(from, (self.connection, id), table)
+    }
+
+    fn change(&mut self, key: &Key, bases: &[Image], mine: &Image, theirs: &Image) -> Result<()> {
+        let (table, uid) = (key.0.as_str(), key.1.as_str());
+        let Some(id) = self.mine.id(table, uid)? else {
+            return Ok(());
+        };
+        let nothing = [Image::new()];
+        let bases = if bases.is_empty() { &nothing } else { bases };
+        let mut found = bases
+            .iter()
+            .map(|base| rows::merged(table, base, mine, theirs));
+        let first = found.next().unwrap_or_default();
+        let (taken, disagree) = match found.next() {
+            Some(second) if first.1 && !second.1 => second,
+            _ => first,
+        };
+        let Some(local) = self.resolved(table, &taken)? else {
+            return self.conflict(key, (Some(mine), Some(theirs)), None);
+        };
+        if table == "sign" {
+            self.parts(table, uid, id)?;
+        }
+        if !local.is_empty() {
+            if rows::is_backwards(mine, &local) {
+                return self.conflict(key, (Some(mine), Some(theirs)), None);
+            }
+            if table == "annotation"
+                && (local.contains_key("start_us") || local.contains_key("end_us"))
+            {
+                let mut whole = self.resolved(table, mine)?.unwrap_or_default();
+                whole.extend(local.clone());
+                if let Some(other) = self.in_the_way(Some(id), &whole)? {
+                    return self.conflict(key, (Some(mine), Some(theirs)), Some(other));
+                }
+                self.came.insert(uid.to_owned());
+            }
+            db::update(self.connection, table, id, &local)?;
+            let mut whole = mine.clone();
+            whole.extend(taken);
+            if let Some(whole) = self.resolved(table, &whole)? {
+                self.touch(table, &whole, id)?;
+            }
+            *self.report.changed.entry(table.to_owned()).or_default() += 1;
+        }
+        if disagree {
+            self.conflict(key, (Some(mine), Some(theirs)), None)?;
+        }
+        Ok(())
+    }
+
+    /// Returns the annotation of this side's own that one from the other side would lie over.
+    fn in_the_way(&self, own: Option<i64>, row: &Image) -> Result<Option<i64>> {
+        let number = |column: &str| row.get(column).and_then(Value::as_i64).unwrap_or_default();
+        let (tier, start, end) = (number("tier_id"), number("start_us"), number("end_us"));
+        let symbolic = tiers::tier(self.connection, tier)?.stereotype;
+        if symbolic.is_some_and(|it| it.starts_with("Symbolic")) {
+            return Ok(None);
+        }
+        for near in tiers::annotations_near(self.connection, tier, start, end)? {
+            let over = near.start_us < end && start < near.end_us && Some(near.id) != own;
+            if !over {
+                continue;
+            }
+            let uid = db::uid_of(self.connection, "annotation", near.id)?.unwrap_or_default();
+            let key = ("annotation".to_owned(), uid);
+            if !self.came.contains(&key.1) && self.mine.touched.contains_key(&key) {
+                return Ok(Some(near.id));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Removes what the other side removed; reports whether nothing here refers to it any more.
+    fn remove(&mut self, key: &Key) -> Result<bool> {
+        let (table, uid) = (key.0.as_str(), key.1.as_str());
+        let Some(base) = self.theirs.touched.get(key).cloned().flatten() else {
+            return Ok(true);
+        };
+        let Some(mine) = self.mine.row(table, uid)? else {
+            return Ok(true);
+        };
+        let Some(id) = self.mine.id(table, uid)? else {
+            return Ok(true);
+        };
+        if table == "token" && base.get("annotation_id").is_some_and(|it| !it.is_null()) {
+            return Ok(true);
+        }
+        if table == "sign" && db::sign_is_used(self.connection, id)? {
+            return Ok(true);
+        }
+        let bases = self.bases(key)?;
+        if bases.iter().all(|base| rows::differ(table, base, &mine)) {
+            self.disagree(key, None)?;
+            return Ok(true);
+        }
+        if table == "annotation" && !tiers::children(self.connection, id)?.is_empty() {
+            return Ok(false);
+        }
+        if let Some(local) = self.resolved(table, &mine)? {
+            self.touch(table, &local, id)?;
+        }
+        if table == "recording" {
+            self.recordings.insert(id);
+            self.derive()?;
+        }
+        if db::is_referred_to(self.connection, table, id)? {
+            return Ok(false);
+        }
+        db::delete_parts(self.connection, table, id)?;
+        db::delete(self.connection, table, id)?;
+        self.mine.know(table, uid, None)?;
+        *self.report.removed.entry(table.to_owned()).or_default() += 1;
+        Ok(true)
+    }
+
+    /// Keeps what the other side says of a row that this side removed or changed.
+    fn disagree(&mut self, key: &Key, theirs: Option<&Image>) -> Result<()> {
+        let mine = self.mine.row(&key.0, &key.1)?;
+        self.conflict(key, (mine.as_ref(), theirs), None)
+    }
+
+    /// Keeps a row that refers to one which this side removed.
+    fn homeless(&mut self, key: &Key) -> Result<()> {
+        let theirs = self.theirs.row(&key.0, &key.1)?;
+        self.conflict(key, (None, theirs.as_ref()), None)
+    }
+
+    fn conflict(
+        &mut self,
+        key: &Key,
+        (mine, theirs): (Option<&Image>, Option<&Image>),
+        other: Option<i64>,
+    ) -> Result<()> {
+        if key.0 == "token" || (mine.is_none() && theirs.is_none()) {
+            return Ok(());
+        }
+        let base = self.theirs.touched.get(key).cloned().flatten();
+        let open = Open {
+            table: key.0.clone(),
+            uid: key.1.clone(),
+            base,
+            mine: mine.cloned(),
+            theirs: theirs.cloned(),
+            other: match other {
+                Some(id) => db::uid_of(self.connection, "annotation", id)?,
+                None => None,
+            },
+            from: self.from.clone(),
+            decided: None,
+        };
+        keep(self.connection, &open)
+    }
+
+    /// Notes whose tokens follow from a row.
+    fn touch(&mut self, table: &str, local: &Image, id: i64) -> Result<()> {
+        let number = |column: &str| local.get(column).and_then(Value::as_i64);
+        match table {
+            "recording" => {
+                self.recordings.insert(id);
+            }
+            "tier" => self.recordings.extend(number("recording_id")),
+            "annotation" => {
+                if let Some(tier) = number("tier_id") {
+                    self.recordings
+                        .insert(tiers::tier(self.connection, tier)?.recording_id);
+                }
+            }
+            "signer" => {
+                let all = edits::recordings_of_signer(self.connection, id)?;
+                self.recordings.extend(all);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}

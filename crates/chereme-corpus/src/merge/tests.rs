@@ -1,0 +1,338 @@
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::{Decision, MergeReport};
+use chereme_formats::table::annotations::Moment;
+use chereme_motion::Instant;
+
+use crate::{
+    Address, AnnotateOptions, AnnotationAction, AnnotationName, Corpus, ExportOptions, ExportWhat,
+    ImportOptions, Name, Progress, SignerChange, TierName, unheard,
+};
+
+const EAF: &str = include_str!("tests.eaf");
+
+struct Desk {
+    folder: tempfile::TempDir,
+}
+
+impl Desk {
+    /// Two copies of a corpus with one annotated film.
+    fn new() -> (Self, Corpus, Corpus) {
+        let desk = Self {
+            folder: tempfile::tempdir().expect("a folder"),
+        };
+        let file = desk.path("film.eaf");
+        fs::write(&file, EAF).expect("written");
+        let mut corpus = Corpus::create(&desk.path("base.chereme"), "A").expect("made");
+        corpus
+            .import(&[file], &ImportOptions::default(), progress())
+            .expect("imported");
+        drop(corpus);
+        for copy in ["mine.chereme", "theirs.chereme"] {
+            fs::copy(desk.path("base.chereme"), desk.path(copy)).expect("copied");
+        }
+        let open = |name: &str| Corpus::open(&desk.path(name), name).expect("opened");
+        let (mine, theirs) = (open("mine.chereme"), open("theirs.chereme"));
+        (desk, mine, theirs)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn merge(&self, mine: &mut Corpus) -> MergeReport {
+        let other = if mine.path().ends_with("mine.chereme") {
+            "theirs.chereme"
+        } else {
+            "mine.chereme"
+        };
+        mine.merge(&self.path(other), None, progress())
+            .expect("merged")
+    }
+}
+
+fn progress() -> &'static mut Progress<'static> {
+    Box::leak(Box::new(Progress::new(Box::leak(Box::new(unheard)))))
+}
+
+fn act(corpus: &mut Corpus, action: AnnotationAction) {
+    corpus
+        .annotate(&[action.into()], &AnnotateOptions::default(), progress())
+        .expect("annotated");
+}
+
+/// The annotations as `tier start-end value` in milliseconds.
+fn said(corpus: &Corpus) -> Vec<String> {
+    let mut out = Vec::new();
+    let what = ExportWhat::Address(Address::Recording(Name::Text("film".into())));
+    corpus
+        .export_stream(&what, "eaf", &mut out, progress())
+        .expect("exported");
+    let (transcript, _) = chereme_formats::eaf::read(&out).expect("an EAF file");
+    let mut all = Vec::new();
+    for tier in &transcript.tiers {
+        for it in &tier.annotations {
+            let (start, end) = (it.span.start().millis(), it.span.end().millis());
+            all.push(format!("{} {start}-{end} {}", tier.name, it.value));
+        }
+    }
+    all.sort();
+    all
+}
+
+fn named(corpus: &Corpus, value: &str) -> AnnotationName {
+    let sql = "SELECT id FROM annotation WHERE value = ?1";
+    let id = corpus
+        .store
+        .read()
+        .query_row(sql, [value], |row| row.get(0));
+    AnnotationName::Number(id.expect("an annotation"))
+}
+
+fn set(corpus: &mut Corpus, value: &str, new: Option<&str>, times: Option<[i64; 2]>) {
+    let annotation = named(corpus, value);
+    let moment = |at: i64| Moment::Time(Instant::from_millis(at));
+    act(
+        corpus,
+        AnnotationAction::Set {
+            annotation,
+            start: times.map(|it| moment(it[0])),
+            end: times.map(|it| moment(it[1])),
+            value: new.map(str::to_owned),
+        },
+    );
+}
+
+fn add(corpus: &mut Corpus, start: i64, end: i64, value: &str) {
+    let tiers = crate::db::tiers::tiers(corpus.store.read(), 1).expect("tiers");
+    let moment = |at: i64| Some(Moment::Time(Instant::from_millis(at)));
+    act(
+        corpus,
+        AnnotationAction::Add {
+            tier: TierName::Number(tiers[0].id),
+            start: moment(start),
+            end: moment(end),
+            parent: None,
+            order: None,
+            value: value.into(),
+            confidence: None,
+        },
+    );
+}
+
+fn remove(corpus: &mut Corpus, value: &str) {
+    let annotation = named(corpus, value);
+    act(corpus, AnnotationAction::Remove { annotation });
+}
+
+fn is_whole(corpus: &mut Corpus) {
+    let report = corpus.check(false, progress()).expect("checked");
+    assert!(report.faults.is_empty(), "{:?}", report.faults);
+}
+
+#[test]
+fn copies_that_went_apart_come_together() {
+    let (desk, mut mine, mut theirs) = Desk::new();
+    set(&mut mine, "CHAT", Some("CHATON"), None);
+    add(&mut mine, 600, 700, "M");
+    set(&mut theirs, "CHAT", None, Some([0, 550]));
+    add(&mut theirs, 600, 700, "M");
+    add(&mut theirs, 1600, 1700, "T");
+    remove(&mut theirs, "LION");
+    theirs
+        .change_recording(
+            &Name::Text("film".into()),
+            &crate::RecordingChange {
+                notes: Some(Some("seen".into())),
+                ..Default::default()
+            },
+        )
+        .expect("changed");
+    let report = desk.merge(&mut mine);
+    assert_eq!(report.conflicts, []);
+    let want = [
+        "Gloss RH 0-550 CHATON",
+        "Gloss RH 1000-1500 CHIEN",
+        "Gloss RH 1600-1700 T",
+        "Gloss RH 2000-2500 VACHE",
+        "Gloss RH 600-700 M",
+        "Notes 0-3500 film",
+    ];
+    assert_eq!(said(&mine), want);
+    is_whole(&mut mine);
+    let found = mine
+        .search("gloss:T", &Default::default())
+        .expect("searched");
+    assert_eq!(found.hits.len(), 1);
+    // A second time nothing is left to do, and one undo takes all of it back.
+    let again = desk.merge(&mut mine);
+    assert!(
+        again.added.is_empty() && again.changed.is_empty(),
+        "{again:?}"
+    );
+    mine.undo().expect("undone");
+    assert!(said(&mine).contains(&"Gloss RH 3000-3500 LION".to_owned()));
+    is_whole(&mut mine);
+    // The other one merges what this one has, and says the same.
+    mine.redo().expect("redone");
+    desk.merge(&mut theirs);
+    assert_eq!(said(&theirs), want);
+    is_whole(&mut theirs);
+}
+
+#[test]
+fn conflicts_keep_both_candidates_and_are_decided_one_by_one() {
+    let (desk, mut mine, mut theirs) = Desk::new();
+    set(&mut mine, "CHAT", Some("M1"), None);
+    set(&mut theirs, "CHAT", Some("T1"), None);
+    remove(&mut mine, "CHIEN");
+    set(&mut theirs, "CHIEN", Some("T2"), None);
+    set(&mut mine, "VACHE", Some("M3"), None);
+    remove(&mut theirs, "VACHE");
+    add(&mut mine, 600, 700, "M4");
+    add(&mut theirs, 650, 750, "T4");
+    let before = said(&mine);
+    let report = desk.merge(&mut mine);
+    assert_eq!(said(&mine), before, "mine stands");
+    assert_eq!(report.conflicts.len(), 4, "{:?}", report.conflicts);
+    let find = |corpus: &Corpus, text: &str| {
+        let all = corpus.conflicts(false).expect("listed").into_iter();
+        let mut all = all.filter(|it| {
+            [&it.mine, &it.theirs]
+                .into_iter()
+                .flatten()
+                .any(|it| it.text == text)
+        });
+        all.next().map(|it| it.number)
+    };
+    let numbers = ["T1", "T2", "M3", "T4"].map(|text| find(&mine, text).expect("there"));
+    mine.decide(&numbers[..2], Decision::Theirs)
+        .expect("decided");
+    mine.decide(&numbers[2..3], Decision::Mine)
+        .expect("decided");
+    mine.decide(&numbers[3..], Decision::Both).expect("decided");
+    assert!(mine.decide(&numbers[..1], Decision::Mine).is_err());
+    let want = [
+        "Gloss RH (theirs) 650-750 T4",
+        "Gloss RH 0-500 T1",
+        "Gloss RH 1000-1500 T2",
+        "Gloss RH 2000-2500 M3",
+        "Gloss RH 3000-3500 LION",
+        "Gloss RH 600-700 M4",
+        "Notes 0-3500 film",
+    ];
+    assert_eq!(said(&mine), want);
+    is_whole(&mut mine);
+    assert!(mine.conflicts(false).expect("listed").is_empty());
+    // Decided conflicts are not asked again.
+    let again = desk.merge(&mut mine);
+    assert_eq!(again.conflicts, []);
+    for _ in 0..3 {
+        mine.undo().expect("undone");
+    }
+    assert_eq!(mine.conflicts(false).expect("listed").len(), 4);
+    assert_eq!(said(&mine), before);
+}
+
+#[test]
+fn recordings_signs_and_signers_come_along() {
+    let (desk, mut mine, mut theirs) = Desk::new();
+    let file = desk.path("second.eaf");
+    fs::write(&file, EAF.replace("CHAT", "NEUF")).expect("written");
+    theirs
+        .import(&[file], &ImportOptions::default(), progress())
+        .expect("imported");
+    let table = desk.path("signs.csv");
+    fs::write(&table, "gloss,handshape\nLUNE,U\n").expect("written");
+    theirs
+        .import(&[table], &ImportOptions::default(), progress())
+        .expect("imported");
+    let report = desk.merge(&mut mine);
+    assert_eq!(report.added.get("recording"), Some(&1), "{report:?}");
+    is_whole(&mut mine);
+    for query in ["gloss:NEUF", "gloss:LUNE"] {
+        let found = mine.search(query, &Default::default()).expect("searched");
+        assert_eq!(found.hits.len(), 1, "{query}");
+    }
+    let to = desk.path("second-out.eaf");
+    let what = ExportWhat::Address(Address::Recording(Name::Text("second".into())));
+    mine.export(&what, &to, &ExportOptions::default(), progress())
+        .expect("exported");
+    assert_eq!(
+        fs::read_to_string(to).expect("read"),
+        EAF.replace("CHAT", "NEUF")
+    );
+}
+
+#[test]
+fn corpora_without_a_common_beginning_need_a_base() {
+    let (desk, mut mine, mut theirs) = Desk::new();
+    drop(Corpus::create(&desk.path("else.chereme"), "A").expect("made"));
+    let refused = mine.merge(&desk.path("else.chereme"), None, progress());
+    assert!(refused.expect_err("refused").remedy().is_some());
+    set(&mut theirs, "CHAT", Some("T"), None);
+    let base: &Path = &desk.path("base.chereme");
+    let report = mine.merge(&desk.path("theirs.chereme"), Some(base), progress());
+    assert_eq!(report.expect("merged").changed.get("annotation"), Some(&1));
+    assert!(said(&mine).contains(&"Gloss RH 0-500 T".to_owned()));
+}
+
+#[test]
+fn a_signer_is_merged_field_by_field() {
+    let (desk, mut mine, mut theirs) = Desk::new();
+    let film = Name::Text("film".into());
+    let change = crate::RecordingChange {
+        signer: Some(Some("Anna".into())),
+        ..Default::default()
+    };
+    for corpus in [&mut mine, &mut theirs] {
+        corpus.change_recording(&film, &change).expect("changed");
+    }
+    let left = SignerChange {
+        handedness: Some(Some(chereme_motion::Side::Left)),
+        ..Default::default()
+    };
+    theirs
+        .change_signer(&Name::Text("Anna".into()), &left)
+        .expect("changed");
+    let report = desk.merge(&mut mine);
+    is_whole(&mut mine);
+    assert_eq!(
+        crate::db::recordings::signers(mine.store.read())
+            .expect("read")
+            .len(),
+        1
+    );
+    assert!(report.conflicts.is_empty(), "{:?}", report.conflicts);
+}
+
+#[test]
+fn copies_are_merged_again_and_again_in_both_directions() {
+    let (desk, mut mine, mut theirs) = Desk::new();
+    set(&mut theirs, "CHAT", Some("T1"), None);
+    add(&mut theirs, 600, 700, "T2");
+    desk.merge(&mut mine);
+    // What came from there is changed here; a second merge does not take that back.
+    set(&mut mine, "T1", Some("M1"), None);
+    set(&mut mine, "T2", Some("M2"), None);
+    set(&mut theirs, "LION", Some("T3"), None);
+    let report = desk.merge(&mut mine);
+    assert_eq!(report.conflicts, []);
+    for value in ["0-500 M1", "600-700 M2", "3000-3500 T3"] {
+        assert!(
+            said(&mine).contains(&format!("Gloss RH {value}")),
+            "{value}"
+        );
+    }
+    // The other one follows, and goes on from there.
+    let report = desk.merge(&mut theirs);
+    assert_eq!(report.conflicts, []);
+    assert_eq!(said(&theirs), said(&mine));
+    set(&mut theirs, "M1", Some("T4"), None);
+    let report = desk.merge(&mut mine);
+    assert_eq!(report.conflicts, []);
+    assert_eq!(said(&theirs), said(&mine));
+    is_whole(&mut mine);
+    is_whole(&mut theirs);
+}

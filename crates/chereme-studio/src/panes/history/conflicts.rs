@@ -1,0 +1,69 @@
+//! Conflicts of merges above the history: both candidates, and a button for each decision.
+
+use chereme_corpus::{Candidate, CorpusConflict, Decision};
+use eframe::egui::{CollapsingHeader, RichText, ScrollArea, Ui};
+
+use crate::context::{Outbox, Seen};
+use crate::words::merge as words;
+use crate::work::Work;
+
+/// The most height of the list, as a share of the pane's.
+const SHARE: f32 = 0.6;
+
+/// Shows the conflicts that wait, if there are any.
+pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    let all = &seen.snapshot.overview.conflicts;
+    if all.is_empty() {
+        return;
+    }
+    let title = format!("{} ({})", seen.say(words::TITLE), all.len());
+    let height = ui.available_height() * SHARE;
+    let header = CollapsingHeader::new(RichText::new(title).strong())
+        .id_salt("conflicts")
+        .default_open(true);
+    header.show(ui, |ui| {
+        ScrollArea::vertical()
+            .id_salt("conflicts")
+            .max_height(height)
+            .show(ui, |ui| {
+                for conflict in all {
+                    row(ui, seen, out, conflict);
+                    ui.separator();
+                }
+            });
+    });
+}
+
+fn row(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, conflict: &CorpusConflict) {
+    let about = format!(
+        "{}. {} · {} {}",
+        conflict.number,
+        conflict.place,
+        seen.say(words::FROM),
+        conflict.from
+    );
+    ui.weak(about);
+    let shown = |side: &Option<Candidate>| match side {
+        Some(side) => side.to_string(),
+        None => seen.say(words::GONE).to_owned(),
+    };
+    let sides = [
+        (Decision::Mine, Some(shown(&conflict.mine))),
+        (Decision::Theirs, Some(shown(&conflict.theirs))),
+        (
+            Decision::Both,
+            (conflict.what == "annotation" && conflict.theirs.is_some()).then(String::new),
+        ),
+    ];
+    for (decision, text) in sides {
+        let Some(text) = text else { continue };
+        ui.horizontal_wrapped(|ui| {
+            let label = seen.say(words::decision(decision));
+            let button = ui.button(label).on_hover_text(seen.say(words::TIP));
+            if button.clicked() {
+                out.work(Work::Decide(conflict.number, decision));
+            }
+            ui.label(text);
+        });
+    }
+}
