@@ -32,6 +32,7 @@ const HITS: &[&str] = &[
     "/hits/0/components",
 ];
 const ROWS: &[&str] = &["/total", "/rows/0"];
+const DIFFERENCE: &[&str] = &["/added", "/removed", "/moved", "/revalued", "/tiers"];
 const WRITTEN: &[&str] = &["/files/0/path"];
 const REFUSED: &[&str] = &[
     "/files/0/status",
@@ -456,6 +457,24 @@ pub(crate) const CASES: &[Case] = &[
     ("export @c all --to @d/all.docx", 1, ERROR),
     ("export @c recording:9 --to @d/nine.bvh", 1, ERROR),
     ("export @c recording:1 --to @in/bowl.bvh", 1, ERROR),
+    ("export @c recording:1 --to @d/bowl.elan.txt", 0, WRITTEN),
+    ("export @c recording:1 --to @d/bowl.c3d", 1, ERROR),
+    ("diff @in/bowl.eaf @in/bowl.eaf", 0, DIFFERENCE),
+    ("diff @c recording:1 @in/bowl.eaf", 0, DIFFERENCE),
+    ("diff @c recording:1 recording:9", 1, ERROR),
+    ("diff @in/bowl.eaf @in/none.eaf", 1, ERROR),
+    ("diff @in/bowl.eaf", 2, ERROR),
+    (
+        "merge @in/bowl.eaf @in/bowl.eaf --to @d/merged.eaf",
+        0,
+        &["/changes/added", "/conflicts"],
+    ),
+    ("merge @in/bowl.eaf @in/bowl.eaf", 1, ERROR),
+    ("merge @in/bowl.eaf @c", 1, ERROR),
+    ("conflicts @c", 0, LOG),
+    ("conflicts @c 1", 1, ERROR),
+    ("conflicts @c 1 --take both", 1, ERROR),
+    ("conflicts @c --take mine", 1, ERROR),
     ("check @c", 0, &["/ok", "/checked", "/faults", "/mended"]),
     ("check @in/notes.txt", 1, ERROR),
     ("dance @c", 2, ERROR),

@@ -97,6 +97,7 @@ pub(crate) fn keep(connection: &Connection, open: &Open) -> Result<()> {
     };
     if all
         .iter()
+        .filter(|(_, text)| text.contains(&open.uid))
         .filter_map(|(_, text)| read(text))
         .any(|it| same(&it))
     {

@@ -230,12 +230,13 @@ pub(super) fn alike(a: &Annotation, b: &Annotation) -> bool {
 fn overlap(a: &Annotation, b: &Annotation) -> f64 {
     let start = a.span.start().max(b.span.start()).micros();
     let end = a.span.end().min(b.span.end()).micros();
-    let whole =
-        a.span.end().max(b.span.end()).micros() - a.span.start().min(b.span.start()).micros();
+    let first = a.span.start().min(b.span.start()).micros();
+    let whole = a.span.end().max(b.span.end()).micros();
+    let whole = whole.saturating_sub(first);
     if end <= start || whole <= 0 {
         return 0.0;
     }
-    (end - start) as f64 / whole as f64
+    end.saturating_sub(start) as f64 / whole as f64
 }
 
 fn parents_first(it: &Transcript) -> Vec<usize> {
