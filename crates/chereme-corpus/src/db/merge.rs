@@ -56,7 +56,7 @@ pub(crate) fn merged_before(
     after: i64,
     other: &Connection,
 ) -> Result<Option<i64>> {
-    let mut newest = None;
+    let mut newest: Option<i64> = None;
     for (key, _) in notes(other, MERGED)? {
         let sql = "SELECT id FROM operation WHERE uid = unhex(?1) AND id > ?2";
         let found: Option<i64> = connection
@@ -225,6 +225,11 @@ impl<'c> Side<'c> {
         Ok(all)
     }
 
+    /// Returns a row with uids in place of the numbers of the rows that it refers to.
+    pub(crate) fn named(&self, table: &str, image: Image) -> Result<Image> {
+        self.by_uid(table, image, &BTreeMap::new())
+    }
+
     /// Replaces numbers of rows by their uids; `gone` knows those that stood for others.
     fn by_uid(&self, table: &str, mut image: Image, gone: &Gone) -> Result<Image> {
         image.remove("id");
@@ -315,6 +320,7 @@ pub(crate) fn namesake(connection: &Connection, table: &str, image: &Image) -> R
         "sign" => &["gloss"],
         "tier" | "track" => &["recording_id", "name"],
         "attribute" => &["token_id", "name"],
+        "notation" => &["token_id"],
         "recipe" => &["recording_id"],
         "channel" => &["track_id", "position"],
         _ => return Ok(None),

@@ -19,7 +19,7 @@ pub(crate) use conflicts::{keep_annotation, waiting};
 
 use crate::Corpus;
 use crate::db::merge::{self as db, Image, Key, Side};
-use crate::db::{edits, recordings, tiers, tracks};
+use crate::db::{edits, recordings, signs, tiers, tracks};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
@@ -42,7 +42,7 @@ pub struct MergeReport {
 }
 
 /// The tables that are merged, those first that others refer to. Tokens of annotations follow from these.
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 16] = [
     "signer",
     "skeleton",
     "inventory",
@@ -58,6 +58,7 @@ const ORDER: [&str; 15] = [
     "recipe",
     "kept_search",
     "attribute",
+    "notation",
 ];
 
 impl Corpus {
@@ -115,6 +116,7 @@ impl Corpus {
                     report: MergeReport::default(),
                     recordings: BTreeSet::new(),
                     came: BTreeSet::new(),
+                    signs: Vec::new(),
                 };
                 work.all(progress)?;
                 db::note_merged(connection, there)?;
@@ -153,6 +155,8 @@ struct Work<'c> {
     recordings: BTreeSet<i64>,
     /// The annotations that came from the other side, or moved as there.
     came: BTreeSet<String>,
+    /// The signs that came from the other side.
+    signs: Vec<i64>,
 }
 
 impl Work<'_> {
@@ -219,6 +223,10 @@ impl Work<'_> {
             }
         }
         self.derive()?;
+        // A sign that only a candidate names is made again if the candidate is taken.
+        for sign in std::mem::take(&mut self.signs) {
+            signs::delete_empty_sign(self.connection, sign)?;
+        }
         self.report.conflicts = conflicts::list(self.connection)?
             .into_iter()
             .filter(|it| it.decided.is_none() && it.from == self.from)
@@ -249,6 +257,8 @@ impl Work<'_> {
         let Some(local) = self.resolved(table, &theirs)? else {
             return Ok(false);
         };
+        // A row that both made apart has the uid of this side from now on.
+        let theirs = self.mine.named(table, local.clone())?;
         match self.mine.row(table, uid)? {
             Some(mine) => self.change(key, &bases, &mine, &theirs)?,
             None if bases.is_empty() => self.add(key, &theirs, local)?,
@@ -343,6 +353,9 @@ impl Work<'_> {
             self.came.insert(uid.to_owned());
         }
         let id = db::insert(self.connection, table, &local)?;
+        if table == "sign" {
+            self.signs.push(id);
+        }
         self.mine.know(table, uid, Some(id))?;
         self.parts(table, uid, id)?;
         self.touch(table, &local, id)?;
@@ -383,7 +396,11 @@ impl Work<'_> {
             return Ok(());
         };
         let nothing = [Image::new()];
-        let bases = if bases.is_empty() { &nothing } else { bases };
+        let bases = if bases.is_empty() {
+            &nothing[..]
+        } else {
+            bases
+        };
         let mut found = bases
             .iter()
             .map(|base| rows::merged(table, base, mine, theirs));
@@ -451,7 +468,8 @@ impl Work<'_> {
     /// Removes what the other side removed; reports whether nothing here refers to it any more.
     fn remove(&mut self, key: &Key) -> Result<bool> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
-        let Some(base) = self.theirs.touched.get(key).cloned().flatten() else {
+        let bases = self.bases(key)?;
+        let Some(base) = bases.first() else {
             return Ok(true);
         };
         let Some(mine) = self.mine.row(table, uid)? else {
@@ -466,7 +484,6 @@ impl Work<'_> {
         if table == "sign" && db::sign_is_used(self.connection, id)? {
             return Ok(true);
         }
-        let bases = self.bases(key)?;
         if bases.iter().all(|base| rows::differ(table, base, &mine)) {
             self.disagree(key, None)?;
             return Ok(true);
