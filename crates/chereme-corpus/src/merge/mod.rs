@@ -179,7 +179,7 @@ impl Work<'_> {
                 let mut later = Vec::new();
                 for key in waiting {
                     done += 1;
-                    if done % 256 == 0 {
+                    if done.is_multiple_of(256) {
                         progress.tell(Step {
                             task: "merging",
                             done,

@@ -59,7 +59,7 @@ pub(super) fn merged(table: &str, base: &Image, mine: &Image, theirs: &Image) ->
 
 /// Reports whether a row says something else than before, whatever place it has among others.
 pub(super) fn differ(table: &str, base: &Image, mine: &Image) -> bool {
-    let soft = |column: &str| SOFT.iter().any(|it| *it == (table, column));
+    let soft = |column: &str| SOFT.contains(&(table, column));
     mine.iter()
         .any(|(column, value)| !soft(column) && base.get(column).unwrap_or(&Value::Null) != value)
 }
