@@ -224,16 +224,16 @@ fn a_shared_slot_is_parted_only_if_one_of_its_ends_moves() {
 
 #[test]
 fn a_removed_annotation_takes_its_lines_and_slots_along() {
-    let after = changed(OLD, |it| drop(tier(it, "Gloss").annotations.remove(0)));
+    let after = changed(OLD, |it| drop(tier(it, "Gloss").annotations.pop()));
     lines(
         OLD,
         &after,
         &[
-            "<TIME_SLOT TIME_SLOT_ID=\"ts1\" TIME_VALUE=\"100\"/>",
-            "<TIME_SLOT TIME_SLOT_ID=\"ts2\" TIME_VALUE=\"700\"/>",
+            "<TIME_SLOT TIME_SLOT_ID=\"ts3\" TIME_VALUE=\"800\"/>",
+            "<TIME_SLOT TIME_SLOT_ID=\"ts4\" TIME_VALUE=\"900\"/>",
             "<ANNOTATION>",
-            "<ALIGNABLE_ANNOTATION ANNOTATION_ID=\"a1\" TIME_SLOT_REF1=\"ts1\" TIME_SLOT_REF2=\"ts2\">",
-            "<ANNOTATION_VALUE>CHAT</ANNOTATION_VALUE>",
+            "<ALIGNABLE_ANNOTATION ANNOTATION_ID=\"a2\" TIME_SLOT_REF1=\"ts3\" TIME_SLOT_REF2=\"ts4\">",
+            "<ANNOTATION_VALUE></ANNOTATION_VALUE>",
             "</ALIGNABLE_ANNOTATION>",
             "</ANNOTATION>",
         ],

@@ -263,7 +263,7 @@ pub(super) fn conflicts(cli: &Cli, args: &ConflictsArgs, output: &mut Output) ->
         list(&all, output)?;
         return output.document(json!({ "total": all.len(), "rows": all }));
     };
-    let numbers = if args.numbers.iter().any(|it| it == "all") {
+    let numbers: Vec<usize> = if args.numbers.iter().any(|it| it == "all") {
         corpus
             .conflicts(false)?
             .iter()

@@ -37,18 +37,19 @@ pub(super) fn merged(table: &str, base: &Image, mine: &Image, theirs: &Image) ->
         };
         let (old, own, new) = (of(base), of(mine), of(theirs));
         // The first columns of a group hold its value, the others its source.
-        let said = |values: &[Value]| values[..group.len().min(2)].to_vec();
-        if new == old || own == new {
+        let length = if group[0] == "state" { 2 } else { 1 };
+        let said = |values: &[Value]| values[..length].to_vec();
+        if new == old || own == new || said(&new) == said(&own) {
             continue;
         }
-        if own == old {
+        if own == old || said(&own) == said(&old) {
             for (column, value) in group.iter().zip(new) {
                 taken.insert((*column).to_owned(), value);
             }
         } else if group == ["duration_us"] {
             let most = own[0].as_i64().max(new[0].as_i64());
             taken.insert("duration_us".to_owned(), Value::from(most));
-        } else if said(&own) != said(&new)
+        } else if said(&new) != said(&old)
             && !SOFT.iter().any(|it| it.0 == table && group == [it.1])
         {
             disagree = true;

@@ -115,8 +115,14 @@ pub(super) fn loose(pieces: &Pieces, said: &Said, fresh: &BTreeMap<String, Strin
     };
     let above = said.above.as_ref().map(name);
     let before = said.before.as_ref().map(name);
+    // Annotations with times of their own have no rank among siblings.
+    let chained = above.is_some() && said.whole.millis.is_none();
     Loose {
-        rank: rank(pieces, &said.tier, above.as_deref(), before.as_deref()),
+        rank: if chained {
+            rank(pieces, &said.tier, above.as_deref(), before.as_deref())
+        } else {
+            0.0
+        },
         it: said.whole.clone(),
         tier: said.tier.clone(),
         above,

@@ -44,6 +44,7 @@ pub fn merge(base: &Transcript, mine: &Transcript, theirs: &Transcript) -> Merge
         base,
         mine,
         theirs,
+        known: names(base, mine, &own).into_values().collect(),
         names: names(base, mine, &own),
         places: places(base)
             .into_iter()
@@ -178,6 +179,8 @@ struct Work<'w> {
     theirs: &'w Transcript,
     own: Matching,
     names: BTreeMap<String, String>,
+    /// The ids in mine of annotations of the base.
+    known: BTreeSet<String>,
     /// The annotations of the base by id.
     places: BTreeMap<String, Place>,
     pieces: Pieces,
@@ -272,16 +275,17 @@ impl Work<'_> {
         };
         let symbolic = self.theirs.tiers.iter().position(|it| it.name == said.tier);
         let symbolic = symbolic.is_some_and(|tier| is_symbolic(self.theirs, tier));
-        let base: BTreeSet<&String> = self.names.values().collect();
-        let brought: BTreeSet<&String> = self.fresh.values().collect();
         let twin = self.pieces.all.iter().find(|(id, it)| {
-            let own = !base.contains(id) && !brought.contains(id) && it.tier == new.tier;
             let there = if symbolic {
                 it.above == above
             } else {
                 alike(&it.it, &new.whole)
             };
-            own && there && it.it.value == new.value
+            there
+                && it.it.value == new.value
+                && it.tier == new.tier
+                && !self.known.contains(*id)
+                && !self.fresh.values().any(|own| own == *id)
         });
         if let Some((id, _)) = twin {
             let id = id.clone();
@@ -290,7 +294,7 @@ impl Work<'_> {
         }
         let mut loose = loose(&self.pieces, &new, &self.fresh);
         if symbolic {
-            self.after_mine(&mut loose, &base.into_iter().cloned().collect());
+            self.after_mine(&mut loose);
         }
         let id = self.pieces.add(loose);
         self.fresh.insert(said.id.clone(), id.clone());
@@ -298,14 +302,14 @@ impl Work<'_> {
     }
 
     /// Puts additions of both sides at one place of a chain into the order of their texts.
-    fn after_mine(&self, loose: &mut super::loose::Loose, base: &BTreeSet<String>) {
+    fn after_mine(&self, loose: &mut super::loose::Loose) {
         let siblings = self.pieces.all.values();
         let mut siblings: Vec<_> = siblings
             .filter(|it| it.tier == loose.tier && it.above == loose.above && it.rank > loose.rank)
             .collect();
         siblings.sort_by(|x, y| x.rank.total_cmp(&y.rank));
         for (at, it) in siblings.iter().enumerate() {
-            if base.contains(&it.it.id) || it.it.value >= loose.it.value {
+            if self.known.contains(&it.it.id) || it.it.value >= loose.it.value {
                 break;
             }
             let next = siblings.get(at + 1).map_or(it.rank + 1.0, |next| next.rank);

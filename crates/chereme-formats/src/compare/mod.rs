@@ -373,15 +373,18 @@ fn said((it, of): (&Transcript, Option<(&Transcript, &Matching)>), place: Place)
             None => Above::New(get(it, other).id.clone()),
         },
     };
+    // Only links of a chain have an order; looking for neighbours of all others would take long.
     let siblings = it.tiers[place.tier].annotations.iter().enumerate();
-    let before = siblings
-        .filter(|(_, sibling)| sibling.parent == whole.parent && sibling.order + 1 == whole.order)
-        .map(|(index, _)| Place {
+    let before = (whole.order > 0).then(|| {
+        let mut siblings = siblings.filter(|(_, sibling)| {
+            sibling.parent == whole.parent && sibling.order + 1 == whole.order
+        });
+        siblings.next().map(|(index, _)| Place {
             tier: place.tier,
             index,
         })
-        .next()
-        .filter(|_| whole.order > 0);
+    });
+    let before = before.flatten();
     Said {
         tier: it.tiers[place.tier].name.clone(),
         id: whole.id.clone(),

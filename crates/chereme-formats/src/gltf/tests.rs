@@ -415,7 +415,7 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
     let (scene, _) = parse(&bytes).expect("a GLB");
     let again = scene.clip;
     let hand = at("LeftHand");
-    let own = again.skeleton().find("leftHand").expect("a hand");
+    let own = again.skeleton().find("LeftHand").expect("a hand");
     for frame in 0..10 {
         let want = clip.model_pose(frame).rotation(hand) * rest.rotation(hand).inverse();
         let got = again.model_pose(frame).rotation(own);
