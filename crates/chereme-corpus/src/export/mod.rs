@@ -7,8 +7,6 @@ pub(crate) mod eaf;
 mod enriched;
 mod foreign;
 mod notation;
-#[cfg(feature = "parquet")]
-mod parquet;
 mod several;
 #[cfg(test)]
 mod tests;
@@ -96,7 +94,6 @@ impl Corpus {
     /// | `.TextGrid` | the tiers of one recording, for Praat |
     /// | `.elan.txt` | the same as ELAN exports tab-delimited text |
     /// | `.srt`, `.vtt` | the glosses and translations of one recording as subtitles |
-    /// | `.parquet`, `.annotations.parquet`, `.frames.parquet` | tokens, annotations, frames of movement as long tables |
     /// | `.sigml` | notated tokens as gestural SiGML |
     /// | `.hsigml` | notated tokens as H-SiGML, HamNoSys's symbols as elements |
     /// | `.hns`, `.txt` | notated tokens as HamNoSys text, a sign a line: the gloss, a tab, the text |
@@ -221,7 +218,6 @@ enum Format {
     Bvh,
     Json,
     Glb,
-    Parquet(Long),
     Vrma,
     /// Markers as a file of their own.
     Points(foreign::Points),
@@ -233,14 +229,6 @@ enum Format {
     Notation(notation::Form),
 }
 
-/// The long tables of Parquet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Long {
-    Tokens,
-    Annotations,
-    Frames,
-}
-
 impl Format {
     fn of(extension: &str) -> Option<Self> {
         match extension {
@@ -250,7 +238,6 @@ impl Format {
             "bvh" => Some(Self::Bvh),
             "json" => Some(Self::Json),
             "glb" => Some(Self::Glb),
-            "parquet" => Some(Self::Parquet(Long::Tokens)),
             "vrma" => Some(Self::Vrma),
             "c3d" => Some(Self::Points(foreign::Points::C3d)),
             "trc" => Some(Self::Points(foreign::Points::Trc)),
@@ -270,8 +257,6 @@ impl Format {
             (Self::Table(delimiter), "curves") => Self::Curves(delimiter),
             (Self::Table(delimiter), "markers") => Self::Markers(delimiter),
             (Self::Notation(notation::Form::Text), "elan") => Self::ElanTable,
-            (Self::Parquet(_), "annotations") => Self::Parquet(Long::Annotations),
-            (Self::Parquet(_), "frames") => Self::Parquet(Long::Frames),
             (other, _) => other,
         }
     }
@@ -354,7 +339,6 @@ fn write_file(
             let stretch = stretch(connection, what)?;
             foreign::glb(connection, &stretch, out)
         }
-        (Format::Parquet(long), _) => long_table(connection, what, long, out, notes, progress),
         (Format::Vrma, _) => {
             let stretch = stretch(connection, what)?;
             foreign::vrma(connection, &stretch, out)
@@ -386,54 +370,9 @@ fn write_file(
     }
 }
 
-/// Writes a long table as Parquet.
-#[cfg(feature = "parquet")]
-fn long_table(
-    connection: &Connection,
-    what: &ExportWhat,
-    long: Long,
-    out: &mut dyn Write,
-    notes: &mut Vec<String>,
-    progress: &mut Progress<'_>,
-) -> Result<()> {
-    if long == Long::Tokens {
-        let tokens = tokens(connection, what)?;
-        let mut table = Vec::new();
-        csv::tokens(connection, &tokens, b',', &mut table, notes, progress)?;
-        return parquet::tokens(&table, out);
-    }
-    let all = match what {
-        ExportWhat::All => recordings::recordings(connection)?,
-        what => vec![stretch(connection, what)?.recording],
-    };
-    parquet::recordings(connection, &all, long, out, progress)
-}
-
-/// Refuses Parquet, which this program was built without.
-#[cfg(not(feature = "parquet"))]
-fn long_table(
-    _connection: &Connection,
-    _what: &ExportWhat,
-    long: Long,
-    _out: &mut dyn Write,
-    _notes: &mut Vec<String>,
-    _progress: &mut Progress<'_>,
-) -> Result<()> {
-    let remedy = match long {
-        Long::Tokens => "write .csv, or build it with `cargo build --features parquet`",
-        Long::Annotations => {
-            "export a tier as .csv, or build it with `cargo build --features parquet`"
-        }
-        Long::Frames => {
-            "export a folder of everything, or build it with `cargo build --features parquet`"
-        }
-    };
-    Err(Error::wrong("this program was built without Parquet").advise(remedy))
-}
-
 fn no_format(to: &Path, message: &str) -> Error {
     Error::wrong(message).at(to.display().to_string()).advise(
-        "end the name in .csv, .tsv, .curves.csv, .markers.csv, .eaf, .bvh, .glb, .vrma, .c3d, .trc, .parquet, .TextGrid, \
+        "end the name in .csv, .tsv, .curves.csv, .markers.csv, .eaf, .bvh, .glb, .vrma, .c3d, .trc, .TextGrid, \
          .elan.txt, .srt, .vtt, .sigml, .hsigml or .hns, an \
          inventory's in .json; a name without a dot is a folder of everything, or with --format of a file for each \
          recording or token",
