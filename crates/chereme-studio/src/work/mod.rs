@@ -13,10 +13,10 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
-    Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat, ImportOptions,
-    ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier, OperationRow, Picture,
-    PictureOptions, Proposed, Recombination, RecordingChange, Scheme, SearchOptions, SignChange,
-    SignerChange, Suggestions, TierChange, TierName, TrackChange, Unit,
+    Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat,
+    ImportOptions, ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier,
+    OperationRow, Picture, PictureOptions, Proposed, Recombination, RecordingChange, Scheme,
+    SearchOptions, SignChange, SignerChange, Suggestions, TierChange, TierName, TrackChange, Unit,
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
