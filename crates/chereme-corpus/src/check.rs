@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use chereme_formats::bvh::raw::Hierarchy;
 use chereme_motion::{Column, Instant, Span};
-use chereme_sign::tier::{self, AnnotationId, Stereotype, TierId, TierSet};
+use chereme_sign::tier::{self, AnnotationId, Stereotype, TierId, TierSet, Violation};
 use chereme_sign::{HandRef, Reading};
 use rusqlite::Connection;
 use serde::Serialize;
@@ -52,6 +52,8 @@ pub struct Fault {
 }
 
 const BACKUP: &str = "take the file from a backup, or import the recording again";
+/// How many overlaps of one tier are faults of their own; the rest are counted.
+const SHOWN_OVERLAPS: u64 = 3;
 const MEND: &str = "`chereme check CORPUS --mend` puts it right";
 
 impl Corpus {
@@ -302,11 +304,35 @@ impl Looking<'_, '_> {
         let inventories = inventories::load(connection).unwrap_or_default();
         for recording in recordings::recordings(connection)? {
             let set = tier_set(connection, recording.id)?;
+            let mut overlaps: BTreeMap<TierId, u64> = BTreeMap::new();
             for violation in tier::check(&set) {
+                if let Violation::Overlap { tier, .. } = violation {
+                    let count = overlaps.entry(tier).or_default();
+                    *count += 1;
+                    if *count > SHOWN_OVERLAPS {
+                        continue;
+                    }
+                }
                 let place = format!("recording {:?}", recording.name);
                 let remedy = "correct the annotation: `chereme annotate CORPUS set ANNOTATION --value TEXT`, or --start and --end";
                 let message = told::named(connection, &violation.to_string());
                 self.fault("tier", place, message, remedy);
+            }
+            for (tier, count) in overlaps {
+                let Some(more) = count.checked_sub(SHOWN_OVERLAPS).filter(|&more| more > 0) else {
+                    continue;
+                };
+                let place = format!("recording {:?}", recording.name);
+                let message = told::named(
+                    connection,
+                    &format!("{more} more annotations overlap on {tier}"),
+                );
+                self.fault(
+                    "tier",
+                    place,
+                    message,
+                    "ELAN allows no overlap within a tier; put one of each two on another tier",
+                );
             }
             let derived = rows::tried(connection, || {
                 let before = rows::changes(connection)?;

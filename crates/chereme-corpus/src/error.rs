@@ -200,6 +200,7 @@ fn several(errors: &[Error]) -> String {
             .map_or(String::new(), |place| format!("{place}: "));
         let remedy = error
             .remedy()
+            .filter(|_| errors.len() > 1)
             .map_or(String::new(), |remedy| format!(" ({remedy})"));
         format!("{place}{error}{remedy}")
     }));

@@ -86,6 +86,9 @@ const SAME: f64 = 1e-3;
 const TEE: (f64, f64) = (0.93, 0.9);
 /// How far below its shoulder a wrist at rest is, in lengths of the arm, and its greatest speed in metres per second.
 const REST: (f64, f64) = (0.7, 0.15);
+/// How far below its shoulder a hand that waits in front of the body is, in lengths of the arm, how far in metres it may
+/// drift from where the movement begins or ends, and how long in seconds both hands must wait so.
+const WAIT: (f64, f64, f64) = (0.45, 0.03, 0.3);
 
 impl Ends {
     /// Looks at both ends of `clip`; `anatomy` is its skeleton's.
@@ -185,9 +188,10 @@ impl Ends {
     }
 }
 
-/// The frames of a clip between the rest before its movement and the rest after it: a hand is at rest while it hangs
-/// or lies low and stays still. Odd frames at the ends are left out, and the way of the arms from a T-pose to the
-/// first rest with them. Nothing where no hand is ever active, or the skeleton has no arm.
+/// The frames of a clip between the rest before its movement and the rest after it. A hand is at rest while it hangs
+/// or lies low and stays still, or while both hands wait in front of the belly where the clip begins or ends. Odd frames at
+/// the ends are left out, and so is the path of the arms from a T-pose to the first rest. Returns `None` if no hand is ever
+/// active, or the skeleton has no arm.
 #[must_use]
 pub fn activity(clip: &Clip, anatomy: &Anatomy) -> Option<Range<usize>> {
     let ends = Ends::of(clip, anatomy);
@@ -232,10 +236,44 @@ pub fn activity(clip: &Clip, anatomy: &Anatomy) -> Option<Range<usize>> {
     }
     let first = (start..end).find(|&frame| !idle(frame))?;
     let last = (first..end).rev().find(|&frame| !idle(frame))?;
+    let wait = (clip.rate().per_second() * WAIT.2).ceil() as usize;
+    let before = waits(&poses, first..last + 1);
+    let first = if before >= wait {
+        first + before
+    } else {
+        first
+    };
+    let after = waits(&poses, (first..last + 1).rev());
+    let last = if after >= wait { last - after } else { last };
     Some(first..last + 1)
 }
 
-/// A body in one frame, as far as ends are told by it.
+/// Counts the frames over which both hands wait low in front of the body, where the first of `frames` has them. Returns 0
+/// if they wait in all of them: then nothing is a rest between movements.
+fn waits(poses: &[Look], mut frames: impl Iterator<Item = usize> + Clone) -> usize {
+    let Some(start) = frames.clone().next().map(|frame| &poses[frame]) else {
+        return 0;
+    };
+    let stays = |frame: usize| {
+        (0..2).all(|side| {
+            let drift = |(here, there): (DVec3, DVec3)| here.distance(there) < WAIT.1;
+            poses[frame].low[side].is_none_or(|low| low > WAIT.0)
+                && poses[frame].wrists[side]
+                    .zip(start.wrists[side])
+                    .is_none_or(drift)
+        })
+    };
+    let mut count = 0;
+    loop {
+        match frames.next() {
+            Some(frame) if stays(frame) => count += 1,
+            Some(_) => return count,
+            None => return 0,
+        }
+    }
+}
+
+/// A body in one frame, as far as its ends are judged by it.
 struct Look {
     body: DVec3,
     left: Option<DVec3>,
@@ -437,6 +475,38 @@ mod tests {
                 "{told}"
             );
         }
+    }
+
+    #[test]
+    fn hands_that_wait_in_front_of_the_belly_are_at_rest() {
+        let lap = |joint: usize, anatomy: &Anatomy| match anatomy.part_of(joint) {
+            Some(Part::Forearm(side)) => Some(DQuat::from_rotation_y(side.sign() * -1.4)),
+            _ => None,
+        };
+        let plain = Arc::new(body(PLAIN));
+        let of = Anatomy::with_roles(&plain, &roles(&plain)).expect("a body");
+        let (clip, anatomy) = clip(|joint, _, turned, _| {
+            if let Some(bent) = lap(joint, &of) {
+                turned.fill(bent);
+            }
+        });
+        let lows = Looks {
+            clip: &clip,
+            anatomy: &anatomy,
+        }
+        .at(0)
+        .low;
+        assert!(
+            lows.iter()
+                .flatten()
+                .all(|low| (WAIT.0..REST.0).contains(low)),
+            "{lows:?}"
+        );
+        let active = activity(&clip, &anatomy).expect("a raised hand");
+        assert!(
+            (30..=34).contains(&active.start) && (66..=70).contains(&active.end),
+            "{active:?}"
+        );
     }
 
     #[test]

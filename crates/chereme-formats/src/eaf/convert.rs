@@ -13,6 +13,9 @@ use chereme_motion::{Instant, Span};
 use chereme_sign::Stereotype;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+/// How many overlaps of one tier a finding names.
+const SHOWN_OVERLAPS: usize = 3;
+
 /// Returns the meaning of `document`.
 ///
 /// Time slots without a value lie evenly between their neighbours: t0 + k(t1 − t0)/(n + 1). Children of a
@@ -590,25 +593,38 @@ impl<'d> Tiers<'d> {
             spans.sort();
         }
         let mut last: Option<(Span, &str)> = None;
+        let (mut count, mut shown) = (0, Vec::new());
         for (span, id) in spans {
             if let Some((_, other)) = last.filter(|(last, _)| last.overlaps(span)) {
-                findings.add("annotations that overlap on one tier", || {
-                    Finding::warning(
-                        None,
-                        format!(
-                            "annotations {other:?} and {id:?} overlap on the tier {:?}",
-                            self.tiers[at].name
-                        ),
-                    )
-                    .with_remedy(
-                        "ELAN allows no overlap within a tier; put one of them on another tier",
-                    )
-                });
+                count += 1;
+                if shown.len() < SHOWN_OVERLAPS {
+                    shown.push(format!("{other:?} and {id:?} at {}", span.start()));
+                }
             }
             if last.is_none_or(|(last, _)| last.end() < span.end()) {
                 last = Some((span, id));
             }
         }
+        if count == 0 {
+            return;
+        }
+        let more = match count - shown.len() {
+            0 => String::new(),
+            more => format!(", and {more} more"),
+        };
+        findings.add("tiers with annotations that overlap", || {
+            Finding::warning(
+                None,
+                format!(
+                    "annotations overlap on the tier {:?}: {}{more}",
+                    self.tiers[at].name,
+                    shown.join(", ")
+                ),
+            )
+            .with_remedy(
+                "ELAN allows no overlap within a tier; put one of each two on another tier",
+            )
+        });
     }
 
     /// Gives new ids to annotations whose own is empty or taken.

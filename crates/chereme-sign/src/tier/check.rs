@@ -70,7 +70,7 @@ pub enum Violation {
         at: Instant,
     },
     /// Two annotations of one tier share time.
-    #[error("{annotation} from {} to {} overlaps {other} on {tier}; end it at {} or before, or start it at {} or after", span.start(), span.end(), other_span.start(), other_span.end())]
+    #[error("{annotation} from {} to {} overlaps {other} on {tier}; {}", span.start(), span.end(), apart(*span, *other_span))]
     Overlap {
         /// The tier.
         tier: TierId,
@@ -305,6 +305,18 @@ fn check_time(annotation: &Annotation, latest: Option<&Annotation>) -> Option<Vi
     }
     let other = latest.filter(|other| other.span.overlaps(span))?;
     Some(overlap(tier, id.into(), span, other))
+}
+
+/// Returns what keeps an annotation off one that it overlaps: a possible end, a possible start, or another place.
+fn apart(span: Span, other: Span) -> String {
+    let end =
+        (other.start() > span.start()).then(|| format!("end it at {} or before", other.start()));
+    let start = (other.end() < span.end()).then(|| format!("start it at {} or after", other.end()));
+    match (end, start) {
+        (Some(end), Some(start)) => format!("{end}, or {start}"),
+        (Some(only), None) | (None, Some(only)) => only,
+        (None, None) => "move one of the two, or shorten the other".to_owned(),
+    }
 }
 
 pub(super) fn overlap(tier: TierId, annotation: Named, span: Span, with: &Annotation) -> Violation {
