@@ -6,6 +6,7 @@
 //! | [`cue`](mod@cue) | captured cued speech: models, restoration, recognisers, targets, generated sessions |
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
 //! | [`kinematics`](mod@kinematics) | how hands move, frame by frame |
+//! | [`map`] | a map of things by likeness |
 //! | [`measure`](mod@measure) | the size and duration of movements of a known kind |
 //! | [`nonmanuals`] | proposals for brows, lids, gaze, mouth and head from curves of a face |
 //! | [`phases`] | how alike two expressions of the face are, phase by phase |
@@ -17,6 +18,7 @@ pub mod align;
 pub mod cue;
 pub mod dtw;
 pub mod kinematics;
+pub mod map;
 pub mod measure;
 pub mod nonmanuals;
 pub mod phases;

@@ -271,6 +271,7 @@ actions! {
     ShowRecombine "pane.recombine" SHOW_RECOMBINE Panes Corpus;
     ShowInspector "pane.inspector" SHOW_INSPECTOR Panes Corpus;
     ShowFilm "pane.film" SHOW_FILM Panes Corpus;
+    ShowMap "pane.map" SHOW_MAP Panes Corpus;
     ShowHistory "pane.history" SHOW_HISTORY Panes Corpus;
     OnlyPane "pane.only" ONLY_PANE Panes Corpus;
     OnlyAnnotating "pane.only-annotating" ONLY_ANNOTATING Panes Corpus;

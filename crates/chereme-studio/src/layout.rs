@@ -33,7 +33,9 @@ pub(crate) fn is_small(size: Vec2) -> bool {
 /// and the other panes are behind them.
 pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
     use LinearDir::{Horizontal, Vertical};
-    use PaneKind::{Film, History, Import, Inspector, Library, Recombine, Search, Stage, Timeline};
+    use PaneKind::{
+        Film, History, Import, Inspector, Library, Map, Recombine, Search, Stage, Timeline,
+    };
     let mut tiles = Tiles::default();
     let mut tabs = |kinds: &[PaneKind]| {
         let children: Vec<TileId> = kinds.iter().map(|kind| tiles.insert_pane(*kind)).collect();
@@ -43,18 +45,18 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
         match busy {
             Busy::Annotating => {
                 let above = [
-                    Stage, Film, Library, Search, Recombine, Import, Inspector, History,
+                    Stage, Film, Library, Search, Map, Recombine, Import, Inspector, History,
                 ];
                 let parts = [(tabs(&above), 0.6), (tabs(&[Timeline]), 0.4)];
                 shares(&mut tiles, Vertical, &parts)
             }
             Busy::Recombining => {
-                let left = tabs(&[Library, Search, Recombine, Import]);
+                let left = tabs(&[Library, Search, Map, Recombine, Import]);
                 let side = tabs(&[Stage, Film, Timeline, Inspector, History]);
                 shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
             }
             Busy::Searching => {
-                let left = tabs(&[Library, Search, Recombine, Import]);
+                let left = tabs(&[Library, Search, Map, Recombine, Import]);
                 let side = [
                     (tabs(&[Stage]), 0.64),
                     (tabs(&[Timeline, Inspector, Film, History]), 0.36),
@@ -64,7 +66,7 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
             }
         }
     } else {
-        let left = tabs(&[Library, Search, Recombine, Import]);
+        let left = tabs(&[Library, Search, Map, Recombine, Import]);
         let stage = tabs(&[Stage]);
         // Three panes above each other would be too low to read.
         let below = match busy {

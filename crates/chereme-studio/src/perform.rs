@@ -345,6 +345,7 @@ impl Studio {
             Action::ShowTimeline => self.bring(PaneKind::Timeline),
             Action::ShowRecombine => self.bring(PaneKind::Recombine),
             Action::ShowInspector => self.bring(PaneKind::Inspector),
+            Action::ShowMap => self.bring(PaneKind::Map),
             Action::ShowHistory => self.bring(PaneKind::History),
             Action::ShowFilm => self.bring(PaneKind::Film),
             _ => return false,

@@ -17,6 +17,7 @@ mod keys;
 mod list;
 mod merge;
 mod milestones;
+mod map;
 mod new;
 mod onsets;
 mod pairs;
@@ -63,6 +64,7 @@ pub(crate) enum Command {
     Onsets(onsets::Args),
     Suggest(suggest::Args),
     Pairs(pairs::Args),
+    Map(map::Args),
     Transcribe(transcribe::Args),
     Cue(cue::Args),
     Keys(keys::Args),
@@ -102,6 +104,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Choose(args) => choose::run(cli, args, output),
         Command::Suggest(args) => suggest::run(cli, args, output),
         Command::Pairs(args) => pairs::run(cli, args, output),
+        Command::Map(args) => map::run(cli, args, output).map_err(offer_force),
         Command::Transcribe(args) => transcribe::run(cli, args, output),
         Command::Cue(args) => cue::run(cli, args, output),
         Command::Keys(args) => keys::run(cli, args, output),

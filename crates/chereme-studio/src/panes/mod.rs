@@ -12,6 +12,7 @@ pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
 pub(crate) mod library;
+pub(crate) mod map;
 pub(crate) mod meant;
 mod notated;
 pub(crate) mod recombine;
@@ -35,6 +36,7 @@ use crate::work::{Ended, WorkId};
 #[serde(rename_all = "lowercase")]
 pub(crate) enum PaneKind {
     Library,
+    Map,
     Stage,
     Timeline,
     Search,
@@ -48,6 +50,7 @@ pub(crate) enum PaneKind {
 impl PaneKind {
     pub(crate) const ALL: [Self; 9] = [
         Self::Library,
+        Self::Map,
         Self::Stage,
         Self::Timeline,
         Self::Search,
@@ -61,6 +64,7 @@ impl PaneKind {
     pub(crate) fn title(self) -> Text {
         match self {
             Self::Library => words::library::TITLE,
+            Self::Map => words::map::TITLE,
             Self::Stage => words::stage::TITLE,
             Self::Timeline => words::timeline::TITLE,
             Self::Search => words::search::TITLE,
@@ -115,6 +119,7 @@ pub(crate) trait Pane {
 #[derive(Default)]
 pub(crate) struct Panes {
     pub(crate) library: library::Library,
+    pub(crate) map: map::Map,
     pub(crate) stage: stage::Stage,
     pub(crate) timeline: timeline::Timeline,
     pub(crate) search: search::Search,
@@ -129,6 +134,7 @@ impl Panes {
     pub(crate) fn get_mut(&mut self, kind: PaneKind) -> &mut dyn Pane {
         match kind {
             PaneKind::Library => &mut self.library,
+            PaneKind::Map => &mut self.map,
             PaneKind::Stage => &mut self.stage,
             PaneKind::Timeline => &mut self.timeline,
             PaneKind::Search => &mut self.search,

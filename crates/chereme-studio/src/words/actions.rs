@@ -182,6 +182,7 @@ texts! {
     SHOW_FILM: "Show the film", "Afficher le film";
     FILM_BACK: "One film frame back", "Reculer d’une image du film";
     FILM_FORWARD: "One film frame forward", "Avancer d’une image du film";
+    SHOW_MAP: "Show the map of signs", "Afficher la carte des signes";
     SHOW_HISTORY: "Show the history", "Afficher l’historique";
     SHOW_IMPORT: "Import…", "Importer…";
     EXPORT: "Export…", "Exporter…";

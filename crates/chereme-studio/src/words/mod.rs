@@ -23,6 +23,7 @@ pub(crate) mod hamnosys;
 pub(crate) mod import;
 pub(crate) mod inspector;
 pub(crate) mod library;
+pub(crate) mod map;
 pub(crate) mod pickers;
 pub(crate) mod recombine;
 pub(crate) mod scripts;
@@ -44,6 +45,7 @@ mod tests {
         import::ALL,
         inspector::ALL,
         library::ALL,
+        map::ALL,
         pickers::ALL,
         recombine::ALL,
         scripts::ALL,

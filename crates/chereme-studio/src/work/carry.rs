@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, ChannelGroup, Corpus, Details, ExportWhat, MadePart, Moving, Name, Performance,
-    Progress, Result, SearchOptions, Step, Unit, draw_clip,
+    Address, ChannelGroup, Corpus, Details, ExportWhat, MadePart, MapOptions, Moving, Name,
+    Performance, Progress, Result, SearchOptions, Step, Unit, draw_clip,
 };
 
 use super::{Outcome, Shared, Work};
@@ -79,6 +79,13 @@ pub(super) fn carry(
             Outcome::Found(corpus.search_until(&query, &options, progress)?)
         }
         Work::Around(tokens, most) => Outcome::Around(corpus.around(&tokens, most)?),
+        Work::Map(components) => {
+            let options = MapOptions {
+                components,
+                query: None,
+            };
+            Outcome::Mapped(Arc::new(corpus.map(&options, progress)?))
+        }
         Work::Preview(recipe) => Outcome::Previewed(Arc::new(corpus.preview(&recipe)?)),
         Work::Draft { recipe, anew } => {
             Outcome::Previewed(Arc::new(corpus.draft(&recipe, anew, progress)?))

@@ -16,7 +16,7 @@ use chereme_corpus::{
     Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat,
     ImportOptions, ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier,
     OperationRow, Picture, PictureOptions, Proposed, Recombination, RecordingChange, Scheme,
-    SearchOptions, SignChange, SignerChange, Suggestions, TierChange, TierName, TrackChange, Unit,
+    SearchOptions, SignChange, SignMap, SignerChange, Suggestions, TierChange, TierName, TrackChange, Unit,
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
@@ -107,6 +107,8 @@ pub(crate) enum Work {
     Search(String, SearchOptions),
     /// Says what stands before and after tokens, so many annotations to each side.
     Around(Vec<i64>, usize),
+    /// Places the signs on a map by these components.
+    Map(Vec<Component>),
     /// Makes the movement of a recipe and stores nothing.
     Preview(String),
     /// Makes the movement of the recipe that is worked on, of what changed in it.
@@ -185,6 +187,8 @@ pub(crate) enum Outcome {
     Found(Answer),
     /// What stands around tokens.
     Around(Vec<Around>),
+    /// The signs have places on a map.
+    Mapped(Arc<SignMap>),
     /// Movement was made.
     Previewed(Arc<Recombination>),
     /// What could be made.
@@ -292,6 +296,7 @@ impl Work {
             | Self::Redo => Lane::Edit,
             Self::Search(..)
             | Self::Around(..)
+            | Self::Map(_)
             | Self::Suggest(_)
             | Self::Look(_)
             | Self::Paths(_) => Lane::Ask,
@@ -313,6 +318,7 @@ impl Work {
             Self::Propose(_) => shell::TASK_PROPOSE,
             Self::Search(..)
             | Self::Around(..)
+            | Self::Map(_)
             | Self::Suggest(_)
             | Self::Look(_)
             | Self::Paths(_) => shell::TASK_SEARCH,
@@ -344,6 +350,7 @@ impl Work {
                 | Self::ExportFound(..)
                 | Self::Search(..)
                 | Self::Around(..)
+                | Self::Map(_)
         )
     }
 

@@ -1,0 +1,377 @@
+//! A map of things by likeness: things that are alike lie near each other in a plane.
+//!
+//! [`neighbours`] finds the nearest neighbours by the cosine of sparse features. [`lay_out`] places the things from those
+//! neighbours alone: two eigenvectors of the neighbour graph are the start (Belkin and Niyogi, *Laplacian eigenmaps*, 2003), and
+//! stochastic steps with attraction along edges and repulsion from random others refine it (McInnes, Healy and Melville,
+//! *UMAP*, 2018, section 3.2). The random numbers come from a fixed seed: the same neighbours give the same map.
+
+use std::cmp::Ordering;
+
+/// The features of a thing: numbers of features with weights above 0, each number once.
+pub type Features = Vec<(u32, f32)>;
+
+/// The neighbours of a thing: the index of each and its likeness from 0 to 1, the nearest first.
+pub type Neighbours = Vec<(usize, f32)>;
+
+/// Rounds of refinement.
+const ROUNDS: usize = 200;
+/// Random others that push a thing away at each step along an edge.
+const OTHERS: usize = 5;
+/// The curve of closeness 1 / (1 + a d^2b) for neighbours that lie at 0.1 or nearer (UMAP, section 3.2).
+const CURVE: (f32, f32) = (1.577, 0.895);
+/// The longest step along one axis.
+const STEP: f32 = 4.0;
+/// The spread of the start.
+const SPREAD: f32 = 10.0;
+/// Rounds of power iteration for the start.
+const ITERATIONS: usize = 150;
+
+/// Returns the nearest `count` neighbours of each thing by the cosine of their features; a thing that shares no feature with
+/// others has no neighbour. Those of equal likeness come in the order of their indices.
+///
+/// `goes_on` receives the number of finished things every now and then. Returns `None` if it returns false.
+pub fn neighbours(
+    things: &[Features],
+    count: usize,
+    mut goes_on: impl FnMut(usize) -> bool,
+) -> Option<Vec<Neighbours>> {
+    let features = things.iter().flatten().map(|&(feature, _)| feature).max();
+    let mut holders: Vec<Vec<(usize, f32)>> =
+        vec![Vec::new(); features.map_or(0, |it| it as usize + 1)];
+    let lengths: Vec<f32> = things
+        .iter()
+        .map(|thing| {
+            thing
+                .iter()
+                .map(|(_, weight)| weight * weight)
+                .sum::<f32>()
+                .sqrt()
+        })
+        .collect();
+    for (index, thing) in things.iter().enumerate() {
+        for &(feature, weight) in thing {
+            holders[feature as usize].push((index, weight / lengths[index]));
+        }
+    }
+    let mut all = Vec::with_capacity(things.len());
+    let mut likeness = vec![0.0_f32; things.len()];
+    let mut touched: Vec<usize> = Vec::new();
+    for (index, thing) in things.iter().enumerate() {
+        if index % 64 == 0 && !goes_on(index) {
+            return None;
+        }
+        for &(feature, weight) in thing {
+            for &(other, own) in &holders[feature as usize] {
+                if likeness[other] == 0.0 {
+                    touched.push(other);
+                }
+                likeness[other] += own * weight / lengths[index];
+            }
+        }
+        let others = touched.iter().filter(|&&other| other != index);
+        let mut near: Neighbours = others
+            .map(|&other| (other, likeness[other].min(1.0)))
+            .collect();
+        for other in touched.drain(..) {
+            likeness[other] = 0.0;
+        }
+        let nearer = |a: &(usize, f32), b: &(usize, f32)| {
+            b.1.partial_cmp(&a.1)
+                .unwrap_or(Ordering::Equal)
+                .then(a.0.cmp(&b.0))
+        };
+        if near.len() > count {
+            near.select_nth_unstable_by(count, nearer);
+            near.truncate(count);
+        }
+        near.sort_by(nearer);
+        all.push(near);
+    }
+    Some(all)
+}
+
+/// Returns a place for each thing in a square from 0 to 1, so that neighbours lie near each other.
+///
+/// `goes_on` receives the share of the work done. Returns `None` if it returns false.
+pub fn lay_out(
+    neighbours: &[Neighbours],
+    mut goes_on: impl FnMut(f32) -> bool,
+) -> Option<Vec<[f32; 2]>> {
+    let edges = edges(neighbours);
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut places = start(neighbours.len(), &edges, &mut random);
+    let heaviest = edges.iter().map(|edge| edge.weight).fold(0.0, f32::max);
+    // An edge takes part as often as its weight says.
+    let mut due: Vec<f32> = edges.iter().map(|edge| heaviest / edge.weight).collect();
+    for round in 0..ROUNDS {
+        let share = round as f32 / ROUNDS as f32;
+        if !goes_on(share) {
+            return None;
+        }
+        let rate = 1.0 - share;
+        for (edge, due) in edges.iter().zip(&mut due) {
+            if *due > (round + 1) as f32 {
+                continue;
+            }
+            *due += heaviest / edge.weight;
+            attract(&mut places, edge.a, edge.b, rate);
+            for end in [edge.a, edge.b] {
+                for _ in 0..OTHERS / 2 + 1 {
+                    let other = random.below(places.len());
+                    if other != end {
+                        repel(&mut places, end, other, rate);
+                    }
+                }
+            }
+        }
+    }
+    Some(fitted(places))
+}
+
+struct Edge {
+    a: usize,
+    b: usize,
+    weight: f32,
+}
+
+/// Returns the edges of the neighbour graph. An edge weighs the likeness relative to that of the nearest neighbour, so that
+/// things in sparse regions hold on to their neighbours too; the two directions are joined as UMAP does (section 3.1).
+fn edges(neighbours: &[Neighbours]) -> Vec<Edge> {
+    let mut directed: Vec<(usize, usize, f32)> = Vec::new();
+    for (index, near) in neighbours.iter().enumerate() {
+        let nearest = near.first().map_or(1.0, |&(_, likeness)| likeness);
+        for &(other, likeness) in near {
+            let weight = (likeness / nearest).powi(4);
+            directed.push((index.min(other), index.max(other), weight));
+        }
+    }
+    directed.sort_by_key(|&(a, b, _)| (a, b));
+    let mut edges: Vec<Edge> = Vec::new();
+    for (a, b, weight) in directed {
+        match edges.last_mut() {
+            Some(last) if (last.a, last.b) == (a, b) => {
+                last.weight += weight - last.weight * weight
+            }
+            _ => edges.push(Edge { a, b, weight }),
+        }
+    }
+    edges.retain(|edge| edge.weight > 1e-6);
+    edges
+}
+
+/// Returns the start: the second and third eigenvectors of the graph's random walk, with a little noise.
+fn start(count: usize, edges: &[Edge], random: &mut Random) -> Vec<[f32; 2]> {
+    let mut degrees = vec![1e-6_f32; count];
+    for edge in edges {
+        degrees[edge.a] += edge.weight;
+        degrees[edge.b] += edge.weight;
+    }
+    let roots: Vec<f32> = degrees.iter().map(|degree| degree.sqrt()).collect();
+    let mut axes: Vec<Vec<f32>> = vec![unit(roots.clone())];
+    for _ in 0..2 {
+        let mut axis: Vec<f32> = (0..count).map(|_| random.signed()).collect();
+        for _ in 0..ITERATIONS {
+            // Half the vector itself keeps the iteration away from negative eigenvalues.
+            let mut next: Vec<f32> = axis.iter().map(|value| 0.5 * value).collect();
+            for edge in edges {
+                let weight = 0.5 * edge.weight / (roots[edge.a] * roots[edge.b]);
+                next[edge.a] += weight * axis[edge.b];
+                next[edge.b] += weight * axis[edge.a];
+            }
+            for earlier in &axes {
+                let along: f32 = next.iter().zip(earlier).map(|(a, b)| a * b).sum();
+                for (value, by) in next.iter_mut().zip(earlier) {
+                    *value -= along * by;
+                }
+            }
+            axis = unit(next);
+        }
+        axes.push(axis);
+    }
+    let mut places: Vec<[f32; 2]> = (0..count)
+        .map(|index| [1, 2].map(|axis| axes[axis][index] / roots[index]))
+        .collect();
+    for axis in 0..2 {
+        let largest = places
+            .iter()
+            .map(|place| place[axis].abs())
+            .fold(1e-12, f32::max);
+        for place in &mut places {
+            place[axis] = SPREAD * place[axis] / largest + 0.01 * random.signed();
+        }
+    }
+    places
+}
+
+fn unit(mut vector: Vec<f32>) -> Vec<f32> {
+    let length = vector.iter().map(|value| value * value).sum::<f32>().sqrt();
+    if length > 0.0 {
+        vector.iter_mut().for_each(|value| *value /= length);
+    }
+    vector
+}
+
+fn attract(places: &mut [[f32; 2]], a: usize, b: usize, rate: f32) {
+    let (away, squared) = between(places[a], places[b]);
+    if squared <= 0.0 {
+        return;
+    }
+    let power = squared.powf(CURVE.1);
+    let pull = -2.0 * CURVE.0 * CURVE.1 * power / squared / (1.0 + CURVE.0 * power);
+    for axis in 0..2 {
+        let step = rate * (pull * away[axis]).clamp(-STEP, STEP);
+        places[a][axis] += step;
+        places[b][axis] -= step;
+    }
+}
+
+fn repel(places: &mut [[f32; 2]], moved: usize, from: usize, rate: f32) {
+    let (away, squared) = between(places[moved], places[from]);
+    let push = 2.0 * CURVE.1 / ((0.001 + squared) * (1.0 + CURVE.0 * squared.powf(CURVE.1)));
+    for axis in 0..2 {
+        places[moved][axis] += rate * (push * away[axis]).clamp(-STEP, STEP);
+    }
+}
+
+fn between(a: [f32; 2], b: [f32; 2]) -> ([f32; 2], f32) {
+    let away = [a[0] - b[0], a[1] - b[1]];
+    (away, away[0] * away[0] + away[1] * away[1])
+}
+
+/// Scales and moves places into the square from 0 to 1, without changing their proportions.
+fn fitted(mut places: Vec<[f32; 2]>) -> Vec<[f32; 2]> {
+    let range = |axis: usize| {
+        let values = places.iter().map(|place| place[axis]);
+        let (least, most) = values.fold((f32::MAX, f32::MIN), |(a, b), it| (a.min(it), b.max(it)));
+        (least, most - least)
+    };
+    let ranges = [range(0), range(1)];
+    let scale = ranges[0].1.max(ranges[1].1).max(1e-6);
+    for place in &mut places {
+        for axis in 0..2 {
+            let (least, width) = ranges[axis];
+            place[axis] = (place[axis] - least + (scale - width) / 2.0) / scale;
+        }
+    }
+    places
+}
+
+/// A generator of random numbers with a fixed seed (splitmix64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, limit: usize) -> usize {
+        (self.next() % limit.max(1) as u64) as usize
+    }
+
+    /// Returns a number from -1 to 1.
+    fn signed(&mut self) -> f32 {
+        (self.next() >> 40) as f32 / (1_u64 << 23) as f32 - 1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Things on a grid in a plane: each has a feature for each small square near it, so that likeness falls with distance.
+    fn grid(side: usize) -> Vec<Features> {
+        let number = |x: i32, y: i32| (y + 2) as u32 * (side as u32 + 4) + (x + 2) as u32;
+        let near = |x: i32, y: i32| {
+            let around = (-2..=2).flat_map(move |dx| (-2..=2).map(move |dy| (dx, dy)));
+            around.map(move |(dx, dy): (i32, i32)| {
+                (
+                    number(x + dx, y + dy),
+                    3.0 - (dx.abs().max(dy.abs())) as f32,
+                )
+            })
+        };
+        (0..side * side)
+            .map(|at| near((at % side) as i32, (at / side) as i32).collect())
+            .collect()
+    }
+
+    #[test]
+    fn neighbours_are_those_of_a_comparison_of_all_pairs() {
+        let things = grid(7);
+        let found = neighbours(&things, 6, |_| true).expect("not stopped");
+        let cosine = |a: &Features, b: &Features| {
+            let length = |it: &Features| it.iter().map(|(_, w)| w * w).sum::<f32>().sqrt();
+            let both = a.iter().flat_map(|(feature, weight)| {
+                let same = b.iter().filter(move |(other, _)| other == feature);
+                same.map(move |(_, other)| weight * other)
+            });
+            both.sum::<f32>() / length(a) / length(b)
+        };
+        for (index, near) in found.iter().enumerate() {
+            let mut all: Vec<f32> = (0..things.len())
+                .filter(|&other| other != index)
+                .map(|other| cosine(&things[index], &things[other]))
+                .collect();
+            all.sort_by(|a, b| b.total_cmp(a));
+            assert_eq!(near.len(), 6);
+            for (&(other, likeness), expected) in near.iter().zip(all) {
+                assert!((likeness - expected).abs() < 1e-5);
+                assert!((likeness - cosine(&things[index], &things[other])).abs() < 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn things_that_are_near_each_other_stay_so_on_the_map() {
+        let side = 12;
+        let near = neighbours(&grid(side), 8, |_| true).expect("not stopped");
+        let places = lay_out(&near, |_| true).expect("not stopped");
+        let apart = |a: usize, b: usize| between(places[a], places[b]).1.sqrt();
+        let mut kept = 0;
+        for (index, near) in near.iter().enumerate() {
+            let mut others: Vec<usize> = (0..places.len()).filter(|&it| it != index).collect();
+            others.sort_by(|&a, &b| apart(index, a).total_cmp(&apart(index, b)));
+            let nearest = &others[..10];
+            kept += near
+                .iter()
+                .filter(|(other, _)| nearest.contains(other))
+                .count();
+        }
+        let share = kept as f32 / near.iter().map(Vec::len).sum::<usize>() as f32;
+        assert!(share > 0.6, "{share} of the neighbours are still near");
+        assert!(places.iter().flatten().all(|it| (0.0..=1.0).contains(it)));
+    }
+
+    #[test]
+    fn the_same_things_give_the_same_map_and_equal_things_lie_together() {
+        let mut things = grid(6);
+        things.push(things[0].clone());
+        let near = neighbours(&things, 8, |_| true).expect("not stopped");
+        assert_eq!(near[0][0].0, 36);
+        assert!(near[0][0].1 > 0.9999);
+        let map = || lay_out(&near, |_| true).expect("not stopped");
+        let places = map();
+        assert_eq!(places, map());
+        assert!(between(places[0], places[36]).1.sqrt() < 0.2, "{places:?}");
+    }
+
+    #[test]
+    fn things_without_features_and_no_things_have_a_map_too() {
+        assert_eq!(lay_out(&[], |_| true), Some(vec![]));
+        let near = neighbours(&[vec![], vec![(3, 1.0)], vec![]], 4, |_| true).expect("not stopped");
+        assert!(near.iter().all(Vec::is_empty));
+        let places = lay_out(&near, |_| true).expect("not stopped");
+        assert!(places.iter().flatten().all(|it| it.is_finite()));
+    }
+
+    #[test]
+    fn work_stops_when_it_should() {
+        assert_eq!(neighbours(&grid(3), 4, |_| false), None);
+        let near = neighbours(&grid(3), 4, |_| true).expect("not stopped");
+        assert_eq!(lay_out(&near, |_| false), None);
+    }
+}

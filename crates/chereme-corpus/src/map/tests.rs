@@ -1,0 +1,82 @@
+//! Maps of small lexicons.
+
+use super::*;
+use crate::{ImportOptions, unheard};
+
+/// Two families of signs: fists at the chin, flat hands at the chest; four of each.
+fn lexicon(folder: &Path) -> Corpus {
+    let file = folder.join("t.csv");
+    let mut table = "gloss,handshape,location,movement\n".to_owned();
+    for (family, shape, place) in [("CHIN", "S", "chin"), ("CHEST", "flat", "chest")] {
+        for (number, way) in ["arc", "straight", "circle", "hold"].iter().enumerate() {
+            let _ = writeln!(table, "{family}-{number},{shape},{place},{way}");
+        }
+    }
+    table.push_str("BARE,,,\n");
+    std::fs::write(&file, table).expect("written");
+    let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
+    let options = ImportOptions::default();
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    corpus
+        .import(&[file], &options, progress)
+        .expect("imported");
+    corpus
+}
+
+fn map(corpus: &mut Corpus, options: &MapOptions) -> Result<SignMap> {
+    let mut hear = unheard;
+    corpus.map(options, &mut Progress::new(&mut hear))
+}
+
+#[test]
+fn signs_that_are_alike_lie_near_each_other() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = lexicon(folder.path());
+    let options = MapOptions {
+        components: vec![Component::Configuration, Component::Placement],
+        query: None,
+    };
+    let found = map(&mut corpus, &options).expect("a map");
+    assert_eq!((found.signs.len(), found.left_out), (8, 1));
+    assert_eq!(found, map(&mut corpus, &options).expect("a map"));
+    let family = |it: &MapPoint| it.gloss.split('-').next().map(str::to_owned);
+    let by_id: BTreeMap<i64, &MapPoint> = found.signs.iter().map(|it| (it.token, it)).collect();
+    for sign in &found.signs {
+        for near in &sign.near[..3] {
+            assert_eq!(family(by_id[near]), family(sign), "{sign:?}");
+        }
+    }
+    let drawn = folder.path().join("map.svg");
+    found.draw(&drawn, false).expect("drawn");
+    let text = std::fs::read_to_string(&drawn).expect("read");
+    assert_eq!(text.matches("<circle").count(), 8);
+    assert!(
+        found.draw(&drawn, false).is_err(),
+        "nothing is written over"
+    );
+}
+
+#[test]
+fn a_map_of_a_query_holds_its_tokens_and_one_sign_is_no_map() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = lexicon(folder.path());
+    let of = |query: &str| MapOptions {
+        components: vec![],
+        query: Some(query.to_owned()),
+    };
+    let found = map(&mut corpus, &of("placement=chin")).expect("a map");
+    assert_eq!(found.signs.len(), 4);
+    let error = map(&mut corpus, &of("gloss=CHIN-1")).expect_err("one sign");
+    assert!(error.to_string().starts_with("1 of 1 tokens"), "{error}");
+    assert!(error.remedy().is_some());
+}
+
+#[test]
+fn a_map_that_is_stopped_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = lexicon(folder.path());
+    let mut hear = |_: Step<'_>| std::ops::ControlFlow::Break(());
+    let stopped = corpus.map(&MapOptions::default(), &mut Progress::new(&mut hear));
+    assert!(matches!(stopped, Err(Error::Stopped)), "{stopped:?}");
+}

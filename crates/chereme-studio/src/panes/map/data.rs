@@ -1,0 +1,174 @@
+//! The view of the map, its labels and its selections, without a window.
+
+use std::collections::BTreeSet;
+
+use chereme_corpus::{SignMap, facet_condition};
+use eframe::egui::{Pos2, Rect, Vec2, pos2};
+
+/// The part of the map in sight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct View {
+    /// The place of the map in the middle.
+    centre: Pos2,
+    /// Magnification: at 1 all of the map is in sight.
+    zoom: f32,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            centre: pos2(0.5, 0.5),
+            zoom: 1.0,
+        }
+    }
+}
+
+/// The margin around the whole map, as a share of its side.
+const MARGIN: f32 = 0.06;
+/// The greatest magnification.
+const NEAREST: f32 = 400.0;
+
+impl View {
+    fn scale(&self, rect: Rect) -> f32 {
+        rect.size().min_elem() * (1.0 - 2.0 * MARGIN) * self.zoom
+    }
+
+    /// Returns the point of the window for a place of the map.
+    pub(super) fn shown(&self, rect: Rect, place: Pos2) -> Pos2 {
+        rect.center() + (place - self.centre) * self.scale(rect)
+    }
+
+    /// Returns the place of the map at a point of the window.
+    pub(super) fn place(&self, rect: Rect, point: Pos2) -> Pos2 {
+        self.centre + (point - rect.center()) / self.scale(rect)
+    }
+
+    /// Moves the map along with the pointer; its middle stays on the map.
+    pub(super) fn moved(&mut self, rect: Rect, by: Vec2) {
+        self.centre = (self.centre - by / self.scale(rect)).clamp(Pos2::ZERO, pos2(1.0, 1.0));
+    }
+
+    /// Magnifies by a factor; the place under the pointer stays there.
+    pub(super) fn zoomed(&mut self, rect: Rect, pointer: Pos2, factor: f32) {
+        let held = self.place(rect, pointer);
+        self.zoom = (self.zoom * factor).clamp(0.5, NEAREST);
+        let away = held - self.place(rect, pointer);
+        self.centre = (self.centre + away).clamp(Pos2::ZERO, pos2(1.0, 1.0));
+    }
+}
+
+/// The room that labels have taken.
+#[derive(Debug, Default)]
+pub(super) struct Labels(BTreeSet<(i32, i32)>);
+
+/// The side of a square of the grid that labels take room from, in points.
+const SQUARE: f32 = 8.0;
+
+impl Labels {
+    /// Takes a rectangle, unless a part of it is taken; returns whether it was free.
+    pub(super) fn take(&mut self, room: Rect) -> bool {
+        let square = |at: Pos2| {
+            (
+                (at.x / SQUARE).floor() as i32,
+                (at.y / SQUARE).floor() as i32,
+            )
+        };
+        let ((left, top), (right, bottom)) = (square(room.min), square(room.max));
+        let squares = (left..=right).flat_map(|x| (top..=bottom).map(move |y| (x, y)));
+        let squares: Vec<(i32, i32)> = squares.collect();
+        let free = squares.iter().all(|it| !self.0.contains(it));
+        if free {
+            self.0.extend(squares);
+        }
+        free
+    }
+}
+
+/// Returns the signs most like one, by their index.
+pub(super) fn near(map: &SignMap, at: usize) -> Vec<usize> {
+    let index = |token: &i64| map.signs.binary_search_by_key(token, |it| it.token).ok();
+    map.signs
+        .get(at)
+        .map_or(Vec::new(), |it| it.near.iter().filter_map(index).collect())
+}
+
+/// Returns the query for signs of these glosses; `None` if there is no gloss.
+pub(super) fn query<'a>(glosses: impl Iterator<Item = &'a str>) -> Option<String> {
+    let glosses: BTreeSet<&str> = glosses.collect();
+    let terms: Vec<String> = glosses
+        .iter()
+        .map(|it| facet_condition("gloss", it))
+        .collect();
+    (!terms.is_empty()).then(|| terms.join(" or "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::MapPoint;
+
+    fn rect() -> Rect {
+        Rect::from_min_max(pos2(100.0, 50.0), pos2(500.0, 350.0))
+    }
+
+    #[test]
+    fn the_whole_map_is_in_sight_at_first_and_the_place_under_the_pointer_stays() {
+        let mut view = View::default();
+        for corner in [
+            pos2(0.0, 0.0),
+            pos2(1.0, 0.0),
+            pos2(0.0, 1.0),
+            pos2(1.0, 1.0),
+        ] {
+            assert!(rect().contains(view.shown(rect(), corner)), "{corner:?}");
+        }
+        let pointer = pos2(260.0, 180.0);
+        let held = view.place(rect(), pointer);
+        view.zoomed(rect(), pointer, 3.0);
+        assert!(view.shown(rect(), held).distance(pointer) < 0.01);
+        view.moved(rect(), Vec2::new(30.0, -10.0));
+        assert!(
+            view.shown(rect(), held)
+                .distance(pointer + Vec2::new(30.0, -10.0))
+                < 0.01
+        );
+        for _ in 0..100 {
+            view.zoomed(rect(), pointer, 3.0);
+            view.moved(rect(), Vec2::new(1e6, 1e6));
+        }
+        assert!(view.centre.x >= 0.0 && view.zoom <= NEAREST);
+    }
+
+    #[test]
+    fn labels_never_cover_each_other() {
+        let mut labels = Labels::default();
+        let at = |x: f32| Rect::from_min_size(pos2(x, 10.0), Vec2::new(40.0, 12.0));
+        assert!(labels.take(at(0.0)));
+        assert!(!labels.take(at(30.0)));
+        assert!(labels.take(at(60.0)));
+    }
+
+    #[test]
+    fn a_selection_is_a_query_and_neighbours_are_found_by_token() {
+        assert_eq!(
+            query(["A", "B C", "A"].into_iter()),
+            Some("gloss=A or gloss=\"B C\"".into())
+        );
+        assert_eq!(query(std::iter::empty()), None);
+        let point = |token: i64, near: &[i64]| MapPoint {
+            token,
+            gloss: String::new(),
+            origin: String::new(),
+            x: 0.0,
+            y: 0.0,
+            near: near.to_vec(),
+        };
+        let map = SignMap {
+            components: vec![],
+            signs: vec![point(3, &[9, 5]), point(5, &[3]), point(9, &[])],
+            left_out: 0,
+        };
+        assert_eq!(near(&map, 0), [2, 1]);
+        assert_eq!(near(&map, 7), Vec::<usize>::new());
+    }
+}

@@ -1,0 +1,303 @@
+//! The map: every coded sign at a place in a plane, those that are alike near each other.
+
+mod data;
+
+use std::sync::Arc;
+
+use chereme_corpus::SignMap;
+use chereme_motion::Span;
+use chereme_sign::Component;
+use eframe::egui::{
+    Align2, Color32, FontId, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui,
+    Vec2, WidgetInfo, pos2, vec2,
+};
+
+use super::Pane;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::little::{self, Cell, Motion};
+use crate::panes::inspector::Thing;
+use crate::words::{fill, inspector, map as words};
+use crate::work::{Ended, Outcome, Work, WorkId};
+use data::{Labels, View};
+
+/// The components that can place the signs, with their words.
+const COMPONENTS: [(Component, crate::words::Text); 4] = [
+    (Component::Configuration, inspector::CONFIGURATION),
+    (Component::Placement, inspector::PLACEMENT),
+    (Component::Movement, inspector::MOVEMENT),
+    (Component::Orientation, inspector::ORIENTATION),
+];
+
+/// The side of a little figure, in points, and the most of them at once.
+const FIGURE: f32 = 84.0;
+const MOST_FIGURES: usize = 40;
+/// The distance in points at which the pointer reaches a sign.
+const REACH: f32 = 14.0;
+
+/// The pane.
+pub(crate) struct Map {
+    /// Which components count.
+    by: [bool; 4],
+    asked: Option<WorkId>,
+    map: Option<Arc<SignMap>>,
+    wrong: Option<String>,
+    /// The generation of the corpus and the components of the newest request.
+    of: Option<(i64, [bool; 4])>,
+    view: View,
+    chosen: Option<usize>,
+    /// The corner where a selection by dragging began.
+    lasso: Option<Pos2>,
+}
+
+impl Default for Map {
+    fn default() -> Self {
+        Self {
+            by: [true; 4],
+            asked: None,
+            map: None,
+            wrong: None,
+            of: None,
+            view: View::default(),
+            chosen: None,
+            lasso: None,
+        }
+    }
+}
+
+impl Map {
+    /// Requests the map again if the corpus or the components changed.
+    fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+        let of = Some((seen.snapshot.overview.generation, self.by));
+        if self.of == of || seen.is_running(self.asked) {
+            return;
+        }
+        self.of = of;
+        let wanted = COMPONENTS.iter().zip(self.by).filter(|(_, on)| *on);
+        let components = wanted.map(|((component, _), _)| *component).collect();
+        self.asked = Some(out.work(Work::Map(components)));
+    }
+
+    fn tools(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+        ui.horizontal_wrapped(|ui| {
+            ui.label(seen.say(words::BY));
+            for (at, (_, name)) in COMPONENTS.iter().enumerate() {
+                let others = self.by.iter().enumerate().any(|(it, on)| it != at && *on);
+                let only = self.by[at] && !others;
+                ui.add_enabled_ui(!only, |ui| ui.checkbox(&mut self.by[at], seen.say(*name)));
+            }
+            if ui.button(seen.say(words::WHOLE)).clicked() {
+                self.view = View::default();
+            }
+            if seen.is_running(self.asked) {
+                ui.spinner();
+            } else if let Some(map) = &self.map {
+                let text = fill(seen.say(words::COUNT), &[("n", &map.signs.len())]);
+                ui.weak(text);
+                if map.left_out > 0 {
+                    ui.weak(fill(seen.say(words::LEFT_OUT), &[("n", &map.left_out)]));
+                }
+            }
+        });
+    }
+
+    fn plane(&mut self, ui: &mut Ui, seen: &Seen<'_>, map: &SignMap, out: &mut Outbox) {
+        let foot = ui.spacing().interact_size.y * 1.6;
+        let size = vec2(
+            ui.available_width(),
+            (ui.available_height() - foot).max(120.0),
+        );
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+        let name = fill(seen.say(words::COUNT), &[("n", &map.signs.len())]);
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
+        self.look_around(ui, &response, rect);
+        ui.painter()
+            .rect_filled(rect, 4.0, ui.visuals().extreme_bg_color);
+        let painter = ui.painter().with_clip_rect(rect);
+        let places: Vec<Pos2> = map
+            .signs
+            .iter()
+            .map(|it| self.view.shown(rect, pos2(it.x, it.y)))
+            .collect();
+        let visible: Vec<usize> = (0..places.len())
+            .filter(|&at| rect.contains(places[at]))
+            .collect();
+        let under = response.hover_pos().and_then(|pointer| {
+            let near = visible.iter().map(|&at| (places[at].distance(pointer), at));
+            let reach = if visible.len() <= MOST_FIGURES {
+                FIGURE / 2.0
+            } else {
+                REACH
+            };
+            near.filter(|(far, _)| *far < reach)
+                .min_by(|a, b| a.0.total_cmp(&b.0))
+                .map(|it| it.1)
+        });
+        let colours = seen.colours();
+        let weak = ui.visuals().weak_text_color();
+        if let Some(at) = under.or(self.chosen) {
+            for near in data::near(map, at) {
+                painter.line_segment([places[at], places[near]], Stroke::new(1.0, colours.accent));
+            }
+        }
+        let figures = visible.len() <= MOST_FIGURES;
+        let font = FontId::proportional(11.0);
+        let mut labels = Labels::default();
+        let first = [self.chosen, under].into_iter().flatten();
+        let order = first.chain(visible.iter().copied());
+        for at in order {
+            let sign = &map.signs[at];
+            let marked = self.chosen == Some(at) || under == Some(at);
+            let colour = if marked { colours.accent } else { weak };
+            let moves = place(seen, sign.token).filter(|_| figures);
+            if let Some((recording, span)) = moves {
+                let room = Rect::from_center_size(places[at], Vec2::splat(FIGURE));
+                let cell = Cell::new(Motion::Span(recording, span), room.size());
+                seen.little
+                    .paint(ui, seen, out, &cell.playing(little::clock(ui)), room);
+                if marked {
+                    painter.rect_stroke(room, 6.0, Stroke::new(2.0, colour), StrokeKind::Inside);
+                }
+            } else {
+                painter.circle_filled(places[at], if marked { 4.5 } else { 2.5 }, colour);
+            }
+            let below = if moves.is_some() { FIGURE / 2.0 } else { 4.0 };
+            let at = places[at] + vec2(0.0, below);
+            let text = if marked {
+                ui.visuals().strong_text_color()
+            } else {
+                ui.visuals().text_color()
+            };
+            label(&painter, &mut labels, at, &sign.gloss, &font, text, marked);
+        }
+        if let (Some(from), Some(to)) = (self.lasso, response.interact_pointer_pos()) {
+            let stroke = Stroke::new(1.0, colours.accent);
+            painter.rect_stroke(
+                Rect::from_two_pos(from, to),
+                0.0,
+                stroke,
+                StrokeKind::Middle,
+            );
+        }
+        if response.drag_stopped()
+            && let Some(from) = self.lasso.take()
+            && let Some(to) = response.interact_pointer_pos()
+        {
+            let box_of = Rect::from_two_pos(from, to);
+            let inside = visible.iter().filter(|&&at| box_of.contains(places[at]));
+            if let Some(query) = data::query(inside.map(|&at| map.signs[at].gloss.as_str())) {
+                out.send(Command::Find(query));
+            }
+        }
+        if response.clicked() {
+            self.chosen = under;
+            if let Some(at) = under {
+                open(seen, map.signs[at].token, out);
+            }
+        }
+    }
+
+    /// Moves and zooms by drag, wheel and pinch; a drag with Shift selects.
+    fn look_around(&mut self, ui: &Ui, response: &Response, rect: Rect) {
+        if response.drag_started() && ui.input(|it| it.modifiers.shift) {
+            self.lasso = response.interact_pointer_pos();
+        }
+        if response.dragged() && self.lasso.is_none() {
+            self.view.moved(rect, response.drag_delta());
+        }
+        let Some(pointer) = response.hover_pos() else {
+            return;
+        };
+        let (scroll, pinch) = ui.input(|it| (it.smooth_scroll_delta.y, it.zoom_delta()));
+        let factor = pinch * (scroll / 200.0).exp();
+        if (factor - 1.0).abs() > 1e-3 {
+            self.view.zoomed(rect, pointer, factor);
+        }
+    }
+
+    /// The chosen sign and those most like it, as buttons.
+    fn foot(&mut self, ui: &mut Ui, seen: &Seen<'_>, map: &SignMap, out: &mut Outbox) {
+        let Some(chosen) = self.chosen.filter(|&at| at < map.signs.len()) else {
+            ui.weak(seen.say(words::HINT));
+            return;
+        };
+        ui.horizontal_wrapped(|ui| {
+            ui.label(RichText::new(&map.signs[chosen].gloss).strong());
+            ui.label(seen.say(words::ALIKE));
+            for at in data::near(map, chosen) {
+                if ui.link(&map.signs[at].gloss).clicked() {
+                    self.chosen = Some(at);
+                    open(seen, map.signs[at].token, out);
+                }
+            }
+        });
+    }
+}
+
+/// Returns the recording and the span of a citation form with movement.
+fn place(seen: &Seen<'_>, token: i64) -> Option<(i64, Span)> {
+    let signs = &seen.snapshot.overview.signs;
+    signs.iter().find(|it| it.citation == Some(token))?.place
+}
+
+/// Shows a sign on the stage, or its coding in the inspector if it has no movement.
+fn open(seen: &Seen<'_>, token: i64, out: &mut Outbox) {
+    match place(seen, token) {
+        Some((recording, span)) => {
+            out.send(Command::Made(None));
+            out.send(Command::Place(recording, span));
+            out.send(Command::Look);
+        }
+        None => out.send(Command::Inspect(Thing::Token(token))),
+    }
+}
+
+/// Paints a gloss below a place if it covers no other, or in any case if `marked`.
+fn label(
+    painter: &eframe::egui::Painter,
+    labels: &mut Labels,
+    at: Pos2,
+    gloss: &str,
+    font: &FontId,
+    colour: Color32,
+    marked: bool,
+) {
+    let galley = painter.layout_no_wrap(gloss.to_owned(), font.clone(), colour);
+    let room = Align2::CENTER_TOP.anchor_size(at, galley.size());
+    if labels.take(room) || marked {
+        painter.galley(room.min, galley, colour);
+    }
+}
+
+impl Pane for Map {
+    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        self.follow(seen, out);
+        self.tools(ui, seen);
+        if let Some(wrong) = &self.wrong {
+            ui.weak(wrong);
+        }
+        let Some(map) = self.map.clone() else {
+            return;
+        };
+        self.plane(ui, seen, &map, out);
+        self.foot(ui, seen, &map, out);
+    }
+
+    fn hear(&mut self, id: WorkId, ended: &Ended) {
+        if self.asked.take_if(|asked| *asked == id).is_none() {
+            return;
+        }
+        self.chosen = None;
+        match ended {
+            Ok(Outcome::Mapped(map)) => {
+                self.wrong = None;
+                self.map = Some(map.clone());
+            }
+            Err(error) => {
+                self.map = None;
+                self.wrong = Some(error.to_string());
+            }
+            Ok(_) => {}
+        }
+    }
+}

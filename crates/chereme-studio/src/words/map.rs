@@ -1,0 +1,11 @@
+//! The map of signs.
+
+texts! {
+    TITLE: "Map", "Carte";
+    BY: "Alike by", "Semblables par";
+    WHOLE: "Whole map", "Toute la carte";
+    COUNT: "Signs on the map: {n}", "Signes sur la carte : {n}";
+    LEFT_OUT: "not coded for these: {n}", "non codés pour cela : {n}";
+    ALIKE: "most alike:", "les plus proches :";
+    HINT: "The wheel zooms, a drag moves, a click opens a sign, Shift and a drag select several.", "La molette agrandit, un glissement déplace, un clic ouvre un signe, Maj et un glissement en choisissent plusieurs.";
+}
