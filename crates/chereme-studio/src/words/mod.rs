@@ -37,7 +37,7 @@ pub(crate) mod timeline;
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 16] = [
+    const TABLES: [&[(&str, Text)]; 17] = [
         actions::ALL,
         export::ALL,
         film::ALL,
