@@ -33,6 +33,15 @@ pub struct Proposed {
     pub recordings: Vec<String>,
 }
 
+impl Proposed {
+    /// The components that are read from movement.
+    pub const COMPONENTS: [Component; 3] = [
+        Component::Configuration,
+        Component::Placement,
+        Component::Movement,
+    ];
+}
+
 /// A value of a token that is to be written.
 struct Value {
     start: i64,
@@ -48,16 +57,23 @@ impl Corpus {
     /// their own, called for example `configuration dominant (proposed)`.
     ///
     /// Each value is an annotation of a detector, as those of [`AnnotationOrigin::Detector`], so that a person's
-    /// codings stay apart from it and another detector may replace it. The values are those of
+    /// codings stay apart from it and another detector may replace it; all of it is one operation, which one step back
+    /// takes away. The values are those of
     /// [`transcribe`](Self::transcribe) in the words of the corpus's inventories.
     ///
     /// # Errors
-    /// [`Error::Stopped`] where `progress` says so before anything is written; where the corpus cannot be written.
+    /// [`Error::Stopped`] where `progress` says so before anything is written; where movement does not say the
+    /// component, or the corpus cannot be written.
     pub fn propose_coding(
         &mut self,
         component: Component,
         progress: &mut Progress<'_>,
     ) -> Result<Proposed> {
+        if !Proposed::COMPONENTS.contains(&component) {
+            let text = format!("{} is not read from movement yet", component.name());
+            let readable = Proposed::COMPONENTS.map(Component::name).join(", ");
+            return Err(Error::wrong(text).advise(format!("what can be proposed: {readable}")));
+        }
         let options = SearchOptions {
             limit: None,
             facets: false,
@@ -88,7 +104,7 @@ impl Corpus {
                 Ok(None) | Err(_) => report.unread += 1,
             }
         }
-        let changes = self.changes(component, values)?;
+        let (new, changes) = self.changes(component, values)?;
         report.annotations = changes.len() as u64;
         let recordings: BTreeSet<&str> = found
             .hits
@@ -100,7 +116,8 @@ impl Corpus {
                 origin: AnnotationOrigin::Detector,
                 ..AnnotateOptions::default()
             };
-            let written = self.annotate(&changes, &options, progress)?;
+            let work = (changes.as_slice(), &options);
+            let written = self.annotate_with("propose", &new, work, progress)?;
             let is_written = |name: &&str| written.recordings.iter().any(|it| it == name);
             let written = recordings.into_iter().filter(is_written);
             report.recordings = written.map(str::to_owned).collect();
@@ -157,9 +174,13 @@ impl Corpus {
         Ok(Some(read).filter(|read| !read.is_empty()))
     }
 
-    /// Returns the annotations to add; their tiers are made where a recording has none.
-    fn changes(&mut self, component: Component, all: Values) -> Result<Vec<AnnotationChange>> {
-        let mut changes = Vec::new();
+    /// Returns the annotations to add, and the tiers for them that a recording lacks.
+    fn changes(
+        &self,
+        component: Component,
+        all: Values,
+    ) -> Result<(Vec<NewTier>, Vec<AnnotationChange>)> {
+        let (mut tiers, mut changes) = (Vec::new(), Vec::new());
         for ((recording, hand), mut values) in all {
             let recording = Name::Text(recording);
             let name = format!("{} {} (proposed)", component.name(), hand.name());
@@ -175,7 +196,7 @@ impl Corpus {
                 };
                 let mut new = NewTier::new(recording, name, role);
                 new.hand = Some(Hands::One(hand));
-                self.add_tier(&new)?;
+                tiers.push(new);
             }
             values.sort_by_key(|value| value.start);
             for value in values {
@@ -200,7 +221,7 @@ impl Corpus {
                 );
             }
         }
-        Ok(changes)
+        Ok((tiers, changes))
     }
 
     /// Returns where the last annotation of a recording's tier ends, 0 where it holds none; nothing where there is no

@@ -256,4 +256,13 @@ fn a_component_that_is_not_coded_is_proposed_from_movement_and_a_stop_leaves_the
         .propose_coding(Component::Configuration, &mut progress)
         .expect("proposed");
     assert_eq!(again.tokens, 0);
+    // The tiers and their values are one operation.
+    let undone = corpus.undo().expect("undone");
+    assert_eq!(undone.name, "propose");
+    assert_eq!(count(&mut corpus), 0);
+    let tiers = corpus.list(chereme_corpus::ListKind::Tiers, &Default::default());
+    let tiers = tiers.expect("tiers").total;
+    assert_eq!(tiers, 1, "the proposed tiers go with their values");
+    let refused = corpus.propose_coding(Component::NonManual, &mut progress);
+    assert!(refused.expect_err("refused").remedy().is_some());
 }

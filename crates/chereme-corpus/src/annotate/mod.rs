@@ -214,25 +214,52 @@ impl Corpus {
         progress: &mut Progress<'_>,
     ) -> Result<AnnotateReport> {
         self.store.operation("annotate", |connection| {
-            let mut work = Work::new(connection, options)?;
-            work.faults = faults;
-            for (done, change) in changes.iter().enumerate() {
-                work.change(change)?;
-                if changes.len() > 1 && done % 64 == 0 {
-                    progress.tell(Step {
-                        task: "annotating",
-                        done: done as u64,
-                        total: Some(changes.len() as u64),
-                        unit: Unit::Items,
-                    })?;
-                }
-            }
-            let deeds = std::mem::take(&mut work.deeds);
-            let report = work.finish(changes.len())?;
-            let summary = deeds.summary(&report);
-            Ok((report, summary))
+            carry_out(connection, changes, options, faults, progress)
         })
     }
+
+    /// Adds tiers, and makes changes of annotations, as one operation of that name: all of it, or nothing.
+    pub(crate) fn annotate_with(
+        &mut self,
+        name: &str,
+        new: &[NewTier],
+        (changes, options): (&[AnnotationChange], &AnnotateOptions),
+        progress: &mut Progress<'_>,
+    ) -> Result<AnnotateReport> {
+        self.store.operation(name, |connection| {
+            for tier in new {
+                tiers::insert(connection, tier)?;
+            }
+            carry_out(connection, changes, options, Vec::new(), progress)
+        })
+    }
+}
+
+/// Makes changes of annotations; returns the report, and the line of the history.
+fn carry_out(
+    connection: &Connection,
+    changes: &[AnnotationChange],
+    options: &AnnotateOptions,
+    faults: Vec<Error>,
+    progress: &mut Progress<'_>,
+) -> Result<(AnnotateReport, String)> {
+    let mut work = Work::new(connection, options)?;
+    work.faults = faults;
+    for (done, change) in changes.iter().enumerate() {
+        work.change(change)?;
+        if changes.len() > 1 && done % 64 == 0 {
+            progress.tell(Step {
+                task: "annotating",
+                done: done as u64,
+                total: Some(changes.len() as u64),
+                unit: Unit::Items,
+            })?;
+        }
+    }
+    let deeds = std::mem::take(&mut work.deeds);
+    let report = work.finish(changes.len())?;
+    let summary = deeds.summary(&report);
+    Ok((report, summary))
 }
 
 /// A list of changes on its way into the rows.

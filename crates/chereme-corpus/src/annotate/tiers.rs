@@ -115,12 +115,9 @@ impl Corpus {
     /// of its own would hang below one without.
     pub fn add_tier(&mut self, tier: &NewTier) -> Result<TierRow> {
         self.store.operation("add tier", |connection| {
-            let recording = address::recording(connection, &tier.recording)?;
-            let row = new_row(connection, recording.id, tier)?;
-            know(connection, row.participant.as_deref())?;
-            let id = rows::insert_tier(connection, &row)?;
-            let summary = format!("{:?} to {}", row.name, recording.name);
-            Ok((TierRow { id, ..row }, summary))
+            let (row, recording) = insert(connection, tier)?;
+            let summary = format!("{:?} to {recording}", row.name);
+            Ok((row, summary))
         })
     }
 
@@ -208,6 +205,15 @@ pub(super) fn family<'t>(all: &'t [TierRow], tier: &'t TierRow) -> Vec<&'t TierR
         at += 1;
     }
     found
+}
+
+/// Adds a tier below the others of its recording; returns it and the name of the recording.
+pub(super) fn insert(connection: &Connection, tier: &NewTier) -> Result<(TierRow, String)> {
+    let recording = address::recording(connection, &tier.recording)?;
+    let row = new_row(connection, recording.id, tier)?;
+    know(connection, row.participant.as_deref())?;
+    let id = rows::insert_tier(connection, &row)?;
+    Ok((TierRow { id, ..row }, recording.name))
 }
 
 pub(super) fn new_row(connection: &Connection, recording: i64, tier: &NewTier) -> Result<TierRow> {

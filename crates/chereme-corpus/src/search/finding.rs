@@ -1,7 +1,7 @@
 //! Findings of an answer: the values that a condition widened to or matched, or why it matches nothing.
 
 use chereme_sign::Component;
-use chereme_sign::query::At;
+use chereme_sign::query::{At, Query};
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
@@ -76,6 +76,47 @@ impl Finding {
         }
     }
 
+    /// Returns what could stand in place of a condition that matches nothing: values, names, or whole conditions.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        match &self.kind {
+            FindingKind::CannotMatch { names, .. } => names,
+            _ => &[],
+        }
+    }
+
+    /// Returns the query that was asked with one of [`names`](Self::names) in its place; nothing if the condition does
+    /// not stand in that query, as one of a saved search.
+    #[must_use]
+    pub fn instead(&self, query: &str, name: &str) -> Option<String> {
+        let letters: Vec<char> = query.chars().collect();
+        let (start, end) = self.at;
+        let part = |range: std::ops::Range<usize>| -> Option<String> {
+            Some(letters.get(range)?.iter().collect())
+        };
+        let asked = part(start..end)?;
+        let whole = name.contains('=') && Query::parse(name).is_ok();
+        let (before, after) = (part(0..start)?, part(end..letters.len())?);
+        let changed = if whole {
+            match asked.contains(['=', ':']) {
+                true => format!("{before}{name}{after}"),
+                false => {
+                    // Only the value has a place: its field stands before it.
+                    let field = before.rfind([' ', '(']).map_or(0, |at| at + 1);
+                    format!("{}{name}{after}", &before[..field])
+                }
+            }
+        } else if let Some((tier, value)) = asked.split_once(')').filter(|it| it.0.contains('(')) {
+            let (word, _) = tier.split_once('(')?;
+            format!("{before}{word}({}){value}{after}", quoted(name))
+        } else if let Some(at) = asked.find(['=', ':']) {
+            format!("{before}{}{}{after}", &asked[..=at], quoted(name))
+        } else {
+            format!("{before}{}{after}", quoted(name))
+        };
+        Query::parse(&changed).is_ok().then_some(changed)
+    }
+
     /// Returns the finding as a sentence for people.
     #[must_use]
     pub fn message(&self) -> String {
@@ -115,6 +156,15 @@ impl Finding {
     }
 }
 
+/// Returns a name as a query spells it.
+fn quoted(name: &str) -> String {
+    let bare = |letter: char| letter.is_alphanumeric() || "-_".contains(letter);
+    if !name.is_empty() && name.chars().all(bare) {
+        return name.to_owned();
+    }
+    format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
 /// Returns the first names of a list, and how many more there are.
 fn few(names: &[String]) -> String {
     let shown = names[..names.len().min(NAMED)].join(", ");
@@ -146,5 +196,49 @@ impl Serialize for Finding {
             }
         }
         map.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_could_match_takes_the_place_of_the_one_that_cannot() {
+        for (query, at, name, changed) in [
+            ("gloss=ESCARGUT", (6, 14), "ESCARGOT", "gloss=ESCARGOT"),
+            ("a gloss=X b", (8, 9), "WEEK END", "a gloss=\"WEEK END\" b"),
+            (
+                "overlaps tier(\"nosuch\")=x",
+                (9, 25),
+                "Gloss RH",
+                "overlaps tier(\"Gloss RH\")=x",
+            ),
+            (
+                "(gloss:é movement=circle) or movement=arc",
+                (18, 24),
+                "movement.shape=circle",
+                "(gloss:é movement.shape=circle) or movement=arc",
+            ),
+            (
+                "movement=circle",
+                (0, 15),
+                "movement.shape=circle",
+                "movement.shape=circle",
+            ),
+        ] {
+            let finding = Finding {
+                condition: query.to_owned(),
+                at,
+                kind: FindingKind::CannotMatch {
+                    why: "no token has it".to_owned(),
+                    names: vec![name.to_owned()],
+                },
+            };
+            assert_eq!(finding.names(), [name]);
+            assert_eq!(finding.instead(query, name).as_deref(), Some(changed));
+            // Another query, as one that names a saved search, may have no such place.
+            assert_eq!(finding.instead("é", name), None);
+        }
     }
 }

@@ -34,7 +34,7 @@ texts! {
     CHANGES: "changes", "modifications";
     DID_IMPORT: "Imported: {what}", "Importé : {what}";
     DID_RECOMBINE: "{gloss} made: {recipe}", "{gloss} composé : {recipe}";
-    DID_RECOMBINE_AGAIN: "{gloss} made anew: {recipe}", "{gloss} refait : {recipe}";
+    DID_RECOMBINE_AGAIN: "{gloss} made again: {recipe}", "{gloss} refait : {recipe}";
     DID_ANNOTATE: "{what} in {place}", "{what} dans {place}";
     ADDED: "{n} annotations added", "{n} annotations ajoutées";
     ONE_ADDED: "{n} annotation added", "{n} annotation ajoutée";
@@ -55,6 +55,18 @@ texts! {
     DID_CHANGE_SIGN: "Sign changed: {what}", "Signe modifié : {what}";
     DID_CITE: "Citation form: {what}", "Forme de citation : {what}";
     DID_TRANSCRIBE: "Transcribed: {what}", "Transcrit : {what}";
+    DID_PROPOSE: "Proposed from movement: {what}", "Proposé d’après le mouvement : {what}";
+    DID_ADD_TIERS: "Tiers added: {what}", "Acteurs ajoutés : {what}";
+    DID_COPY_TIER: "Tier copied: {what}", "Acteur copié : {what}";
+    DID_ORDER_TIERS: "Tiers put in order: {what}", "Acteurs remis en ordre : {what}";
+    DID_ADD_TRACKS: "Tracks added: {what}", "Pistes ajoutées : {what}";
+    DID_CHANGE_TRACK: "Track changed: {what}", "Piste modifiée : {what}";
+    DID_CHANGE_MEDIA: "Media changed: {what}", "Média modifié : {what}";
+    DID_ADD_VALUE: "Value added: {what}", "Valeur ajoutée : {what}";
+    DID_MERGE_VALUES: "Values merged: {what}", "Valeurs fusionnées : {what}";
+    DID_KEEP_SEARCH: "Search saved: {what}", "Recherche enregistrée : {what}";
+    DID_RENAME_SEARCH: "Search renamed: {what}", "Recherche renommée : {what}";
+    DID_FORGET_SEARCH: "Saved search removed: {what}", "Recherche enregistrée supprimée : {what}";
 }
 
 /// Returns what an operation did, as a sentence.
@@ -82,17 +94,36 @@ pub fn sentence(it: &OperationRow, language: Language) -> String {
             let tier = tier.trim_matches('"');
             say(DID_CHANGE_TIER, &[("tier", &tier), ("place", &place)])
         }),
-        "remove tier" => Some(say(DID_REMOVE_TIER, &[("what", &summary)])),
-        "change recording" => Some(say(DID_CHANGE_RECORDING, &[("what", &summary)])),
-        "change signer" => Some(say(DID_CHANGE_SIGNER, &[("what", &summary)])),
-        "change sign" => Some(say(DID_CHANGE_SIGN, &[("what", &summary)])),
-        "set citation" => Some(say(DID_CITE, &[("what", &summary)])),
         "merge" => Some(say(super::merge::DID_MERGE, &[("what", &summary)])),
         "decide" => Some(say(super::merge::DID_DECIDE, &[("what", &summary)])),
-        "transcribe" => Some(say(DID_TRANSCRIBE, &[("what", &summary)])),
-        _ => None,
+        "propose" => annotated(summary, language).map(|what| say(DID_PROPOSE, &[("what", &what)])),
+        name => plain(name).map(|text| say(text, &[("what", &summary)])),
     };
     known.unwrap_or_else(|| format!("{}: {summary}", it.name))
+}
+
+/// Returns the sentence for operations whose summary stands in it as it is.
+fn plain(name: &str) -> Option<Text> {
+    Some(match name {
+        "remove tier" => DID_REMOVE_TIER,
+        "add tiers" => DID_ADD_TIERS,
+        "copy tier" => DID_COPY_TIER,
+        "order tiers" => DID_ORDER_TIERS,
+        "change recording" => DID_CHANGE_RECORDING,
+        "change signer" => DID_CHANGE_SIGNER,
+        "change sign" => DID_CHANGE_SIGN,
+        "set citation" => DID_CITE,
+        "transcribe" => DID_TRANSCRIBE,
+        "add tracks" => DID_ADD_TRACKS,
+        "change track" => DID_CHANGE_TRACK,
+        "change media" => DID_CHANGE_MEDIA,
+        "add value" => DID_ADD_VALUE,
+        "merge values" => DID_MERGE_VALUES,
+        "keep search" => DID_KEEP_SEARCH,
+        "rename search" => DID_RENAME_SEARCH,
+        "forget search" => DID_FORGET_SEARCH,
+        _ => return None,
+    })
 }
 
 /// Returns what came of taking an operation back, as a sentence: what it had removed is restored.
@@ -210,6 +241,18 @@ mod tests {
                 "2 annotations fusionnées dans Un",
             ),
             ("import", "a.bvh", "Imported: a.bvh", "Importé : a.bvh"),
+            (
+                "propose",
+                "2 added in Un",
+                "Proposed from movement: 2 annotations added in Un",
+                "Proposé d’après le mouvement : 2 annotations ajoutées dans Un",
+            ),
+            (
+                "keep search",
+                "chins",
+                "Search saved: chins",
+                "Recherche enregistrée : chins",
+            ),
             ("novel", "x", "novel: x", "novel: x"),
         ] {
             let row = row(1, OperationKind::Do, None, name, summary);

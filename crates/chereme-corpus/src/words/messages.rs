@@ -4,6 +4,9 @@
 //! `{name}` stands for what differs from case to case and is carried over.
 
 use super::Language;
+use super::findings::FINDINGS;
+use super::notes::NOTES;
+use super::queries::QUERIES;
 
 /// Messages and remedies as English and French.
 const MESSAGES: &[(&str, &str)] = &[
@@ -194,6 +197,63 @@ const MESSAGES: &[(&str, &str)] = &[
     ),
     ("{what} is no format", "{what} n’est pas un format"),
     ("the table asks for nothing", "la table ne demande rien"),
+    (
+        "{condition} counts narrower values, too: {values}; == counts the value alone",
+        "{condition} compte aussi des valeurs plus précises : {values} ; == ne compte que la valeur",
+    ),
+    (
+        "{condition} matched: {values}",
+        "{condition} a trouvé : {values}",
+    ),
+    (
+        "{condition}: no {field} is coded in this corpus yet",
+        "{condition} : aucune valeur de {field} n’est encore codée dans ce corpus",
+    ),
+    (
+        "{condition} finds nothing: {why}; there are: {names}",
+        "{condition} ne trouve rien : {why} ; il y a : {names}",
+    ),
+    (
+        "{condition} finds nothing: {why}",
+        "{condition} ne trouve rien : {why}",
+    ),
+    (
+        "no token has all of it; alone they find: {terms}",
+        "aucune occurrence n’a tout cela ; chacun à part trouve : {terms}",
+    ),
+    (
+        "no sign has such a gloss",
+        "aucun signe n’a une telle glose",
+    ),
+    ("no tier is called so", "aucun acteur ne s’appelle ainsi"),
+    (
+        "no token of the corpus has it",
+        "aucune occurrence du corpus ne l’a",
+    ),
+    (
+        "no token stands so to such an annotation",
+        "aucune occurrence n’est ainsi placée par rapport à une telle annotation",
+    ),
+    (
+        "nothing of {field} is coded in this corpus",
+        "rien de {field} n’est codé dans ce corpus",
+    ),
+    (
+        "of {field} only parts are coded in this corpus: {parts}",
+        "de {field}, seules des parties sont codées dans ce corpus : {parts}",
+    ),
+    (
+        "no token has such a value of {field}",
+        "aucune occurrence n’a une telle valeur de {field}",
+    ),
+    (
+        "{component} is not read from movement yet",
+        "{component} ne se lit pas encore dans le mouvement",
+    ),
+    (
+        "what can be proposed: {names}",
+        "ce qui peut être proposé : {names}",
+    ),
 ];
 
 /// Returns a message of the library in `language`; nothing if the table lacks it.
@@ -202,14 +262,22 @@ pub fn message(text: &str, language: Language) -> Option<String> {
     if language == Language::English {
         return Some(text.to_owned());
     }
-    MESSAGES
-        .iter()
-        .find_map(|(english, french)| carried(text, english, french))
+    in_french(text)
 }
 
-/// Returns `other` with what `text` has in the blanks of `form`; nothing if it has another form.
-fn carried(text: &str, form: &str, other: &str) -> Option<String> {
-    let mut filled = other.to_owned();
+/// Returns every form in English and French.
+fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
+    MESSAGES.iter().chain(FINDINGS).chain(QUERIES).chain(NOTES)
+}
+
+fn in_french(text: &str) -> Option<String> {
+    let part = |part: &str| in_french(part).unwrap_or_else(|| part.to_owned());
+    all().find_map(|(english, french)| carried(text, english, french, &part))
+}
+
+/// Returns `other` with what `text` has in the blanks of `form`, each as `said`; nothing if it has another form.
+fn carried(text: &str, form: &str, other: &str, said: &dyn Fn(&str) -> String) -> Option<String> {
+    let mut values = Vec::new();
     let mut parts = form.split('{');
     let mut rest = text.strip_prefix(parts.next()?)?;
     for part in parts {
@@ -218,10 +286,15 @@ fn carried(text: &str, form: &str, other: &str) -> Option<String> {
             "" => rest.len(),
             _ => rest.find(literal)?,
         };
-        filled = filled.replace(&format!("{{{name}}}"), &rest[..end]);
+        values.push((name, &rest[..end]));
         rest = &rest[end + literal.len()..];
     }
-    rest.is_empty().then_some(filled)
+    rest.is_empty().then(|| {
+        let filled = |filled: String, (name, value): &(&str, &str)| {
+            filled.replace(&format!("{{{name}}}"), &said(value))
+        };
+        values.iter().fold(other.to_owned(), filled)
+    })
 }
 
 #[cfg(test)]
@@ -239,9 +312,9 @@ mod tests {
             names.sort();
             names
         };
-        for (english, french) in MESSAGES.iter().copied() {
+        for (english, french) in all().copied() {
             assert_eq!(blanks(english), blanks(french), "{english}");
-            let same = carried(english, english, english);
+            let same = carried(english, english, english, &str::to_owned);
             assert_eq!(same.as_deref(), Some(english), "it is of its own form");
         }
     }
@@ -279,6 +352,24 @@ mod tests {
             assert!(french.is_some_and(|it| it != text), "{text}");
         }
         assert_eq!(message("no such words", Language::French), None);
+        for (english, french) in [
+            (
+                "lines end with CR LF, as on Windows",
+                "les lignes finissent par CR LF, comme sous Windows",
+            ),
+            (
+                "<eye_gaze> belongs into <eyegaze_tier>; it was kept in <facialexpr_tier>",
+                "<eye_gaze> a sa place dans <eyegaze_tier> ; gardé dans <facialexpr_tier>",
+            ),
+        ] {
+            let said = message(english, Language::French);
+            assert_eq!(said.as_deref(), Some(french));
+        }
+        let inside = "gloss=ESC finds nothing: no sign has such a gloss; there are: ESCARGOT";
+        assert_eq!(
+            message(inside, Language::French).as_deref(),
+            Some("gloss=ESC ne trouve rien : aucun signe n’a une telle glose ; il y a : ESCARGOT")
+        );
         assert_eq!(message("x", Language::English).as_deref(), Some("x"));
         assert_eq!(
             message(

@@ -24,9 +24,12 @@ macro_rules! texts {
 
 mod count;
 pub mod deeds;
+mod findings;
 pub mod history;
 pub mod merge;
 mod messages;
+mod notes;
+mod queries;
 pub mod trouble;
 
 /// A language that the program speaks.

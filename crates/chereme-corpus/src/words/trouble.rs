@@ -4,6 +4,7 @@ texts! {
     ERROR: "error: {what}", "erreur : {what}";
     WHERE: "  where: {what}", "  où : {what}";
     WHAT_TO_DO: "  what to do: {what}", "  que faire : {what}";
+    LINE: "line {n}: ", "ligne {n} : ";
     ACTIONS: "The actions are: {names}", "Les actions sont : {names}";
     FAILED: "That could not be done.", "Cela n’a pas été possible.";
     TASK_FAILED: "{task}: that could not be done.", "{task} : cela n’a pas été possible.";

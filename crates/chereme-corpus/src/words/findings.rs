@@ -1,0 +1,151 @@
+//! Findings and remedies of an import in French, found by their English form, as the messages are.
+
+/// Findings and remedies as English and French; a form that another contains stands after it.
+pub(super) const FINDINGS: &[(&str, &str)] = &[
+    (
+        "not found in the skeleton: {parts} and {n} more",
+        "introuvables dans le squelette : {parts} et {n} autres",
+    ),
+    (
+        "not found in the skeleton: {parts}",
+        "introuvables dans le squelette : {parts}",
+    ),
+    (
+        "if a joint is one of these, say so in a roles file (--roles)",
+        "si une articulation en est une, dites-le dans un fichier de rôles (--roles)",
+    ),
+    (
+        "{part} was taken to be {joint}; other joints could be it",
+        "{part} : pris pour {joint} ; d’autres articulations pourraient l’être",
+    ),
+    (
+        "no tier was recognised as one of glosses, so no tokens were made",
+        "aucun acteur n’a été reconnu comme celui des gloses : pas d’occurrences",
+    ),
+    (
+        "say which tier is what in a mapping file (--map), or with `chereme annotate`",
+        "dites ce qu’est chaque acteur dans un fichier de correspondances (--map), ou avec `chereme annotate`",
+    ),
+    (
+        "the file's unit of length cannot be told from its skeleton; one unit is taken for {n} m",
+        "l’unité de longueur du fichier ne se déduit pas de son squelette ; une unité est prise pour {n} m",
+    ),
+    (
+        "say the unit with --unit, such as --unit cm",
+        "donnez l’unité avec --unit, comme --unit cm",
+    ),
+    (
+        "the gloss {gloss} stands in line {n} too; this row is kept as another entry of that sign",
+        "la glose {gloss} est aussi à la ligne {n} ; cette ligne est gardée comme une autre entrée de ce signe",
+    ),
+    (
+        "if these are two signs, write {one} and {other}",
+        "si ce sont deux signes, écrivez {one} et {other}",
+    ),
+    (
+        "{n} empty intervals were left out; they are gaps now",
+        "{n} intervalles vides ont été laissés de côté ; ce sont des trous maintenant",
+    ),
+    (
+        "lines end with CR LF, as on Windows",
+        "les lignes finissent par CR LF, comme sous Windows",
+    ),
+    (
+        "no part of the movement, and left out of measures and pictures: {what}",
+        "ne fait pas partie du mouvement, et reste hors des mesures et des images : {what}",
+    ),
+    (
+        "a recipe cuts them off: {recipe}",
+        "une recette les coupe : {recipe}",
+    ),
+    (
+        "tier {n} is called {name}; here it is {other}",
+        "l’acteur {n} s’appelle {name} ; ici c’est {other}",
+    ),
+    (
+        "it holds settings or vocabularies of ELAN",
+        "il contient des réglages ou des vocabulaires d’ELAN",
+    ),
+    (
+        "import the .eaf next to it; this file goes with it",
+        "importez le .eaf à côté ; ce fichier l’accompagne",
+    ),
+    (
+        "the recording {name}, which came from {path}, has this file's name already: this one is called {other}",
+        "l’enregistrement {name}, venu de {path}, a déjà le nom de ce fichier : celui-ci s’appelle {other}",
+    ),
+    (
+        "joint {name} is a leaf without End Site; its length is unknown",
+        "l’articulation {name} est une feuille sans End Site ; sa longueur est inconnue",
+    ),
+    (
+        "import it with --mend-root to read it so; the stored numbers stay the file's",
+        "importez-le avec --mend-root pour le lire ainsi ; les nombres enregistrés restent ceux du fichier",
+    ),
+    (
+        "its timecodes count {n} frames a second",
+        "ses codes temporels comptent {n} images par seconde",
+    ),
+    (
+        "its first row has the time {time} s of the day; that is {start} s here",
+        "sa première ligne porte l’heure {time} s du jour ; c’est {start} s ici",
+    ),
+    (
+        "no column is called a gloss; {column} was taken for it",
+        "aucune colonne ne s’appelle glose ; {column} a été prise pour elle",
+    ),
+    (
+        "call the column {name}, or say so in a mapping: {mapping}",
+        "appelez la colonne {name}, ou dites-le dans une correspondance : {mapping}",
+    ),
+    (
+        "{sign}: the components come near the notation, but leave out {what}",
+        "{sign} : les composants s’approchent de la notation, mais laissent de côté {what}",
+    ),
+    (
+        "<{element}> has an amount or speed, which is not in SiGML {version}; it was kept as a factor",
+        "<{element}> a une quantité ou une vitesse, ce que SiGML {version} n’a pas ; gardée comme facteur",
+    ),
+    (
+        "<{element}> belongs into <{tier}>; it was kept in <{other}>",
+        "<{element}> a sa place dans <{tier}> ; gardé dans <{other}>",
+    ),
+    (
+        "<{element}> should say {what} in {attribute}",
+        "<{element}> devrait dire {what} dans {attribute}",
+    ),
+    (
+        "<{element}>: SiGML {version} lists no {value}; it was kept as it is",
+        "<{element}> : SiGML {version} ne connaît pas {value} ; gardé tel quel",
+    ),
+    (
+        "<{element}> is not in SiGML {version}; it was kept as a factor",
+        "<{element}> n’est pas dans SiGML {version} ; gardé comme facteur",
+    ),
+    ("mend or remove it", "corrigez-le ou retirez-le"),
+    (
+        "nothing is lost; leave it out to be rid of this finding",
+        "rien n’est perdu ; retirez-le pour ne plus avoir cette remarque",
+    ),
+    (
+        "{symbol}: the bend is there twice",
+        "{symbol} : la flexion y est deux fois",
+    ),
+    (
+        "{attribute} is none of the eight directions; it was read as {value}",
+        "{attribute} n’est aucune des huit directions ; lu comme {value}",
+    ),
+    (
+        "queries find them, as in {query}; to take one for something else, say so in a mapping: {mapping}",
+        "les requêtes les trouvent, comme {query} ; pour en prendre un pour autre chose, dites-le dans une correspondance : {mapping}",
+    ),
+    (
+        "if they are one: chereme inventory CORPUS merge-value {values}",
+        "si ce n’en est qu’une : chereme inventory CORPUS merge-value {values}",
+    ),
+    (
+        "files that are read end in {endings}",
+        "les fichiers qui sont lus finissent par {endings}",
+    ),
+    ("write one of {values}", "écrivez l’un de {values}"),
+];

@@ -1,0 +1,102 @@
+//! Notes of the steps of a recipe in French, found by their English form.
+
+/// Notes as English and French; a form that another contains stands after it.
+pub(super) const NOTES: &[(&str, &str)] = &[
+    (
+        "{value} becomes {other} over {span}, from {origin}",
+        "{value} devient {other} sur {span}, d’après {origin}",
+    ),
+    ("{sign} (same signer)", "{sign} (même signeur)"),
+    ("{sign} (another signer)", "{sign} (autre signeur)"),
+    (
+        "{sign} (its {value} changed)",
+        "{sign} (son {value} modifié)",
+    ),
+    ("(no value)", "(sans valeur)"),
+    ("the movement ends at {time}", "le mouvement finit à {time}"),
+    ("left out {what}", "laissé de côté : {what}"),
+    (
+        "the movement has no rest before or after it",
+        "le mouvement n’a pas de repos avant ou après",
+    ),
+    (
+        "kept {from} to {to} of {all}: frames {first} to {last}",
+        "gardé de {from} à {to} sur {all} : images {first} à {last}",
+    ),
+    (
+        "the {side} hand is turned by {angle}",
+        "la main {side} est tournée de {angle}",
+    ),
+    (
+        "the {side} wrist bends by {angle}, more than wrists do",
+        "le poignet {side} se plie de {angle}, plus qu’un poignet ne peut",
+    ),
+    (
+        "the place is from {origin}",
+        "l’emplacement vient de {origin}",
+    ),
+    (
+        "what counts is the contact at {time}, where the {part} was at the {place}",
+        "ce qui compte est le contact à {time}, où {part} était à : {place}",
+    ),
+    (
+        "out of reach: the wrist stays {cm} cm short at frame {n}",
+        "hors de portée : il manque {cm} cm au poignet à l’image {n}",
+    ),
+    (
+        "out of reach: a wrist stays {cm} cm short",
+        "hors de portée : il manque {cm} cm à un poignet",
+    ),
+    (
+        "the collar bone helped in {n} frames, beyond {share} of the arm's length",
+        "la clavicule a aidé dans {n} images, au-delà de {share} de la longueur du bras",
+    ),
+    ("moved {way}", "déplacé : {way}"),
+    (
+        "the {side} index finger's line passes {mm} mm beside the target",
+        "la ligne de l’index {side} passe à {mm} mm de la cible",
+    ),
+    (
+        "{n} frames played backwards",
+        "{n} images jouées à l’envers",
+    ),
+    (
+        "{component} {value} is no longer told: it runs the other way",
+        "{component} {value} n’est plus dit : il va dans l’autre sens",
+    ),
+    (
+        "{spot} is {cm} cm nearer, as far as the arms reach",
+        "{spot} est plus près de {cm} cm, autant que les bras atteignent",
+    ),
+    (
+        "the way of {from} cm became {to} cm",
+        "le trajet de {from} cm est devenu {to} cm",
+    ),
+    (
+        "the hands' ways are {share} as large",
+        "les trajets des mains font {share} de leur taille",
+    ),
+    ("nothing to do", "rien à faire"),
+    (
+        "{times} times, {gap} frames between",
+        "{times} fois, {gap} images entre deux",
+    ),
+    (
+        "repetition {n} to {next}: {what}",
+        "répétition {n} à {next} : {what}",
+    ),
+    ("repetition {n}: {what}", "répétition {n} : {what}"),
+    (
+        "the second signer's movement is put on the first one's body",
+        "le mouvement du second signeur est mis sur le corps du premier",
+    ),
+    (
+        "the {side} hand stays where it is: the second sign does not use it",
+        "la main {side} reste où elle est : le second signe ne s’en sert pas",
+    ),
+    (
+        "{side} hand: leaves {n} frames before the end, enters at frame {at}, {between} frames between",
+        "main {side} : part {n} images avant la fin, arrive à l’image {at}, {between} images entre deux",
+    ),
+    ("{from} s became {to} s", "{from} s sont devenus {to} s"),
+];
