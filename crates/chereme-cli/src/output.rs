@@ -85,6 +85,11 @@ impl Output {
         counted_in(count, noun, self.language)
     }
 
+    /// Returns a message of the library in the language of the output; as it is if it has no other words.
+    pub(crate) fn spoken(&self, text: &str) -> String {
+        message(text, self.language).unwrap_or_else(|| text.to_owned())
+    }
+
     /// Returns a text of the shared table in the language of the output.
     pub(crate) fn say(&self, text: Text) -> &'static str {
         text.of(self.language)
@@ -118,8 +123,7 @@ impl Output {
             let _ = self.finish();
         } else {
             let _ = self.text.flush();
-            let spoken =
-                |text: &str| message(text, self.language).unwrap_or_else(|| text.to_owned());
+            let spoken = |text: &str| self.spoken(text);
             let label = |text: Text, value: String| fill(self.say(text), &[("what", &value)]);
             tell(&label(trouble::ERROR, drawn_below(&spoken(&told))));
             if let Some(place) = place.filter(|place| !told.contains(place.as_str())) {

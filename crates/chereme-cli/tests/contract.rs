@@ -373,6 +373,24 @@ fn an_unknown_action_is_answered_with_those_there_are() {
 }
 
 #[test]
+fn codings_are_proposed_for_tokens_without_one_and_reports_count_them() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let path = corpus.display();
+    let done = desk.json(&format!("propose {path} configuration"));
+    for key in ["tokens", "annotations", "unread", "recordings"] {
+        assert!(done.get(key).is_some(), "{key} of {done}");
+    }
+    let refused = desk.run(&format!("propose {path} nonmanual"));
+    assert_eq!(refused.status.code(), Some(1));
+    let said = text(&refused.stderr);
+    assert!(
+        said.contains("what can be proposed: configuration"),
+        "{said}"
+    );
+}
+
+#[test]
 fn tables_are_as_wide_as_asked_for() {
     let desk = Desk::new();
     let corpus = desk.corpus();

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Result;
+use chereme_corpus::words::{fill, trouble};
 use chereme_corpus::{
     Corpus, Error, FileReport, FileStatus, ImportOptions, ImportReport, Mapping, OwnEdits,
     Progress, ReportFinding,
@@ -362,13 +363,16 @@ fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
 }
 
 fn print_finding(finding: &ReportFinding, output: &mut Output) -> Result<()> {
-    let line = finding
-        .line
-        .map(|line| format!("line {line}: "))
-        .unwrap_or_default();
-    output.line(format!("  {}: {line}{}", finding.severity, finding.message))?;
+    let line = match finding.line {
+        Some(line) => fill(output.say(trouble::LINE), &[("n", &line)]),
+        None => String::new(),
+    };
+    let said = output.spoken(&finding.message);
+    output.line(format!("  {}: {line}{said}", finding.severity))?;
     if let Some(remedy) = &finding.remedy {
-        output.line(format!("    what to do: {remedy}"))?;
+        let what = output.spoken(remedy);
+        let remedy = fill(output.say(trouble::WHAT_TO_DO), &[("what", &what)]);
+        output.line(format!("  {remedy}"))?;
     }
     Ok(())
 }

@@ -21,6 +21,7 @@ mod map;
 mod new;
 mod onsets;
 mod pairs;
+mod propose;
 mod recombine;
 mod render;
 mod score;
@@ -67,6 +68,7 @@ pub(crate) enum Command {
     Map(map::Args),
     Transcribe(transcribe::Args),
     Cue(cue::Args),
+    Propose(propose::Args),
     Keys(keys::Args),
     Check(check::Args),
     Diff(diff::Args),
@@ -107,6 +109,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Map(args) => map::run(cli, args, output).map_err(offer_force),
         Command::Transcribe(args) => transcribe::run(cli, args, output),
         Command::Cue(args) => cue::run(cli, args, output),
+        Command::Propose(args) => propose::run(cli, args, output),
         Command::Keys(args) => keys::run(cli, args, output),
         Command::Track(args) => track::run(cli, args, output),
         Command::Search(args) => search::run(cli, args, output),

@@ -144,13 +144,13 @@ pub(super) enum Action {
 /// Whom and what language a tier is about; an empty text removes what was said.
 #[derive(Debug, clap::Args)]
 pub(super) struct People {
-    /// Who is annotated: the signer whom `signer=` finds; \"\" for nobody
+    /// Who is annotated: the signer whom `signer=` finds; "" for nobody
     #[arg(long, value_name = "NAME")]
     participant: Option<String>,
-    /// Who annotates; \"\" for nobody
+    /// Who annotates; "" for nobody
     #[arg(long, value_name = "NAME")]
     annotator: Option<String>,
-    /// The language of its values, such as de; \"\" for none
+    /// The language of its values, such as de; "" for none
     #[arg(long)]
     language: Option<String>,
 }

@@ -24,7 +24,7 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The recording, such as recording:3 or recording:\"NGT Thanks\"
+    /// The recording, such as recording:3 or recording:"NGT Thanks"
     #[arg(value_parser = recording)]
     recording: Name,
     /// The track's name
