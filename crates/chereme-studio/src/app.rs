@@ -9,6 +9,7 @@ use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Response, Ui, View
 use egui_tiles::{Behavior, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
 
 use crate::Options;
+use crate::action::Action;
 use crate::choose::{Choose, Chooser, Chosen};
 use crate::clipboard::Clipboard;
 use crate::command::Command;
@@ -43,6 +44,8 @@ pub struct Studio {
     pub(crate) beginning: Option<Beginning>,
     /// The open corpus, where it was made only to take files in.
     pub(crate) made_for: Option<PathBuf>,
+    /// Whether the import of a corpus that was just made has room to be looked at.
+    looking: bool,
     /// Whether the file of the open corpus is gone from its place.
     pub(crate) gone: bool,
     /// Nothing before the corpus was first read.
@@ -63,6 +66,7 @@ pub struct Studio {
     untold: Untold,
     pub(crate) clipboard: Clipboard,
     pub(crate) overlays: Overlays,
+    pub(crate) walk: crate::bars::Walk,
     pub(crate) out: Outbox,
     pub(crate) drafts: Drafts,
     /// Under which name it is remembered how the open corpus is looked at.
@@ -113,6 +117,7 @@ impl Studio {
             desk: None,
             beginning: None,
             made_for: None,
+            looking: false,
             gone: false,
             snapshot: None,
             shown: Shown::default(),
@@ -127,6 +132,7 @@ impl Studio {
             untold: Untold::default(),
             clipboard: Clipboard::default(),
             overlays: Overlays::default(),
+            walk: crate::bars::Walk::default(),
             out,
             drafts: Drafts::default(),
             view: None,
@@ -268,6 +274,9 @@ impl Studio {
                     self.open(&path);
                     self.made_for = made;
                     if !look.is_empty() {
+                        // Nothing else is there to be seen yet.
+                        self.looking = true;
+                        self.out.send(Command::Do(Action::LayoutSearch));
                         self.out.send(Command::Import(look));
                     }
                 }
@@ -296,6 +305,12 @@ impl Studio {
                     }
                     self.panes.hear(id, &ended);
                     self.overlays.export.hear(id, &ended);
+                    if let Ok(Outcome::Imported(report)) = &ended
+                        && !report.dry_run
+                        && std::mem::take(&mut self.looking)
+                    {
+                        self.out.send(Command::Do(Action::LayoutAnnotate));
+                    }
                     if !(about.quiet && ended.is_err()) {
                         self.hear(ended, about.task);
                     }

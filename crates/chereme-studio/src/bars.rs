@@ -1,6 +1,8 @@
 //! The menu bar above, and the status line below.
 
-use eframe::egui::{Align, Button, Layout, MenuBar, ProgressBar, ScrollArea, Ui};
+use eframe::egui::{
+    Align, Button, Id, Key, Layout, MenuBar, Modifiers, Popup, ProgressBar, ScrollArea, Ui, Vec2,
+};
 
 use crate::action::{ACTIONS, Action, Context, Menu};
 use crate::app::Studio;
@@ -11,6 +13,53 @@ use crate::panes::timeline::bar;
 use crate::words::{fill, shell as words};
 use crate::work::Lane;
 use crate::work::begin::Begin;
+
+/// How the arrow keys walk from menu to menu.
+#[derive(Debug, Default)]
+pub(crate) struct Walk {
+    /// The menus' popups, in their order, as they were drawn last.
+    popups: Vec<Id>,
+    /// The menu that the keys opened; its first entry has the keyboard.
+    came: Option<usize>,
+    /// Whether it was opened in this frame: the same key may still move the keyboard at the frame's end.
+    waits: bool,
+    /// Whether the pointer rests where it was when the keys opened a menu.
+    rests: bool,
+}
+
+impl Walk {
+    /// Opens the menu beside the one that is open where an arrow key asks for that.
+    fn take_keys(&mut self, ui: &Ui) {
+        let ctx = ui.ctx();
+        self.waits = false;
+        let open = self
+            .popups
+            .iter()
+            .position(|id| Popup::is_id_open(ctx, *id));
+        let Some(open) = open else { return };
+        let pressed = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        let by = match (pressed(Key::ArrowLeft), pressed(Key::ArrowRight)) {
+            (true, false) => self.popups.len() - 1,
+            (false, true) => 1,
+            _ => return,
+        };
+        let next = (open + by) % self.popups.len();
+        Popup::open_id(ctx, self.popups[next]);
+        (self.came, self.waits, self.rests) = (Some(next), true, true);
+    }
+
+    /// Keeps the menu that the keys opened while the pointer rests on the name of another, which would open that.
+    fn keep(&mut self, ui: &Ui) {
+        /// Where egui keeps which menu of a bar is open.
+        const OPEN: &str = "egui_menu_bar_open_menu";
+        self.rests &= ui.input(|input| input.pointer.delta() == Vec2::ZERO);
+        if self.rests {
+            let bars = ui.stack().iter().map(|it| it.unique_id.with(OPEN));
+            let bars: Vec<Id> = bars.collect();
+            ui.data_mut(|data| bars.into_iter().for_each(|id| data.remove::<Id>(id)));
+        }
+    }
+}
 
 /// What a menu leaves free of the window's height.
 const MARGIN: f32 = 60.0;
@@ -43,20 +92,28 @@ const GROUPS: [Action; 19] = [
 impl Studio {
     pub(crate) fn menus(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
+        self.walk.take_keys(ui);
         MenuBar::new().ui(ui, |ui| {
-            for (menu, title) in Menu::ALL {
-                ui.menu_button(title.of(language), |ui| {
+            self.walk.popups.clear();
+            for (at, (menu, title)) in Menu::ALL.into_iter().enumerate() {
+                self.walk.keep(ui);
+                let button = ui.menu_button(title.of(language), |ui| {
                     let room = ui.ctx().content_rect().height() - MARGIN;
                     ScrollArea::vertical()
                         .max_height(room)
                         .min_scrolled_height(room)
                         .show(ui, |ui| {
-                            self.menu(ui, menu);
+                            let first = self.walk.came == Some(at) && !self.walk.waits;
+                            if self.menu(ui, menu, first) {
+                                self.walk.came = None;
+                            }
                             if menu == Menu::File {
                                 self.recent_menu(ui);
                             }
                         });
                 });
+                let popup = Popup::default_response_id(&button.response);
+                self.walk.popups.push(popup);
             }
             if self.snapshot.is_some() && ui.available_width() > LAYOUTS {
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.layouts(ui));
@@ -87,7 +144,9 @@ impl Studio {
         }
     }
 
-    fn menu(&mut self, ui: &mut Ui, menu: Menu) {
+    /// Shows the entries of a menu; returns whether the `first` that can be chosen was given the keyboard.
+    fn menu(&mut self, ui: &mut Ui, menu: Menu, mut first: bool) -> bool {
+        let wanted = first;
         let open = self.snapshot.is_some();
         for row in ACTIONS.iter().filter(|row| row.menu == menu) {
             if GROUPS.contains(&row.action) {
@@ -107,10 +166,14 @@ impl Studio {
             {
                 response = response.on_hover_text(what);
             }
+            if counts && std::mem::take(&mut first) {
+                response.request_focus();
+            }
             if response.clicked() {
                 self.out.send(Command::Do(row.action));
             }
         }
+        wanted && !first
     }
 
     /// Returns what a step back or forward would change in the corpus.
@@ -253,5 +316,27 @@ mod tests {
         window.run_steps(3);
         let why = words::READ_ONLY_WHY.of(crate::Language::English);
         assert!(window.query_by_label_contains(why).is_some());
+    }
+
+    #[test]
+    fn arrow_keys_walk_from_menu_to_menu() {
+        let studio = Studio::new(Options::default());
+        let mut window = Harness::builder()
+            .with_size([1280.0, 900.0])
+            .build_ui_state(|ui, studio: &mut Studio| studio.ui(ui), studio);
+        window.run_steps(3);
+        window.get_by_label("File").click();
+        window.run_steps(3);
+        assert!(window.query_by_label_contains("Quit").is_some());
+        window.key_press(Key::ArrowLeft);
+        window.run_steps(4);
+        assert!(window.query_by_label_contains("Quit").is_none());
+        let first = window.get_by_label_contains("Command palette");
+        assert!(first.accesskit_node().is_focused());
+        window.key_press(Key::ArrowRight);
+        window.run_steps(4);
+        assert!(window.query_by_label_contains("Quit").is_some());
+        let mut first = window.query_all_by_label_contains("Open the starter corpus");
+        assert!(first.any(|it| it.accesskit_node().is_focused()));
     }
 }

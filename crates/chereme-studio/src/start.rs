@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui::epaint::RectShape;
 use eframe::egui::{
-    Button, Key, ProgressBar, Response, RichText, Role, ScrollArea, Shape, StrokeKind, TextEdit,
-    Ui, WidgetInfo, vec2,
+    Button, Key, ProgressBar, Response, RichText, Role, ScrollArea, Shape, StrokeKind, Ui,
+    WidgetInfo, vec2,
 };
 
 use crate::action::Action;
@@ -14,6 +14,7 @@ use crate::app::Studio;
 use crate::choose::Choose;
 use crate::command::Command;
 use crate::panes::list_row;
+use crate::script::edit;
 use crate::words::{Language, Text, fill, shell as words};
 use crate::work::begin::Begin;
 
@@ -156,8 +157,10 @@ impl Studio {
     fn path_part(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
         let label = ui.strong(words::START_TYPED.of(language));
-        let field = TextEdit::singleline(&mut self.start.path).desired_width(f32::INFINITY);
-        let field = ui.add(field).labelled_by(label.id);
+        let field = edit::line(ui, &mut self.start.path, |field| {
+            field.desired_width(f32::INFINITY)
+        });
+        let field = field.response.response.labelled_by(label.id);
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let path = PathBuf::from(self.start.path.trim());
         let can = uses(&self.start.path, path.is_file(), path.is_dir());

@@ -144,7 +144,8 @@ fn a_folder_of_the_start_page_is_looked_at_first_and_leaves_nothing_where_it_is_
         if takes {
             click(&mut window, "Take in");
             idle(&mut window);
-            assert!(shows(&window, "Undo takes it all back"));
+            until(&mut window, "what was done", |it| shows(it, "Imported: "));
+            assert!(has(&window, "aimer"), "the recordings are shown");
         }
         window.key_press_modifiers(Modifiers::COMMAND, Key::W);
         window.run_steps(3);

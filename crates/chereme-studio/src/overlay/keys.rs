@@ -2,7 +2,7 @@
 
 use chereme_sign::text::fold;
 use eframe::egui::{
-    Align2, Button, ComboBox, Context, Event, Grid, Id, Key, Label, Role, ScrollArea, TextEdit, Ui,
+    Align2, Button, ComboBox, Context, Event, Grid, Id, Key, Label, Role, ScrollArea, Ui,
     WidgetInfo, Window,
 };
 
@@ -12,8 +12,9 @@ use crate::context::Outbox;
 use crate::keys::chord::Chord;
 use crate::keys::gestures::GESTURES;
 use crate::keys::{Keymap, Keys};
+use crate::script::edit;
 use crate::settings::Settings;
-use crate::words::{Language, fill, gestures, shell as words};
+use crate::words::{Language, Text, fill, gestures, shell as words};
 
 /// The window that shows and changes keys.
 #[derive(Debug, Default)]
@@ -54,9 +55,10 @@ impl KeysHelp {
                 keymaps(ui, settings, out);
                 self.filter(ui, language);
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                    for (menu, title) in Menu::ALL {
+                    for (menu, title) in order() {
                         let fits = |row: &&ActionRow| self.fits(row, keys, language);
-                        let rows: Vec<&ActionRow> = rows_of(menu).filter(fits).collect();
+                        let mut rows: Vec<&ActionRow> = rows_of(menu).filter(fits).collect();
+                        rows.sort_by_key(|row| keys.text(row.action).is_empty());
                         let all = self.text.trim().is_empty();
                         if rows.is_empty() && !all {
                             continue;
@@ -75,10 +77,10 @@ impl KeysHelp {
 
     fn filter(&mut self, ui: &mut Ui, language: Language) {
         let label = words::KEY_FIND.of(language);
-        let field = TextEdit::singleline(&mut self.text)
-            .hint_text(label)
-            .desired_width(f32::INFINITY);
-        let response = ui.add(field);
+        let field = edit::line(ui, &mut self.text, |field| {
+            field.hint_text(label).desired_width(f32::INFINITY)
+        });
+        let response = field.response.response;
         response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, label));
         if std::mem::take(&mut self.fresh) {
             response.request_focus();
@@ -108,7 +110,7 @@ impl KeysHelp {
         Grid::new(("keys", menu))
             .num_columns(2)
             .striped(true)
-            .min_col_width(240.0)
+            .min_col_width(half(ui))
             .show(ui, |ui| {
                 for row in rows {
                     let name = row.name.of(language);
@@ -157,6 +159,27 @@ impl KeysHelp {
     }
 }
 
+/// Returns the menus in the order of the help: those first whose keys are pressed all day.
+fn order() -> Vec<(Menu, Text)> {
+    const FIRST: [Menu; 5] = [
+        Menu::Play,
+        Menu::Annotation,
+        Menu::Value,
+        Menu::Timing,
+        Menu::Tier,
+    ];
+    let mut all = Menu::ALL.to_vec();
+    let place = |menu: Menu| FIRST.iter().position(|it| *it == menu);
+    let last = |menu: Menu| menu == Menu::File;
+    all.sort_by_key(|(menu, _)| (place(*menu).unwrap_or(FIRST.len()), last(*menu)));
+    all
+}
+
+/// Returns how wide each of two columns is that fill the window together.
+fn half(ui: &Ui) -> f32 {
+    ((ui.available_width() - ui.spacing().item_spacing.x) / 2.0).max(200.0)
+}
+
 fn rows_of(menu: Menu) -> impl Iterator<Item = &'static ActionRow> {
     ACTIONS.iter().filter(move |row| row.menu == menu)
 }
@@ -168,15 +191,16 @@ fn mouse(ui: &mut Ui, menu: Menu, language: Language) {
     }
     ui.add_space(4.0);
     ui.weak(gestures::TITLE.of(language));
+    let wide = half(ui);
     Grid::new(("gestures", menu))
         .num_columns(2)
         .striped(true)
-        .min_col_width(240.0)
+        .min_col_width(half(ui))
         .show(ui, |ui| {
             for row in GESTURES.iter().filter(|row| row.menu == menu) {
                 for text in [row.does.of(language), &row.text(language)] {
                     ui.scope(|ui| {
-                        ui.set_max_width(260.0);
+                        ui.set_max_width(wide);
                         ui.add(Label::new(text).wrap());
                     });
                 }

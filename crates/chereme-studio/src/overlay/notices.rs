@@ -170,6 +170,10 @@ impl Notices {
                 };
                 fill(text.of(language), &[("n", steps)])
             }
+            Outcome::Proposed(it) if it.tokens == 0 => {
+                let text = words::NOTICE_NOT_PROPOSED.of(language);
+                return self.say(&fill(text, &[("unread", &it.unread)]), None);
+            }
             Outcome::Proposed(it) => fill(
                 words::NOTICE_PROPOSED.of(language),
                 &[("tokens", &it.tokens), ("unread", &it.unread)],
@@ -293,20 +297,20 @@ impl Notices {
             .order(Order::Foreground)
             .anchor(Align2::RIGHT_BOTTOM, vec2(-16.0, -44.0));
         area.show(ctx, |ui| {
-            ui.set_max_width(420.0);
+            ui.set_max_width(WIDEST);
             for notice in self.all.iter().filter(elsewhere) {
                 Frame::popup(ui.style()).show(ui, |ui| {
                     ui.horizontal(|ui| {
                         mark(ui, notice.kind, language);
-                        ui.label(with_code(ui.style(), &notice.text, false));
+                        ui.add(Label::new(with_code(ui.style(), &notice.text, false)).wrap());
                     });
                     if let Some(remedy) = &notice.remedy {
-                        ui.label(with_code(ui.style(), remedy, true));
+                        ui.add(Label::new(with_code(ui.style(), remedy, true)).wrap());
                     }
                     if let Some(detail) = &notice.detail {
                         ui.separator();
                         ScrollArea::vertical().max_height(120.0).show(ui, |ui| {
-                            ui.label(RichText::new(detail).small().weak());
+                            ui.add(Label::new(RichText::new(detail).small().weak()).wrap());
                         });
                     }
                     ui.horizontal_wrapped(|ui| {
@@ -325,6 +329,8 @@ impl Notices {
     }
 }
 
+/// How wide a notice is at most.
+const WIDEST: f32 = 420.0;
 /// How large the mark of a notice is.
 const MARK: f32 = 14.0;
 
@@ -379,6 +385,34 @@ fn with_code(style: &Style, text: &str, weak: bool) -> LayoutJob {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_long_notice_is_broken_into_lines_that_stay_in_the_window() {
+        let mut notices = Notices::default();
+        notices.offer(
+            "long words ".repeat(60),
+            &"and more ".repeat(60),
+            Vec::new(),
+        );
+        let mut window = egui_kittest::Harness::builder()
+            .with_size(vec2(640.0, 420.0))
+            .build_ui_state(
+                |ui, notices: &mut Notices| {
+                    let mut out = Outbox::default();
+                    notices.ui(ui.ctx(), Language::English, &mut out);
+                },
+                notices,
+            );
+        window.run_steps(3);
+        use egui_kittest::kittest::Queryable;
+        for label in ["long words", "and more"] {
+            let found = window.get_by_label_contains(label).rect();
+            assert!(
+                found.left() >= 0.0 && found.width() < WIDEST,
+                "{label}: {found}"
+            );
+        }
+    }
 
     #[test]
     fn what_a_check_found_stays_with_its_places() {

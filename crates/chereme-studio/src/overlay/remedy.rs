@@ -1,6 +1,6 @@
 //! Remedies in words of the window, as the corpus names options of the command line.
 
-use crate::words::{Language, Text, import as words, shell};
+use crate::words::{Language, Text, import as words, shell, spoken};
 
 /// Words of remedies for the command line, each with the remedy in the window.
 const HERE: [(&str, Text); 12] = [
@@ -24,7 +24,7 @@ pub(crate) fn here(remedy: &str, language: Language) -> Option<String> {
     if let Some((_, text)) = known {
         return Some(text.of(language).to_owned());
     }
-    is_of_the_window(remedy).then(|| remedy.to_owned())
+    is_of_the_window(remedy).then(|| spoken(remedy, language))
 }
 
 /// Returns whether a remedy of the corpus speaks of nothing that only the command line has.

@@ -3,6 +3,7 @@
 
 use std::io::ErrorKind;
 
+use chereme_corpus::words::message;
 use chereme_corpus::{Cause, Error};
 
 use super::remedy;
@@ -32,16 +33,19 @@ pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Tol
             detail: None,
         };
     }
-    let said = match of_corpus() {
+    let own = of_corpus();
+    let said = match &own {
         Some(remedy) => format!("{error}\n({remedy})"),
         None => error.to_string(),
     };
     let (text, remedy) = sentence(error, task, language);
-    // Of a file everything is said by then.
-    let whole = matches!(error, Error::File { .. }) && remedy.is_some();
+    // Of a file everything is said by then, and of what has its own words.
+    let translated = message(&error.to_string(), language).is_some_and(|it| it == text);
+    let whole = matches!(error, Error::File { .. }) && remedy.is_some() || translated;
+    let remedy = remedy.map(|it| it.of(language).to_owned());
     Told {
         text,
-        remedy: remedy.map(|it| helps(it.of(language))),
+        remedy: remedy.or(own.filter(|_| translated)).map(|it| helps(&it)),
         detail: (!whole).then_some(said),
     }
 }
@@ -89,13 +93,23 @@ fn sentence(error: &Error, task: Option<Text>, language: Language) -> (String, O
             let text = say(words::SEVERAL);
             (fill(&text, &[("n", &errors.len())]), None)
         }
-        _ => match task {
-            Some(task) => (
-                fill(&say(words::TASK_FAILED), &[("task", &say(task))]),
-                None,
-            ),
-            None => (say(words::FAILED), None),
+        _ => match message(&error.to_string(), language) {
+            Some(said) => (said, None),
+            None => failed(task, language),
         },
+    }
+}
+
+/// Returns that something failed, where its message has no words in the language.
+fn failed(task: Option<Text>, language: Language) -> (String, Option<Text>) {
+    let say = |text: Text| text.of(language).to_owned();
+    match task {
+        Some(task) => {
+            let task = say(task);
+            let text = fill(&say(words::TASK_FAILED), &[("task", &task)]);
+            (text, None)
+        }
+        None => (say(words::FAILED), None),
     }
 }
 
@@ -114,6 +128,10 @@ mod tests {
         let french = told(&error, Some(shell::TASK_IMPORT), Language::French);
         assert_eq!(french.text, "Importation : cela n’a pas été possible.");
         assert_eq!(french.detail.as_deref(), Some("no such tier\n(add it)"));
+        let known = Error::wrong("the table asks for nothing");
+        let french = told(&known, None, Language::French);
+        assert_eq!(french.text, "la table ne demande rien");
+        assert_eq!((french.remedy, french.detail), (None, None));
         let rubbish = Error::NotACorpus {
             path: "a.chereme".into(),
             reason: "it is no database".into(),

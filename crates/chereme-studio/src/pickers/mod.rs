@@ -26,12 +26,13 @@ mod rose;
 use chereme_sign::Inventory;
 use eframe::egui::{
     Id, Key, Popup, PopupCloseBehavior, Rect, Response, RichText, Role, ScrollArea, Sense,
-    StrokeKind, TextEdit, TextStyle, Ui, WidgetInfo, WidgetText, pos2, vec2,
+    StrokeKind, TextStyle, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
 
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::inspector::Thing;
+use crate::script::edit;
 use crate::words::{fill, pickers as words};
 use cells::{Cell, Cells};
 use data::Kind;
@@ -210,11 +211,11 @@ fn filter(ui: &mut Ui, picker: &mut Picker, seen: &Seen<'_>, inventory: &Invento
     };
     let before = picker.filter.clone();
     let hint = seen.say(words::FILTER);
-    let field = TextEdit::singleline(&mut picker.filter)
-        .id(id)
-        .hint_text(hint)
-        .desired_width(f32::INFINITY);
-    let response = ui.add(field);
+    let field = edit::line(ui, &mut picker.filter, |field| {
+        let field = field.id(id).hint_text(hint);
+        field.desired_width(f32::INFINITY)
+    });
+    let response = field.response.response;
     let text = picker.filter.clone();
     response.widget_info(|| WidgetInfo {
         label: Some(hint.to_owned()),

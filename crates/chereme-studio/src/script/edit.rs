@@ -4,9 +4,11 @@
 
 use std::sync::Arc;
 
+use chereme_figure::letters::any_from_right;
+use eframe::egui::epaint::text::{PlacedRow, Row};
 use eframe::egui::text::{CCursor, CCursorRange, CharIndex, LayoutJob};
 use eframe::egui::text_edit::TextEditOutput;
-use eframe::egui::{Galley, Pos2, TextBuffer, TextEdit, TextStyle, Ui, pos2};
+use eframe::egui::{Color32, FontId, Galley, Pos2, TextBuffer, TextEdit, TextStyle, Ui, pos2};
 
 use super::visual::{self, Piece};
 
@@ -25,8 +27,7 @@ pub(crate) fn line(
     more: impl for<'a> FnOnce(TextEdit<'a>) -> TextEdit<'a>,
 ) -> TextEditOutput {
     let mut layouter = |ui: &Ui, text: &dyn TextBuffer, _wrap: f32| {
-        let font = TextStyle::Body.resolve(ui.style());
-        let colour = ui.visuals().widgets.inactive.text_color();
+        let (font, colour) = usual(ui);
         let job = LayoutJob::simple_singleline(text.as_str().to_owned(), font, colour);
         lay_out(ui, job)
     };
@@ -35,26 +36,65 @@ pub(crate) fn line(
     edit
 }
 
-/// Lays a line that is edited out, its letters where they stand and one for each character.
+/// Draws text of several lines that is edited; `more` says how it looks.
+pub(crate) fn block(
+    ui: &mut Ui,
+    text: &mut String,
+    more: impl for<'a> FnOnce(TextEdit<'a>) -> TextEdit<'a>,
+) -> TextEditOutput {
+    let mut layouter = |ui: &Ui, text: &dyn TextBuffer, wrap: f32| {
+        let (font, colour) = usual(ui);
+        let job = LayoutJob::simple(text.as_str().to_owned(), font, colour, wrap);
+        lay_out(ui, job)
+    };
+    let mut edit = more(TextEdit::multiline(text).layouter(&mut layouter)).show(ui);
+    settle(ui, &mut edit);
+    edit
+}
+
+fn usual(ui: &Ui) -> (FontId, Color32) {
+    let font = TextStyle::Body.resolve(ui.style());
+    (font, ui.visuals().widgets.inactive.text_color())
+}
+
+/// Lays a text that is edited out, its letters where they stand and one for each character.
 pub(crate) fn lay_out(ui: &Ui, job: LayoutJob) -> Arc<Galley> {
     let plain = ui.fonts_mut(|fonts| fonts.layout_job(job.clone()));
-    if !chereme_figure::letters::any_from_right(&job.text) || job.text.contains('\n') {
+    if !any_from_right(&job.text) {
         return plain;
     }
-    let pieces = visual::pieces(&job.text, &|_| usize::MAX);
-    let drawn = visual::in_order(ui.ctx(), &plain);
-    let (places, end) = places(ui, &job, &pieces);
+    let (drawn, lines) = visual::in_order_by_line(ui.ctx(), &plain);
+    if drawn.rows.len() != lines.len() {
+        return plain;
+    }
     let mut galley = Galley::clone(&drawn);
-    let Some(first) = galley.rows.first_mut() else {
-        return plain;
-    };
-    let row = Arc::make_mut(&mut first.row);
+    let starts: Vec<usize> = lines.iter().skip(1).map(|it| it.start).collect();
+    for (nth, (placed, range)) in galley.rows.iter_mut().zip(lines).enumerate() {
+        // Where a line is broken for want of room, no character stands for that.
+        placed.ends_with_newline = starts.get(nth).is_some_and(|next| *next > range.end);
+        let Some(line) = job.text.get(range) else {
+            return plain;
+        };
+        if any_from_right(line) {
+            stand(ui, &job, line, Arc::make_mut(&mut placed.row));
+        }
+    }
+    galley.job = Arc::new(LayoutJob {
+        first_row_min_height: IN_ORDER,
+        ..job
+    });
+    Arc::new(galley)
+}
+
+/// Gives a row a glyph for each character of its line, where the cursor stands before it.
+fn stand(ui: &Ui, job: &LayoutJob, line: &str, row: &mut Row) {
+    let pieces = visual::pieces(line, &|_| usize::MAX);
+    let (places, end) = places(ui, job, line, &pieces);
     let Some(glyph) = row.glyphs.first().copied() else {
-        return plain;
+        return;
     };
     let after = row.visuals.glyph_vertex_range.end as u32;
-    row.glyphs = job
-        .text
+    row.glyphs = line
         .chars()
         .zip(&places)
         .map(|(chr, [x, width])| {
@@ -66,16 +106,11 @@ pub(crate) fn lay_out(ui: &Ui, job: LayoutJob) -> Arc<Galley> {
         .collect();
     // The cursor after the last letter stands at the end of the row as egui knows it.
     row.size.x = end;
-    galley.job = Arc::new(LayoutJob {
-        first_row_min_height: IN_ORDER,
-        ..job
-    });
-    Arc::new(galley)
 }
 
 /// Returns for each character the place of the cursor before it, and its width if it is read from the left; and the
 /// place of the cursor after all of them.
-fn places(ui: &Ui, job: &LayoutJob, pieces: &[Piece]) -> (Vec<[f32; 2]>, f32) {
+fn places(ui: &Ui, job: &LayoutJob, line: &str, pieces: &[Piece]) -> (Vec<[f32; 2]>, f32) {
     let look = job
         .sections
         .first()
@@ -88,7 +123,7 @@ fn places(ui: &Ui, job: &LayoutJob, pieces: &[Piece]) -> (Vec<[f32; 2]>, f32) {
     let mut places: Vec<(usize, [f32; 2])> = Vec::new();
     let (mut left, mut end) = (0.0, (0, 0.0));
     for piece in pieces {
-        let part = &job.text[piece.range.clone()];
+        let part = &line[piece.range.clone()];
         let width = wide(&piece.text);
         let mut before = 0.0;
         for (at, letter) in part.char_indices() {
@@ -143,16 +178,22 @@ pub(crate) fn settle(ui: &Ui, edit: &mut TextEditOutput) {
     edit.state.clone().store(ui.ctx(), response.id);
 }
 
-/// Returns the character before which the cursor stands nearest to a point of a line.
+/// Returns the character before which the cursor stands nearest to a point of a text.
 fn nearest(galley: &Galley, point: Pos2) -> usize {
-    let Some(row) = galley.rows.first() else {
+    let above = |placed: &&PlacedRow| placed.pos.y <= point.y;
+    let at = galley.rows.iter().take_while(above).count();
+    let at = at.saturating_sub(1);
+    let Some(placed) = galley.rows.get(at) else {
         return 0;
     };
-    let count = row.row.glyphs.len();
-    let far = |at: &usize| (row.row.x_offset(CharIndex(*at)) - point.x).abs();
+    let long = |it: &PlacedRow| it.row.glyphs.len() + usize::from(it.ends_with_newline);
+    let before: usize = galley.rows[..at].iter().map(long).sum();
+    let row = &placed.row;
+    let count = row.glyphs.len();
+    let far = |at: &usize| (placed.pos.x + row.x_offset(CharIndex(*at)) - point.x).abs();
     let all = 0..=count;
-    all.min_by(|a, b| far(a).total_cmp(&far(b)))
-        .unwrap_or(count)
+    let within = all.min_by(|a, b| far(a).total_cmp(&far(b)));
+    before + within.unwrap_or(count)
 }
 
 #[cfg(test)]
@@ -200,6 +241,47 @@ mod tests {
         window.key_press(Key::Backspace);
         window.run();
         assert_eq!(window.state().0, "كتا");
+    }
+
+    #[test]
+    fn each_line_of_a_text_is_read_from_its_own_side() {
+        let text = "ab كتاب\nשלום עולם אב\nend";
+        let draw = move |ui: &mut Ui, seen: &mut Option<(Arc<Galley>, usize)>| {
+            if ui.ctx().cumulative_pass_nr() == 0 {
+                crate::theme::install(ui.ctx());
+            }
+            let mut own = text.to_owned();
+            let shown = block(ui, &mut own, |edit| edit.desired_width(60.0));
+            let galley = shown.galley;
+            // Every character has its place, on the line where it stands.
+            let mut at = 0;
+            for placed in &galley.rows {
+                let own: String = placed.row.glyphs.iter().map(|it| it.chr).collect();
+                assert!(text.chars().skip(at).collect::<String>().starts_with(&own));
+                let middle = placed.pos.y + 2.0;
+                let xs: Vec<f32> = (0..=own.chars().count())
+                    .map(|n| placed.pos.x + placed.row.x_offset(CharIndex(n)))
+                    .collect();
+                for (n, x) in xs.iter().enumerate() {
+                    let found = nearest(&galley, pos2(*x, middle)) - at;
+                    assert!((xs[found] - x).abs() < 0.5, "{own} {n} {found}");
+                }
+                at += own.chars().count() + usize::from(placed.ends_with_newline);
+            }
+            *seen = Some((galley, at));
+        };
+        let mut window = Harness::builder()
+            .with_size(vec2(100.0, 200.0))
+            .build_ui_state(draw, None);
+        window.run();
+        let (galley, all) = window.state().clone().expect("it was drawn");
+        assert!(
+            galley.rows.len() > 3,
+            "the second line has no room on one row"
+        );
+        assert_eq!(all, text.chars().count());
+        let hebrew = &galley.rows[1].row;
+        assert!(hebrew.x_offset(CharIndex(0)) > hebrew.x_offset(CharIndex(2)));
     }
 
     #[test]

@@ -21,14 +21,17 @@ pub(super) struct Piece {
 
 /// Returns the same text in the order in which it stands, with the same breaks of lines.
 pub(super) fn in_order(ctx: &Context, galley: &Galley) -> Arc<Galley> {
+    in_order_by_line(ctx, galley).0
+}
+
+/// Returns the same, and the bytes of the text that each line has.
+pub(super) fn in_order_by_line(ctx: &Context, galley: &Galley) -> (Arc<Galley>, Vec<Range<usize>>) {
     let words = in_words(&galley.job);
-    let (words, turned) = ctx.fonts_mut(|fonts| {
-        let words = fonts.layout_job(words);
-        let turned = turned(&galley.job, &lines(&words));
-        (words, fonts.layout_job(turned))
-    });
-    drop(words);
-    turned
+    ctx.fonts_mut(|fonts| {
+        let lines = lines(&fonts.layout_job(words));
+        let turned = fonts.layout_job(turned(&galley.job, &lines));
+        (turned, lines.into_iter().map(|(range, _)| range).collect())
+    })
 }
 
 /// Returns the job with a section for each word that is read from the right, so that lines are broken between them.

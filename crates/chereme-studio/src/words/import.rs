@@ -71,6 +71,7 @@ texts! {
     BECOMES: "Recording", "Enregistrement";
     SHOW: "Show it", "Le voir";
     WARNINGS: "{n} to look at", "{n} à vérifier";
+    ONE_NOTE: "{n} remark", "{n} remarque";
     NOTES: "{n} remarks", "{n} remarques";
     RECORDINGS: "recordings: {n}", "enregistrements : {n}";
     TIERS: "tiers: {n}", "acteurs : {n}";

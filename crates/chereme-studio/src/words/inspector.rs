@@ -63,8 +63,8 @@ texts! {
     JOINTS: "Joints", "Articulations";
     ROLES: "Joints and what they are ({n})", "Articulations et leurs rôles ({n})";
     MISSING: "Not in the skeleton: {what}", "Absents du squelette : {what}";
-    UNITS: "Unit of the file", "Unité du fichier";
-    AXES: "Axes of the file", "Axes du fichier";
+    UNITS: "Unit", "Unité";
+    AXES: "Axes", "Axes";
     FILES: "Files", "Fichiers";
     TRACKS: "Tracks", "Pistes";
     TRACK: "{kind}, {rate}, {channels} channels, {length} from {start}", "{kind}, {rate}, {channels} canaux, {length} dès {start}";

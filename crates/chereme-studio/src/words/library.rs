@@ -26,6 +26,7 @@ texts! {
     CURVES: "curves", "courbes";
     FILM: "film", "film";
     CAPTURED: "captured", "capté";
+    ANNOTATED: "annotated", "annoté";
     MADE: "synthesised", "composé";
     GENERATED: "generated", "produit";
 }

@@ -6,6 +6,11 @@
 pub use chereme_corpus::words::Language;
 pub(crate) use chereme_corpus::words::{Text, fill, history, merge, trouble};
 
+/// Returns a message of the library in a language; as it is if it has no other words.
+pub(crate) fn spoken(text: &str, language: Language) -> String {
+    chereme_corpus::words::message(text, language).unwrap_or_else(|| text.to_owned())
+}
+
 /// Declares the texts of one part of the window.
 macro_rules! texts {
     ($($name:ident: $en:literal, $fr:literal;)*) => {

@@ -21,7 +21,7 @@ texts! {
     START_OPEN_HINT: "A file ending in .chereme.", "Un fichier en .chereme.";
     START_NEW: "New empty corpus…", "Nouveau corpus vide…";
     START_IMPORT: "Import a folder…", "Importer un dossier…";
-    START_IMPORT_HINT: "A folder with .bvh, .eaf or .sigml files: you look at it first, then it becomes a corpus beside it.", "Un dossier avec des fichiers .bvh, .eaf ou .sigml : vous l’examinez d’abord, puis il devient un corpus à côté.";
+    START_IMPORT_HINT: "A folder of recordings and annotations (.bvh, .c3d, .eaf, .sigml and more): you look at it first, then it becomes a corpus next to it.", "Un dossier d’enregistrements et d’annotations (.bvh, .c3d, .eaf, .sigml et d’autres) : vous l’examinez d’abord, puis il devient un corpus à côté.";
     START_NEW_HINT: "A file is made; take recordings in afterwards.", "Un fichier est créé ; importez-y ensuite des enregistrements.";
     START_TYPED: "Or type a path", "Ou écrivez un chemin";
     START_TYPED_OPEN: "Open", "Ouvrir";
@@ -101,6 +101,7 @@ texts! {
     TASK_EXPORT: "Exporting", "Exportation";
     TASK_PROPOSE: "Reading codings from movement", "Lecture des codages d’après le mouvement";
     NOTICE_PROPOSED: "Signs coded from movement, on tiers of their own: {tokens}; not readable: {unread}", "Signes codés d’après le mouvement, sur des acteurs à part : {tokens} ; illisibles : {unread}";
+    NOTICE_NOT_PROPOSED: "None of these signs could be read from movement: {unread}. They lie in recordings without movement, or their movement is not understood.", "Aucun de ces signes n’a pu être lu dans le mouvement : {unread}. Leurs enregistrements sont sans mouvement, ou leur mouvement n’est pas compris.";
     TASK_CHECK: "Checking", "Vérification";
     CHECKED_WELL: "Checked: nothing is wrong.", "Vérifié : tout est en ordre.";
     CHECKED_MENDED: "Checked, and mended: {n}", "Vérifié, et réparé : {n}";

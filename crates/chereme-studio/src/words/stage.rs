@@ -29,6 +29,8 @@ texts! {
     ALONE: "Alone", "Seul";
     COMPARE: "Compare", "Comparer";
     ORIGINAL: "Original", "Original";
+    ORIGINAL_HOW: "Original:", "Original :";
+    ORIGINAL_OF: "Original: {name}", "Original : {name}";
     NO_ORIGINAL: "No original: {made}", "Pas d’original : {made}";
     MADE_OF: "Made: {name}", "Composé : {name}";
     BACK: "Back to the recording", "Retour à l’enregistrement";

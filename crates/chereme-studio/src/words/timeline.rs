@@ -4,6 +4,7 @@ texts! {
     TITLE: "Timeline", "Ligne de temps";
     EMPTY: "This recording has no tiers yet.", "Cet enregistrement n’a pas encore d’acteurs.";
     NO_RECORDINGS: "This corpus has no recordings, and so no tiers. Its signs are in the library and in the search.", "Ce corpus n’a pas d’enregistrements, donc pas d’acteurs. Ses signes sont dans le fonds et la recherche.";
+    OTHER_ON_STAGE: "The stage shows {made}; these are the tiers of {recording}.", "La scène montre {made} ; voici les acteurs de {recording}.";
     NO_RECORDING: "Choose a recording to see its tiers.", "Choisissez un enregistrement pour voir ses acteurs.";
     TIER: "Tier {name}", "Acteur {name}";
     RULER: "Ruler", "Règle";
@@ -24,6 +25,7 @@ texts! {
     BOUNDARIES: "Boundaries", "Limites";
     MINIMA: "Speed minima", "Minima de vitesse";
     LANES: "Lanes", "Pistes";
+    NO_LANES: "Lanes: no movement", "Pistes : pas de mouvement";
     LANE_SPEED: "Wrist speed", "Vitesse du poignet";
     LANE_APERTURE: "Aperture", "Ouverture";
     LANE_PALM: "Palm", "Paume";

@@ -7,13 +7,14 @@ use std::sync::Arc;
 
 use chereme_corpus::Overview;
 use eframe::egui::{
-    Align2, Button, FontId, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextEdit,
-    TextStyle, Ui, WidgetInfo, vec2,
+    Align2, Button, FontId, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
+    WidgetInfo, vec2,
 };
 
 use super::Pane;
 use crate::action::Action;
 use crate::context::{Outbox, Seen};
+use crate::script::edit;
 use crate::words::{Language, fill, history as words};
 use crate::work::Work;
 use data::{Row, Standing};
@@ -72,10 +73,13 @@ impl History {
                     out.work(if back { Work::Undo } else { Work::Redo });
                 }
             }
-            let filter = TextEdit::singleline(&mut self.filter)
-                .hint_text(seen.say(words::FILTER))
-                .desired_width(ui.available_width() - 8.0);
-            let response = ui.add(filter);
+            let width = ui.available_width() - 8.0;
+            let filter = edit::line(ui, &mut self.filter, |field| {
+                field
+                    .hint_text(seen.say(words::FILTER))
+                    .desired_width(width)
+            });
+            let response = filter.response.response;
             response.widget_info(|| {
                 WidgetInfo::labeled(Role::TextInput, true, seen.say(words::FILTER))
             });

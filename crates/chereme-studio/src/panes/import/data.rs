@@ -8,6 +8,7 @@ use chereme_motion::anatomy::Roles;
 use serde_json::Value;
 
 use super::people;
+use crate::panes::inspector;
 use crate::words::{Language, Text, fill, import as words};
 
 /// Returns what became of a file, in words.
@@ -26,8 +27,9 @@ pub(crate) fn movement(file: &FileReport, language: Language) -> Vec<(Text, Stri
     let said = |key: &str| file.understood.get(key).map(chereme_corpus::cell_text);
     let unit = said("unit").map(|unit| {
         let name = people::unit(&unit, language).map_or(unit, str::to_owned);
-        match said("metres_per_unit") {
-            Some(metres) => format!("{name} ({metres} m)"),
+        let metres = file.understood.get("metres_per_unit");
+        match metres.and_then(Value::as_f64) {
+            Some(length) => format!("{name} ({})", inspector::data::metres(length)),
             None => name,
         }
     });

@@ -11,6 +11,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::overlay::remedy;
 use crate::panes::complete::{Line, complete, fitting};
+use crate::panes::timeline::tier_box;
 use crate::words::{fill, import as words, shell};
 
 /// Shows what was understood of a file.
@@ -33,7 +34,12 @@ pub(super) fn show(
     };
     let [_, warnings, notes] = data::counts(file);
     let mut title = format!("{name} · {}", seen.say(data::status_text(file.status)));
-    for (count, text) in [(warnings, words::WARNINGS), (notes, words::NOTES)] {
+    let remarks = if notes == 1 {
+        words::ONE_NOTE
+    } else {
+        words::NOTES
+    };
+    for (count, text) in [(warnings, words::WARNINGS), (notes, remarks)] {
         if count > 0 {
             title = format!("{title} · {}", fill(seen.say(text), &[("n", &count)]));
         }
@@ -98,7 +104,7 @@ fn understood(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport, 
                     if dry {
                         tier(said, ui, seen, guess);
                     } else {
-                        ui.label(&guess.role);
+                        ui.label(tier_box::role_text(&guess.role, seen));
                     }
                     ui.end_row();
                 }
@@ -119,9 +125,9 @@ fn tier(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, guess: &data::Guess) {
     let chosen = said.tiers.get(&guess.name).cloned();
     let now = chosen.clone().unwrap_or_else(|| guess.role.clone());
     let shown = if now.is_empty() {
-        seen.say(words::NOT_KNOWN)
+        seen.say(words::NOT_KNOWN).to_owned()
     } else {
-        &now
+        tier_box::role_text(&now, seen)
     };
     let mut text = RichText::new(shown);
     if chosen.is_some() {
@@ -134,7 +140,8 @@ fn tier(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, guess: &data::Guess) {
         .width(0.0);
     let inner = combo.show_ui(ui, |ui| {
         for role in data::ROLES {
-            if ui.selectable_label(now == role, role).clicked() {
+            let text = tier_box::role_text(role, seen);
+            if ui.selectable_label(now == role, text).clicked() {
                 said.tiers.insert(guess.name.clone(), role.to_owned());
             }
         }

@@ -6,7 +6,7 @@ mod data;
 mod files;
 mod known;
 mod paths;
-mod people;
+pub(super) mod people;
 
 use std::path::PathBuf;
 

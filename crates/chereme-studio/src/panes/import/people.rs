@@ -3,7 +3,7 @@
 use chereme_motion::Axes;
 
 use super::data::axes_parts;
-use crate::words::{Language, Text, fill, import as words};
+use crate::words::{Language, Text, fill, import as words, spoken};
 
 const fn text(en: &'static str, fr: &'static str) -> Text {
     Text { en, fr }
@@ -130,7 +130,7 @@ const JOINTS: [(&str, Text); 4] = [
 ];
 
 /// Returns what a part of the body is called, such as `right middle middle`; any other text stays as it is.
-pub(super) fn part(name: &str, language: Language) -> String {
+pub(in crate::panes) fn part(name: &str, language: Language) -> String {
     let of = |all: &[(&str, Text)], name: &str| {
         let found = all.iter().find(|(it, _)| *it == name)?;
         Some(found.1.of(language))
@@ -155,7 +155,7 @@ pub(super) fn part(name: &str, language: Language) -> String {
 }
 
 /// Returns which axes of a file point up and to the signer's left, as a sentence.
-pub(super) fn axes(axes: Axes, language: Language) -> String {
+pub(in crate::panes) fn axes(axes: Axes, language: Language) -> String {
     let axis = |axis: &str| {
         let name = axis.trim_start_matches(['+', '-']);
         let text = if axis.starts_with('-') {
@@ -213,7 +213,7 @@ pub(super) fn remark(message: &str, language: Language) -> String {
             &[("part", &name), ("joint", &joint)],
         );
     }
-    message.to_owned()
+    spoken(message, language)
 }
 
 #[cfg(test)]

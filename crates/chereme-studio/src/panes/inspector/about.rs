@@ -15,6 +15,7 @@ use crate::choose::Choose;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::complete::fitting;
+use crate::panes::import::people;
 use crate::panes::library::origin_text;
 use crate::panes::timeline::data::time_text;
 use crate::words::{fill, inspector as words};
@@ -107,7 +108,11 @@ pub(super) fn recording_more(
             said(ui, seen, words::UNITS, &data::metres(metres));
         }
         if let Some(axes) = &it.axes {
-            said(ui, seen, words::AXES, axes);
+            let axes = match axes.parse() {
+                Ok(axes) => people::axes(axes, seen.language),
+                Err(_) => axes.clone(),
+            };
+            said(ui, seen, words::AXES, &axes);
         }
         if !it.files.is_empty() {
             let files: Vec<&str> = it.files.iter().map(|(_, name)| name.as_str()).collect();
@@ -129,13 +134,15 @@ pub(super) fn recording_more(
     CollapsingHeader::new(RichText::new(text).small()).show(ui, |ui| {
         grid(ui, "roles", |ui| {
             for (part, joint) in &it.roles {
-                ui.small(part);
+                ui.small(people::part(part, seen.language));
                 ui.small(joint);
                 ui.end_row();
             }
         });
         if !it.missing.is_empty() {
-            let what = it.missing.join(", ");
+            let parts = it.missing.iter();
+            let parts: Vec<String> = parts.map(|it| people::part(it, seen.language)).collect();
+            let what = parts.join(" · ");
             ui.label(RichText::new(fill(seen.say(words::MISSING), &[("what", &what)])).small());
         }
     });

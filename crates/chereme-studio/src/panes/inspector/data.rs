@@ -17,7 +17,7 @@ pub(crate) fn recording_lines(it: &RecordingGlance, origin: impl Fn(&str) -> Str
         _ => None,
     };
     [
-        (words::ORIGIN, Some(origin(&it.row.origin))),
+        (words::ORIGIN, Some(origin(library::origin(it)))),
         (
             words::DURATION,
             Some(time_text(Instant::from_micros(it.row.duration_us))),

@@ -1,9 +1,10 @@
 //! Lines that can be changed: what is typed is stored by Enter or by going on, Escape leaves it.
 
-use eframe::egui::{ComboBox, Grid, Id, Key, RichText, Role, TextEdit, Ui, WidgetInfo};
+use eframe::egui::{ComboBox, Grid, Id, Key, RichText, Role, Ui, WidgetInfo};
 
 use crate::context::Seen;
 use crate::panes::complete::{Line, complete};
+use crate::script::edit;
 use crate::words::{Text, inspector as words};
 
 /// Shows what is called `text`, and what it says.
@@ -91,11 +92,11 @@ pub(super) fn notes(ui: &mut Ui, seen: &Seen<'_>, id: Id, value: &str) -> Option
     let label = ui.weak(seen.say(words::NOTES)).id;
     let kept: Option<String> = ui.data(|data| data.get_temp(id));
     let mut text = kept.clone().unwrap_or_else(|| value.to_owned());
-    let field = TextEdit::multiline(&mut text)
-        .id(id)
-        .desired_rows(1)
-        .desired_width((ui.available_width() - 4.0).max(60.0));
-    let response = ui.add(field).labelled_by(label);
+    let width = (ui.available_width() - 4.0).max(60.0);
+    let field = edit::block(ui, &mut text, |field| {
+        field.id(id).desired_rows(1).desired_width(width)
+    });
+    let response = field.response.response.labelled_by(label);
     ui.end_row();
     if response.changed() {
         ui.data_mut(|data| data.insert_temp(id, text));

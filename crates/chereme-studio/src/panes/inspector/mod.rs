@@ -1,7 +1,7 @@
 //! What is selected, and what belongs to it: shown, and changed where that can be undone.
 
 mod about;
-mod data;
+pub(crate) mod data;
 mod edit;
 mod notation;
 mod tier;

@@ -41,7 +41,7 @@ pub(crate) fn rows(
     let row = |it: &RecordingGlance| {
         let parts = [
             it.row.signer.clone(),
-            Some(origin(&it.row.origin)),
+            Some(origin(self::origin(it))),
             Some(time_text(Instant::from_micros(it.row.duration_us))),
             others(it, &kind),
         ];
@@ -73,10 +73,20 @@ fn others(glance: &RecordingGlance, kind: impl Fn(TrackKind) -> String) -> Optio
     (!names.is_empty()).then(|| names.join(", "))
 }
 
+/// Returns the origin of a recording; one without any track of numbers was not captured, but annotated.
+pub(crate) fn origin(it: &RecordingGlance) -> &str {
+    let measured = it.frames > 0 || it.kinds.iter().any(|kind| *kind != TrackKind::Media);
+    match it.row.origin.as_str() {
+        "captured" if !measured => "annotated",
+        origin => origin,
+    }
+}
+
 /// Returns what an origin is called; an unknown one is called by its name.
 pub(crate) fn origin_text(origin: &str) -> Option<Text> {
     match origin {
         "captured" => Some(words::CAPTURED),
+        "annotated" => Some(words::ANNOTATED),
         "made" => Some(words::MADE),
         "generated" => Some(words::GENERATED),
         "lexicon" => Some(words::IN_LEXICON),

@@ -12,7 +12,7 @@ use super::{catalogue, fields, settings};
 use crate::action::Action;
 use crate::context::Seen;
 use crate::panes::meant::meant;
-use crate::words::{fill, recombine as words, search};
+use crate::words::{fill, recombine as words, search, spoken};
 
 /// Residuals above this are worth a look, in metres.
 const FAR: f64 = 0.005;
@@ -304,7 +304,8 @@ fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) -> Option<What> {
         ui.label(RichText::new(text).small().color(colour));
     }
     for did in &note.did {
-        ui.label(RichText::new(seen.snapshot.named(did)).small().weak());
+        let text = spoken(&seen.snapshot.named(did), seen.language);
+        ui.label(RichText::new(text).small().weak());
     }
     None
 }

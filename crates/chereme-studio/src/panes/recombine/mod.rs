@@ -17,9 +17,7 @@ use std::sync::Arc;
 
 use chereme_corpus::recipe::{Goal, Node, Recipe, RecipeError, Step};
 use chereme_corpus::{OperationRow, Overview, Recombination};
-use eframe::egui::{
-    Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollArea, TextEdit, Ui,
-};
+use eframe::egui::{Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollArea, Ui};
 
 use super::{Acted, Carried, Pane, carry};
 use crate::action::Action;
@@ -27,6 +25,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::model::handle::Handle;
 use crate::model::made::Made;
+use crate::script::edit;
 use crate::words::{fill, recombine as words};
 use crate::work::{Ended, Outcome, WorkId};
 pub(crate) use fields::{recipe_of, selected_token};
@@ -366,14 +365,15 @@ impl Recombine {
         let label = label.inner;
         let mut text = self.text.clone();
         let rows = 1 + text.len() / 44;
-        let field = TextEdit::multiline(&mut text)
-            .id(Id::unique("recipe"))
-            .hint_text(seen.say(words::HINT))
-            .return_key(None)
-            .desired_rows(rows.clamp(2, 5))
-            .desired_width(f32::INFINITY);
-        let response = ui.add(field);
-        let response = response.labelled_by(label);
+        let field = edit::block(ui, &mut text, |field| {
+            field
+                .id(Id::unique("recipe"))
+                .hint_text(seen.say(words::HINT))
+                .return_key(None)
+                .desired_rows(rows.clamp(2, 5))
+                .desired_width(f32::INFINITY)
+        });
+        let response = field.response.response.labelled_by(label);
         if std::mem::take(&mut self.come) {
             response.request_focus();
         }

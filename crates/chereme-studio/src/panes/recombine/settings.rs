@@ -3,13 +3,14 @@
 use chereme_corpus::recipe::{
     Cue, Factor, Goal, Hands, Node, PhaseRule, Recipe, Spell, Step, Transition,
 };
-use eframe::egui::{DragValue, Id, Role, TextEdit, Ui, WidgetInfo};
+use eframe::egui::{DragValue, Id, Role, Ui, WidgetInfo};
 
 use super::fields::{self, caption, choose};
 use super::stack::What;
 use super::{operators, path};
 use crate::context::Seen;
 use crate::pickers::{board, hamnosys};
+use crate::script::edit;
 use crate::words::recombine as words;
 
 /// Where settings are shown.
@@ -86,10 +87,9 @@ fn source(ui: &mut Ui, seen: &Seen<'_>, at: At, node: &mut Node) -> bool {
 }
 
 pub(super) fn line(ui: &mut Ui, name: &str, hint: &str, text: &mut String) -> bool {
-    let field = TextEdit::singleline(text)
-        .hint_text(hint)
-        .desired_width((ui.available_width() - 8.0).min(260.0));
-    let response = ui.add(field);
+    let width = (ui.available_width() - 8.0).min(260.0);
+    let field = edit::line(ui, text, |field| field.hint_text(hint).desired_width(width));
+    let response = field.response.response;
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
     if fields::takes_focus(ui) {
         response.request_focus();
@@ -190,10 +190,10 @@ fn as_text(
     let mut typed: String = ui
         .data(|data| data.get_temp(id))
         .unwrap_or_else(|| text.to_owned());
-    let field = TextEdit::multiline(&mut typed)
-        .desired_rows(1)
-        .desired_width(f32::INFINITY);
-    let response = ui.add(field.id(id));
+    let field = edit::block(ui, &mut typed, |field| {
+        field.desired_rows(1).desired_width(f32::INFINITY).id(id)
+    });
+    let response = field.response.response;
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, seen.say(words::TEXT)));
     let mut changed = false;
     if response.changed() {

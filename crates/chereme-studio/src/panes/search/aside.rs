@@ -2,17 +2,18 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_corpus::{Around, guessed};
+use chereme_corpus::{Around, Finding, FindingKind, Proposed, guessed};
 use chereme_sign::Component;
 use chereme_sign::query::Query;
 use eframe::egui::{Label, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Ui, WidgetInfo};
 
 use super::builder::{self, Condition, How, Subject};
+use super::hits::Found;
 use super::kept::{Kept, only_counted};
 use super::rows::component_text;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
-use crate::words::{Text, fill, search as words};
+use crate::words::{Text, fill, search as words, spoken};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
 /// What the help shows: a query, and what it finds.
@@ -93,7 +94,10 @@ impl Coded {
                         out.send(Command::Stop(id));
                     }
                 });
-            } else if moving > 0 && component.is_manual() && !seen.snapshot.is_read_only() {
+            } else if moving > 0
+                && Proposed::COMPONENTS.contains(&component)
+                && !seen.snapshot.is_read_only()
+            {
                 let text = fill(seen.say(words::PROPOSE), &[("n", &moving)]);
                 if ui.button(text).clicked() {
                     self.proposing = Some(out.work(Work::Propose(component)));
@@ -291,6 +295,35 @@ impl Aside {
         }
         chosen
     }
+}
+
+/// Shows the findings of an answer: conditions that count more than they name, or match nothing; returns the query
+/// with a name that could match if a person chose one.
+pub(super) fn findings(ui: &mut Ui, seen: &Seen<'_>, found: &Found, query: &str) -> Option<String> {
+    /// What could match instead, at most.
+    const NAMES: usize = 6;
+    let mut chosen = None;
+    let told = |it: &&Finding| !matches!(it.kind, FindingKind::NotCoded { .. });
+    for finding in found.findings.iter().filter(told) {
+        let text = spoken(&finding.message(), seen.language);
+        ui.add(Label::new(RichText::new(text).small().weak()).wrap());
+        let names = finding.names().iter().take(NAMES);
+        let offers: Vec<(&String, String)> = names
+            .filter_map(|name| Some((name, finding.instead(query, name)?)))
+            .collect();
+        if offers.is_empty() {
+            continue;
+        }
+        ui.horizontal_wrapped(|ui| {
+            for (name, query) in offers {
+                let text = fill(seen.say(words::MEND), &[("text", name)]);
+                if ui.small_button(text).clicked() {
+                    chosen = Some(query);
+                }
+            }
+        });
+    }
+    chosen
 }
 
 /// Draws queries to begin with; returns the one that was chosen.

@@ -14,7 +14,7 @@ use eframe::egui::{
 use super::suggest::{self, Offers};
 use crate::context::Seen;
 use crate::script::edit;
-use crate::words::{fill, search as words};
+use crate::words::{fill, search as words, spoken};
 
 /// The text of the query, and what is offered for it.
 #[derive(Debug, Default)]
@@ -231,10 +231,11 @@ impl Field {
             } else {
                 seen.colours().trouble
             };
+            let message = spoken(&error.message, seen.language);
             let words = if error.remedy.is_empty() {
-                error.message.clone()
+                message
             } else {
-                format!("{}: {}", error.message, error.remedy)
+                format!("{message}: {}", spoken(&error.remedy, seen.language))
             };
             ui.label(RichText::new(words).small().color(colour));
             if let (Some(mended), Some(suggestion)) =

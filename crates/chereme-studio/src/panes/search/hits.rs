@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use chereme_corpus::{Answer, Around, Hit, Order};
+use chereme_corpus::{Answer, Around, Finding, Hit, Order};
 use chereme_motion::{Instant, Span};
 use chereme_sign::{Component, Field};
 use serde_json::Value;
@@ -52,6 +52,7 @@ pub(crate) struct Found {
     pub(crate) total: usize,
     pub(crate) facets: BTreeMap<String, Vec<(String, usize)>>,
     pub(crate) notes: Vec<String>,
+    pub(crate) findings: Vec<Finding>,
     pages: BTreeMap<usize, Vec<Hit>>,
     around: BTreeMap<i64, Around>,
     /// The places of hits where they are put in order here.
@@ -65,6 +66,7 @@ impl Found {
             total: answer.total,
             facets: answer.facets.clone(),
             notes: answer.notes.clone(),
+            findings: answer.findings.clone(),
             pages: BTreeMap::from([(0, answer.hits.clone())]),
             ..Self::default()
         }

@@ -5,12 +5,11 @@ use std::collections::BTreeMap;
 
 use chereme_corpus::{KeptSearch, SearchOptions};
 use chereme_sign::query::Query;
-use eframe::egui::{
-    Button, Key, Popup, PopupCloseBehavior, Role, ScrollArea, TextEdit, Ui, WidgetInfo,
-};
+use eframe::egui::{Button, Key, Popup, PopupCloseBehavior, Role, ScrollArea, Ui, WidgetInfo};
 
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::script::edit;
 use crate::settings::Searches;
 use crate::words::{fill, search as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
@@ -83,10 +82,10 @@ impl Kept {
         ui.horizontal(|ui| {
             let hint = seen.say(words::SAVE_NAME);
             let before = self.name.clone();
-            let field = TextEdit::singleline(&mut self.name)
-                .hint_text(hint)
-                .desired_width(170.0);
-            let response = ui.add(field);
+            let field = edit::line(ui, &mut self.name, |field| {
+                field.hint_text(hint).desired_width(170.0)
+            });
+            let response = field.response.response;
             let text = self.name.clone();
             response.widget_info(|| WidgetInfo {
                 label: Some(hint.to_owned()),
@@ -151,7 +150,8 @@ impl Kept {
         };
         let hint = fill(seen.say(words::RENAME), &[("name", of)]);
         let before = text.clone();
-        let response = ui.add(TextEdit::singleline(text).desired_width(200.0));
+        let field = edit::line(ui, text, |field| field.desired_width(200.0));
+        let response = field.response.response;
         let shown = text.clone();
         response.widget_info(|| WidgetInfo {
             label: Some(hint.clone()),

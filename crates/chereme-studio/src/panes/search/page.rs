@@ -8,7 +8,7 @@ use super::{PAUSE, Search, View, aside, facets, results, rows, suggest, symbols}
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
-use crate::words::{Language, fill, search as words};
+use crate::words::{Language, fill, search as words, spoken};
 
 /// A pane wider than this has room for facets beside its hits.
 const WIDE: f32 = 520.0;
@@ -81,12 +81,13 @@ impl Search {
             .filter(|_| self.query == self.field.text && !told)
         {
             let trouble = seen.colours().trouble;
-            if seen.language != Language::English {
+            let said = spoken(&wrong.error, seen.language);
+            if seen.language != Language::English && said == wrong.error {
                 ui.label(seen.say(crate::words::trouble::QUERY_WRONG));
             }
-            ui.label(RichText::new(&wrong.error).small().color(trouble));
+            ui.label(RichText::new(said).small().color(trouble));
             if let Some(remedy) = &wrong.remedy {
-                ui.label(RichText::new(remedy).small());
+                ui.label(RichText::new(spoken(remedy, seen.language)).small());
             }
             let mended = wrong.mended(&self.field.text);
             if let Some((meant, query)) = mended {
@@ -200,6 +201,9 @@ impl Search {
         let Some(found) = &self.found else { return };
         for note in &found.notes {
             ui.label(RichText::new(note).small().weak());
+        }
+        if let Some(query) = aside::findings(ui, seen, found, &self.query) {
+            return self.turn_to(query, out);
         }
         if found.total == 0 {
             if let Some(query) = self.aside.nothing(ui, seen, out, &self.query) {

@@ -34,7 +34,7 @@ const COLUMNS: [(Text, Sort); 5] = [
     (words::DURATION, Sort::Duration),
 ];
 /// How much of the width each column has as usual, and the least that one has.
-const SHARES: [f32; 5] = [0.24, 0.20, 0.24, 0.22, 0.10];
+const SHARES: [f32; 5] = [0.21, 0.22, 0.21, 0.23, 0.13];
 const LEAST: f32 = 0.05;
 /// How wide the place is at which a column is made wider.
 const EDGE: f32 = 8.0;
@@ -350,12 +350,13 @@ fn table(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         return;
     };
     keys(search, ui, 1, total);
+    // As wide as the head, so that its edges are those of the columns.
+    let width = ui.available_width() - 12.0;
     let area = scroll(search, ui, "rows", 1, ROW);
     ui.spacing_mut().item_spacing.y = 0.0;
     let output = area.show_rows(ui, ROW, total, |ui, range| {
         search.sight(range.clone(), out);
         for at in range {
-            let width = ui.available_width() - 4.0;
             let (rect, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
             line(search, ui, seen, out, at, rect);
         }
@@ -455,13 +456,22 @@ fn put(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: eframe::egui::Colo
     } else {
         (rect.left_center(), Align2::LEFT_CENTER)
     };
-    if end {
-        painter.text(at, align, text, font, colour);
-        return;
+    let lay_out = |text: String| {
+        let mut job = LayoutJob::simple_singleline(text, font.clone(), colour);
+        job.wrap = TextWrapping::truncate_at_width(rect.width().max(0.0));
+        painter.layout_job(job)
+    };
+    let mut galley = lay_out(text.to_owned());
+    if end && galley.elided {
+        // The words farthest from the hit go first.
+        let rests = text.char_indices().filter(|(_, letter)| *letter == ' ');
+        for (at, _) in rests {
+            galley = lay_out(format!("…{}", &text[at..]));
+            if !galley.elided {
+                break;
+            }
+        }
     }
-    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
-    job.wrap = TextWrapping::truncate_at_width(rect.width().max(0.0));
-    let galley = painter.layout_job(job);
     let at = align.anchor_size(at, galley.size());
     painter.galley(at.min, galley, colour);
 }

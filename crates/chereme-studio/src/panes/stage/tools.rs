@@ -119,7 +119,7 @@ fn reach(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
 
 fn compare(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
     let keys = seen.keys.text(Action::StageCompare);
-    ui.weak(format!("{}:", seen.say(words::ORIGINAL)));
+    ui.weak(seen.say(words::ORIGINAL_HOW));
     for way in Compare::ALL {
         let text = match way {
             Compare::Beside => words::BESIDE,

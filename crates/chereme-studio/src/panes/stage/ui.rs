@@ -222,7 +222,9 @@ fn turn(stage: &mut Stage, ui: &Ui, response: &Response, part: &Part) {
         let wheel = ui.input(|input| input.smooth_scroll_delta().y / 300.0);
         let pinch = ui.input(egui::InputState::zoom_delta);
         if wheel != 0.0 || pinch != 1.0 {
-            eye.nearer(wheel.exp() * pinch);
+            let at = response.hover_pos().unwrap_or(part.rect.center());
+            let away = (at - part.rect.center()) / part.rect.height().max(1.0);
+            eye.nearer_at(wheel.exp() * pinch, [away.x, away.y]);
         }
     }
     if response.double_clicked() {
@@ -506,7 +508,7 @@ fn who(stage: &Stage, ui: &Ui, seen: &Seen<'_>, part: &Part) {
             seen.say(words::ORIGINAL).to_owned()
         }
         Some(piece) if piece.shown.is_some() => {
-            format!("{}: {}", seen.say(words::ORIGINAL), piece.part.gloss)
+            fill(seen.say(words::ORIGINAL_OF), &[("name", &piece.part.gloss)])
         }
         Some(piece) => no_original(seen, &piece.part.from),
         None => return,

@@ -3,7 +3,7 @@
 use chereme_corpus::TierContents;
 use chereme_sign::text::fold;
 use eframe::egui::{
-    Align2, Button, Id, Key, Modifiers, Role, ScrollArea, TextEdit, Ui, WidgetInfo, Window, vec2,
+    Align2, Button, Id, Key, Modifiers, Role, ScrollArea, Ui, WidgetInfo, Window, vec2,
 };
 
 use super::edit::{Scene, no_room};
@@ -11,6 +11,7 @@ use super::hold::{self, Kind};
 use super::spans::Item;
 use super::{Then, Timeline, changes};
 use crate::context::Outbox;
+use crate::script::edit;
 use crate::words::{Text, timeline as words};
 
 /// The list while it is open.
@@ -76,11 +77,13 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
         .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
         .fixed_size(vec2(320.0, 300.0));
     window.show(ui.ctx(), |ui| {
-        let field = TextEdit::singleline(&mut choose.text)
-            .id(Id::unique("timeline tiers field"))
-            .hint_text(scene.seen.say(words::FILTER_TIERS))
-            .desired_width(f32::INFINITY);
-        let response = ui.add(field);
+        let field = edit::line(ui, &mut choose.text, |field| {
+            field
+                .id(Id::unique("timeline tiers field"))
+                .hint_text(scene.seen.say(words::FILTER_TIERS))
+                .desired_width(f32::INFINITY)
+        });
+        let response = field.response.response;
         let label = scene.seen.say(words::FILTER_TIERS);
         response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, label));
         response.request_focus();

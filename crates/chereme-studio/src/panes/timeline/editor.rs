@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use chereme_corpus::{StoredInventory, TierContents};
 use eframe::egui::{
-    Align2, Area, Id, Key, Modifiers, Order, Rect, Response, Role, TextEdit, Ui, WidgetInfo, pos2,
+    Align2, Area, Id, Key, Modifiers, Order, Rect, Response, Role, Ui, Vec2, WidgetInfo, pos2,
     text::CCursor, text::CCursorRange, vec2,
 };
 use serde::{Deserialize, Serialize};
@@ -17,6 +17,7 @@ use crate::command::Command;
 use crate::context::Outbox;
 use crate::panes::stage;
 use crate::pickers::{self, Picker};
+use crate::script::edit as edit_text;
 use crate::words::{Text, fill, timeline as words};
 
 const WIDTH: f32 = 260.0;
@@ -246,7 +247,10 @@ fn field(
     let mut said = Said::Nothing;
     let mut turn = false;
     let opened = editing.begun;
-    let (area, width) = area(ui, below, WIDTH);
+    let pictured = scene.inventory(tier);
+    let pictured = pictured.is_some_and(|it| edit::has_pictures(&it.inventory));
+    let height = value_list::height(ui, fitting.len(), pictured);
+    let (area, width) = area(ui, below, vec2(WIDTH, height));
     let shown = area.show(ui.ctx(), |ui| {
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_width(width);
@@ -317,7 +321,7 @@ fn pictures(
     let width = width.min(screen.width() - 48.0);
     let mut said = Said::Nothing;
     let mut back = false;
-    let (area, width) = area(ui, below, width);
+    let (area, width) = area(ui, below, vec2(width, f32::INFINITY));
     let shown = area.show(ui.ctx(), |ui| {
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_width(width);
@@ -344,13 +348,15 @@ fn pictures(
 
 /// Returns where the field lies: below the annotation, or above where there is more room.
 ///
-/// What opens upwards stands beside the middle of the stage, so that the signer stays in sight.
-fn area(ui: &Ui, below: Rect, width: f32) -> (Area, f32) {
+/// What opens upwards and would reach into the stage stands beside its middle, so that the signer stays in sight.
+fn area(ui: &Ui, below: Rect, size: Vec2) -> (Area, f32) {
+    let width = size.x;
     let screen = ui.ctx().content_rect();
     let (under, over) = (screen.bottom() - below.bottom(), below.top() - screen.top());
     let (corner, at, width) = if under < ROOM && over > under {
         let at = below.left_top() - vec2(0.0, 2.0);
-        let stage = stage::place(ui.ctx()).filter(|it| it.top() < at.y);
+        let reached = |it: &Rect| it.top() < at.y && it.bottom() > at.y - size.y;
+        let stage = stage::place(ui.ctx()).filter(reached);
         let (left, width) = stage.map_or((at.x, width), |it| beside(at.x, width, it, screen));
         (Align2::LEFT_BOTTOM, pos2(left, at.y), width)
     } else {
@@ -413,11 +419,9 @@ fn text_field(ui: &mut Ui, editing: &mut Editing, label: &str) -> Response {
     if !editing.aside {
         ui.memory_mut(|memory| memory.request_focus(id));
     }
-    let mut output = TextEdit::singleline(&mut editing.text)
-        .id(id)
-        .desired_width(f32::INFINITY)
-        .lock_focus(true)
-        .show(ui);
+    let mut output = edit_text::line(ui, &mut editing.text, |field| {
+        field.id(id).desired_width(f32::INFINITY).lock_focus(true)
+    });
     let response = output.response.response.clone();
     editing.aside &= !response.has_focus();
     response.widget_info(|| {

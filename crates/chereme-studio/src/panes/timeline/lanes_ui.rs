@@ -55,12 +55,7 @@ impl Drawing<'_, '_> {
         }
         if source.is_none() {
             // Without movement they would be as many empty lines.
-            let text = format!(
-                "{}: {}",
-                self.seen.say(words::LANES),
-                self.seen.say(words::NO_MOVEMENT)
-            );
-            ui.small(text);
+            ui.small(self.seen.say(words::NO_LANES));
             return;
         }
         let shown = |(lane, ..): &(Lane, _, _)| ways.lanes.contains(lane);

@@ -42,7 +42,7 @@ mod paste_box;
 mod rows;
 mod select;
 mod snap;
-mod tier_box;
+pub(crate) mod tier_box;
 mod tiers;
 mod ui;
 mod value_list;

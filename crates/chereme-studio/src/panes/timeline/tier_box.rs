@@ -4,8 +4,9 @@ use chereme_corpus::{
     Contents, Copied, Hands, Name, NewTier, Stereotype, TierChange, TierContents, TierName,
     TierRole,
 };
+use chereme_sign::Field;
 use eframe::egui::{
-    Align2, ComboBox, Grid, Id, Key, Modifiers, Popup, Role, TextEdit, Ui, WidgetInfo, Window, vec2,
+    Align2, ComboBox, Grid, Id, Key, Modifiers, Popup, Role, Ui, WidgetInfo, Window, vec2,
 };
 
 use super::Timeline;
@@ -13,6 +14,7 @@ use super::edit::Scene;
 use crate::context::{Outbox, Seen};
 use crate::panes::combo;
 use crate::panes::search::field_text;
+use crate::script::edit;
 use crate::words::{Text, fill, shell, timeline as words};
 use crate::work::Work;
 
@@ -197,6 +199,25 @@ const PLAIN: [(&str, Text); 4] = [
     ("free", words::ROLE_FREE),
 ];
 
+/// Returns a role such as `right.configuration` in people's words.
+pub(crate) fn role_text(role: &str, seen: &Seen<'_>) -> String {
+    let (hand, rest) = match role.split_once('.') {
+        Some((hand, rest)) => (HANDS.iter().find(|(id, _)| *id == hand), rest),
+        None => (None, role),
+    };
+    let rest = if hand.is_some() { rest } else { role };
+    let plain = PLAIN.iter().find(|(id, _)| *id == rest);
+    let what = match (plain, rest.parse::<Field>()) {
+        (Some((_, text)), _) => seen.say(*text).to_owned(),
+        (None, Ok(field)) => field_text(&field, seen),
+        _ => return role.to_owned(),
+    };
+    match hand {
+        Some((_, hand)) => format!("{what} · {}", seen.say(*hand)),
+        None => what,
+    }
+}
+
 /// Returns the roles that a tier can have: the four without components, then what inventories are for.
 fn roles(seen: &Seen<'_>) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = PLAIN
@@ -376,8 +397,10 @@ fn form(ui: &mut Ui, scene: &Scene<'_>, tier: &mut TierBox) {
 
 fn name_field(ui: &mut Ui, seen: &Seen<'_>, tier: &mut TierBox) {
     ui.label(seen.say(words::TIER_NAME));
-    let field = TextEdit::singleline(&mut tier.name).desired_width(220.0);
-    let response = ui.add(field.id(Id::unique(NAME_FIELD)));
+    let field = edit::line(ui, &mut tier.name, |field| {
+        field.desired_width(220.0).id(Id::unique(NAME_FIELD))
+    });
+    let response = field.response.response;
     response.widget_info(|| {
         let mut info = WidgetInfo::labeled(Role::TextInput, true, seen.say(words::TIER_NAME));
         info.current_text_value = Some(tier.name.clone());
@@ -413,8 +436,8 @@ fn copy_form(ui: &mut Ui, seen: &Seen<'_>, tier: &mut TierBox) {
             });
             if let Copied::Holding(text) = &mut tier.copied {
                 let label = ui.label(seen.say(words::COPIED_TEXT));
-                let field = TextEdit::singleline(text).desired_width(220.0);
-                ui.add(field).labelled_by(label.id);
+                let field = edit::line(ui, text, |field| field.desired_width(220.0));
+                field.response.response.labelled_by(label.id);
                 ui.end_row();
             }
         });

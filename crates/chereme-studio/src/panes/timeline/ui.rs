@@ -6,8 +6,8 @@ use std::sync::Arc;
 use chereme_corpus::Contents;
 use chereme_motion::Instant;
 use eframe::egui::{
-    Color32, CursorIcon, FontId, Id, Rangef, Rect, Role, ScrollArea, Sense, TextStyle, Ui,
-    WidgetInfo, vec2,
+    Color32, CursorIcon, FontId, Id, Label, Rangef, Rect, RichText, Role, ScrollArea, Sense,
+    TextStyle, Ui, WidgetInfo, vec2,
 };
 
 use super::data::{self, Window, time_text};
@@ -138,6 +138,16 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     follow_up(timeline, &scene, out);
     ui.spacing_mut().item_spacing.y = 2.0;
     bar::show(ui, &scene, out);
+    if let Some(showing) = &seen.shown.made {
+        let names: [(&str, &dyn std::fmt::Display); 2] = [
+            ("made", &showing.made.name),
+            ("recording", &scene.contents.recording.name),
+        ];
+        let text = fill(seen.say(words::OTHER_ON_STAGE), &names);
+        let label = Label::new(RichText::new(text).small().color(seen.colours().accent));
+        ui.add(label.truncate());
+        ui.multiply_opacity(0.55);
+    }
     // The rows are scrolled to when the area knows how many there are.
     if std::mem::take(&mut timeline.layout.grown) {
         (timeline.reveal, timeline.layout.fresh) = (true, true);

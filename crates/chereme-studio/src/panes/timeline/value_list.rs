@@ -19,6 +19,17 @@ const PICTURES: f32 = 252.0;
 /// Height of a row with a picture.
 const PICTURE: f32 = 42.0;
 
+/// Returns about how high the field is with the list below it.
+pub(super) fn height(ui: &Ui, fitting: usize, pictured: bool) -> f32 {
+    let row = ui.spacing().interact_size.y;
+    let (each, room) = match pictured {
+        true => (PICTURE, PICTURES + row),
+        false => (row, LIST),
+    };
+    // The field, and the frame with its margins.
+    row + 32.0 + (fitting.max(1) as f32 * each).min(room)
+}
+
 /// Shows what fits; returns what was clicked.
 pub(super) fn show(
     ui: &mut Ui,
