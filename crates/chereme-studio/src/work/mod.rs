@@ -16,7 +16,8 @@ use chereme_corpus::{
     Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat,
     ImportOptions, ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier,
     OperationRow, Picture, PictureOptions, Proposed, Recombination, RecordingChange, Scheme,
-    SearchOptions, SignChange, SignMap, SignerChange, Suggestions, TierChange, TierName, TrackChange, Unit,
+    SearchOptions, SignChange, SignMap, SignerChange, Suggestions, TierChange, TierName,
+    TrackChange, Unit,
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
