@@ -97,7 +97,7 @@ pub(super) fn query<'a>(glosses: impl Iterator<Item = &'a str>) -> Option<String
     let glosses: BTreeSet<&str> = glosses.collect();
     let terms: Vec<String> = glosses
         .iter()
-        .map(|it| facet_condition("gloss", it))
+        .filter_map(|it| facet_condition("gloss", it))
         .collect();
     (!terms.is_empty()).then(|| terms.join(" or "))
 }
