@@ -26,7 +26,7 @@ use crate::output::{Bar, Output};
 Examples:
   chereme milestones mine.chereme --function wh
   chereme milestones mine.chereme --dry-run          (all functions; nothing is written)
-  chereme annotate mine.chereme --recording 3 set annotation:41 --start 0.4s   (a milestone corrected)")]
+  chereme annotate mine.chereme --in recording:3 set annotation:41 --start 0.4s   (a milestone corrected)")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,

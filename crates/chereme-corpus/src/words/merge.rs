@@ -10,7 +10,7 @@ texts! {
     REMOVED: "removed: {what}", "supprimé : {what}";
     NOTHING: "Nothing is new.", "Rien de nouveau.";
     NO_CONFLICTS: "no conflicts", "aucun conflit";
-    DECIDE: "Decide with `chereme conflicts CORPUS NUMBER --take mine|theirs|both`.", "Décidez avec `chereme conflicts CORPUS NUMÉRO --take mine|theirs|both`.";
+    DECIDE: "Decide with `chereme conflicts CORPUS NUMBER --take mine`, or with theirs or both.", "Décidez avec `chereme conflicts CORPUS NUMÉRO --take mine`, ou avec theirs ou both.";
     CONFLICT: "conflict on tier {tier}: mine {mine}, theirs {theirs}", "conflit sur l’acteur {tier} : le mien {mine}, le leur {theirs}";
     GONE: "(removed)", "(supprimé)";
     NUMBER: "number", "n°";

@@ -183,7 +183,7 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::CardRemove, ["Alt+Delete", "=", "="]),
     (Action::ShowInspector, ["Shift+F4", "=", "="]),
     (Action::ShowFilm, ["Shift+F5", "=", "="]),
-    (Action::ShowMap, ["Ctrl+Alt+M", "=", "="]),
+    (Action::ShowMap, ["Ctrl+Alt+K", "=", "="]),
     (Action::ShowHistory, ["Ctrl+H", "=", "="]),
     (Action::OnlyPane, ["F11", "=", "="]),
     (Action::OnlyAnnotating, ["Shift+F11", "=", "="]),

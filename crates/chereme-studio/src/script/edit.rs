@@ -271,6 +271,7 @@ mod tests {
             *seen = Some((galley, at));
         };
         let mut window = Harness::builder()
+            .with_accessibility_check(false)
             .with_size(vec2(100.0, 200.0))
             .build_ui_state(draw, None);
         window.run();

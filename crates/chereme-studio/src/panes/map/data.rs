@@ -152,7 +152,7 @@ mod tests {
     fn a_selection_is_a_query_and_neighbours_are_found_by_token() {
         assert_eq!(
             query(["A", "B C", "A"].into_iter()),
-            Some("gloss=A or gloss=\"B C\"".into())
+            Some("gloss==A or gloss==\"B C\"".into())
         );
         assert_eq!(query(std::iter::empty()), None);
         let point = |token: i64, near: &[i64]| MapPoint {
