@@ -1,4 +1,4 @@
-//! What the tests across crates share: small files as people would have them, processes at work on a
+//! The shared parts of the tests across crates: small files as people would have them, processes at work on a
 //! corpus, and the repository itself.
 
 pub mod files;

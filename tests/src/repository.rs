@@ -20,7 +20,7 @@ pub struct TextFile {
 }
 
 impl TextFile {
-    /// Tells whether the file holds tests or what only tests use.
+    /// Returns whether the file holds tests or code for tests only.
     #[must_use]
     pub fn is_test(&self) -> bool {
         const WORDS: [&str; 7] = [

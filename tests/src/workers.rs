@@ -15,14 +15,14 @@ pub struct Worker {
     lines: BufReader<ChildStdout>,
 }
 
-/// What a worker has said when it is no more.
+/// The output of a worker that has ended.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Said {
     /// The numbers of the operations that it reported done.
     pub done: BTreeSet<i64>,
     /// Whether it came to its end with success.
     pub ended: bool,
-    /// What it wrote on standard error.
+    /// Its standard error.
     pub errors: String,
 }
 

@@ -204,7 +204,7 @@ fn every_crate_comes_under_a_licence_that_allows_its_use() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Tells whether an SPDX expression can be met with the licences of the list.
+/// Returns whether an SPDX expression can be met with the licences of the list.
 fn allows(expression: &str) -> bool {
     let expression = expression.replace('/', " OR ");
     let expression = expression.replace('(', " ( ").replace(')', " ) ");

@@ -1,4 +1,4 @@
-//! Processes killed at random moments: what they reported done is there, and nothing is broken.
+//! Processes killed at random moments: the work they reported is stored, and nothing is broken.
 
 mod common;
 
@@ -14,7 +14,7 @@ use common::Check;
 
 const WORKER: &str = env!("CARGO_BIN_EXE_chereme-worker");
 
-/// A corpus is begun anew after so many kills, so that checking it stays quick.
+/// A new corpus begins after this many kills, so that its check stays quick.
 const KILLS_PER_CORPUS: usize = 25;
 
 /// Numbers that are random enough and the same in every run (xorshift, Marsaglia 2003).

@@ -1,5 +1,5 @@
-//! Real notation on bodies: what must hold for every sign. Needs `CHEREME_SHARED_DATA`; the example
-//! `notation` prints the same for all of them.
+//! Real notation on bodies: the conditions for every sign. Needs `CHEREME_SHARED_DATA`; the example `notation`
+//! prints the same for all of them.
 
 #[path = "../examples/notation/bodies.rs"]
 mod bodies;

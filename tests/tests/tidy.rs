@@ -1,4 +1,4 @@
-//! What every file of the repository keeps to: documented, short, whole, and of no one machine.
+//! The rules for every file of the repository: documented, short, whole, and of no one machine.
 
 use std::fs;
 
@@ -19,7 +19,7 @@ fn expect_none(what: &str, faults: &[String]) {
     assert!(faults.is_empty(), "{what}:\n  {}", faults.join("\n  "));
 }
 
-/// Lists the lines of which `wrong` says so, as `path:line: text`.
+/// Lists the lines for which `wrong` returns true, as `path:line: text`.
 fn lines_that<'a>(
     files: impl IntoIterator<Item = &'a TextFile>,
     wrong: impl Fn(&str) -> bool,
@@ -76,7 +76,7 @@ fn nothing_speaks_of_one_machine_or_of_how_it_was_made() {
     expect_none("paths of a machine, or tickets", &faults);
 }
 
-/// Tells whether a line says `issue 7` or `issue #7`.
+/// Returns whether a line says `issue 7` or `issue #7`.
 fn names_a_ticket(line: &str) -> bool {
     let line = line.to_lowercase();
     line.match_indices("issue ").any(|(at, word)| {

@@ -1,4 +1,4 @@
-//! What the terminal shows: tables and sentences for people, one JSON document for programs.
+//! The output on the terminal: tables and sentences for people, one JSON document for programs.
 
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
@@ -100,7 +100,7 @@ impl Output {
         self.language
     }
 
-    /// Writes out what is left.
+    /// Writes the rest out.
     pub(crate) fn finish(&mut self) -> Result<()> {
         if self.json {
             let document = self.document.take().unwrap_or_else(|| json!({}));
@@ -211,7 +211,7 @@ impl Bar {
         Self { bar, unit: None }
     }
 
-    /// Shows a step; after Ctrl-C the work is told to stop, which leaves the corpus as it was.
+    /// Shows a step; after Ctrl-C it asks the work to stop, which leaves the corpus as it was.
     pub(crate) fn show(&mut self, step: Step<'_>) -> ControlFlow<()> {
         if self.unit != Some(step.unit) {
             self.unit = Some(step.unit);

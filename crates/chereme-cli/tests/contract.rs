@@ -1,8 +1,8 @@
 //! The contract with scripts: exit codes, one JSON document, errors with a place and a remedy, help.
 //!
-//! A command is tried by a line in a table: its words, its exit code, and the keys of its JSON. In the
-//! words `@c` is a corpus of two signs and a small lexicon, `@in` the folder of files that it
-//! was made of, `@more` a folder with another recording and one that is none, and `@d` an empty folder.
+//! A command is tried by a line in a table: its words, its exit code, and the keys of its JSON. In the words `@c`
+//! is a corpus of two signs and a small lexicon, `@in` the folder of its files, `@more` a folder with another
+//! recording and one file that is not a recording, and `@d` an empty folder.
 
 mod desk;
 

@@ -17,8 +17,8 @@ mod swivel;
 pub(crate) const HELP_FROM: f64 = 0.9;
 /// The turn of the collar bone in radians that is approached but never passed.
 const HELP_MOST: f64 = 0.5;
-/// The soft end of the reach, least and most: where it is least, the wrist comes within a millimetre
-/// of whatever can be reached.
+/// The soft end of the reach, least and most: at the least, the wrist comes within a millimetre of every reachable
+/// target.
 const SOFT: (f64, f64) = (0.004, 0.08);
 /// The share of the arm's length by which an elbow must stand off the line from shoulder to wrist for
 /// its swivel to count in full, and that by which the wrist must be away from the shoulder.
@@ -63,7 +63,7 @@ impl Reach {
         }
     }
 
-    /// Tells whether the soft end was made longer, so that reachable targets may be missed.
+    /// Returns whether the soft end was made longer, so that reachable targets may be missed.
     pub(crate) fn is_softened(&self) -> bool {
         self.soft > SOFT.0
     }
@@ -72,12 +72,12 @@ impl Reach {
 /// Brings the wrist of `side` to `targets`, one a frame in model space, the hand turned in the world
 /// as `hands` says, or as it was; `columns` are those of the hand as it is.
 ///
-/// What is where it should be is not touched. The elbow keeps the source's swivel; where that has no
-/// meaning (a source arm that is straight, or points away from where the arm goes) or turns faster
-/// than the source's, it goes calmly from before to after. Where the wrist leaves the arm's reach
-/// fast, the soft end is longer, so that the elbow does not snap. Where elbow or bones would still jump
-/// though the source's do not, they make way before and after. Nothing where the skeleton has no
-/// such arm, or one of its bones has no length.
+/// Frames that are right already stay untouched. The elbow keeps the source's swivel; if that has no meaning (a
+/// source arm that is straight, or points away from the arm's new direction) or turns faster than the source's, the
+/// elbow moves calmly from the frame before to the frame after. If the wrist leaves the arm's reach fast, the soft
+/// end is longer, so that the elbow does not snap. If elbow or bones would still jump while the source's do not,
+/// they give way before and after. Returns `None` if the skeleton has no such arm, or one of its bones has no
+/// length.
 pub(crate) fn move_wrist(
     work: &mut Work,
     side: Side,
@@ -125,7 +125,7 @@ struct Source<'a> {
     pole: Pole,
 }
 
-/// Which way an elbow points where nothing else tells.
+/// The direction of an elbow if nothing else decides it.
 enum Pole {
     /// In the space of the upper arm.
     Arm(DVec3),
@@ -133,7 +133,7 @@ enum Pole {
     Model(DVec3),
 }
 
-/// What the collar bone does for a target.
+/// The collar bone's help for a target.
 #[derive(Clone, Copy)]
 struct Help {
     rotation: DQuat,
@@ -167,8 +167,7 @@ struct Turns {
     hand: DQuat,
     /// The forearm's length in the space of its joint.
     bone: DVec3,
-    /// By how much the forearm is turned about its length more than its bone asks for, and how well
-    /// that angle can be told.
+    /// The turn of the forearm about its length beyond that of its bone, and how well that angle is determined.
     twist: f64,
     told: f64,
 }
@@ -262,8 +261,8 @@ impl<'a> Source<'a> {
         [&far, &near].map(|extensions| softened(extensions, frame_time))
     }
 
-    /// Returns the target, or, where it is nearer to the shoulder than the folded arm's wrist, a place
-    /// in the same direction that is softly kept off; `soft` is a share of the arm's length.
+    /// Returns the target; or, if it is nearer to the shoulder than the folded arm's wrist, a place in the same
+    /// direction at a soft distance; `soft` is a share of the arm's length.
     fn kept_off(&self, frame: usize, target: DVec3, help: Option<Help>, soft: f64) -> DVec3 {
         let points = self.points(frame);
         let shoulder = help.map_or(points[0], |help| help.shoulder);
@@ -458,8 +457,8 @@ fn least_turn(from: DVec3, to: DVec3) -> DQuat {
     DQuat::from_rotation_arc(from, to).normalize()
 }
 
-/// Returns by what angle `q` turns about the unit vector `axis` (swing-twist), and how well that can
-/// be told: 0 where it turns by half a turn across it.
+/// Returns the angle by which `q` turns about the unit vector `axis` (swing-twist), and how well it is determined:
+/// 0 for a half turn across it.
 fn twist_about(q: DQuat, axis: DVec3) -> (f64, f64) {
     let along = axis.dot(q.xyz());
     (2.0 * along.atan2(q.w), along * along + q.w * q.w)
@@ -482,8 +481,8 @@ fn off_line(arm: [DVec3; 3]) -> f64 {
     (arm[1] - arm[0]).reject_from_normalized(line(arm)).length()
 }
 
-/// Returns how much the source's swivel means where the arm goes: nothing for an arm that is folded
-/// on the shoulder, or points opposite to where it goes.
+/// Returns the weight of the source's swivel in the arm's new direction: 0 for an arm that is folded on the
+/// shoulder, or points opposite to the new direction.
 fn meaning(was: [DVec3; 3], is: [DVec3; 3]) -> f64 {
     let folded = smooth(was[0].distance(was[2]) / (FOLDED * length(was)));
     folded * smooth((1.0 + line(was).dot(line(is))) / 0.5)

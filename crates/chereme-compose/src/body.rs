@@ -31,7 +31,7 @@ pub(crate) struct Frame {
 impl Frame {
     /// Returns the frame; nothing where the skeleton has no arm at all.
     ///
-    /// A body that does not tell where it faces (one arm, one leg) faces forward in model space.
+    /// A body whose front is unknown (one arm, one leg) faces forward in model space.
     pub(crate) fn of(work: &Work) -> Option<Self> {
         let arm = Side::BOTH
             .into_iter()
@@ -148,8 +148,8 @@ impl Frame {
     }
 }
 
-/// Gives collar bones their posture at rest, so that arms that were moved do not change where the
-/// trunk faces; not where the rest posture is none that a body takes.
+/// Gives collar bones their posture at rest, so that moved arms do not turn the trunk's front; not if no body can
+/// take the rest posture.
 fn still_collars(work: &Work, pose: &mut Pose) {
     if !work.anatomy.is_posed() {
         return;
@@ -192,8 +192,8 @@ pub(crate) fn hand_point(
         .or(wrist)
 }
 
-/// Returns the middle of where a point of the hands is while they hold their placements, or over
-/// all of the movement where nothing is said.
+/// Returns the mean position of a point of the hands while they hold their placements, or over all of the movement
+/// if no placement is annotated.
 pub(crate) fn mean_point(work: &Work, sides: &[Side], point: HandPoint) -> Option<DVec3> {
     let each: Vec<DVec3> = sides
         .iter()
@@ -205,7 +205,7 @@ pub(crate) fn mean_point(work: &Work, sides: &[Side], point: HandPoint) -> Optio
     (!each.is_empty()).then(|| each.iter().sum::<DVec3>() / each.len() as f64)
 }
 
-/// Returns the frames in which a hand holds its placements, from the first to the last, where any is told.
+/// Returns the frames in which a hand holds its placements, from the first to the last, if any is annotated.
 pub(crate) fn placed(work: &Work, side: Side) -> Option<std::ops::Range<usize>> {
     let held = work.held(side, Component::Placement);
     let span = |n: usize| work.rate.frames_in(work.notes[n].span);
@@ -213,7 +213,7 @@ pub(crate) fn placed(work: &Work, side: Side) -> Option<std::ops::Range<usize>> 
     Some(span(first).start..span(last).end.min(work.frames))
 }
 
-/// Returns the middle of what `at` finds in some frames; in all of them where there are none.
+/// Returns the mean of `at` over some frames; over all frames if the list is empty.
 pub(crate) fn mean(
     work: &Work,
     frames: std::ops::Range<usize>,

@@ -19,14 +19,14 @@ use points::{Anchors, PLACES, POINTS, Tracks};
 /// 5.5 cm of it, thumbs that touch to 3.1 cm.
 const HANDS: f64 = 0.035;
 const BODY: f64 = 0.06;
-/// The farthest that a point of a hand is from its palm's middle, in lengths of the hand, and that
-/// length in metres where the body does not tell.
+/// The greatest distance of a point of a hand from its palm's middle, in lengths of the hand, and that length in
+/// metres if the body does not give it.
 const HAND: (f64, f64) = (0.9, 0.2);
 /// How often contacts are looked for, in seconds.
 const LOOK: f64 = 1.0 / 60.0;
 /// Contacts that are apart for less than this are one, in seconds.
 const PAUSE: f64 = 0.1;
-/// How far a contact may move and still be where it was, in metres.
+/// The distance in metres that a contact may move and still count as kept.
 const KEPT: f64 = 0.005;
 /// The same where another hand or moment touches: bodies are never quite alike on both sides.
 const ALIKE: f64 = 0.02;

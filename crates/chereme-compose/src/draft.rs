@@ -1,4 +1,4 @@
-//! A recipe that is being worked on: what a change leaves as it was is neither looked up nor made again.
+//! A recipe in progress: a change evaluates only the parts that it touches.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,10 +15,10 @@ use crate::work::Work;
 
 /// A recipe that is made again and again while it changes.
 ///
-/// Movement is kept after every source, operator and join, so that only what follows a change is
-/// made anew; what comes of it equals what [`resolve`](crate::resolve()) and
-/// [`evaluate`](crate::evaluate()) give, bit by bit. What was found for a part of the recipe is taken
-/// again as long as that part stays as it is: [`forget`](Self::forget) it when the corpus changed.
+/// Movement is kept after every source, operator and join, so that only the parts after a change are evaluated
+/// again; the result equals that of [`resolve`](crate::resolve()) and [`evaluate`](crate::evaluate()), bit by bit.
+/// The answers for a part of the recipe are used again as long as that part stays as it is: call
+/// [`forget`](Self::forget) if the corpus changed.
 #[derive(Debug, Default)]
 pub struct Draft {
     resolved: Option<Resolved>,
@@ -29,9 +29,9 @@ impl Draft {
     /// Makes the movement of a recipe; between two steps `goes_on` is asked whether it is still wanted.
     ///
     /// # Errors
-    /// As [`resolve`](crate::resolve()) and [`evaluate`](crate::evaluate()), and
-    /// [`Cause::Stopped`](crate::Cause::Stopped) where it is not wanted any more; the steps that were
-    /// taken by then need not be taken again.
+    /// Does the same as [`resolve`](crate::resolve()) and [`evaluate`](crate::evaluate()), and returns
+    /// [`Cause::Stopped`](crate::Cause::Stopped) if the result is no longer wanted; the steps taken by then need
+    /// not be taken again.
     pub fn make(
         &mut self,
         recipe: &Recipe,
@@ -48,7 +48,7 @@ impl Draft {
         made
     }
 
-    /// Forgets everything, so that what is made next is looked up and made anew.
+    /// Forgets everything, so that the next evaluation looks everything up again.
     pub fn forget(&mut self) {
         *self = Self::default();
     }
@@ -57,7 +57,7 @@ impl Draft {
 /// The most that is kept, in numbers of eight bytes.
 const MOST: usize = 12 << 20;
 
-/// What was made of parts of a recipe.
+/// The results for parts of a recipe.
 #[derive(Debug, Default)]
 pub(crate) struct Kept {
     stages: Vec<Stage>,
@@ -74,10 +74,10 @@ pub(crate) struct Part {
     pub(crate) steps: Vec<Planned>,
 }
 
-/// What was found for the inside of a part, by paths from that part on.
+/// The answers for the inside of a part, by paths from that part on.
 type Given = BTreeMap<String, (Option<Input>, Option<Arc<Material>>)>;
 
-/// The movement after a part, with what was told by then.
+/// The movement after a part, with the report so far.
 #[derive(Debug)]
 pub(crate) struct Stage {
     part: Part,
@@ -155,7 +155,7 @@ impl Stage {
         same && now.next().is_none()
     }
 
-    /// Returns what was told, at `base` instead of where the part stood.
+    /// Returns the report, at `base` instead of the former place of the part.
     pub(crate) fn told(&self, base: &str) -> Report {
         let mut report = self.report.clone();
         for step in &mut report.steps {
@@ -178,7 +178,7 @@ fn size(work: &Work) -> usize {
 }
 
 impl Kept {
-    /// Returns the movement after a part, where it was made before.
+    /// Returns the movement after a part, if it was evaluated before.
     pub(crate) fn find(&mut self, resolved: &Resolved, base: &str, part: &Part) -> Option<&Stage> {
         let at = self
             .stages
@@ -249,7 +249,7 @@ impl<'a> Former<'a> {
         self.node == node
     }
 
-    /// Returns what operators are applied to, or the whole where there are none.
+    /// Returns the operand of the operators, or the whole if there is no operator.
     pub(crate) fn operated(&self) -> Self {
         match self.node {
             Node::Pipe(pipe) => Self {

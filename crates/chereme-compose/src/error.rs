@@ -1,4 +1,4 @@
-//! What can be wrong with a recipe before anything is made of it.
+//! The faults of a recipe that are known before its evaluation.
 
 use chereme_motion::Side;
 
@@ -22,7 +22,7 @@ pub enum RecipeError {
     /// A field of the JSON is missing, unknown or of the wrong kind.
     #[error("{message}")]
     Field {
-        /// What is wrong with which field.
+        /// The fault of the field.
         message: String,
     },
     /// A number is outside of what can be made.
@@ -50,7 +50,7 @@ pub enum RecipeError {
     /// There are too many operators, or they are nested too deep.
     #[error("a recipe has at most {most} {what}; split it and store the parts as signs")]
     Size {
-        /// What there is too much of.
+        /// The thing of which there is too much.
         what: &'static str,
         /// How much is allowed.
         most: usize,
@@ -77,7 +77,7 @@ impl TextError {
     }
 }
 
-/// What is wrong at a character of a recipe's text.
+/// The fault at a character of a recipe's text.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Problem {
     /// Something else was expected.
@@ -100,7 +100,7 @@ pub enum Problem {
     /// A quotation mark or parenthesis is not closed.
     #[error("this {0} is never closed")]
     Unclosed(char),
-    /// The query in `best(...)` is none.
+    /// The query in `best(...)` is invalid.
     #[error("the query is not understood: {0}")]
     Query(String),
     /// The text is too long.
@@ -147,19 +147,19 @@ pub enum Cause {
     /// Notation that cannot be animated.
     #[error(transparent)]
     Notation(#[from] crate::notation::NotationError),
-    /// Body language with numbers that are none.
+    /// The body language holds text that is not a number.
     #[error("the body language cannot be used: {0}; make the sign again")]
     Language(String),
     /// The skeleton has no such arm.
     #[error("there is no {} arm (shoulder, elbow, wrist) in this skeleton; name its joints in a roles file, or use a recording that has one", .0.name())]
     NoArm(Side),
-    /// The hand has no fingers, or too few to tell its palm.
+    /// The hand has no fingers, or too few to define its palm.
     #[error("the {} hand has no fingers in this skeleton; use a recording of the hands, or name its joints in a roles file", .0.name())]
     NoFingers(Side),
     /// The skeleton has no head that hangs on a chest.
     #[error("there is no head in this skeleton; name its joint in a roles file")]
     NoHead,
-    /// A target is so far away that nothing like it can be made.
+    /// A target is far beyond the body's reach.
     #[error("the target is {:.0} cm away from the {} shoulder, and the arm is {:.0} cm long; move it nearer by {:.0} cm or more", distance * 100.0, side.name(), arm * 100.0, (distance - arm) * 100.0)]
     TooFar {
         /// The arm.
@@ -194,7 +194,7 @@ pub enum Cause {
     NoMeaning {
         /// The value.
         value: String,
-        /// What would be needed.
+        /// The missing thing.
         what: &'static str,
     },
     /// The query finds nothing with movement.
@@ -205,7 +205,7 @@ pub enum Cause {
     NothingToTake {
         /// The sign.
         address: String,
-        /// What it should have shown.
+        /// The thing it should have shown.
         what: &'static str,
     },
     /// A part is asked for that the movement does not have.
@@ -216,7 +216,7 @@ pub enum Cause {
         /// The length of the movement in seconds.
         length: f64,
     },
-    /// Two pieces do not meet: what joins them would leap.
+    /// Two pieces do not meet: the join would leap.
     #[error(
         "the two pieces do not meet: {what} would leap by {distance:.2} m, at {speed:.0} m/s; cut wrong first or last \
          frames off (`| trim`, or `| span 0.2s..1.5s`), or give the way more time (`then via 0.4s`, `repeat 2 gap 0.3s`)"
@@ -251,7 +251,7 @@ pub enum Cause {
         /// The source.
         address: String,
     },
-    /// What was stored with the recipe does not fit it.
+    /// The inputs stored with the recipe do not fit it.
     #[error("the stored inputs hold nothing fit for this step; resolve the recipe again")]
     Input,
     /// The movement that came out is no movement.

@@ -21,8 +21,8 @@ use crate::simplify::{self, Planned};
 use crate::sources::Material;
 use crate::work::{Group, Work};
 
-/// The version of the evaluator; it rises whenever the same resolved recipe gives other movement, so
-/// that a made sign stored with it can be told from one that would be made today.
+/// The version of the evaluator. It rises whenever the same resolved recipe gives different movement, so that a
+/// stored sign can be distinguished from one that would be generated today.
 pub const ENGINE: u32 = 10;
 
 /// Makes the movement of a recipe.
@@ -35,8 +35,8 @@ pub fn evaluate(resolved: &Resolved) -> Result<Made, MakeError> {
     with(resolved, None, &|| true)
 }
 
-/// As [`evaluate`], but takes the movement after parts of the recipe from what is kept, and keeps it;
-/// stops between two steps where `goes_on` says so.
+/// Does the same as [`evaluate`], but takes the movement after parts of the recipe from `kept`, and adds to it;
+/// stops between two steps if `goes_on` says so.
 pub(crate) fn with(
     resolved: &Resolved,
     kept: Option<&mut Kept>,
@@ -87,7 +87,7 @@ struct Evaluator<'a> {
     inputs: &'a BTreeMap<String, Input>,
     materials: &'a BTreeMap<String, Arc<Material>>,
     report: Report,
-    /// What the step being taken tells besides what it did.
+    /// Further notes of the current step.
     aside: Vec<String>,
 }
 
@@ -108,7 +108,7 @@ fn carry(step: &Step, handedness: Handedness) -> Option<Carry> {
     }
 }
 
-/// What a step did, for the report.
+/// The effect of a step, for the report.
 #[derive(Default)]
 struct Done {
     did: Vec<String>,
@@ -137,7 +137,7 @@ impl From<(Vec<String>, f64)> for Done {
     }
 }
 
-/// How much had been told at a moment.
+/// The length of the report at a moment.
 #[derive(Clone, Copy)]
 struct Mark {
     steps: usize,
@@ -289,7 +289,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Returns the movement after a part where it is kept, and tells what making it told.
+    /// Returns the movement after a part if it is kept, and repeats its report.
     fn kept(&mut self, path: &str, part: &Part) -> Option<Work> {
         let stage = self.kept.as_mut()?.find(self.resolved, path, part)?;
         let told = stage.told(path);

@@ -23,11 +23,11 @@ pub struct Language {
     pub places: BTreeMap<String, [f64; 3]>,
 }
 
-/// A number of body language with where it comes from.
+/// A number of body language with its source.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LanguageValue {
-    /// The number: the median of what was measured, in the unit that [`BodyLanguage::NAMES`] tells.
+    /// The number: the median of the measurements, in the unit in [`BodyLanguage::NAMES`].
     pub value: f64,
     /// Half of what was measured lies between these; nothing for what was not measured itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -40,7 +40,7 @@ pub struct LanguageValue {
 }
 
 impl Language {
-    /// Tells whether everything is as usual.
+    /// Returns whether every number is the usual one.
     #[must_use]
     pub fn is_usual(&self) -> bool {
         self.values.is_empty() && self.places.is_empty()

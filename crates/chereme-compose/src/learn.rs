@@ -11,7 +11,7 @@ use crate::recipe::Profile;
 
 /// How many steps a learned course has.
 const STEPS: usize = 64;
-/// The least that joints must turn altogether for a stretch to tell anything, in radians.
+/// The least total turn of the joints for a stretch to count, in radians.
 const LEAST_TURN: f64 = 0.1;
 
 /// A stretch of captured movement from one posture to another.
@@ -28,11 +28,10 @@ pub struct Stretch<'a> {
 /// Returns the usual course of transitions: shares of the way at equal steps of time, from 0 to 1,
 /// never falling.
 ///
-/// The share of a frame is the one that comes nearest, by least squares over the joints, to how far
-/// they have turned of what they turn from the first frame to the last; turns aside do not count. At
-/// each step the mean of the middle half of all transitions is taken, so that those that overshoot
-/// or wait do not bend the course. Stretches of fewer than three frames, outside of their clip, or
-/// whose joints hardly turn tell nothing; nothing is returned where none is left.
+/// The share of a frame is the best fit, by least squares over the joints, of its turn to the turn from the first
+/// frame to the last; turns aside do not count. Each step takes the mean of the middle half of all transitions, so
+/// that transitions that overshoot or wait do not bend the course. Stretches of fewer than three frames, outside of
+/// their clip, or with joints that hardly turn are left out; without any stretch the result is `None`.
 #[must_use]
 pub fn learn_course<'a>(stretches: impl IntoIterator<Item = Stretch<'a>>) -> Option<Vec<f64>> {
     let mut learner = CourseLearner::default();
@@ -58,7 +57,7 @@ impl Default for CourseLearner {
 }
 
 impl CourseLearner {
-    /// Takes a stretch in; tells whether it told anything.
+    /// Adds a stretch; returns whether it counted.
     pub fn add(&mut self, stretch: &Stretch<'_>) -> bool {
         let Some(shares) = shares(stretch) else {
             return false;

@@ -1,8 +1,8 @@
 //! Recipes to movement: recombination and synthesis of signs.
 //!
-//! A [`Recipe`] says how a sign comes about, as text or as JSON. [`resolve`] asks a corpus, through the
-//! one trait [`Sources`], for everything the recipe needs, and fixes it; [`evaluate`] makes the
-//! movement, what is said about it, and a report on where everything comes from.
+//! A [`Recipe`] describes how to build a sign, as text or as JSON. [`resolve`] asks a corpus, through the one trait
+//! [`Sources`], for everything the recipe needs, and fixes it; [`evaluate`] generates the movement, its
+//! annotations, and a report on the source of every part.
 //!
 //! ```
 //! use chereme_compose::Recipe;

@@ -1,4 +1,4 @@
-//! Values and letters looked up in inventories: what a corpus needs to answer [`Sources`](crate::Sources).
+//! Looks values and letters up in inventories, for a corpus that answers [`Sources`](crate::Sources).
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::Component;
@@ -96,7 +96,7 @@ fn known_letters(alphabet: &Inventory) -> String {
     letters.collect::<Vec<_>>().join(" ")
 }
 
-/// Returns a value with the posture of the configuration it names where it has none of its own.
+/// Returns a value with the posture of the configuration it names if it has no posture of its own.
 fn with_pose(all: &[&Inventory], inventory: &Inventory, value: &InventoryValue) -> Value {
     let own = Value::of(inventory, value);
     if own.meaning.is_some() {

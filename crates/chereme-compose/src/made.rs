@@ -1,4 +1,4 @@
-//! What evaluating a recipe gives: movement, what is said about it, and how it came about.
+//! The result of a recipe: movement, its annotations, and the report.
 
 use chereme_motion::{Clip, Side, Span};
 use chereme_sign::{Component, Handedness, Reading};
@@ -22,7 +22,7 @@ pub struct Made {
     pub signer: Option<String>,
     /// How much there is of each non-manual at each frame.
     pub curves: Vec<Curve>,
-    /// What is said about it.
+    /// The annotations.
     pub notes: Vec<Note>,
     /// How it came about.
     pub report: Report,
@@ -52,13 +52,13 @@ pub struct Note {
     pub origin: String,
 }
 
-/// What a note is about.
+/// The subject of a note.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum About {
     /// The gloss of the sign that the stretch was made from.
     Gloss,
-    /// A component, and the part of it where it is not the whole.
+    /// A component, and its part if the note is not about the whole.
     Component(Component, Option<String>),
     /// Movement synthesised between two pieces or values.
     Transition,
@@ -105,7 +105,7 @@ pub struct Report {
     /// Contacts of the sources that an operator undid, and by how much.
     #[serde(default)]
     pub contacts: Vec<String>,
-    /// What one should know before relying on the result.
+    /// Reasons for caution about the result.
     pub warnings: Vec<String>,
 }
 
@@ -116,14 +116,14 @@ pub struct StepReport {
     pub path: String,
     /// The source or operator as text.
     pub step: String,
-    /// What it did, in a few words.
+    /// The effects, in a few words.
     pub did: Vec<String>,
     /// The largest distance in metres between where a wrist should have come and where it came.
     pub residual: Option<f64>,
     /// The way by which a placement moved the hands: metres to the signer's left, up and forward.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<[f64; 3]>,
-    /// The body language that notation was animated with, where it is not the usual one.
+    /// The body language that notation was animated with, if it is not the usual one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub language: Option<Language>,
     /// Of notation: how near each hand came to what is written.

@@ -14,7 +14,7 @@ use crate::sources::{Example, Material, Meaning, Sources, Value};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HandPose {
-    /// The configuration's value, where it is known.
+    /// The configuration's value, if it is known.
     pub value: Option<String>,
     /// Where the posture comes from.
     pub origin: PoseOrigin,
@@ -45,7 +45,7 @@ pub enum PoseOrigin {
     SameSigner(String),
     /// A sign of another signer.
     OtherSigner(String),
-    /// A sign with a neighbouring value, changed by what tells the two values apart in the inventory.
+    /// A sign with a neighbouring value, changed by the difference between the two values in the inventory.
     Neighbour {
         /// The sign.
         sign: String,
@@ -198,7 +198,7 @@ fn distance(a: &HandAngles, b: &HandAngles) -> f64 {
     (squares.sum::<f64>() / HandAngles::LEN as f64).sqrt()
 }
 
-/// Returns the posture in the middle of where an example shows it; nothing where it has no fingers.
+/// Returns the posture in the middle of an example's span; `None` if the hand has no fingers.
 fn shown(
     sources: &dyn Sources,
     example: &Example,
@@ -244,8 +244,8 @@ fn with_origin(pose: HandPose, example: &Example, setting: &Setting) -> HandPose
     HandPose { origin, ..pose }
 }
 
-/// Returns the postures that a sign holds in turn with `side`, or with the other hand where that
-/// side holds none, or the one in its middle where nothing is said.
+/// Returns the postures that a sign holds in turn with `side`, or with the other hand if that side holds no
+/// posture, or the one in its middle if no hold is annotated.
 fn held_by(material: &Material, side: Side) -> Vec<HandPose> {
     for side in [side, side.other()] {
         let mut held: Vec<_> = material

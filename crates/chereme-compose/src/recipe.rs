@@ -44,7 +44,7 @@ pub enum Node {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pipe {
-    /// What the first operator is applied to; never itself a pipe once normalised.
+    /// The operand of the first operator; never itself a pipe once normalised.
     pub of: Box<Node>,
     /// The operators; at least one once normalised.
     pub steps: Vec<Step>,
@@ -78,13 +78,13 @@ pub struct Transition {
     /// The course of the way; without one the sigmoid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<Profile>,
-    /// The time it takes; without one the operator chooses, from the material where it can.
+    /// The time it takes; by default the operator chooses, from the material if it can.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<Seconds>,
 }
 
 impl Transition {
-    /// Tells whether nothing is asked for.
+    /// Returns whether every setting is the default.
     #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
@@ -313,9 +313,9 @@ pub enum Choice {
     Keep,
     /// A value of an inventory by its name.
     Value(String),
-    /// What another sign has, by its address: `from LION`.
+    /// The value of another sign, by its address: `from LION`.
     From(String),
-    /// What the best answer to a query has: `best(configuration=U signer=same)`.
+    /// The value of the best answer to a query: `best(configuration=U signer=same)`.
     Best(String),
 }
 
@@ -445,7 +445,7 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// Tells whether this is the usual one.
+    /// Returns whether this is the usual one.
     #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
@@ -467,10 +467,10 @@ pub struct Mirror {
 pub struct Repeat {
     /// How often the movement is played, from 1 on.
     pub times: u32,
-    /// What the size of the hands' movement is multiplied by from each repetition to the next.
+    /// The factor for the size of the hands' movement from each repetition to the next.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<Factor>,
-    /// What the speed is multiplied by from each repetition to the next.
+    /// The factor for the speed from each repetition to the next.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tempo: Option<Factor>,
     /// The time between two repetitions, the transition included.
@@ -516,7 +516,7 @@ pub struct Amplify {
     /// The hands whose movement changes, about one middle where both do.
     #[serde(default = "both")]
     pub hand: Hands,
-    /// What distances from the middle of the movement are multiplied by.
+    /// The factor for distances from the middle of the movement.
     pub by: Factor,
 }
 
@@ -527,7 +527,7 @@ pub struct Travel {
     /// The hands that travel.
     #[serde(default = "dominant")]
     pub hand: Hands,
-    /// The ways, one after another; those without a time share what is left by their length.
+    /// The legs, one after another; those without a time share the rest by their length.
     pub path: Vec<Leg>,
     /// The course along each way; without one minimum jerk.
     #[serde(default, skip_serializing_if = "Transition::is_default")]
@@ -601,7 +601,7 @@ pub enum Over {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Indicate {
-    /// The hands that are sent; one that stays still away from the other is left where it is.
+    /// The hands that move; a hand that stays still away from the other keeps its place.
     #[serde(default = "both")]
     pub hand: Hands,
     /// Where the movement starts; without one where it did.

@@ -55,7 +55,7 @@ impl Resolved {
     }
 }
 
-/// What was chosen for each place in a recipe, by its path in the recipe's JSON.
+/// The choices for each place in a recipe, by its path in the recipe's JSON.
 ///
 /// Spans, poses and places are held here as they were, so that better annotation, a better
 /// detector or new recordings never change a sign that was made before.
@@ -63,7 +63,7 @@ impl Resolved {
 #[serde(transparent)]
 pub struct Inputs(pub BTreeMap<String, Input>);
 
-/// What was chosen for one place in a recipe.
+/// The choice for one place in a recipe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Input {
@@ -119,7 +119,7 @@ pub struct MaterialInput {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlaceInput {
-    /// The value, where it is one of an inventory.
+    /// The value, if it belongs to an inventory.
     pub value: Option<String>,
     /// The inventory or sign it comes from.
     pub from: String,
@@ -246,7 +246,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Takes over what was found for a source where it was the same before.
+    /// Uses the earlier answer for a source that has not changed.
     fn source_again(
         &mut self,
         leaf: &Node,
@@ -601,7 +601,7 @@ fn place_of(material: &Material, place: &Place, setting: &Setting) -> Result<Pla
     place_of_sides(material, &shown, place.with)
 }
 
-/// Returns the placement that hands hold all through another sign, where one is told and no other.
+/// Returns the placement that hands hold all through another sign, if it has exactly one.
 fn held_place(material: &Material, sides: &[Side]) -> Option<String> {
     let dominant = material.handedness.dominant();
     let told = material.held.iter().filter(|held| {

@@ -1,4 +1,4 @@
-//! What the evaluator asks of the world outside: the one trait that a corpus implements.
+//! The evaluator's questions to the outside: the one trait that a corpus implements.
 
 use std::sync::Arc;
 
@@ -22,8 +22,8 @@ pub trait Sources {
     /// Returns the movement at an address as written: a gloss, `token:41`, `sign:LIMACE`.
     ///
     /// # Errors
-    /// [`SourceError::Missing`] where nothing has that address, [`SourceError::Ambiguous`] where
-    /// several things have it, [`SourceError::NoMovement`] where a lexicon entry is all there is.
+    /// [`SourceError::Missing`] if nothing has that address, [`SourceError::Ambiguous`] if several things have it,
+    /// [`SourceError::NoMovement`] for a lexicon entry without movement.
     fn material(&self, address: &str) -> Result<Material, SourceError>;
 
     /// Returns a body at rest, for movement that comes from no recording: a frame or more of a
@@ -68,12 +68,11 @@ pub trait Sources {
         })
     }
 
-    /// Returns the body language that notation is animated with: `default`, a file, or, for
-    /// `measured` and where nothing is named, what captured movement shows, the signer's own where
-    /// there is enough of it.
+    /// Returns the body language for animating notation: `default`, a file, or, for `measured` and by default, the
+    /// one measured in captured movement, the signer's own if there is enough of it.
     ///
     /// # Errors
-    /// [`SourceError::Language`] where a file is none; [`SourceError::Unreadable`].
+    /// [`SourceError::Language`] if a file is not a body language; [`SourceError::Unreadable`].
     fn body_language(
         &self,
         _named: Option<&str>,
@@ -135,10 +134,10 @@ pub trait Sources {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LearnedProfile {
-    /// Of wrists from place to place; where there is none that of the fingers stands for it.
+    /// The course of wrists from place to place; without it that of the fingers is used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arms: Option<LearnedCourse>,
-    /// Of fingers from shape to shape; where there is none that of the arms stands for it.
+    /// The course of fingers from shape to shape; without it that of the arms is used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingers: Option<LearnedCourse>,
 }
@@ -157,13 +156,13 @@ pub struct LearnedCourse {
 }
 
 impl LearnedProfile {
-    /// Returns the course of the arms, or the fingers' where there is none.
+    /// Returns the course of the arms, or the fingers' if it is missing.
     #[must_use]
     pub fn of_arms(&self) -> Option<&LearnedCourse> {
         self.arms.as_ref().or(self.fingers.as_ref())
     }
 
-    /// Returns the course of the fingers, or the arms' where there is none.
+    /// Returns the course of the fingers, or the arms' if it is missing.
     #[must_use]
     pub fn of_fingers(&self) -> Option<&LearnedCourse> {
         self.fingers.as_ref().or(self.arms.as_ref())
@@ -192,7 +191,7 @@ pub struct MedianTime {
     pub count: usize,
 }
 
-/// A piece of movement with what is said about it.
+/// A piece of movement with its annotations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Its address without doubt, such as `token:41`.
@@ -251,11 +250,11 @@ pub struct Value {
     pub id: String,
     /// The inventory.
     pub inventory: String,
-    /// What it means, where the inventory says.
+    /// Its meaning, if the inventory gives one.
     pub meaning: Option<Meaning>,
 }
 
-/// What a value means for a body.
+/// The meaning of a value for a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Meaning {
@@ -307,7 +306,7 @@ pub struct Example {
     pub address: String,
     /// Its signer's address, where known.
     pub signer: Option<String>,
-    /// The hand that shows it; nothing where that is not told.
+    /// The hand that shows it; `None` if it is unknown.
     pub hand: Option<Side>,
     /// When, from the start of its movement; nothing for all of it.
     pub span: Option<Span>,
@@ -324,10 +323,10 @@ pub struct Letter {
     /// Where the straight fingers point: left, up, forward for a right hand; nothing for up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingers: Option<[f64; 3]>,
-    /// Where the palm faces, likewise; nothing for forward.
+    /// The direction of the palm, in the same form; `None` for forward.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub palm: Option<[f64; 3]>,
-    /// What the hand draws while it shows the letter; empty for one that is held still.
+    /// The strokes of the hand while it shows the letter; empty for one that is held still.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub strokes: Vec<LetterStroke>,
 }
@@ -414,14 +413,14 @@ pub enum SourceError {
         /// The letters that it has.
         known: String,
     },
-    /// A body language is none.
+    /// The file is not a body language.
     #[error(
         "the body language {name:?} cannot be used: {message}; name default, measured, or a file such as {{\"version\": 1, \"values\": {{\"move.big\": [0.5, \"arm\", \"mine\"]}}}}"
     )]
     Language {
         /// The name as written.
         name: String,
-        /// What is wrong with it.
+        /// The fault.
         message: String,
     },
     /// A query is not understood.
@@ -429,7 +428,7 @@ pub enum SourceError {
     Query {
         /// The query.
         query: String,
-        /// What is wrong with it, and where.
+        /// The fault and its place.
         message: String,
     },
     /// The corpus cannot be read.

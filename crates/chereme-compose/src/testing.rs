@@ -136,8 +136,8 @@ pub(crate) fn skeleton(axes: Axes, size: f64) -> Skeleton {
     Skeleton::new(joints.collect()).expect("a tree")
 }
 
-/// Returns signing movement: both arms bent before the chest, moving in their own ways, fingers
-/// curling and the trunk swaying a little; `seed` tells one movement from another.
+/// Returns signing movement: both arms bent before the chest and moving independently, fingers curling and the
+/// trunk swaying a little; each `seed` gives a different movement.
 pub(crate) fn clip(skeleton: &Arc<Skeleton>, frames: usize, seed: f64) -> Clip {
     let rest = skeleton.rest_model_pose();
     let rate = Rate::new(120, 1).expect("rate");

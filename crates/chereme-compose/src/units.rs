@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// A quantity that cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum UnitError {
-    /// What stands before the unit is no finite number.
+    /// The text before the unit is not a finite number.
     #[error("{text:?} is no number with a unit, such as {example}")]
     Number {
         /// What was written.
@@ -61,7 +61,7 @@ impl Length {
         }
     }
 
-    /// Tells whether the length is nothing, whatever the arm.
+    /// Returns whether the length is zero for every arm.
     #[must_use]
     pub fn is_zero(self) -> bool {
         self.metres(1.0) == 0.0

@@ -1,4 +1,4 @@
-//! Movement while a recipe is being evaluated: a clip taken apart, with what is said about it.
+//! Movement during the evaluation of a recipe: a clip taken apart, with its annotations.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -269,8 +269,8 @@ impl Columns {
 }
 
 impl Work {
-    /// Gives every channel anew: one frame for each entry, at that frame of the old movement or, for
-    /// a fraction, between two; the rate stays.
+    /// Samples every channel again: one frame for each entry, at that frame of the old movement or, for a fraction,
+    /// between two; the rate stays.
     pub(crate) fn sample(&mut self, at: &[f64]) {
         let last = (self.frames - 1) as f64;
         let between = |at: f64| {

@@ -391,7 +391,7 @@ fn index_size(path: &Path) -> i64 {
         .unwrap_or(0)
 }
 
-/// The most memory the process has had, in MB, where the system tells.
+/// The peak memory of the process in MB, if the system reports it.
 fn peak_memory() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

@@ -21,7 +21,7 @@ pub enum Name {
     Text(String),
 }
 
-/// What a text like `token:41` names.
+/// The thing that a text like `token:41` names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Address {
     /// `recording:…`.

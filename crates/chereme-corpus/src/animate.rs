@@ -111,7 +111,7 @@ impl Corpus {
     }
 }
 
-/// Tells that handshapes cannot be seen on a body whose skeleton has no fingers.
+/// Reports that handshapes cannot be seen on a body whose skeleton has no fingers.
 fn without_fingers(anatomy: &Anatomy) -> Option<NotationFinding> {
     let without: Vec<&str> = Side::BOTH
         .into_iter()

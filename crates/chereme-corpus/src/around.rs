@@ -1,4 +1,4 @@
-//! What stands before and after tokens on their tiers.
+//! The annotations before and after tokens on their tiers.
 
 use serde::Serialize;
 
@@ -7,18 +7,18 @@ use crate::db::contents as rows;
 use crate::db::search::begin_reading;
 use crate::error::Result;
 
-/// What stands before and after a token on the tier that it is on.
+/// The annotations before and after a token on its tier.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Around {
     /// The token.
     pub token: i64,
-    /// The annotation that it is; a lexicon entry is none.
+    /// Its annotation; a lexicon entry has no annotation.
     pub annotation: Option<i64>,
     /// The tier of the annotation.
     pub tier: Option<i64>,
-    /// What the annotations before it say, the nearest last; those without a value are left out.
+    /// The values of the annotations before it, the nearest last, without empty ones.
     pub before: Vec<String>,
-    /// What the annotations after it say, the nearest first.
+    /// The values of the annotations after it, the nearest first.
     pub after: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Integrity: what is wrong with a corpus, where, and how to mend it.
+//! Integrity: the faults of a corpus, their places, and how to mend them.
 
 use std::collections::BTreeMap;
 
@@ -60,7 +60,7 @@ impl Corpus {
     /// Looks at everything that can be wrong: the database, references, blocks and their hashes,
     /// skeletons, inventories, notations, tier rules, tokens, history and the search index.
     ///
-    /// With `mend` what is derived (tokens, index) is made anew where it is wrong.
+    /// With `mend`, derived rows (tokens, index) are built again if they are wrong.
     ///
     /// # Errors
     /// Where the database cannot be read at all, or the work is stopped.

@@ -128,7 +128,7 @@ fn put_doubles(bytes: &mut Vec<u8>, values: &[f64]) {
     }
 }
 
-/// A number that is coded: its bytes tell it from every other, so that a nought keeps its sign.
+/// A number that can be coded: its bytes distinguish it from every other, so that a zero keeps its sign.
 trait Plain: Coded + Default {
     fn bytes(self) -> Vec<u8>;
     fn of(bytes: &[u8]) -> Option<Self>;

@@ -1,4 +1,5 @@
-//! What a window shows of a corpus, read at one moment: all of it at a glance, and one recording whole.
+//! The content of a corpus as a window shows it, read at one moment: an overview of everything, and one recording
+//! whole.
 
 use chereme_motion::{Instant, Rate, Span};
 
@@ -56,7 +57,7 @@ pub struct RecordingGlance {
     pub tiers: u64,
     /// How many tokens it has.
     pub tokens: u64,
-    /// How it was made, where it was.
+    /// Its recipe, if it was generated.
     pub recipe: Option<String>,
 }
 
@@ -79,7 +80,7 @@ pub struct SignGlance {
     pub notated: bool,
 }
 
-/// What is said about one recording, at one moment.
+/// The annotations of one recording, at one moment.
 #[derive(Debug, Clone)]
 pub struct Contents {
     /// The moment: [`Corpus::generation`].
@@ -130,7 +131,7 @@ pub enum ValueState {
     /// Nobody has said.
     #[default]
     Unset,
-    /// There is none to have.
+    /// The field does not apply.
     NotApplicable,
     /// It cannot be told.
     Unclear,
@@ -143,7 +144,7 @@ impl AnnotationColumns {
         self.ids.len()
     }
 
-    /// Returns whether there are none.
+    /// Returns whether the list is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.ids.is_empty()
@@ -192,7 +193,7 @@ impl Corpus {
         })
     }
 
-    /// Returns what is said about the recording of that row.
+    /// Returns the annotations of the recording of that row.
     ///
     /// # Errors
     /// Where there is no such recording, or the database fails.

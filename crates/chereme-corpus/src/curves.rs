@@ -21,11 +21,11 @@ use crate::track::{self, NewTrack};
 const DECIMALS: u8 = 6;
 
 impl Corpus {
-    /// Returns the scalar curves at an address, a number for each frame of its movement; none where it
-    /// has none. Made signs have those of their non-manuals, from 0 to 1, by names such as `brows.RB`.
+    /// Returns the scalar curves at an address, a number for each frame of its movement; an empty list if it has no
+    /// curves. Generated signs have those of their non-manuals, from 0 to 1, by names such as `brows.RB`.
     ///
     /// # Errors
-    /// Where nothing has that address, several things have it, or it has no movement.
+    /// Fails if nothing has that address, if several things have it, or if it has no movement.
     pub fn curves_of(&self, address: &Address) -> Result<Vec<Curve>> {
         let connection = self.store.read();
         let stretch = address::stretch(connection, address)?;

@@ -37,9 +37,9 @@ pub struct TokenDetails {
     pub row: TokenRow,
     /// Its values.
     pub values: Vec<TokenValue>,
-    /// How it is written in HamNoSys, where it is.
+    /// Its HamNoSys, if it is notated.
     pub notation: Option<String>,
-    /// The recipe of its recording, where that was made.
+    /// The recipe of its recording, if that was generated.
     pub recipe: Option<String>,
     /// The addresses of what it was made from.
     pub made_from: Vec<String>,
@@ -111,17 +111,16 @@ pub struct RecordingDetails {
     pub tracks: Vec<TrackRow>,
     /// The media files beside it.
     pub media: Vec<MediaPlace>,
-    /// The engine that made it, where it was made.
+    /// The engine that generated it, if it was generated.
     pub engine: Option<String>,
 }
 
-/// Returns a token in HamNoSys, as it was written or as its SiGML is written so; nothing where it is not
-/// notated.
+/// Returns a token in HamNoSys, as written or converted from its SiGML; `None` if it is not notated.
 fn hamnosys(connection: &Connection, token: i64) -> Result<Option<String>> {
     if notations::of_token(connection, token)?.is_none() {
         return Ok(None);
     }
-    // What cannot be read is told by the check of the corpus, and keeps nothing else from being seen.
+    // The check of the corpus reports an unreadable notation; the rest can be seen without it.
     let Ok(notation) = notation::find(connection, &Address::Token(token)) else {
         return Ok(None);
     };
@@ -220,7 +219,7 @@ impl Corpus {
         })
     }
 
-    /// Returns what is known of a recording's movement and files.
+    /// Returns the details of a recording's movement and files.
     ///
     /// # Errors
     /// Where there is no such recording, or the database fails.

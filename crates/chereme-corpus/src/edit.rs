@@ -13,7 +13,7 @@ use crate::inventories;
 use crate::tokens;
 use crate::words::counted;
 
-/// What shall be different about a recording; nothing leaves it as it is.
+/// A change of a recording; a missing field stays as it is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct RecordingChange {
     /// Its name, which no other recording may have.
@@ -28,7 +28,7 @@ pub struct RecordingChange {
     pub notes: Option<Option<String>>,
 }
 
-/// What shall be different about a signer; nothing leaves it as it is.
+/// A change of a signer; a missing field stays as it is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SignerChange {
     /// The name, which no other signer may have.
@@ -39,7 +39,7 @@ pub struct SignerChange {
     pub notes: Option<Option<String>>,
 }
 
-/// What shall be different about a sign; nothing leaves it as it is.
+/// A change of a sign; a missing field stays as it is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SignChange {
     /// Its gloss, which no other sign may have; the annotations that say the old one follow.
@@ -97,8 +97,8 @@ impl Corpus {
         })
     }
 
-    /// Changes a signer; the tokens of the signer's recordings follow where the handedness changes, and
-    /// tiers of which the signer is the participant follow a new name.
+    /// Changes a signer. The tokens of the signer's recordings follow a new handedness, and tiers whose participant
+    /// is the signer follow a new name.
     ///
     /// # Errors
     /// Where the signer is not there, or the name is taken.

@@ -1,4 +1,4 @@
-//! What can go wrong with a corpus, where, and what would be right.
+//! Errors of work on a corpus, with their place and remedy.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ pub enum Error {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// The file is there but is no corpus, or one that this version cannot open.
@@ -35,7 +35,7 @@ pub enum Error {
     Damaged {
         /// The row or block.
         place: String,
-        /// What is wrong with it.
+        /// The fault of the text.
         reason: String,
     },
     /// Words of the caller that mean nothing here.
@@ -51,7 +51,7 @@ pub enum Error {
     /// Several things of one piece of work cannot be done; nothing was changed.
     #[error("{}", several(errors))]
     Several {
-        /// What cannot be done, each with its place.
+        /// The failed changes, each with its place.
         errors: Vec<Error>,
     },
     /// The caller asked to stop; nothing was changed.
@@ -148,7 +148,7 @@ impl Error {
         }
     }
 
-    /// Returns what would be right, where that is known.
+    /// Returns the remedy, if there is one.
     #[must_use]
     pub fn remedy(&self) -> Option<String> {
         match self {
@@ -178,7 +178,7 @@ impl Error {
     }
 }
 
-/// What the system said, in the words of people where it is common.
+/// The error of the system, in plain words if it is common.
 fn said(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "there is nothing of this name".to_owned(),
@@ -223,5 +223,5 @@ fn remedy_of(cause: Cause) -> &'static str {
     }
 }
 
-/// What work on a corpus gives.
+/// The result of work on a corpus.
 pub type Result<T> = std::result::Result<T, Error>;

@@ -1,4 +1,4 @@
-//! What is in a corpus, at a glance.
+//! An overview of a corpus.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -38,7 +38,7 @@ pub struct Info {
     pub signers: Vec<SignerInfo>,
     /// The inventories.
     pub inventories: Vec<InventoryInfo>,
-    /// What tables say of signs beyond their components.
+    /// The properties of signs from tables, besides their components.
     pub attributes: Vec<AttributeInfo>,
     /// What was done last.
     pub last_operation: Option<OperationRow>,
@@ -49,7 +49,7 @@ pub struct Info {
 pub struct SignerInfo {
     /// The name.
     pub name: String,
-    /// The dominant hand, where it is known.
+    /// The dominant hand, if it is known.
     pub handedness: Option<String>,
     /// How many recordings there are.
     pub recordings: u64,

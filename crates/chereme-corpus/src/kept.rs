@@ -55,7 +55,7 @@ impl Corpus {
     /// Gives a kept search another name.
     ///
     /// # Errors
-    /// Where there is none of that name, or the other name is empty or taken.
+    /// Fails if no search has that name, or if the new name is empty or taken.
     pub fn rename_search(&mut self, from: &str, to: &str) -> Result<()> {
         self.store.operation("rename search", |connection| {
             let (id, old) = there(connection, from)?;
@@ -78,7 +78,7 @@ impl Corpus {
     /// Keeps a search no longer, and returns it.
     ///
     /// # Errors
-    /// Where there is none of that name.
+    /// Fails if no search has that name.
     pub fn forget_search(&mut self, name: &str) -> Result<KeptSearch> {
         self.store.operation("forget search", |connection| {
             let (id, search) = there(connection, name)?;
@@ -113,7 +113,7 @@ fn parsed_inside(connection: &Connection, query: &str, inside: usize) -> Result<
             .at(query)
             .advise("keep searches that do not name each other in a circle"));
     }
-    // A name with blanks is understood without quotes where it is the whole query.
+    // A name with blanks is understood without quotes if it is the whole query.
     if let Some(name) = query.trim().strip_prefix('@')
         && let Some((_, search)) = found(connection, name)?
     {

@@ -24,7 +24,7 @@ pub struct Curves {
     pub rate: Rate,
     /// Where the first frame of the recording lies on its clock, in microseconds.
     pub offset_us: i64,
-    /// A number for every frame, or none where the skeleton does not tell.
+    /// A number for every frame, or `None` if the skeleton does not allow one.
     pub kinematics: Kinematics,
     /// The frames at which a wrist is slowest between two strokes, in order, of both hands.
     pub minima: Vec<usize>,

@@ -173,7 +173,7 @@ impl Corpus {
     /// Opens the corpus at `path` for `author` to work with.
     ///
     /// # Errors
-    /// [`Error::File`] where there is no such file, [`Error::NotACorpus`] where it is something else.
+    /// [`Error::File`] if the file does not exist, [`Error::NotACorpus`] if it is another kind of file.
     pub fn open(path: &Path, author: &str) -> Result<Self> {
         Ok(Self {
             store: Store::open(path, author)?,
@@ -193,7 +193,7 @@ impl Corpus {
     /// Takes the newest operation back that stands, and returns the operation that did so.
     ///
     /// # Errors
-    /// Where nothing is left to undo, or a row was changed behind the operation's back.
+    /// Fails if nothing is left to undo, or if another change touched a row of the operation since.
     pub fn undo(&mut self) -> Result<OperationRow> {
         self.undo_told(&mut Progress::new(&mut unheard))
     }
@@ -209,7 +209,7 @@ impl Corpus {
     /// Does the operation again that was undone last, and returns the operation that did so.
     ///
     /// # Errors
-    /// Where nothing is left to redo.
+    /// Fails if nothing is left to redo.
     pub fn redo(&mut self) -> Result<OperationRow> {
         self.redo_told(&mut Progress::new(&mut unheard))
     }

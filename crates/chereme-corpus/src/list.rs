@@ -169,7 +169,7 @@ pub struct ListFilter {
     pub sort: Option<String>,
     /// Whether the greatest comes first.
     pub descending: bool,
-    /// How many rows to list at most; all where nothing is said.
+    /// The most rows to list; all by default.
     pub limit: Option<usize>,
     /// How many rows to leave out before.
     pub offset: usize,
@@ -322,8 +322,8 @@ fn between(pattern: &str) -> Option<Test> {
     Some(Test::Between(least, most))
 }
 
-/// Returns the values of a token by field, such as `initial.right.placement`; a list where there are
-/// several. What is not applicable is `n/a`, what is unclear `unclear`.
+/// Returns the values of a token by field, such as `initial.right.placement`; a list if there are several. A value
+/// that does not apply is `n/a`, an unclear one `unclear`.
 fn components(values: &[TokenValueRow]) -> Value {
     let mut map = Map::new();
     for row in values {

@@ -1,4 +1,4 @@
-//! Media files beside recordings, such as the film of a take: where they are said to lie, and linking them anew.
+//! Media files of recordings, such as the film of a take: their paths, and new links.
 //!
 //! A corpus keeps where a file lies and never the file itself.
 
@@ -11,7 +11,7 @@ use crate::address::{self, Name};
 use crate::db::recordings::{self, MediaTrackRow};
 use crate::error::{Error, Result};
 
-/// What shall become of a recording's media.
+/// A change of a recording's media.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum MediaChange {
     /// A file goes with it, where a path or address says.
@@ -22,12 +22,12 @@ pub enum MediaChange {
     Remove(i64),
 }
 
-/// A media file and where it was looked for.
+/// A media file and its path.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct MediaPlace {
     /// The track.
     pub track: MediaTrackRow,
-    /// Where it lies, else where it was looked for first; nothing for an address on the network.
+    /// Its path, or the first path that was tried; `None` for an address on the network.
     pub path: Option<PathBuf>,
     /// Whether a file is there.
     pub is_there: bool,
@@ -83,8 +83,8 @@ impl Corpus {
         })
     }
 
-    /// Returns the media files of a recording, and whether they are where they are said to be: at that path,
-    /// beside the corpus, or by their names in the corpus's folder.
+    /// Returns the media files of a recording, and whether they were found: at their path, beside the corpus, or by
+    /// their names in the corpus's folder.
     ///
     /// # Errors
     /// Where the recording is not there, or the database fails.
@@ -219,7 +219,7 @@ fn decoded(text: &str) -> String {
     String::from_utf8_lossy(&out).into_owned()
 }
 
-/// Returns the media type that a file's name tells.
+/// Returns the media type for the extension of a file's name.
 fn media_type(url: &str) -> Option<&'static str> {
     let end = url.rsplit('.').next()?.to_ascii_lowercase();
     Some(match end.as_str() {

@@ -515,7 +515,7 @@ impl Track {
     }
 }
 
-/// Measures an anatomy in the first frame that is not odd, where the rest pose is none that a body takes.
+/// Measures an anatomy in the first frame that is not odd, if no body can take the rest pose.
 pub(crate) fn standing(anatomy: Anatomy, head: &Clip) -> Anatomy {
     if anatomy.is_posed() || head.frames() == 0 {
         return anatomy;

@@ -16,7 +16,7 @@ use crate::db::notations::{self, NotationRow};
 use crate::db::{damaged, signs};
 use crate::error::{Error, Result};
 
-/// How much of a file is looked at to tell what it is, in bytes.
+/// The most bytes of a file that are read to recognise its kind.
 const LOOKED_AT: u64 = 1 << 16;
 /// The longest file of notation that is read from beside a corpus, in bytes.
 const MOST_BYTES: u64 = 1 << 26;
@@ -32,7 +32,7 @@ pub struct Notation {
     pub file: Option<String>,
     /// The line of the file on which it starts, from 1.
     pub line: Option<i64>,
-    /// The HamNoSys text as it was written, where it is HamNoSys.
+    /// The HamNoSys text as it was written, if it is HamNoSys.
     pub text: Option<String>,
     /// What hands, face and body do, and what the file said beside it.
     pub document: Notated,
@@ -103,7 +103,7 @@ pub(crate) fn find(connection: &Connection, address: &Address) -> Result<Notatio
         .advise("import a SiGML file or a HamNoSys lexicon that holds the sign, or `chereme transcribe CORPUS SIGN --store`"))
 }
 
-/// Returns the notation of a token, where it has one.
+/// Returns the notation of a token, if it has one.
 pub(crate) fn of_token(connection: &Connection, token: i64) -> Result<Option<Notation>> {
     let row = notations::of_token(connection, token)?;
     row.map(read).transpose()
@@ -172,7 +172,7 @@ impl Form {
 fn beginning(path: &Path) -> Vec<u8> {
     let mut bytes = Vec::new();
     if let Ok(file) = File::open(path) {
-        // What cannot be read is told by those who read all of it.
+        // Whoever reads the whole file reports a failure to read.
         let _ = file.take(LOOKED_AT).read_to_end(&mut bytes);
     }
     bytes

@@ -6,8 +6,8 @@ use std::path::{MAIN_SEPARATOR, Path};
 /// Folders with more entries than this are completed from the first of them.
 const MOST: usize = 5000;
 
-/// Returns the files and folders that a typed path may become, folders first and ending in a separator;
-/// hidden ones only where a dot is typed. What cannot be read has none.
+/// Returns the files and folders that a typed path may become, folders first and ending in a separator; hidden ones
+/// only after a dot. An unreadable folder gives an empty list.
 #[must_use]
 pub fn paths_like(typed: &str) -> Vec<String> {
     let (folder, start) = match typed.rfind(['/', MAIN_SEPARATOR]) {

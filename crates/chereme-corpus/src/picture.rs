@@ -38,7 +38,7 @@ const FILM_RATE: u32 = 25;
 /// A stretch longer than this is drawn only in part.
 const LONGEST: i64 = 120_000_000;
 
-/// What the symbols of HamNoSys are called beside the inventories.
+/// The name of the symbols of HamNoSys among the inventories.
 const SYMBOLS: &str = "hamnosys";
 /// What the faces of SiGML's non-manuals are called beside the inventories.
 const FACES: &str = "faces";
@@ -49,12 +49,12 @@ const HEIGHT: usize = 260;
 /// How high a symbol of notation is drawn, in pixels of a picture that can be shown at any size.
 const SYMBOL: f32 = 64.0;
 
-/// What a picture should show.
+/// The content of a picture.
 #[derive(Debug, Clone)]
 pub struct PictureOptions {
     /// How many pictures stand side by side on a contact sheet.
     pub frames: usize,
-    /// Whether the contact sheet shows the hands from close by, and the face where it does something.
+    /// Whether the contact sheet shows the hands from close by, and the face if it is active.
     pub hands: bool,
     /// How high one picture is, in pixels; without a number 260 for movement, 540 for a film, 128 for a handshape, 160
     /// for a face.
@@ -97,7 +97,7 @@ pub struct Picture {
     /// The body on which notation was animated, where the sign has no movement of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub animated_on: Option<String>,
-    /// Whether the notation that is drawn was told from the movement, none being stored.
+    /// Whether the drawn notation was transcribed from the movement because no other is stored.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub transcribed: bool,
 }
@@ -105,13 +105,13 @@ pub struct Picture {
 /// A piece of movement with what is needed to look at it.
 #[derive(Debug, Clone)]
 pub struct Moving {
-    /// Where it is in the corpus.
+    /// Its stretch of a recording.
     pub stretch: Stretch,
     /// The movement in metres and model space.
     pub clip: Clip,
     /// Which joint is what.
     pub anatomy: Anatomy,
-    /// What the face does in each frame, where curves of non-manuals tell it; else none.
+    /// The face in each frame, if curves of non-manuals give it; else empty.
     pub faces: Vec<Face>,
 }
 
@@ -122,7 +122,7 @@ pub struct Performance<'a> {
     pub clip: &'a Clip,
     /// Which joint is what.
     pub anatomy: &'a Anatomy,
-    /// What the face does in each frame; frames beyond them have it at rest.
+    /// The face in each frame; at rest in frames beyond them.
     pub faces: &'a [Face],
 }
 
@@ -159,7 +159,7 @@ impl Corpus {
     /// Returns the movement at an address: a token's span, a recording, a sign's citation form.
     ///
     /// # Errors
-    /// Where nothing has that address, several things have it, or it has no movement.
+    /// Fails if nothing has that address, if several things have it, or if it has no movement.
     pub fn movement(&self, address: &Address) -> Result<Moving> {
         self.movement_in(address, None, &ChannelGroup::ALL)
     }
@@ -311,7 +311,7 @@ impl Corpus {
         Ok(spans.collect())
     }
 
-    /// Draws the symbols of a notation to an SVG: what is stored, or else what the movement is transcribed as.
+    /// Draws the symbols of a notation to an SVG: the stored notation, or else a transcription of the movement.
     fn draw_symbols(
         &self,
         address: &Address,
@@ -362,8 +362,8 @@ impl Corpus {
     }
 
     /// Draws handshapes to a PNG: one value, or all values of an inventory that have a posture. The symbols of
-    /// HamNoSys, as the inventory `hamnosys`, are drawn to an SVG; what faces do for the non-manuals of SiGML, as
-    /// the inventory `faces`, to a PNG.
+    /// HamNoSys, as the inventory `hamnosys`, are drawn to an SVG; faces for the non-manuals of SiGML, as the
+    /// inventory `faces`, to a PNG.
     ///
     /// # Errors
     /// Where no inventory is called so, or it has no handshape of that name.
@@ -638,7 +638,7 @@ fn extension(path: &Path) -> String {
         .unwrap_or_default()
 }
 
-/// Returns what is told of a picture of stored movement or of an inventory.
+/// Returns the report of a picture of stored movement or of an inventory.
 fn told(to: &Path, title: &str, bytes: u64, frames: usize) -> Picture {
     Picture {
         path: to.to_owned(),

@@ -1,4 +1,4 @@
-//! How long work tells where it is, and hears that it should stop.
+//! How long work reports its progress, and receives the request to stop.
 
 use std::ops::ControlFlow;
 
@@ -7,11 +7,11 @@ use crate::error::{Error, Result};
 /// Where long work is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step<'a> {
-    /// What is being done, such as a file's name.
+    /// The current task, such as a file's name.
     pub task: &'a str,
     /// How much of it is done.
     pub done: u64,
-    /// How much there is, where that is known.
+    /// The total amount, if it is known.
     pub total: Option<u64>,
     /// What is counted.
     pub unit: Unit,
@@ -32,12 +32,12 @@ pub enum Unit {
 pub struct Progress<'a>(&'a mut dyn FnMut(Step<'_>) -> ControlFlow<()>);
 
 impl<'a> Progress<'a> {
-    /// Returns progress that is told to `hear`.
+    /// Returns progress that calls `hear` at each step.
     pub fn new(hear: &'a mut dyn FnMut(Step<'_>) -> ControlFlow<()>) -> Self {
         Self(hear)
     }
 
-    /// Tells where the work is.
+    /// Reports a step.
     ///
     /// # Errors
     /// [`Error::Stopped`] where the listener says so.

@@ -48,20 +48,20 @@ pub struct Recombination {
     pub recipe: String,
     /// The gloss of the new sign.
     pub gloss: String,
-    /// The token's row; nothing where nothing was stored.
+    /// The token's row; `None` if nothing was stored.
     pub token: Option<i64>,
-    /// The recording's row; nothing where nothing was stored.
+    /// The recording's row; `None` if nothing was stored.
     pub recording: Option<i64>,
     /// The name of the recording.
     pub name: Option<String>,
     /// How long it lasts, in microseconds.
     pub duration_us: i64,
-    /// What is said about it, by time: the signs it was made of, component values, strokes, holds and
-    /// transitions. Where it is stored these are its annotations.
+    /// Its description by time: the signs it was built from, component values, strokes, holds and transitions. In a
+    /// stored sign these are its annotations.
     pub notes: Vec<TimedNote>,
     /// The names of its scalar curves, such as those of non-manuals.
     pub curves: Vec<String>,
-    /// What was odd about the notation that it was made of.
+    /// Findings about the notation that it was generated from.
     pub findings: Vec<NotationFinding>,
     /// What making it told.
     pub report: Report,
@@ -71,7 +71,7 @@ pub struct Recombination {
     /// The movement.
     #[serde(skip)]
     pub clip: Clip,
-    /// What the face does in each frame, where non-manuals tell it; else none.
+    /// The face in each frame, if non-manuals give it; else empty.
     #[serde(skip)]
     pub faces: Vec<Face>,
     /// Which joint of it is what.
@@ -90,24 +90,24 @@ pub struct Recombination {
 pub struct TimedNote {
     /// `sign`, `transition`, or a component such as `movement`.
     pub about: &'static str,
-    /// The part of the component: `phase` of movement tells strokes and holds.
+    /// The part of the component: `phase` of movement distinguishes strokes and holds.
     pub feature: Option<String>,
     /// The hand; nothing for signs and non-manuals.
     pub hand: Option<Side>,
-    /// The gloss, or the component's value; nothing where nothing is told.
+    /// The gloss, or the component's value; `None` if it is unknown.
     pub value: Option<String>,
     /// When it starts, in microseconds from the first frame.
     pub start_us: i64,
     /// The first microsecond after it.
     pub end_us: i64,
-    /// Where the movement comes from; of notation with what is done, such as `arc o`.
+    /// The source of the movement; for notation with the action, such as `arc o`.
     pub from: String,
 }
 
 /// Something odd about notation, which was made into movement in spite of it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct NotationFinding {
-    /// The file, where it is about one.
+    /// The file, if the finding is about one.
     pub file: Option<String>,
     /// The line of the file, from 1.
     pub line: Option<u64>,
@@ -115,7 +115,7 @@ pub struct NotationFinding {
     pub symbol: Option<usize>,
     /// What is odd.
     pub message: String,
-    /// What would be right, where something can be done.
+    /// The remedy, if there is one.
     pub remedy: Option<String>,
 }
 
@@ -139,14 +139,13 @@ impl Corpus {
     /// Makes the movement of a recipe without storing anything.
     ///
     /// # Errors
-    /// Where the recipe is none, or cannot be made: which step, why, and what would work.
+    /// Fails if the recipe is invalid or cannot be evaluated; the error names the step, the reason and the remedy.
     pub fn preview(&mut self, recipe: &str) -> Result<Recombination> {
         let (_, made, recipe) = self.make(recipe)?;
         Ok(recombination(&recipe, String::new(), made))
     }
 
-    /// Makes the movement of a recipe and stores it as a sign with this gloss: its movement, its
-    /// tiers, and where it comes from.
+    /// Evaluates a recipe and stores its movement as a sign with this gloss, with its tiers and its sources.
     ///
     /// # Errors
     /// As [`preview`](Self::preview); nothing half-made is stored.
@@ -439,8 +438,8 @@ fn store_tiers(
     store_notes(connection, recording, made, inventories)
 }
 
-/// Writes what was told of made movement below the tiers that are there; one of the same name is
-/// used again, and what it says already stays.
+/// Writes the notes of generated movement below the existing tiers; a tier of the same name is used again, and its
+/// annotations stay.
 fn store_notes(
     connection: &Connection,
     recording: i64,
@@ -588,7 +587,7 @@ fn recipe_row(
     })
 }
 
-/// The tier that says of which source each stretch of a made sign is.
+/// The tier that names the source of each stretch of a generated sign.
 pub(crate) const SOURCE: &str = "Source";
 
 /// Returns the version of the program and of what makes movement in it.

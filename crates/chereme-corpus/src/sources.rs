@@ -1,4 +1,4 @@
-//! What recipes ask of the world, answered from the rows.
+//! The answers to the questions of recipes, read from the rows.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -46,12 +46,12 @@ pub(crate) struct CorpusSources<'a> {
     pub(crate) learned: &'a RefCell<Learned>,
 }
 
-/// What was learned from a corpus, kept until something in it changes.
+/// The numbers learned from a corpus, kept until something in it changes.
 #[derive(Default)]
 pub(crate) struct Learned {
     /// The newest operation when it was learned, and what it was.
     profile: Option<(Option<i64>, Option<LearnedProfile>)>,
-    /// Likewise of body language.
+    /// The same for body language.
     samples: Option<(Option<i64>, Samples)>,
 }
 
@@ -100,7 +100,7 @@ impl<'a> CorpusSources<'a> {
         Ok(material)
     }
 
-    /// What the component tiers say about a stretch, counted from its first frame.
+    /// The values on the component tiers over a stretch, counted from its first frame.
     fn held(&self, stretch: &Stretch, handedness: Handedness) -> Result<Vec<Held>> {
         let mut held = Vec::new();
         let (start, end) = (stretch.span.start().micros(), stretch.span.end().micros());
@@ -190,7 +190,7 @@ pub(crate) fn standing(connection: &Connection, recording: RecordingRow) -> Resu
     movement(connection, &track, &stretch)
 }
 
-/// The movement of a stretch, without what is said about it.
+/// The movement of a stretch, without its annotations.
 fn movement(connection: &Connection, track: &Track, stretch: &Stretch) -> Result<Material> {
     let frames = track.frames_in(stretch.span);
     let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
@@ -270,7 +270,7 @@ impl Sources for CorpusSources<'_> {
         };
         let find = || -> Result<Option<Material>> {
             let mut recordings = recordings::recordings(self.connection)?;
-            // What was made has a body that comes from elsewhere, and may be made anew on another.
+            // Generated movement has a body from elsewhere, and may be generated again on another.
             recordings.retain(|row| match wanted {
                 Some(signer) => row.signer_id == Some(signer),
                 None => row.origin != "made",

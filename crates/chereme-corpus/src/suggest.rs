@@ -1,4 +1,4 @@
-//! What could be made from a sign: partners that differ in one component, and values that none has.
+//! Suggestions of new signs: partners that differ in one component, and values that no sign has.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,14 +12,14 @@ use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::error::{Error, Result};
 use crate::inventories;
 
-/// What could be made from a sign.
+/// Suggestions from a sign.
 #[derive(Debug, Clone, Serialize)]
 pub struct Suggestions {
     /// The token.
     pub token: i64,
     /// Its gloss.
     pub gloss: String,
-    /// What it is coded as, by field.
+    /// Its coding, by field.
     pub coding: BTreeMap<String, String>,
     /// Minimal pairs: signs coded for the same fields, and alike in all but one of them.
     pub partners: Vec<Partner>,
@@ -41,9 +41,9 @@ pub struct Partner {
     pub origin: String,
     /// The field in which they differ.
     pub field: String,
-    /// What the first sign has there.
+    /// The value of the first sign.
     pub from: String,
-    /// What this one has there.
+    /// The value of this sign.
     pub to: String,
     /// How many fields are equal.
     pub equal: usize,
@@ -69,7 +69,7 @@ impl Corpus {
     /// such a sign is a possible partner.
     ///
     /// # Errors
-    /// Where nothing has that address, or the token has no coding.
+    /// Fails if nothing has that address, or if the token has no coding.
     pub fn suggest(&self, address: &Address) -> Result<Suggestions> {
         let connection = self.store.read();
         let token = address::token(connection, address)?;

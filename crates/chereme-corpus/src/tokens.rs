@@ -16,10 +16,10 @@ use crate::progress::{Progress, Step, Unit, unheard};
 
 /// Brings the tokens of a recording to what its tiers say; those that stay keep their rows.
 ///
-/// Each annotation of a gloss tier with a value is a token. What the component tiers say of it are its
-/// values, but for phases of movement: preparation, stroke and retraction cut up time. With `window` only the tokens near that
-/// time are looked at: enough after a change inside it. Values become the ids that the tiers'
-/// inventories have for them.
+/// Each annotation of a gloss tier with a value is a token. The values of the component tiers during it are its
+/// values, except phases of movement: preparation, stroke and retraction divide time. With `window` only the tokens
+/// near that time are derived: enough after a change inside it. Values become the ids that the tiers' inventories
+/// have for them.
 pub(crate) fn derive(
     connection: &Connection,
     recording: i64,
@@ -128,7 +128,7 @@ struct Gloss {
     participant: Option<String>,
 }
 
-/// What the tiers of a recording say, by time.
+/// The annotations on the tiers of a recording, by time.
 struct Said {
     handedness: Handedness,
     /// That of the participants of tiers who are signers.
@@ -137,7 +137,7 @@ struct Said {
     components: Vec<Coded>,
     /// The components of each gloss, by the row of its annotation.
     owned: BTreeMap<i64, Vec<usize>>,
-    /// The glosses that touch this are to be read; the others are there to tell whose a component is.
+    /// The glosses that touch this span are read; the others only decide to whom a component belongs.
     within: Option<Span>,
 }
 
@@ -277,8 +277,8 @@ impl Said {
             .collect()
     }
 
-    /// Gives each component to the gloss that it belongs to, among those of each hand of each participant; what
-    /// is said of one participant belongs to no gloss of another.
+    /// Gives each component to the gloss that it belongs to, among those of each hand of each participant; the
+    /// components of one participant never belong to a gloss of another.
     fn give(&mut self, progress: &mut Progress<'_>) -> Result<()> {
         type Whose<'g> = (Option<&'g str>, Option<&'g str>);
         let mut hands: BTreeMap<Whose<'_>, Vec<&Gloss>> = BTreeMap::new();

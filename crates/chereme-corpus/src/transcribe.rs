@@ -41,11 +41,11 @@ pub struct Transcribed {
     pub symbols: Vec<&'static str>,
     /// The notation's tree.
     pub sign: Sign,
-    /// The posture at the beginning and what is done after it, each with its time.
+    /// The posture at the beginning and the actions after it, each with its time.
     pub stages: Vec<TranscribedStage>,
-    /// What was told, in the order of the notation.
+    /// The features found, in the order of the notation.
     pub features: Vec<TranscribedFeature>,
-    /// What could not be told, and what HamNoSys has no symbols for.
+    /// Findings: features without a reading, and those that HamNoSys has no symbols for.
     pub findings: Vec<String>,
 }
 
@@ -71,7 +71,7 @@ pub struct TranscribedStage {
 pub struct TranscribedFeature {
     /// What it is about: `handshape`, `palm`, `location`...
     pub feature: FeatureKind,
-    /// The hand, where it is about one.
+    /// The hand, if the feature has one.
     pub hand: Option<Side>,
     /// The number of the action it belongs to, from 1; nothing for the posture at the beginning.
     pub action: Option<usize>,
@@ -86,7 +86,7 @@ pub struct TranscribedFeature {
     pub value: TranscribedValue,
     /// `deg`, `cm` or `share`.
     pub unit: chereme_analysis::transcribe::Unit,
-    /// What would have come next, its residual in the same unit.
+    /// The second best reading, with its residual in the same unit.
     pub runner_up: Option<TranscribedValue>,
 }
 
@@ -95,7 +95,7 @@ pub struct TranscribedFeature {
 pub struct TranscribedValue {
     /// In words.
     pub value: String,
-    /// As HamNoSys; empty where it is told by writing nothing.
+    /// As HamNoSys; empty if the reading has no symbol.
     pub hamnosys: String,
     /// The names of the symbols.
     pub symbols: Vec<&'static str>,
@@ -106,8 +106,8 @@ pub struct TranscribedValue {
 impl Corpus {
     /// Writes a token, or another short piece of movement, in HamNoSys.
     ///
-    /// Only the frames of the token are read, so a long recording costs no more than a short one. What was made of
-    /// notation alone, by this version of the animator, is proven by making it again.
+    /// Only the frames of the token are read, so a long recording costs no more than a short one. Movement
+    /// generated from notation alone, by this version of the animator, is verified by re-synthesis.
     ///
     /// # Errors
     /// Where the address names no movement, one longer than a minute, or a skeleton without arms; where `progress`
@@ -238,7 +238,7 @@ impl Corpus {
         Ok(written)
     }
 
-    /// Returns the signer's dominant hand: the right one where nothing is known.
+    /// Returns the signer's dominant hand: the right one if it is unknown.
     fn dominant(&self, stretch: &Stretch) -> Result<Side> {
         let signer = match stretch.recording.signer_id {
             Some(id) => recordings::signer(self.store.read(), id)?,

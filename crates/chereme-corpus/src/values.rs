@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
 use crate::tokens;
 
-/// What became of values that were merged.
+/// The result of a merge of values.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct MergedValues {
     /// The value that is left.

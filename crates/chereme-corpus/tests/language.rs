@@ -1,5 +1,5 @@
-//! Body language measured in captured signs: what was signed with known sizes and times is found again,
-//! takes the place of the usual numbers, and is told.
+//! Body language measured in captured signs: known sizes and times are found again, replace the usual numbers, and
+//! are reported.
 
 use std::fs;
 use std::path::Path;

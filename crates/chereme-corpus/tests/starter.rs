@@ -165,7 +165,7 @@ fn the_animator_makes_what_is_written_and_nothing_jumps() {
     let mut pulled = Vec::new();
     for (take, made) in MADE.iter() {
         let clip = &made.clip;
-        // Wrists go no farther than wrists go; some letters point where that is not far enough.
+        // Wrists have limits; some letters point beyond them.
         let missed = |warning: &&String| !warning.contains("turned up to");
         let warnings: Vec<&String> = made.report.warnings.iter().filter(missed).collect();
         assert!(warnings.is_empty(), "{}: {warnings:?}", take.stem);

@@ -63,7 +63,7 @@ fn what_is_transcribed_can_be_kept_and_taken_back() {
     assert!(corpus.notation(&sign).is_err());
 }
 
-/// Signs whose hands are not where they are meant to be: led out of the trunk, or by a part that looks away from it.
+/// Signs whose hands miss their place: led out of the trunk, or by a part that faces away from it.
 const LED_AWAY: [&str; 3] = [
     "hamfist hamextfingerul hampalmr hamneck hamtouch",
     "hamfinger2 hamextfingerul hampalmd hamneck hamtouch",
@@ -94,7 +94,7 @@ fn so_it_is_on_a_body_whose_rest_pose_nobody_takes() {
     told_where_they_are_led_away(corpus);
 }
 
-/// Makes a sign, stored as S and its number, and returns what was written and what is told of it.
+/// Generates a sign, stored as S and its number, and returns its notation and its transcription.
 fn there_and_back(corpus: &mut Corpus, n: usize, names: &str) -> (Sign, Transcribed) {
     let text = from_names(names.split(' ')).expect("names of symbols");
     let written = parse(&text).expect("HamNoSys").sign;
@@ -106,7 +106,7 @@ fn there_and_back(corpus: &mut Corpus, n: usize, names: &str) -> (Sign, Transcri
     (written, told.expect("told"))
 }
 
-/// Makes each of those signs on the body that the corpus chooses, and looks at what is told of it.
+/// Generates each of those signs on the body that the corpus chooses, and checks its transcription.
 fn told_where_they_are_led_away(mut corpus: Corpus) {
     for (n, names) in LED_AWAY.into_iter().enumerate() {
         let (written, told) = there_and_back(&mut corpus, n, names);
@@ -128,7 +128,7 @@ fn told_where_they_are_led_away(mut corpus: Corpus) {
     }
 }
 
-/// Signs of which the places alone tell something else: one is written at no place, of two hands one is held.
+/// Signs whose places alone would be read differently: one is written without a place, and in one a hand is held.
 const BEGINNINGS: [&str; 2] = [
     "hamflathand hamextfingero hampalmd hammovel",
     "hamsymmlr hamfinger2 hamthumbacrossmod hamextfingeruo hampalml hamchest hamparbegin hammovel hamsmallmod hamplus \
@@ -251,7 +251,7 @@ fn a_component_that_is_not_coded_is_proposed_from_movement_and_a_stop_leaves_the
     assert!(proposed.annotations >= 1);
     assert_eq!(proposed.recordings, ["bol"]);
     assert_eq!(count(&mut corpus), 1);
-    // What has a value is not read again.
+    // A field with a value is not read again.
     let again = corpus
         .propose_coding(Component::Configuration, &mut progress)
         .expect("proposed");

@@ -1,8 +1,9 @@
 //! Reading and writing BVH beside `bvh_anim` and beside the standard library's own number parser.
 //!
-//! The recording is made here: 75 joints, 228 channels, 120 frames per second, sums of sinusoids of 0.2 to 6 Hz with a
-//! little noise, written with six digits after the point as most exporters do. After divan's table come the ratios:
-//! sums over runs taken in turns, by processor time where the system tells it, so that a busy machine misleads less.
+//! The recording is generated here: 75 joints, 228 channels, 120 frames per second, sums of sinusoids of 0.2 to 6
+//! Hz with a little noise, written with six digits after the point as most exporters do. After divan's table come
+//! the ratios: sums over runs taken in turns, by processor time if the system reports it, so that a busy machine
+//! misleads less.
 
 #![allow(clippy::print_stdout, reason = "the ratios are the bench's result")]
 
@@ -145,7 +146,7 @@ fn print_ratios() {
     );
 }
 
-/// Returns the seconds of one run, the mean of many: the system tells processor time in steps of milliseconds.
+/// Returns the seconds of one run, the mean of many: the system counts processor time in steps of milliseconds.
 fn time(runs: usize, run: impl Fn() -> usize) -> f64 {
     let (start, before) = (Instant::now(), processor_seconds());
     for _ in 0..runs {
@@ -158,7 +159,7 @@ fn time(runs: usize, run: impl Fn() -> usize) -> f64 {
     all / runs as f64
 }
 
-/// Returns how long this thread has run, as Linux tells it.
+/// Returns the running time of this thread, as Linux reports it.
 fn processor_seconds() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     Some(text.split(' ').next()?.parse::<f64>().ok()? / 1e9)

@@ -1,4 +1,4 @@
-//! What the BVH reader answers to odd, broken and hostile text.
+//! The answers of the BVH reader to odd, broken and hostile text.
 
 #![allow(
     clippy::unwrap_used,

@@ -210,7 +210,7 @@ fn clips_turn_back_into_columns_that_turn_alike() {
     for path in files() {
         let first = read(&fs::read(&path).unwrap(), 256);
         let clip = clip_of(&first);
-        // Where the root's columns lie otherwise than the header says, the way back is by the header.
+        // If the root's columns have another order than the header says, the header gives the order to write.
         assert_eq!(
             convert::widened(&first.hierarchy, &clip),
             first.hierarchy,

@@ -1,4 +1,4 @@
-//! EAF files: what is read, what is found odd, what is refused, and that all comes back.
+//! EAF files: values read, findings, refusals, and round trips.
 
 use chereme_formats::eaf::raw::{self, Anchor, Document};
 use chereme_formats::eaf::{Error, Transcript, from_raw, read, to_raw};

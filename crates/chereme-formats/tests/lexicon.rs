@@ -1,4 +1,4 @@
-//! Lexicon tables: what columns and cells mean, what is odd, and that all comes back.
+//! Lexicon tables: the meaning of columns and cells, findings, and round trips.
 
 use chereme_formats::lexicon::{self, Lexicon, Meaning};
 use chereme_formats::roles::Mapping;

@@ -1,4 +1,4 @@
-//! What tiers are taken for.
+//! The guesses of tiers' roles.
 
 use chereme_formats::roles::{Mapping, TierName, guess_roles};
 

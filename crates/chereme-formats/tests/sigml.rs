@@ -1,4 +1,4 @@
-//! SiGML files: what is read, what is found odd, what is refused, and that all comes back.
+//! SiGML files: values read, findings, refusals, and round trips.
 
 use chereme_formats::sigml::{self, Error};
 use chereme_sign::hamnosys::{

@@ -27,7 +27,7 @@ pub struct Clip {
     channels: Vec<Channel>,
 }
 
-/// What keeps channels from being a clip.
+/// Why channels do not form a clip.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ClipError {
     /// There is not one channel a joint.

@@ -1,4 +1,4 @@
-//! What a face does, as a few numbers, whatever face it is.
+//! The activity of a face as a few numbers, whatever face it is.
 
 use serde::{Deserialize, Serialize};
 
@@ -143,7 +143,7 @@ impl Face {
         copy.all().map(|number| *number)
     }
 
-    /// Adds so much of another face; what is then beyond its end stays at the end.
+    /// Adds a share of another face; a field beyond its range stays at the end of it.
     ///
     /// ```
     /// use chereme_motion::Face;
@@ -168,13 +168,13 @@ impl Face {
         face
     }
 
-    /// Returns the face at a moment of a clip, of which `faces` are those of its frames; nothing beyond them.
+    /// Returns the face at a moment of a clip whose frames have `faces`; `None` beyond them.
     #[must_use]
     pub fn at(faces: &[Self], rate: Rate, moment: Instant) -> Option<Self> {
         faces.get(rate.frame_at(moment)).copied()
     }
 
-    /// Tells whether nothing in it differs from rest.
+    /// Returns whether every field is at rest.
     #[must_use]
     pub fn is_at_rest(&self) -> bool {
         *self == Self::default()

@@ -38,7 +38,7 @@ impl ModelPose {
         model
     }
 
-    /// Replaces this posture by `pose` in model space without allocating anew.
+    /// Replaces this posture by `pose` in model space without a new allocation.
     ///
     /// # Panics
     /// Where `pose` has another number of joints than `skeleton`.
@@ -102,7 +102,7 @@ impl ModelPose {
         self.positions[joint] + self.rotations[joint] * local
     }
 
-    /// Returns the end of `joint`'s bone where it has a tip.
+    /// Returns the end of `joint`'s bone if it has a tip.
     #[must_use]
     pub fn tip(&self, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
         skeleton.joint(joint).tip.map(|tip| self.point(joint, tip))

@@ -51,7 +51,7 @@ pub struct Skeleton {
     children: Vec<Vec<usize>>,
 }
 
-/// What keeps joints from being a skeleton.
+/// Why joints do not form a skeleton.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SkeletonError {
     /// There is no joint at all.

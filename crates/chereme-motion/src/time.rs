@@ -155,19 +155,19 @@ impl Span {
         self.micros() as f64 / 1e6
     }
 
-    /// Tells whether the span holds no instant.
+    /// Returns whether the span holds no instant.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.start == self.end
     }
 
-    /// Tells whether `instant` lies in the span.
+    /// Returns whether `instant` lies in the span.
     #[must_use]
     pub fn contains(self, instant: Instant) -> bool {
         self.start <= instant && instant < self.end
     }
 
-    /// Tells whether `other` lies wholly in the span.
+    /// Returns whether `other` lies wholly in the span.
     #[must_use]
     pub fn covers(self, other: Self) -> bool {
         self.start <= other.start && other.end <= self.end
@@ -180,7 +180,7 @@ impl Span {
         (start < end).then_some(Self { start, end })
     }
 
-    /// Tells whether the spans share an instant.
+    /// Returns whether the spans share an instant.
     #[must_use]
     pub fn overlaps(self, other: Self) -> bool {
         self.intersection(other).is_some()

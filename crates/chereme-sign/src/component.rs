@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// One of the five kinds of thing that tell one sign from another.
+/// One of the five kinds of property that distinguish signs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Component {
@@ -17,7 +17,7 @@ pub enum Component {
     Movement,
     /// Where the palm and the fingers point.
     Orientation,
-    /// What the face, head, shoulders and body do.
+    /// The activity of face, head, shoulders and body.
     NonManual,
 }
 
@@ -49,7 +49,7 @@ impl Component {
         }
     }
 
-    /// Tells whether the component belongs to a hand; only the non-manual one does not.
+    /// Returns whether the component belongs to a hand; only the non-manual one does not.
     #[must_use]
     pub fn is_manual(self) -> bool {
         self != Self::NonManual
@@ -434,7 +434,7 @@ impl FieldError {
     }
 }
 
-/// What is known of a component: a value, or one of three different ways of having none.
+/// The state of a component: a value, or one of three different kinds of missing value.
 ///
 /// Two readings are the same value only when both are [`Value`](Self::Value); see
 /// [`same_value`](Self::same_value).
@@ -448,7 +448,7 @@ pub enum Reading {
     Unset,
     /// There is nothing to code, such as the weak hand of a one-handed sign.
     NotApplicable,
-    /// Somebody looked and could not tell.
+    /// Somebody looked and could not decide.
     Unclear,
 }
 
@@ -462,7 +462,7 @@ impl Reading {
         }
     }
 
-    /// Tells whether both readings are values and equal; two missing readings are never the same.
+    /// Returns whether both readings are values and equal; two missing readings are never the same.
     #[must_use]
     pub fn same_value(&self, other: &Self) -> bool {
         self.value().is_some() && self.value() == other.value()

@@ -33,9 +33,9 @@ pub struct Inventory {
     pub version: u32,
     /// The sign language it was made for, as people write it (`LSF`), or nothing for any.
     pub language: Option<String>,
-    /// What it is called, by the code of the spoken language (`en`, `fr`).
+    /// Its names, by the code of the spoken language (`en`, `fr`).
     pub names: BTreeMap<String, String>,
-    /// What it is for and where it comes from.
+    /// Its purpose and its source.
     pub description: String,
     /// The values, in the order in which they are offered.
     pub values: Vec<InventoryValue>,
@@ -46,13 +46,13 @@ pub struct Inventory {
 pub struct InventoryValue {
     /// The name in files and queries, short as linguists write it: `U`, `chin`.
     pub id: String,
-    /// What it is called, by the code of the spoken language.
+    /// Its names, by the code of the spoken language.
     pub names: BTreeMap<String, String>,
     /// Other spellings that mean the same.
     pub aliases: Vec<String>,
     /// The id of a value that holds this one: `chin` is part of `head`.
     pub broader: Option<String>,
-    /// What it is made of, such as `index`, `spread` or `thumb-across`.
+    /// Its features, such as `index`, `spread` or `thumb-across`.
     pub features: BTreeSet<String>,
     /// The HamNoSys symbol names, in the order of the notation, separated by blanks.
     pub hamnosys: Option<String>,
@@ -64,7 +64,7 @@ pub struct InventoryValue {
     pub letter: Option<String>,
     /// Where palm and fingers point.
     pub orientation: Option<HandOrientation>,
-    /// What the hand draws or does, stroke by stroke.
+    /// The strokes of the hand, one after another.
     pub strokes: Vec<Stroke>,
     /// Where it is.
     pub landmark: Option<Landmark>,
@@ -160,7 +160,8 @@ impl Inventory {
         })
     }
 
-    /// Tells whether every text means a value, and no two that differ in case or accents only mean the same one.
+    /// Returns whether every text names a value, and no two texts name the same one unless they differ only in case
+    /// or accents.
     #[must_use]
     pub fn tells_apart<'t>(&self, texts: impl IntoIterator<Item = &'t str>) -> bool {
         let mut meant: BTreeMap<(String, &str), &str> = BTreeMap::new();
@@ -198,7 +199,7 @@ impl Inventory {
         near.into_iter().take(5).map(|(_, id)| id).collect()
     }
 
-    /// Tells whether the value `id` is `broader` or lies within it at any depth.
+    /// Returns whether the value `id` is `broader` or lies within it at any depth.
     #[must_use]
     pub fn is_within(&self, id: &str, broader: &str) -> bool {
         self.chain(id).any(|value| value.id == broader)
@@ -253,8 +254,8 @@ impl InventoryValue {
         self.pose.or_else(named)
     }
 
-    /// Tells whether the value has every feature wanted, and none of those that start with `-`;
-    /// case and accents do not count.
+    /// Returns whether the value has every feature wanted, and lacks those that start with `-`; case and accents do
+    /// not count.
     #[must_use]
     pub fn matches_features(&self, wanted: &[&str]) -> bool {
         wanted.iter().all(|wanted| {

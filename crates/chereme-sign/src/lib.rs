@@ -1,9 +1,8 @@
-//! What is said about movement: tiers, component inventories, notation, keys.
+//! The description of movement: tiers, component inventories, notation, keys.
 //!
-//! A sign is told from others by its *components*: the hand's configuration, its placement,
-//! movement and orientation, and what face and body do. Annotators write them on tiers beside a
-//! recording, with values from inventories; searches ask for them by field. Everything here is
-//! plain data and pure functions on it.
+//! Signs differ in their *components*: the hand's configuration, its placement, movement and orientation, and the
+//! activity of face and body. Annotators write them on tiers of a recording, with values from inventories; searches
+//! ask for them by field. Everything here is plain data and pure functions on it.
 //!
 //! ```
 //! use chereme_motion::{Instant, Span};

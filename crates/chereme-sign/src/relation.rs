@@ -7,10 +7,9 @@ use std::str::FromStr;
 
 /// How a span `a` stands to a span `b`; spans are half-open.
 ///
-/// The first eleven are those of ELAN's structured search; the others complete the thirteen of
-/// Allen (*Maintaining knowledge about temporal intervals*, 1983), of which ELAN's
-/// `OverlapsBegin` and `OverlapsEnd` are two and `Before` and `After` hold two each. Distances are
-/// microseconds, and one below zero counts as zero.
+/// The first eleven are those of ELAN's structured search. The others complete the thirteen of Allen (*Maintaining
+/// knowledge about temporal intervals*, 1983): ELAN's `OverlapsBegin` and `OverlapsEnd` are two of them, and
+/// `Before` and `After` hold two each. Distances are microseconds; a distance below zero counts as zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Relation {
     /// `a` lies wholly in `b`.
@@ -74,7 +73,7 @@ impl Relation {
         ("covers", Self::Covers),
     ];
 
-    /// Tells whether `a` stands to `b` in this relation.
+    /// Returns whether `a` stands to `b` in this relation.
     #[must_use]
     pub fn holds(self, a: Span, b: Span) -> bool {
         let (start, end) = (a.start().cmp(&b.start()), a.end().cmp(&b.end()));
@@ -101,8 +100,7 @@ impl Relation {
         }
     }
 
-    /// Returns the relation in which `b` stands to `a` when `a` stands to `b` in this one, or
-    /// nothing where that has no name.
+    /// Returns the relation of `b` to `a` if `a` stands to `b` in this one, or `None` if it has no name.
     #[must_use]
     pub fn inverse(self) -> Option<Self> {
         Some(match self {

@@ -24,10 +24,10 @@ pub fn fold(text: &str) -> String {
     folded
 }
 
-/// Tells whether a decomposed character is an accent or an invisible mark.
+/// Returns whether a decomposed character is an accent or an invisible mark.
 ///
-/// Only marks that people leave out when they search are named; vowel signs of Indic scripts and
-/// kana voicing marks tell words apart and stay.
+/// Lists only marks that people leave out in a search; vowel signs of Indic scripts and kana voicing marks
+/// distinguish words and stay.
 fn is_ignored(c: char) -> bool {
     matches!(c,
         '\u{0300}'..='\u{036F}' | '\u{1AB0}'..='\u{1AFF}' | '\u{1DC0}'..='\u{1DFF}'

@@ -1,4 +1,4 @@
-//! Tiers and annotations: what is said about a recording, standing off from it.
+//! Tiers and annotations: the description of a recording, apart from its movement.
 //!
 //! A [`Tier`] is a list of annotations of one kind; a child tier hangs below a parent tier by one
 //! of ELAN's four [`Stereotype`]s. A [`TierSet`] holds the tiers of one recording, or only the
@@ -112,7 +112,7 @@ impl Stereotype {
             .find(|stereotype| plain(stereotype.elan_name()) == plain(text))
     }
 
-    /// Tells whether annotations below this stereotype have times of their own.
+    /// Returns whether annotations below this stereotype have times of their own.
     #[must_use]
     pub fn is_alignable(self) -> bool {
         matches!(self, Self::TimeSubdivision | Self::IncludedIn)
@@ -132,7 +132,7 @@ pub struct Tier {
     pub id: TierId,
     /// The name, unique within its recording.
     pub name: String,
-    /// What the annotations say.
+    /// The subject of the annotations.
     pub role: TierRole,
     /// Whose hand they are about, if a hand's.
     pub hand: Option<HandRef>,
@@ -169,7 +169,7 @@ impl Tier {
         self.parent.map(|(id, _)| id)
     }
 
-    /// Tells whether the annotations have times of their own.
+    /// Returns whether the annotations have times of their own.
     #[must_use]
     pub fn is_alignable(&self) -> bool {
         self.stereotype().is_none_or(Stereotype::is_alignable)
@@ -225,7 +225,7 @@ pub struct TierSet {
 
 type TimeKey = (chereme_motion::Instant, u32, AnnotationId);
 
-/// One step of a change: what to write to the annotations, or to a tier.
+/// One step of a change: annotations to write or remove, or a tier to write.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Edit {
@@ -242,7 +242,7 @@ pub enum Edit {
     },
 }
 
-/// What somebody wants to do to annotations.
+/// A change that somebody asks for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Change {
@@ -287,7 +287,7 @@ pub enum Change {
     },
     /// Cuts an aligned annotation in two, both with its value.
     ///
-    /// What lies below goes to the half it lies in; what crosses the cut is cut too; symbolic
+    /// An annotation below goes to the half in which it lies; one that crosses the cut is cut too; symbolic
     /// children stay with the first half.
     Split {
         /// The annotation, which becomes the first half.
@@ -304,7 +304,7 @@ pub enum Change {
         first: AnnotationId,
         /// The later annotation, which goes.
         second: AnnotationId,
-        /// What the merged annotation says; nothing where both say the same.
+        /// The value of the merged annotation; `None` if both have the same.
         value: Option<Reading>,
         /// What happens to children that meet where the two met.
         seam: Seam,
@@ -320,7 +320,7 @@ pub enum Change {
     SetValue {
         /// The annotation.
         annotation: AnnotationId,
-        /// What it says from now on.
+        /// The new value.
         value: Reading,
     },
     /// Gives a tier another vocabulary, or none.
@@ -332,7 +332,7 @@ pub enum Change {
     },
 }
 
-/// What a merge does with children of equal value that meet where their parents met.
+/// How a merge treats children of equal value that meet at the seam of their parents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Seam {
@@ -446,8 +446,8 @@ impl TierSet {
         found
     }
 
-    /// Returns this set with the places and times of all symbolic annotations as they follow from
-    /// their parents: places counted anew from 0 in their order, times shared out.
+    /// Returns this set with the places and times of all symbolic annotations as they follow from their parents:
+    /// places counted again from 0 in their order, times shared out.
     ///
     /// For sets from files, which give symbolic annotations no times.
     #[must_use]

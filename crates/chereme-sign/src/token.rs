@@ -1,11 +1,11 @@
-//! From tiers to tokens: what the component tiers say about one realisation of a sign.
+//! From tiers to tokens: collects the values of component tiers for one realisation of a sign.
 
 use crate::component::{Component, Field, HandRef, Phase, Reading};
 use chereme_motion::Span;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// What a component tier says about a stretch of time.
+/// The value of a component tier over a stretch of time.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ComponentSpan {
     /// The tier's field, without a phase.

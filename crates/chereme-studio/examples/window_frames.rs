@@ -126,7 +126,7 @@ fn starter(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     Ok(path)
 }
 
-/// Recipes whose last number is changed: what they were, and what of them stands after that number.
+/// Recipes whose last number changes: the text before that number and the text after it.
 const RECIPES: [&str; 3] = [
     "ESCARGOT | place both by left 10cm",
     "ESCARGOT | configure right U | orient left palm up | place both by left 10cm",
@@ -141,7 +141,7 @@ fn changed(recipe: &str, times: u64) -> String {
 /// How often a recipe is changed.
 const CHANGES: u64 = 60;
 
-/// Tells how long recipes take that change, where nothing else is done.
+/// Prints the time of recipes after that change, with nothing else running.
 #[expect(clippy::print_stdout, reason = "it tells what it measured")]
 fn without_window(path: &Path) -> Result<(), Box<dyn Error>> {
     let mut corpus = Corpus::open(path, "A")?;
@@ -223,7 +223,7 @@ fn many(tiers: usize, each: usize, millis: usize) -> Result<String, std::fmt::Er
     Ok(text)
 }
 
-/// What is done while frames are measured.
+/// The work during the measured frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Scene {
     /// Playing in a loop.
@@ -238,7 +238,7 @@ enum Scene {
     Grid,
     /// Changing a recipe.
     Change(usize),
-    /// Nothing at all: what frames of a window take that are none of the studio's.
+    /// No work: the time of a window's frames without the studio.
     Empty,
 }
 
@@ -348,8 +348,8 @@ struct Meter {
     change: Change,
 }
 
-/// Returns the processor time that the program has taken so far, and its threads by their names without numbers, in
-/// hundredths of a second; nothing where the system does not tell. Threads that ended count only for the program.
+/// Returns the processor time of the program so far, and of its threads by their names without numbers, in
+/// hundredths of a second; empty if the system does not report it. Threads that ended count only for the program.
 fn worked() -> BTreeMap<String, u64> {
     const PROGRAM: &str = "/proc/self/stat";
     let mut all = BTreeMap::new();
@@ -372,7 +372,7 @@ fn worked() -> BTreeMap<String, u64> {
     all
 }
 
-/// What the program's threads took together.
+/// The sum over the program's threads.
 const ALL: &str = "all";
 
 impl eframe::App for Meter {

@@ -1,7 +1,7 @@
 //! What keys, menus and the command palette can ask for: one table, each row an [`Action`].
 //!
-//! An action carries nothing; what it is about is what is selected. To add one, write a row here and
-//! an arm in [`perform`](crate::perform); give it keys in [`keys::table`](crate::keys::table).
+//! An action has no data; its object is the selection. To add one, write a row here and an arm in
+//! [`perform`](crate::perform); give it keys in [`keys::table`](crate::keys::table).
 
 use crate::panes::PaneKind;
 use crate::words::{Text, actions as words, shell};

@@ -42,7 +42,7 @@ pub struct Studio {
     pub(crate) keys: Keys,
     pub(crate) desk: Option<Desk>,
     pub(crate) beginning: Option<Beginning>,
-    /// The open corpus, where it was made only to take files in.
+    /// The open corpus, if it was created only to receive files.
     pub(crate) made_for: Option<PathBuf>,
     /// Whether the import of a corpus that was just made has room to be looked at.
     looking: bool,
@@ -73,7 +73,7 @@ pub struct Studio {
     pub(crate) view: Option<String>,
     pub(crate) wake: Wake,
     ctx: Arc<OnceLock<Context>>,
-    /// What the window is called.
+    /// The title of the window.
     title: String,
     /// When the last frame was, in seconds of the window's clock.
     clock: Option<f64>,
@@ -143,7 +143,7 @@ impl Studio {
         }
     }
 
-    /// Draws one frame, takes what was done in it, and carries it out.
+    /// Draws one frame, collects the commands given in it, and carries them out.
     pub fn ui(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         if self.ctx.set(ctx.clone()).is_ok() {
@@ -156,7 +156,7 @@ impl Studio {
         self.panes.search.show_made(&mut self.out);
         self.panes.library.show_made(&mut self.out);
         if self.panes.recombine.has_news() {
-            // What was made is in the pictures that are asked for in this frame.
+            // The new movement is in the pictures that this frame asks for.
             self.keep_up(&ctx);
             self.carry_out(&ctx);
         }
@@ -169,7 +169,7 @@ impl Studio {
         self.take_keys(&ctx);
         self.panes.timeline.next_frame();
         self.take_dropped(&ctx);
-        // What could answer a drag has to be drawn.
+        // The pane with the handle must be drawn to answer a drag.
         if self.shown.handle.is_some() && !layout::shows(&self.tree, PaneKind::Recombine) {
             self.shown.handle = None;
         }
@@ -211,8 +211,8 @@ impl Studio {
         self.films.are_pictured()
     }
 
-    /// Returns what the movement is called that the stage shows, where that was made of a recipe and its
-    /// newest picture is there: the recipe, or a gloss.
+    /// Returns the name of the movement on the stage, if it comes from a recipe and its newest picture is drawn:
+    /// the recipe, or a gloss.
     #[must_use]
     pub fn drawn(&self) -> Option<&str> {
         let showing = self.shown.made.as_ref()?;
@@ -262,7 +262,7 @@ impl Studio {
         })
     }
 
-    /// Hears what the threads tell.
+    /// Receives the threads' results.
     fn listen(&mut self) {
         let ended = self.beginning.as_mut().and_then(Beginning::ended);
         if let Some(ended) = ended {
@@ -319,7 +319,7 @@ impl Studio {
         }
     }
 
-    /// Tells at once that the file of the corpus is gone, and how all of it is saved.
+    /// Reports at once that the file of the corpus is gone, and how to save all of it.
     fn stands(&mut self, stands: bool) {
         self.gone = !stands;
         let language = self.settings.language;
@@ -376,14 +376,14 @@ impl Studio {
         }
     }
 
-    /// Lets the playhead move with the clock, and has movement loaded where it goes.
+    /// Moves the playhead with the clock, and loads movement at its new place.
     fn tick(&mut self, ctx: &Context) {
         let now = ctx.input(|input| input.time);
         let passed = self.clock.map_or(0.0, |clock| now - clock);
         self.clock = Some(now);
         let player = self.shown.on_stage_mut();
         if player.is_playing() {
-            // A window that was hidden for a while goes on where it was.
+            // A window that was hidden for a while continues at its old moment.
             player.advance(passed.min(0.5));
             ctx.request_repaint();
         }
@@ -406,8 +406,8 @@ impl Studio {
         }
     }
 
-    /// Does what keys ask for, one after the other, before anything is drawn: what is typed right
-    /// after the key that opens a field is already that field's.
+    /// Carries out the actions of keys, one after the other, before anything is drawn: text typed right after the
+    /// key that opens a field goes into that field.
     fn take_keys(&mut self, ctx: &Context) {
         while !self.overlays.takes_keys() {
             let place = Place {
@@ -536,7 +536,7 @@ impl Studio {
         }
     }
 
-    /// Has the window called by the open corpus, so that one tells two of them apart.
+    /// Names the window after the open corpus, so that people can tell two of them apart.
     fn name_window(&mut self, ctx: &Context) {
         let title = self.title();
         if title != self.title {
@@ -563,7 +563,7 @@ impl Studio {
         }
     }
 
-    /// Turns to the layout of small windows or back, where the window has become so; what one was at stays in
+    /// Switches to the layout of small windows or back if the window's size calls for it; the pane in use stays in
     /// sight.
     fn fit(&mut self, size: egui::Vec2) {
         let small = layout::is_small(size);
@@ -594,7 +594,7 @@ impl Studio {
 }
 
 impl Drop for Studio {
-    /// What was zoomed to is written when the window closes.
+    /// The zoom is written when the window closes.
     fn drop(&mut self) {
         self.keep_view(true);
         self.leave();

@@ -61,7 +61,7 @@ impl Walk {
     }
 }
 
-/// What a menu leaves free of the window's height.
+/// The part of the window's height that a menu leaves free.
 const MARGIN: f32 = 60.0;
 /// The room that the three layouts want beside the menus.
 const LAYOUTS: f32 = 280.0;

@@ -13,7 +13,7 @@ use crate::words::{Language, shell as words};
 use crate::work::begin::Begin;
 use crate::work::desk::Wake;
 
-/// What is to be chosen, and so what is done with it.
+/// The object of a chooser, which decides its use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Choose {
     /// A corpus to open.
@@ -32,7 +32,7 @@ pub(crate) enum Choose {
     Media(i64, Option<i64>),
 }
 
-/// Chosen paths, none where nothing was chosen.
+/// The chosen paths; empty if nothing was chosen.
 type Paths = Pin<Box<dyn Future<Output = Vec<PathBuf>> + Send>>;
 /// Shows a chooser.
 pub(crate) type Show = fn(Choose, Language) -> Paths;
@@ -43,7 +43,7 @@ pub(crate) struct Chooser {
     open: Option<(Choose, Paths, f64)>,
 }
 
-/// What became of an open chooser.
+/// The result of an open chooser.
 #[derive(Debug)]
 pub(crate) enum Chosen {
     /// Something was chosen: do this.

@@ -8,14 +8,14 @@ use crate::action::Action;
 /// How many frames the system is waited for.
 const PATIENCE: u32 = 4;
 
-/// What was copied here, and what is to be pasted.
+/// The text copied here, and the pending paste.
 #[derive(Debug, Default)]
 pub(crate) struct Clipboard {
-    /// What was copied here last: pasted where the system's clipboard gives nothing.
+    /// The last text copied here: pasted if the system's clipboard is empty.
     own: String,
-    /// What came with the key that pastes.
+    /// The text that came with the key that pastes.
     given: Option<String>,
-    /// What waits for the system's text, and for how many frames.
+    /// The action that waits for the system's text, and for how many frames.
     waits: Option<(Action, u32)>,
 }
 
@@ -44,7 +44,7 @@ impl Clipboard {
         given
     }
 
-    /// Returns what was waited for when it came, or what was copied here where nothing comes.
+    /// Returns the awaited text when it has come, or the text copied here if none comes.
     pub(crate) fn came(&mut self, ctx: &Context) -> Option<(Action, String)> {
         let (action, frames) = self.waits?;
         let text = ctx.input_mut(|input| {

@@ -38,7 +38,7 @@ pub(crate) enum Command {
     Recording(i64),
     /// Show a span of a recording, selected, with the playhead at its start.
     Place(i64, Span),
-    /// Bring the stage into sight, where what was opened is shown.
+    /// Bring the stage into sight, so that people see the opened thing.
     Look,
     /// Select a tier.
     Tier(Option<i64>),
@@ -57,7 +57,7 @@ pub(crate) enum Command {
     /// Show movement that lies in no recording on the stage, in a loop; nothing goes back to the
     /// recording, as does whatever shows or moves in one.
     Made(Option<Arc<Made>>),
-    /// A placement that can be dragged on the stage, or that there is none any more:
+    /// A placement that can be dragged on the stage, or `None` to remove it:
     /// [`Shown::handle`](crate::context::Shown::handle).
     Handle(Option<Handle>),
     /// The placement of that card was dragged there.
@@ -68,7 +68,7 @@ pub(crate) enum Command {
     Import(Vec<PathBuf>),
     /// Show all that is known of something in the inspector.
     Inspect(Thing),
-    /// Turn the inspector to something, and bring it into sight where that does not hide the stage.
+    /// Show something in the inspector, and bring the inspector into sight unless that hides the stage.
     Note(Thing),
     /// Find what this query asks for.
     Find(String),

@@ -1,4 +1,4 @@
-//! What a pane sees, what it may ask for, and what is shown and selected.
+//! The view of a pane, its requests, and the current display and selection.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::words::{Language, Text};
 use crate::work::desk::Running;
 use crate::work::{Far, Work, WorkId};
 
-/// What is shown and selected; only commands change it.
+/// The displayed and selected things; only commands change them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Shown {
     /// The recording.
@@ -65,8 +65,8 @@ impl Shown {
         }
     }
 
-    /// Lets go of annotations that are gone, and selects again those that came back, as by undoing; the selected time
-    /// goes along where it is that of the selected annotations, as `before` has them.
+    /// Drops annotations that are gone from the selection, and selects again those that came back, as by undo; the
+    /// selected time follows if it is that of the selected annotations, as `before` has them.
     pub(crate) fn follow(&mut self, before: Option<&Snapshot>, snapshot: &Snapshot) {
         let was = before.and_then(|it| hull(it, &self.annotations));
         if was.is_some() && was == self.span {
@@ -102,7 +102,7 @@ fn hull(snapshot: &Snapshot, annotations: &BTreeSet<i64>) -> Option<Span> {
         .reduce(|a, b| Span::between(a.start().min(b.start()), a.end().max(b.end())))
 }
 
-/// What a pane sees while it draws.
+/// The view of a pane while it draws.
 #[derive(Clone, Copy)]
 pub(crate) struct Seen<'a> {
     pub(crate) snapshot: &'a Snapshot,
@@ -140,7 +140,7 @@ impl Seen<'_> {
     }
 }
 
-/// What was asked for in a frame; carried out after it, in order.
+/// The requests of a frame; carried out after it, in order.
 #[derive(Debug, Default)]
 pub(crate) struct Outbox {
     commands: Vec<Command>,
@@ -160,7 +160,7 @@ impl Outbox {
         self.commands.push(command);
     }
 
-    /// Asks for work, and returns the number under which its outcome is told.
+    /// Requests work, and returns the number that its outcome carries.
     pub(crate) fn work(&mut self, work: Work) -> WorkId {
         self.next += 1;
         let id = WorkId(self.next);
@@ -217,7 +217,7 @@ mod tests {
             shown.follow(Some(&moved), &undone);
             assert_eq!(shown.span, after, "{annotations:?} {before:?}");
         }
-        // What is gone and comes back has its time again.
+        // An annotation that is gone and comes back has its time again.
         let mut shown = shown(&[1], span(30, 40));
         let without = snapshot(&[(2, 50, 60)]);
         shown.follow(Some(&moved), &without);

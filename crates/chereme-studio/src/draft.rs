@@ -27,7 +27,7 @@ struct Kept {
 }
 
 impl Drafts {
-    /// Returns the file of the corpus at `path`, which is absolute; none where nothing is remembered.
+    /// Returns the file of the corpus at `path`, which is absolute; a missing file gives an empty draft.
     pub(crate) fn of(folders: &Folders, path: &Path) -> Self {
         let name = format!("{:016x}.json", hash(&path.to_string_lossy()));
         let folder = folders.config.as_ref().map(|it| it.join("drafts"));
@@ -38,7 +38,7 @@ impl Drafts {
         }
     }
 
-    /// Reads what was left half done.
+    /// Reads the unfinished work.
     pub(crate) fn read(&mut self) -> Option<Draft> {
         let text = fs::read_to_string(self.file.as_ref()?).ok()?;
         let kept: Kept = serde_json::from_str(&text).ok()?;
@@ -49,7 +49,7 @@ impl Drafts {
         Some(kept.draft)
     }
 
-    /// Writes what is half done now, where it changed; takes the file away where nothing is.
+    /// Writes the unfinished work if it changed; removes the file if there is no unfinished work.
     pub(crate) fn keep(&mut self, draft: Option<Draft>) -> io::Result<()> {
         let Some(file) = self.file.as_ref().filter(|_| draft != self.written) else {
             return Ok(());

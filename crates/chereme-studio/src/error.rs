@@ -1,13 +1,13 @@
-//! What keeps the window from opening.
+//! Reasons why the window cannot open.
 
-/// A failure of the window itself; what fails inside it is told there.
+/// A failure of the window itself; failures inside it become notices there.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// The system gave no window.
     #[error("no window can be opened: {reason}")]
     Window {
-        /// What the system said.
+        /// The message of the system.
         reason: String,
         /// What would be right.
         remedy: String,

@@ -8,7 +8,7 @@ use crate::panes::PaneKind;
 
 const ID: &str = "panes";
 
-/// What one is busy with, and so which panes want room.
+/// The current task, which decides the panes that get room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Busy {
@@ -181,7 +181,7 @@ pub(crate) fn hides(tree: &Tree<PaneKind>, kind: PaneKind, other: PaneKind) -> b
     kind != other && parent(kind).is_some_and(|it| Some(it) == parent(other))
 }
 
-/// Brings the stage into sight, and the timeline where only what tells of things stands before it.
+/// Brings the stage into sight, and the timeline if only a pane of information covers it.
 pub(crate) fn look(tree: &mut Tree<PaneKind>) {
     use PaneKind::{Film, History, Inspector, Stage, Timeline};
     if !shows(tree, Stage) {

@@ -59,10 +59,10 @@ pub use words::Language;
 
 use eframe::egui::ViewportBuilder;
 
-/// What the window starts with.
+/// The settings that the window starts with.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
-    /// The corpus to open; the start page where there is none.
+    /// The corpus to open; the start page if `None`.
     pub corpus: Option<PathBuf>,
     /// Who does the work, for the history.
     pub author: String,
@@ -84,7 +84,7 @@ pub fn run(options: Options) -> Result<(), Error> {
             .with_inner_size([1280.0, 800.0])
             .with_min_inner_size([640.0, 420.0])
             .with_drag_and_drop(true),
-        // It smooths gradients, of which there are only the ends of lists, and costs where windows are drawn in software.
+        // It smooths gradients, which only occur at the ends of lists, and is slow in windows drawn by software.
         dithering: false,
         // `script` finds fonts, for pictures too.
         system_font_fallback: false,

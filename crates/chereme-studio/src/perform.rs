@@ -41,7 +41,7 @@ const NO_FRAMES: u32 = 25;
 impl Studio {
     /// Carries out what was asked for in this frame.
     pub(crate) fn carry_out(&mut self, ctx: &Context) {
-        // What an action asks for in its turn is done at once too, so that what is drawn next shows it.
+        // Commands that follow from an action are carried out at once too, so that the next frame shows them.
         for _ in 0..ROUNDS {
             let commands = self.out.take();
             if commands.is_empty() {
@@ -222,7 +222,7 @@ impl Studio {
         }
     }
 
-    /// Has made at once what the recipe became, and gives the stage what was made of it.
+    /// Evaluates a changed recipe at once, and gives the stage the result.
     pub(crate) fn keep_up(&mut self, ctx: &Context) {
         if !layout::shows(&self.tree, PaneKind::Recombine) {
             return;
@@ -236,8 +236,7 @@ impl Studio {
         (self.panes, self.out) = (panes, out);
     }
 
-    /// Takes one step back or forward: of the recipe where that was changed last and is in sight,
-    /// else of the corpus.
+    /// Takes one step back or forward: of the recipe if it changed last and is in sight, else of the corpus.
     fn walk_one(&mut self, back: bool) {
         let snapshot = self.snapshot.as_ref();
         let operations = snapshot.map_or(&[][..], |it| &it.overview.operations);
@@ -438,8 +437,8 @@ impl Studio {
         self.panes.get_mut(pane).come();
     }
 
-    /// Brings what was opened into sight; where that hides the hits it was opened from, it is told how to come
-    /// back to them.
+    /// Brings the opened thing into sight; if that hides the hits it was opened from, a hint names the return to
+    /// them.
     fn look(&mut self, ctx: &Context) {
         let from = self.pane;
         layout::look(&mut self.tree);
@@ -548,8 +547,7 @@ impl Studio {
         }
     }
 
-    /// Remembers how the corpus is looked at; what of recordings is seen only with `windows`, as that
-    /// changes all the time.
+    /// Saves the view of the corpus; the view of recordings only with `windows`, as it changes all the time.
     pub(crate) fn keep_view(&mut self, windows: bool) {
         let Some(view) = &self.view else { return };
         if !self.settings.views.contains_key(view) {
@@ -597,7 +595,7 @@ impl Studio {
         self.out = Outbox::after(&self.out);
     }
 
-    /// Takes a newer snapshot in; what is gone from it is not selected any more.
+    /// Takes a newer snapshot in; things that are gone leave the selection.
     pub(crate) fn take_snapshot(&mut self, snapshot: Snapshot, own: bool) {
         let older = |it: &&Snapshot| it.overview.generation != snapshot.overview.generation;
         if let Some(before) = self.snapshot.as_ref().filter(older) {
@@ -656,7 +654,7 @@ impl Studio {
         }
         self.snapshot = Some(snapshot);
         if let (None, Some(first)) = (self.shown.recording, first) {
-            // What is being made stays on the stage while its sign is stored.
+            // Generated movement stays on the stage while its sign is stored.
             let made = self.shown.made.take();
             self.turn_to(first);
             self.shown.made = made;

@@ -21,7 +21,7 @@ pub(crate) struct Player {
     pub(crate) speed: f64,
     /// Whether it begins again at the end.
     pub(crate) looping: bool,
-    /// What is stepped through, where that is so.
+    /// The steps of playback, if it steps.
     steps: Option<Steps>,
 }
 
@@ -77,7 +77,7 @@ fn micros(seconds: f64) -> i64 {
 /// Short pieces played one after the other, each several times.
 #[derive(Debug, Clone, PartialEq)]
 struct Steps {
-    /// What the pieces are of.
+    /// The span of the pieces.
     of: Span,
     /// How far the next lies on, in microseconds.
     by: i64,
@@ -161,8 +161,8 @@ impl Player {
         }
     }
 
-    /// Plays short pieces of `part`, or of all from the playhead on, each again and overlapping the one
-    /// before; stops where it does so already.
+    /// Plays short pieces of `part`, or of all from the playhead on, each again and overlapping the one before;
+    /// stops if it does so already.
     pub(crate) fn step_and_repeat(&mut self, part: Option<Span>, how: Stepping) {
         if self.is_playing() && self.steps.is_some() {
             self.stop();

@@ -1,4 +1,4 @@
-//! What the window remembers between sittings: a JSON file in the platform's folder for settings.
+//! The window's memory between sittings: a JSON file in the platform's folder for settings.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -46,9 +46,9 @@ pub(crate) struct Settings {
     pub(crate) export_folder: Option<PathBuf>,
     /// Queries that are kept, and those that were asked.
     pub(crate) searches: Searches,
-    /// What the panes were laid out for last.
+    /// The task of the current layout.
     pub(crate) busy: crate::layout::Busy,
-    /// Where the panes are; the usual layout where nothing is said.
+    /// The layout of the panes; the usual one by default.
     pub(crate) layout: Option<Tree<PaneKind>>,
     /// The same of a small window.
     pub(crate) small_layout: Option<Tree<PaneKind>>,
@@ -70,7 +70,7 @@ pub(crate) struct View {
     pub(crate) folded: BTreeSet<String>,
     /// Names of tiers that are not shown.
     pub(crate) hidden: BTreeSet<String>,
-    /// What of each recording is seen, by its row.
+    /// The view of each recording, by its row.
     pub(crate) windows: BTreeMap<i64, Window>,
 }
 
@@ -131,7 +131,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Reads the file; what is missing or cannot be understood is as usual.
+    /// Reads the file; missing and unreadable settings are the usual ones.
     pub(crate) fn read(path: &Path) -> Option<Self> {
         let text = fs::read_to_string(path).ok()?;
         let mut value: serde_json::Value = serde_json::from_str(&text).ok()?;

@@ -18,7 +18,7 @@ use crate::script::edit;
 use crate::words::{Language, Text, fill, shell as words};
 use crate::work::begin::Begin;
 
-/// What is typed on the page.
+/// The text typed on the page.
 #[derive(Debug, Default)]
 pub(crate) struct Start {
     path: String,
@@ -27,7 +27,7 @@ pub(crate) struct Start {
 }
 
 impl Start {
-    /// Begins anew when the page is seen again: the keyboard is given, and the path was used.
+    /// Begins again when the page returns: the keyboard has a place, and the path was used.
     pub(crate) fn leave(&mut self) {
         *self = Self::default();
     }
@@ -43,13 +43,13 @@ pub(crate) fn uses(path: &str, is_file: bool, is_folder: bool) -> [bool; 3] {
     ]
 }
 
-/// What it is called, a hint, and what it asks for.
+/// Its name, a hint, and its command.
 type Offer = (Text, Text, Command);
 
-/// What it is called, and what it begins with a path.
+/// Its name, and its action on a path.
 type Typed = (Text, fn(PathBuf) -> Begin);
 
-/// What brings the keyboard to the page where it is nowhere.
+/// The keys that bring the keyboard to the page if nothing else has it.
 const KEYS: [Key; 4] = [Key::ArrowDown, Key::ArrowUp, Key::Enter, Key::Space];
 const WIDE: f32 = 620.0;
 /// How many recent corpora are on the page; the others are in the menu.
@@ -88,7 +88,7 @@ impl Studio {
                         self.beginning_page(ui);
                         return;
                     }
-                    // Who was here before goes on with what is there.
+                    // A returning user continues with a recent corpus.
                     if !self.settings.recent.is_empty() {
                         self.recent_part(ui);
                         ui.add_space(gap);

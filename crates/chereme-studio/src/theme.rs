@@ -12,7 +12,7 @@ use crate::settings::{Settings, ThemeChoice};
 /// Colours with a meaning of their own.
 #[derive(Debug)]
 pub(crate) struct Colours {
-    /// What is selected, and what one is asked to do.
+    /// Selected things, and requests to the user.
     pub(crate) accent: Color32,
     /// The selected time.
     pub(crate) selection: Color32,
@@ -31,7 +31,7 @@ pub(crate) struct Colours {
     pub(crate) rule: Color32,
     pub(crate) stripe: Color32,
     pub(crate) trouble: Color32,
-    /// What is to be noted, and is no fault.
+    /// A remark that is not a fault.
     pub(crate) warning: Color32,
     pub(crate) good: Color32,
 }

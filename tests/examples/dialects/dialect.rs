@@ -6,7 +6,7 @@ use chereme_motion::{Finger, Part, Side};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dialect {
     pub(crate) name: &'static str,
-    /// What it calls a part.
+    /// Its name of a part.
     pub(crate) part: fn(Part) -> String,
     /// Before every name, such as `Anna:`.
     pub(crate) space: &'static str,

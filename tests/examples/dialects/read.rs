@@ -121,8 +121,8 @@ pub(crate) struct Score {
     first: Option<String>,
 }
 
-/// Compares the readings with the truth. A direction or place at the limit of two is right where it is within a
-/// few degrees or centimetres of the truth.
+/// Compares the readings with the truth. A direction or place at the limit of two is right if it lies within a few
+/// degrees or centimetres of the truth.
 pub(crate) fn compare(truth: &[Reading], found: &[Reading]) -> Score {
     let mut score = Score {
         all: truth.len(),

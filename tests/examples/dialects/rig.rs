@@ -79,7 +79,7 @@ pub(crate) fn write(
     };
     let unit = |v: DVec3| turn * v * dialect.unit;
     let place = |model: &ModelPose, bone: &Bone| unit(model.point(bone.of, bone.at));
-    // The wrapper is somewhere else and turned; what is below it makes up for that.
+    // The wrapper is turned and moved; the joints below it compensate.
     let more = usize::from(dialect.wrapped);
     let (wrap, wrapped_turn) = match dialect.wrapped {
         true => (
@@ -213,7 +213,7 @@ fn bones(source: &Moving, dialect: &Dialect) -> Vec<Bone> {
     let mut known: Vec<Option<usize>> = vec![None; skeleton.len()];
     for (index, joint) in skeleton.joints().iter().enumerate() {
         let part = anatomy.part_of(index);
-        // What is no part and ends a chain is an end of a bone, not a joint.
+        // A node that is no part and ends a chain is an end of a bone, not a joint.
         if part.is_none() && skeleton.children(index).is_empty() {
             continue;
         }

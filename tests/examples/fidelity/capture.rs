@@ -26,7 +26,7 @@ impl Capture {
     }
 }
 
-/// Reads every BVH file below `folder`, in the order of their paths; tells which are left out and why.
+/// Reads every BVH file below `folder`, in the order of their paths; returns the files left out, with the reason.
 pub(crate) fn read_folder(folder: &Path) -> Result<(Vec<Capture>, Vec<String>)> {
     let mut paths = Vec::new();
     find(folder, &mut paths)?;

@@ -42,7 +42,7 @@ const STEPS: [(&str, bool); 6] = [
     ("place right by right 15cm", false),
 ];
 
-/// A contact at the frame where it is nearest.
+/// A contact at its nearest frame.
 struct Contact {
     side: Side,
     other: Option<Side>,
@@ -117,7 +117,7 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
     ))
 }
 
-/// Tells whether the report speaks of what this hand touched.
+/// Returns whether the report mentions this contact of the hand.
 fn is_about(text: &str, contact: &Contact) -> bool {
     let (side, hand) = (contact.side, contact.side.other());
     let is_hand = POINTS

@@ -134,7 +134,7 @@ fn stretched(was: &Clip, is: &Clip) -> f64 {
     let skeleton = was.skeleton();
     let mut worst: f64 = 0.0;
     for frame in 0..was.frames().min(is.frames()) {
-        // What was reversed or mirrored has the bones of other frames where joints also move.
+        // A reversed or mirrored clip has the bones of other frames if joints also move.
         let models = [was, is].map(|clip| clip.model_pose(frame));
         for joint in 1..skeleton.len() {
             let Some(parent) = skeleton.parent(joint) else {

@@ -1,4 +1,4 @@
-//! Hands placed elsewhere: what is left of the way, how hands are turned, how elbows move.
+//! Hands placed elsewhere: the rest of the path, the turn of hands, the movement of elbows.
 
 use chereme_compose::Made;
 use chereme_motion::glam::{DQuat, DVec3};
@@ -44,7 +44,7 @@ struct Found {
     /// Clips with targets out of reach, and those of them whose report says so.
     beyond: [usize; 2],
     refused: usize,
-    /// Clips of which most targets are out of reach sideways, so that their place is not known.
+    /// Clips with most targets out of reach sideways, so that their place is unknown.
     unclear: usize,
 }
 
@@ -160,8 +160,7 @@ fn told(made: &Made) -> bool {
     did.into_iter().any(|did| did.contains("out of reach"))
 }
 
-/// Returns by how much the wrists were moved: what half of all frames and hands agree on, coordinate
-/// by coordinate.
+/// Returns the displacement of the wrists that half of all frames and hands agree on, coordinate by coordinate.
 fn offset(capture: &Capture, clip: &Clip, made: &Clip) -> DVec3 {
     let hands = capture
         .sides()
@@ -180,7 +179,7 @@ fn offset(capture: &Capture, clip: &Clip, made: &Clip) -> DVec3 {
     DVec3::new(middle(0), middle(1), middle(2))
 }
 
-/// Measures one arm; tells whether a target was out of reach and not met.
+/// Measures one arm; returns whether a target was out of reach and missed.
 fn arm(
     capture: &Capture,
     clip: &Clip,

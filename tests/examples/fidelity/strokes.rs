@@ -20,8 +20,8 @@ pub(crate) struct Transition {
 }
 
 impl Transition {
-    /// Tells whether the points go rather straight: their distance from start to end is at least
-    /// seven tenths of the length of their way.
+    /// Returns whether the points follow a nearly straight path: their distance from start to end is at least seven
+    /// tenths of its length.
     pub(crate) fn is_direct(&self) -> bool {
         let (mut along, mut across) = (0.0, 0.0);
         for &joint in &self.points {

@@ -1,4 +1,4 @@
-//! What made movement must hold, measured from its joints alone.
+//! The conditions on generated movement, measured from its joints alone.
 
 use chereme_compose::Made;
 use chereme_motion::anatomy::BodyFrame;

@@ -58,7 +58,7 @@ pub(crate) fn list(folder: &Path, path: &str) -> Result<()> {
     Ok(())
 }
 
-/// Returns by how many degrees hands are said to be turned otherwise than written.
+/// Returns the angle in degrees between the hands' reported and written directions.
 pub(crate) fn turned_by(warnings: &[String]) -> f64 {
     let degrees = warnings.iter().filter_map(|warning| {
         let (_, rest) = warning.split_once("turned up to ")?;

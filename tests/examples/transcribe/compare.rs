@@ -1,4 +1,4 @@
-//! What two notations of one sign have in common, feature by feature.
+//! The common features of two notations of one sign.
 
 use chereme_analysis::transcribe::{Options, off_place};
 use chereme_motion::Side;
@@ -10,7 +10,7 @@ use chereme_sign::hamnosys::{
 
 use crate::notation::Again;
 
-/// What of a feature is found again.
+/// The result for one feature.
 #[derive(Debug, Clone)]
 pub(crate) struct Verdict {
     pub(crate) feature: &'static str,
@@ -181,11 +181,11 @@ fn posture(
     }
 }
 
-/// A direction or palm is held where the hand is nearer to it than to the next that can be told, in degrees.
+/// A hand holds a direction or palm if it is nearer to it than to the next possible one, in degrees.
 const HELD: f64 = 11.25;
 
-/// Says again where the dominant hand points and its palm faces, of the parts in which the body does what
-/// is written: what is lost there, the transcriber loses.
+/// Writes the direction of the dominant hand and of its palm again, for the parts in which the body follows the
+/// notation: losses here are losses of the transcriber.
 fn held(
     written: &Posture,
     found: &Posture,
@@ -356,7 +356,7 @@ fn place(
             let contact = found.is_some_and(|found| found.contact == hands.contact);
             say("constellation", contact, text.clone(), other.clone());
             if let Some(at) = &hands.at {
-                // What is told of the dominant hand alone is a place, too.
+                // A place of the dominant hand alone counts, too.
                 let told = found_place.as_ref().and_then(bodies);
                 let at_found = told.as_ref();
                 let same = at_found.is_some_and(|found| one_place(found, at));
@@ -392,8 +392,8 @@ fn spoken(place: Option<&BodyPlace>) -> String {
     })
 }
 
-/// Tells whether two places are one: half-way from the chest to the right of the shoulders is half-way
-/// from the right of the chest to the shoulders.
+/// Returns whether two places are one: half-way from the chest to the right of the shoulders is half-way from the
+/// right of the chest to the shoulders.
 fn one_place(a: &BodyPlace, b: &BodyPlace) -> bool {
     let split = |place: &BodyPlace| {
         let (mut levels, mut sides): (Vec<_>, Vec<_>) = sites(place).into_iter().unzip();
@@ -414,7 +414,7 @@ fn sites(place: &BodyPlace) -> Vec<(String, String)> {
         .flatten()
         .map(|site| {
             use chereme_sign::hamnosys::{BodyLocation, Side};
-            // Of what is there twice, the own side is meant where nothing is said.
+            // A place that exists twice means the own side by default.
             let twice = matches!(
                 site.at,
                 BodyLocation::Cheek | BodyLocation::Ear | BodyLocation::EarLobe
@@ -472,7 +472,7 @@ fn placed(place: &Place) -> String {
     }
 }
 
-/// What a hand does, one thing after the other.
+/// The actions of a hand, one after the other.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Done {
     kind: &'static str,
@@ -566,7 +566,7 @@ fn movement(
     }
 }
 
-/// Returns what the dominant hand does, in order; `at` is where it was told to be last.
+/// Returns the actions of the dominant hand, in order; `at` is its last written place.
 fn flat(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
     let mut all = named(motion, at);
     let own = &motion.manner;

@@ -18,17 +18,17 @@ use crate::Result;
 use crate::bodies;
 use crate::compare::{Verdict, compare};
 
-/// What is printed besides the table.
+/// The output besides the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum More<'a> {
     Nothing,
-    /// Nothing, of what is told without being proven.
+    /// Nothing; readings without re-synthesis.
     Plain,
     /// Nothing, of the whole movement exported as BVH and read as any other capture.
     Blind,
     /// Every disagreement about a feature, or `all`, or `show` with each; only the half that is tuned on.
     Why(&'a str),
-    /// What is taken for what how often, in the half that is tuned on.
+    /// The confusions and their counts, in the half used for tuning.
     Confusions(&'a str),
 }
 
@@ -150,7 +150,7 @@ pub(crate) fn table(folder: &Path, body: &Path, rate: Option<u32>, more: More<'_
     Ok(())
 }
 
-/// Reads the signs of a text file, a line each in HamNoSys characters; what else a line has is left out.
+/// Reads the signs of a text file, a line each in HamNoSys characters; the rest of a line is left out.
 fn lines(file: &Path) -> Result<Vec<(String, Notated)>> {
     let text = std::fs::read_to_string(file)?;
     let mut all = Vec::new();
@@ -172,7 +172,7 @@ fn lines(file: &Path) -> Result<Vec<(String, Notated)>> {
     Ok(all)
 }
 
-/// Tells whether a sign is of the half that thresholds may be tuned on: by its name's bytes (FNV-1a).
+/// Returns whether a sign is of the half that thresholds may be tuned on: by its name's bytes (FNV-1a).
 fn is_tuned_on(name: &str) -> bool {
     let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
@@ -180,7 +180,7 @@ fn is_tuned_on(name: &str) -> bool {
     (hash >> 32) & 1 == 0
 }
 
-/// What is kept of a part of a sign.
+/// The record of a part of a sign.
 struct Seen {
     short: bool,
     seconds: f64,
@@ -219,7 +219,7 @@ impl Performs for Performed {
     }
 }
 
-/// What came of a part of a sign.
+/// The result for a part of a sign.
 pub(crate) struct Again {
     pub(crate) found: Transcription,
     /// The sign without the ways from and to rest.

@@ -1,4 +1,4 @@
-//! What must hold of a corpus file whatever happened to the processes that worked on it.
+//! The conditions on a corpus file, whatever happened to the processes that worked on it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -29,7 +29,7 @@ enum Action {
         inventory: String,
         /// The value, as annotations and queries spell it
         value: String,
-        /// What it is called in a spoken language, such as en="bent hand"
+        /// Its name in a spoken language, such as en="bent hand"
         #[arg(long, value_name = "LANGUAGE=NAME", value_parser = named)]
         name: Vec<(String, String)>,
         /// Another spelling
@@ -38,7 +38,7 @@ enum Action {
         /// The value that holds this one, as head holds chin
         #[arg(long)]
         broader: Option<String>,
-        /// What it is made of, such as index or spread
+        /// A feature of it, such as index or spread
         #[arg(long)]
         feature: Vec<String>,
         /// Its symbols in HamNoSys, by name
@@ -48,7 +48,7 @@ enum Action {
         #[arg(long)]
         notes: Option<String>,
     },
-    /// Make one value of two: what says the first says the second from then on
+    /// Merge two values: annotations with the first get the second
     ///
     /// The spelling of the first becomes another one of the second, so that a table that is imported again
     /// means the same.

@@ -44,8 +44,8 @@ Examples:
 
 /// Make a new sign from stored ones, and store it
 ///
-/// A recipe is a sign and what is done to it: ESCARGOT | configure right U. The new sign gets its own tiers
-/// and is found by search like a captured one; its recipe is stored with it. Quote the recipe for your shell.
+/// A recipe is a sign and the changes to it: ESCARGOT | configure right U. The new sign gets its own tiers and is
+/// found by search like a captured one; its recipe is stored with it. Quote the recipe for your shell.
 #[derive(Debug, clap::Args)]
 #[command(after_help = RECIPES)]
 pub(crate) struct Args {
@@ -89,12 +89,12 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     Ok(())
 }
 
-/// Tells whether the recording had to be named otherwise than its sign, as another has that name.
+/// Returns whether the recording has another name than its sign, because that name was taken.
 fn one_more(done: &Recombination) -> bool {
     done.name.as_ref().is_some_and(|name| *name != done.gloss)
 }
 
-/// Tells what was made, and draws it where asked.
+/// Prints the result, and draws it if asked.
 pub(super) fn tell(
     done: &Recombination,
     explain: bool,

@@ -94,7 +94,7 @@ enum OrderWord {
 /// How many values of a field people are shown without --facets.
 const TABLE_FACETS: usize = 8;
 
-/// What a table shows without --limit.
+/// The rows of a table without --limit.
 const TABLE_ROWS: usize = 50;
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {

@@ -17,8 +17,8 @@ pub(super) enum Action {
     AddTier {
         /// Its name
         name: String,
-        /// What its annotations say: gloss, translation, comment, free, or a component such as
-        /// right.placement or nonmanual.brows; a hand before it says whose hand they are about
+        /// The subject of its annotations: gloss, translation, comment, free, or a component such as
+        /// right.placement or nonmanual.brows; a hand before it gives their hand
         #[arg(long, default_value = "free")]
         role: TierTopic,
         /// Whose hand they are about, where the role does not say it
@@ -39,9 +39,9 @@ pub(super) enum Action {
     },
     /// Add the usual tiers to the recording named by --in, or those of another recording
     ///
-    /// The usual ones: gloss and translation; below the gloss handshape, placement, movement with its
-    /// direction, palm and finger direction of either hand, mouth, brows, head; a comment. What is there by
-    /// name already stays as it is.
+    /// The usual ones: gloss and translation; below the gloss handshape, placement, movement with its direction,
+    /// palm and finger direction of either hand, mouth, brows, head; a comment. A tier that exists by name stays as
+    /// it is.
     AddTiers {
         /// The recording whose tiers it shall have, without their annotations
         #[arg(long, value_name = "RECORDING")]
@@ -54,8 +54,7 @@ pub(super) enum Action {
         /// Its new name
         #[arg(long)]
         name: Option<String>,
-        /// What its annotations say; a hand before it, as in right.placement, says whose hand they are
-        /// about
+        /// The subject of its annotations; a hand before it, as in right.placement, gives their hand
         #[arg(long)]
         role: Option<TierTopic>,
         /// Whose hand they are about, where the role does not say it
@@ -88,7 +87,7 @@ pub(super) enum Action {
         /// The tier
         tier: String,
     },
-    /// Change what is known of the recording named by --in
+    /// Change the recording named by --in: its name, signer or remarks
     Recording {
         /// Its new name
         #[arg(long)]
@@ -106,7 +105,7 @@ pub(super) enum Action {
         #[arg(long)]
         notes: Option<String>,
     },
-    /// Change what is known of a signer
+    /// Change a signer: name, handedness or remarks
     Signer {
         /// The signer
         signer: String,
@@ -141,7 +140,7 @@ pub(super) enum Action {
     },
 }
 
-/// Whom and what language a tier is about; an empty text removes what was said.
+/// The person and the language of a tier; an empty text removes the old one.
 #[derive(Debug, clap::Args)]
 pub(super) struct People {
     /// Who is annotated: the signer whom `signer=` finds; "" for nobody
@@ -155,7 +154,7 @@ pub(super) struct People {
     language: Option<String>,
 }
 
-/// Returns what is given, where it is more than blanks.
+/// Returns the text, if it is more than blanks.
 fn filled(text: &Option<String>) -> Option<String> {
     let text = text.as_deref().map(str::trim);
     text.filter(|text| !text.is_empty()).map(str::to_owned)

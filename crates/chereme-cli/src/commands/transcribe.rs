@@ -19,10 +19,10 @@ use crate::output::{Bar, Output};
 ///
 /// `--json` gives "gloss", "token", "recording", "start_us", "end_us", the whole as "hamnosys" and "symbols" and as
 /// the tree "sign"; "stages", the posture at the beginning and each action with "action", "hand", "start_us",
-/// "end_us", "hamnosys", "symbols"; "features", each with "feature", "hand", "action" (null for the posture), "at_us",
-/// "start_us", "end_us", "value", "hamnosys", "symbols", "residual", "unit" (deg, cm or share) and "runner_up"
-/// ("value", "hamnosys", "symbols", "residual"; null where there is none); "findings". Times are microseconds
-/// from the start of the recording.
+/// "end_us", "hamnosys", "symbols"; "features", each with "feature", "hand", "action" (null for the posture),
+/// "at_us", "start_us", "end_us", "value", "hamnosys", "symbols", "residual", "unit" (deg, cm or share) and
+/// "runner_up" ("value", "hamnosys", "symbols", "residual"; null if there is no second reading); "findings". Times
+/// are microseconds from the start of the recording.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -32,7 +32,7 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// What to write: a gloss, token:41, or recording:3 where it is short
+    /// The movement to transcribe: a gloss, token:41, or recording:3 if it is short
     token: String,
     /// Write the names of the symbols in place of the table
     #[arg(long)]

@@ -93,7 +93,7 @@ impl Desk {
         self.pipe(line, b"")
     }
 
-    /// Likewise, with `input` on standard input.
+    /// Does the same, with `input` on standard input.
     pub(super) fn pipe(&self, line: &str, input: &[u8]) -> Output {
         let mut words = Vec::new();
         for (at, part) in line.split('\'').enumerate() {

@@ -1,4 +1,4 @@
-//! Angles over time that stay where they can be trusted and go calmly where they cannot.
+//! Angles over time: reliable ones stay, and the angle moves calmly through unreliable ones.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,7 +17,7 @@ pub(super) struct Angles {
     pub(super) values: Vec<f64>,
     /// How much each is worth, from 0 to 1; above 1 it must not change.
     pub(super) trust: Vec<f64>,
-    /// By how much the angle turns of itself from the frame before, where that is known.
+    /// The angle's own change from the frame before, if it is known.
     pub(super) own: Vec<f64>,
 }
 

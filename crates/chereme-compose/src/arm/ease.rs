@@ -6,7 +6,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 
 /// The time before and after over which angles make way, in seconds.
 const EVEN: f64 = 0.25;
-/// What a turn that is too far weighs against an angle that makes way as far.
+/// The weight of a turn beyond the limit against an equal change of an angle.
 const TOO_FAR: f64 = 2e6;
 /// The weight of an angle that must stay.
 const FIXED: f64 = 1e9;
@@ -31,7 +31,7 @@ impl Circle {
         along + (self.start - along) * angle.cos() + self.line.cross(self.start) * angle.sin()
     }
 
-    /// Tells whether no direction turns by more than `most` from one frame to the next.
+    /// Returns whether no direction turns by more than `most` from one frame to the next.
     pub(super) fn is_calm(all: &[Self], most: f64) -> bool {
         let least = most.min(PI).cos();
         all.windows(2)
@@ -61,7 +61,7 @@ pub(super) struct Turned {
 }
 
 impl Turned {
-    /// Tells whether no rotation turns by more than `most` from one frame to the next.
+    /// Returns whether no rotation turns by more than `most` from one frame to the next.
     pub(super) fn is_calm(all: &[Self], most: f64) -> bool {
         let least = (most / 2.0).min(FRAC_PI_2).cos();
         all.windows(2)
@@ -83,12 +83,11 @@ impl Turned {
     }
 }
 
-/// Returns the angles, from nought, for which as little as can be turns too far; nothing where nothing
-/// does at nought. Those that are `fixed` stay.
+/// Returns the angles, starting from zero, for which the excess turn is least; `None` if nothing turns too far at
+/// zero. Those that are `fixed` stay.
 ///
-/// The sum of the squares of the angles, of what they change from frame to frame, and of what
-/// `excess` returns for two frames, the second of which is named, is brought down by damped
-/// Gauss-Newton steps, each a tridiagonal solution.
+/// Damped Gauss-Newton steps, each a tridiagonal solution, minimise the sum of the squares of the angles, of their
+/// changes from frame to frame, and of the results of `excess` for two frames, the second of them named.
 pub(super) fn eased(
     fixed: &[bool],
     frame_time: f64,
@@ -158,7 +157,7 @@ pub(super) fn eased(
 /// Tridiagonal equations for a step of every angle.
 struct Equations {
     diagonal: Vec<f64>,
-    /// What stands before the diagonal.
+    /// The entries before the diagonal.
     beside: Vec<f64>,
     right: Vec<f64>,
 }

@@ -14,8 +14,8 @@ use super::{Source, Step, Turns, least_turn, line, off_line};
 const SWING: f64 = 7.3;
 const TURN: f64 = 9.0;
 
-/// Turns arms about the line from shoulder to wrist so that they go calmly: first the whole arm, then
-/// the elbow alone, where it stands otherwise than by its build.
+/// Turns arms about the line from shoulder to wrist so that they move calmly: first the whole arm, then the elbow
+/// alone, if it does not stand as it is built.
 pub(super) fn swivel(steps: &mut [Step], frame_time: f64) {
     let was = swivels(steps.iter().map(|step| (line(step.was), step.pole)));
     let is = swivels(

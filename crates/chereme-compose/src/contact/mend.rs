@@ -26,7 +26,7 @@ pub(crate) enum Keep {
 }
 
 impl Keep {
-    /// Returns what a step keeps; `sides` tells the sides of hands that are named.
+    /// Returns the contacts that a step keeps; `sides` gives the sides of named hands.
     pub(crate) fn of(step: &Step, sides: impl Fn(crate::units::Hands) -> &'static [Side]) -> Self {
         let both = |hands| match sides(hands).len() {
             2 => Self::Hands,
@@ -45,9 +45,8 @@ impl Keep {
     }
 }
 
-/// Moves wrists so that what touched touches again, where `keep` asks for it and it takes little;
-/// returns what was done. Where another point of a hand touches than did, the contact is that from
-/// now on.
+/// Moves wrists so that former contacts touch again, if `keep` asks for it and a small move is enough; returns a
+/// description of the moves. If another point of the hand touches now, that point is the contact from then on.
 ///
 /// The hand that was changed comes to the other; where both were, the weak hand comes first. Turns of
 /// hands stay. Before and after a contact the wrist's way is blended with what it was.

@@ -47,7 +47,7 @@ const SAMPLES: usize = 16;
 /// The farthest that places are from the joint that carries them, in metres.
 const SPREAD: f64 = 0.35;
 
-/// What carries a point.
+/// The joint that carries a point.
 #[derive(Debug, Clone, Copy)]
 struct Anchor {
     joint: usize,
@@ -55,7 +55,7 @@ struct Anchor {
     at: Option<DVec3>,
 }
 
-/// What carries the points and places of a body.
+/// The joints that carry the points and places of a body.
 #[derive(Debug, Clone)]
 pub(super) struct Anchors {
     hands: [[Option<Anchor>; POINTS.len()]; 2],
@@ -63,8 +63,8 @@ pub(super) struct Anchors {
 }
 
 impl Anchors {
-    /// Finds for each point the joint in whose space it stays where it is, however the body moves;
-    /// for places that depend on several joints of the trunk the uppermost of them.
+    /// Finds for each point the joint whose space it never moves in; for places that depend on several joints of
+    /// the trunk, the uppermost of them.
     pub(super) fn of(work: &Work) -> Self {
         let anatomy = &work.anatomy;
         let twisted = [1.0, 2.0].map(|way| twisted(work, way));
@@ -177,7 +177,7 @@ pub(super) struct Tracks<'a> {
     wrists: [Option<usize>; 2],
     anchors: &'a Anchors,
     columns: Columns,
-    /// What moves in its joint's space, every so many frames.
+    /// The points that move in their joint's space, sampled at intervals of frames.
     step: usize,
     loose: Vec<Vec<Option<DVec3>>>,
 }

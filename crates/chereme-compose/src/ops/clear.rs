@@ -17,7 +17,7 @@ const HEAD: [f64; 3] = [0.33, 0.49, 0.42];
 const MIDDLE: f64 = 0.5;
 /// How deep a joint of a finger may be in a body without skin, in metres.
 const SKIN: f64 = 0.01;
-/// How often hands are moved out before what is left is reported.
+/// The most rounds of moving hands out before the rest is reported.
 const ROUNDS: usize = 4;
 
 /// How a hand was kept out of the body.
@@ -58,8 +58,8 @@ impl Cleared {
     }
 }
 
-/// Moves the wrist of `side` out where the hand is deeper in head or trunk than it was before; nothing where it is
-/// nowhere.
+/// Moves the wrist of `side` out if the hand is deeper in head or trunk than before; returns `None` if the hand
+/// stays outside.
 pub(crate) fn clear(work: &mut Work, before: &Work, side: Side, solver: Solver) -> Option<Cleared> {
     let hand = work.anatomy.arm(side)?.hand;
     let was = Depths::of(before, side);

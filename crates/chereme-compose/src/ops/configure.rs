@@ -13,7 +13,7 @@ use crate::ops::say;
 use crate::poses::{self, HandPose};
 use crate::work::{Group, Work};
 
-/// How long a hand takes from one shape to another where nothing tells, in seconds.
+/// The usual time of a hand from one shape to another, in seconds.
 const CHANGE: f64 = 0.2;
 
 /// Gives `side` the values, one for the whole sign or one for each span; nothing keeps a span's own.
@@ -33,7 +33,7 @@ pub(crate) fn configure(
         return Err(Cause::NoFingers(side));
     }
     if work.held(side, Component::Configuration).is_empty() && work.handedness.dominant() == side {
-        // What is said of the sign as a whole is said of the dominant hand.
+        // A value of the sign as a whole belongs to the dominant hand.
         for note in &mut work.notes {
             let whole = note.about == About::Component(Component::Configuration, None);
             note.hand = note

@@ -20,7 +20,7 @@ pub(crate) fn check_length(work: &Work, frames: usize) -> Result<(), Cause> {
     Ok(())
 }
 
-/// What joining told: what was done, how the hands meet, and contacts that are gone.
+/// The report of a join: its effects, the distance between the hands, and lost contacts.
 #[derive(Debug, Default)]
 pub(crate) struct Done {
     pub(crate) did: Vec<String>,
@@ -161,8 +161,8 @@ fn extend(first: &mut Work, second: &Work, joint: usize, cut: Cut, offset: usize
     }
 }
 
-/// Lets every curve go from where the first leaves it to where the second takes it up; what only one of
-/// them has is nought in the other.
+/// Moves every curve from its value at the end of the first to its value at the start of the second; a curve of
+/// only one of them is zero in the other.
 fn curves(first: &mut Work, second: &Work, seam: &Seam) {
     let (leave, enter) = (seam.body.leave, seam.body.enter);
     let none = |name: &str, frames: usize| Curve {

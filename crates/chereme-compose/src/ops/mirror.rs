@@ -1,4 +1,4 @@
-//! `swap` and `mirror`: what one arm does, done by the other, across the body's sagittal plane.
+//! `swap` and `mirror`: one arm does the movement of the other, across the body's sagittal plane.
 //!
 //! With C the rotation of the joint that carries both arms, R that of an arm's joint j and m its
 //! counterpart, all in model space, and a zero for the rest pose, the movement of j relative to the
@@ -49,7 +49,7 @@ pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> 
         .collect();
     work.notes.extend(copies);
     let operator = format!("mirror {}", from.name());
-    // What is said of the sign as a whole is said of the dominant hand, and hands that are alike are two.
+    // A value of the sign as a whole belongs to the dominant hand, and hands with equal values count as two.
     let copied = work.handedness.dominant() != from;
     for note in work.notes.iter_mut().filter(|note| note.hand.is_none()) {
         match &note.about {
@@ -133,8 +133,8 @@ struct Pair {
     other: usize,
     /// Turns the counterpart's bone at rest to where the mirror image of this joint's bone is.
     even: DQuat,
-    /// What the mirror image of the joint's rotation, both in the space of the pair above, is
-    /// multiplied by to be the counterpart's.
+    /// The factor that turns the mirror image of the joint's rotation, both in the space of the pair above, into
+    /// the counterpart's.
     around: [DQuat; 2],
     /// Joints between the joint, or its counterpart, and the pair above; the lowest first.
     between: [Vec<usize>; 2],

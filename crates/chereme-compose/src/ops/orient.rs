@@ -147,7 +147,7 @@ fn turn(work: &Work, frame: &Frame, side: Side, settings: &Orient) -> Result<DQu
     Ok(turn.normalize())
 }
 
-/// Returns the shortest turn from `from` to `to`; about `axis` where they are opposite.
+/// Returns the shortest turn from `from` to `to`; about `axis` if they are opposite.
 fn arc(from: DVec3, to: DVec3, axis: DVec3) -> DQuat {
     if from.dot(to) < -1.0 + 1e-9 {
         return DQuat::from_axis_angle(axis, std::f64::consts::PI);

@@ -14,7 +14,8 @@ use crate::recipe::{Goal, HandPoint, Place, Solver};
 use crate::resolve::PlaceInput;
 use crate::work::{Columns, Group, Work};
 
-/// Moves the hands; returns what was done, the residual, and the way in body space, in metres.
+/// Moves the hands; returns a description of the effects, the residual, and the displacement in body space, in
+/// metres.
 pub(crate) fn place(
     work: &mut Work,
     settings: &Place,
@@ -96,12 +97,13 @@ fn directions(cm: DVec3) -> String {
 struct Anchor {
     point: HandPoint,
     frames: std::ops::Range<usize>,
-    /// What the hand touches then.
+    /// The touched thing.
     touch: Option<Touch>,
 }
 
-/// Finds the moment whose place counts. Of one hand it is the contact with the body that falls in the span of its own
-/// placement, or in the whole sign where none is told; else the stroke in that span, else the span, else the stroke.
+/// Finds the moment whose place counts. For one hand it is the contact with the body that falls in the span of its
+/// own placement, or in the whole sign if no placement is annotated; else the stroke in that span, else the span,
+/// else the stroke.
 fn anchor(work: &Work, sides: &[Side], with: Option<HandPoint>) -> Anchor {
     let whole = 0..work.frames;
     let point = with.unwrap_or(HandPoint::Palm);
@@ -195,7 +197,7 @@ pub(crate) fn shift(
     wrists(work, sides, solver, |_, _, at| at + by)
 }
 
-/// Moves wrists to where `target` says: hand, frame, where it is.
+/// Moves wrists to the position that `target` gives for a hand and a frame, starting from its position there.
 pub(crate) fn wrists(
     work: &mut Work,
     sides: &[Side],

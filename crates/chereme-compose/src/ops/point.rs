@@ -23,7 +23,7 @@ const STRETCH: f64 = 0.88;
 /// How far before a near target the fingertip stops, in metres.
 const SHORT_OF: f64 = 0.02;
 
-/// What a pointing gesture was given.
+/// The inputs of a pointing gesture.
 pub(crate) struct Given<'a> {
     pub(crate) shape: Option<&'a [HandPose]>,
     pub(crate) place: Option<&'a PlaceInput>,

@@ -12,7 +12,7 @@ use crate::ops::{retime, say, shape};
 use crate::recipe::Repeat;
 use crate::work::{Group, Work};
 
-/// How long the way back to the start takes where nothing is said, in seconds.
+/// The usual time of the return to the start, in seconds.
 const GAP: f64 = 0.12;
 
 /// Plays the movement `times` times.
@@ -78,7 +78,7 @@ pub(crate) fn repeat(
     Ok(done)
 }
 
-/// Says how often each hand that has something to do moves, in the place of what was said of it.
+/// Notes the number of repetitions of each active hand, in place of its earlier value.
 fn repeated(work: &mut Work, times: usize, operator: &str) {
     let is_said = |about: &About| matches!(about, About::Component(Component::Movement, Some(it)) if it == "repetition");
     let more = work.notes.iter().any(|note| {

@@ -191,7 +191,7 @@ fn root(work: &Work, out: &mut Work) {
             .or(anatomy.joint(Part::Foot(Side::Right)));
         foot.map(|foot| model.position(hips).y - model.position(foot).y)
     };
-    // Legs that do not hang down at rest, as where every bone lies along one axis, tell by their length.
+    // Legs that do not hang down at rest, because every bone lies along one axis, count by their length.
     let size = |work: &Work| {
         let measures = work.anatomy.measures()?;
         let leg = leg_length(&work.skeleton, &work.anatomy);
@@ -229,8 +229,8 @@ fn leg_length(skeleton: &Skeleton, anatomy: &Anatomy) -> Option<f64> {
     })
 }
 
-/// Brings the wrists where they are relative to the shoulders' middle, in arms' lengths, so that hands
-/// that meet go on meeting on wider shoulders.
+/// Moves the wrists to the same place relative to the shoulders' middle, in arms' lengths, so that hands that meet
+/// still meet on wider shoulders.
 fn wrists(work: &Work, out: &mut Work) {
     let arms = |work: &Work| Side::BOTH.map(|side| work.anatomy.arm(side));
     let ([Some(r), Some(l)], [Some(right), Some(left)]) = (arms(work), arms(out)) else {

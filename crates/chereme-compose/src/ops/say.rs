@@ -1,4 +1,4 @@
-//! What operators say of the sign they make: values that become true, and values that no longer are.
+//! The notes of operators: values that become true, and values that become false.
 
 use std::ops::Range;
 
@@ -10,13 +10,13 @@ use chereme_sign::{Component, Reading};
 use crate::made::{About, Note};
 use crate::work::Work;
 
-/// Tells whether a note is about what hands of `sides` do; one without a hand is about the dominant hand's.
+/// Returns whether a note is about hands of `sides`; a note without a hand is about the dominant one.
 pub(crate) fn is_of(work: &Work, note: &Note, sides: &[Side]) -> bool {
     let dominant = work.handedness.dominant();
     sides.contains(&note.hand.unwrap_or(dominant))
 }
 
-/// Takes back what is said of hands where `about` finds a component, and perhaps its part, that is no longer true.
+/// Withdraws notes about hands if `about` finds a component, perhaps a part of it, that is no longer true.
 pub(crate) fn withdraw(
     work: &mut Work,
     sides: &[Side],
@@ -37,8 +37,8 @@ pub(crate) fn withdraw(
     }
 }
 
-/// Says that a hand has a value of a component, or of a part of it, over some frames. What was said of the same thing
-/// at the time makes room.
+/// Notes that a hand has a value of a component, or of a part of it, over some frames. Earlier notes on the same
+/// thing at that time make room.
 pub(crate) fn tell(
     work: &mut Work,
     side: Side,
@@ -76,8 +76,8 @@ pub(crate) fn tell(
     });
 }
 
-/// Says where a hand is after it was moved: at `value`, over the stretches of time in which a place was told, or over
-/// `frames` where none was. Without a value only what was told is taken back.
+/// Notes the place of a moved hand: `value`, over the times of its earlier placements, or over `frames` if it had
+/// no placement. Without a value the earlier placements are withdrawn only.
 pub(crate) fn placed(
     work: &mut Work,
     side: Side,
@@ -180,8 +180,8 @@ pub(crate) fn direction(way: DVec3) -> Option<String> {
     Some(words.join("-"))
 }
 
-/// Names the side of eight to which a palm faces, both ways in body space, as notation tells it for fingers that point
-/// there.
+/// Names the side of eight that a palm faces, with both directions in body space, in the words of notation for
+/// fingers in that direction.
 pub(crate) fn palm(fingers: DVec3, palm: DVec3) -> Option<&'static str> {
     let (fingers, palm) = (fingers.try_normalize()?, palm.try_normalize()?);
     let angle = orientation::palm_angle(fingers.to_array(), palm.to_array());

@@ -14,7 +14,7 @@ use crate::recipe::{Amplify, Indicate, Leg, Solver, Spot, Travel};
 use crate::resolve::PlaceInput;
 use crate::work::{Columns, Group, Work};
 
-/// What was done and the largest residual.
+/// The effects and the largest residual.
 type Done = (Vec<String>, f64);
 
 /// Multiplies the distances of the wrists from the middle of their movement.
@@ -89,7 +89,7 @@ pub(crate) fn travel(
 
 /// Returns how far along the path the hands are at each frame.
 ///
-/// Legs without a time share what is left of the movement by their lengths.
+/// Legs without a time share the rest of the movement by their lengths.
 fn way(work: &Work, frame: &Frame, path: &[Leg], course: &Course) -> Vec<DVec3> {
     let total = work.frames.saturating_sub(1).max(1) as f64 * work.rate.frame_time();
     let told: f64 = path
@@ -155,8 +155,8 @@ impl Sent {
         self.path.iter().all(|at| at.distance(self.path[0]) < STILL)
     }
 
-    /// Returns the share of the way from `near` to `far` at which the wrist is within the arm's reach, at
-    /// the start or the end, where it is `beside` the hands' middle.
+    /// Returns the share of the line from `near` to `far` at which the wrist is within the arm's reach, at the
+    /// start or the end, with the wrist `beside` the hands' middle.
     fn reaches(&self, end: usize, beside: DVec3, near: DVec3, far: DVec3) -> f64 {
         let most = REACH * self.arm;
         let within =
@@ -192,8 +192,8 @@ fn sent(work: &Work, sides: &[Side]) -> Result<Vec<Sent>, Cause> {
 /// Makes the hands' movement start and end elsewhere: the way between is turned and stretched with
 /// its ends, and the hands turn about the vertical with it.
 ///
-/// What is only a direction, such as `left` or `you`, is as far as the arms reach. A hand that hangs or lies
-/// still while the other one moves stays where it is.
+/// A mere direction, such as `left` or `you`, lies at the end of the arms' reach. A hand that hangs or lies still
+/// while the other one moves stays in its place.
 pub(crate) fn indicate(
     work: &mut Work,
     settings: &Indicate,
@@ -277,7 +277,7 @@ pub(crate) fn indicate(
     Ok((did, worst.residual))
 }
 
-/// Returns the frames at the start, or at the end, in which a wrist stays where it is then.
+/// Returns the frames at the start, or at the end, in which a wrist keeps its position.
 fn stays(work: &Work, side: Side, end: bool) -> Result<std::ops::Range<usize>, Cause> {
     let path = wrist_path(work, side)?;
     let last = path.len().saturating_sub(1);
@@ -293,7 +293,7 @@ fn stays(work: &Work, side: Side, end: bool) -> Result<std::ops::Range<usize>, C
     })
 }
 
-/// Returns the share of a path's length done at each frame; of its time where it has no length.
+/// Returns the share of a path's length at each frame; the share of its time if it has no length.
 fn travelled(path: &[DVec3]) -> Vec<f64> {
     let mut shares = vec![0.0];
     for pair in path.windows(2) {
@@ -329,13 +329,13 @@ fn wrist_path(work: &Work, side: Side) -> Result<Vec<DVec3>, Cause> {
     Ok(Columns::of(work, [hand]).positions(hand).to_vec())
 }
 
-/// Tells whether a wrist stays where it is.
+/// Returns whether a wrist keeps its position.
 fn is_still(work: &Work, side: Side) -> bool {
     let path = wrist_path(work, side).unwrap_or_default();
     path.iter().all(|at| at.distance(path[0]) < STILL)
 }
 
-/// Says of hands that did not move before what path they draw now: straight where it is one way.
+/// Notes the new path of hands that did not move before: straight if it has one leg.
 fn drawn(work: &mut Work, frame: &Frame, sides: &[Side], path: &[Leg], operator: &str) {
     let all = 0..work.frames;
     for &side in sides {
@@ -353,7 +353,7 @@ fn drawn(work: &mut Work, frame: &Frame, sides: &[Side], path: &[Leg], operator:
     }
 }
 
-/// Takes back what is said of the place and the movement of hands that move otherwise; phases stay what they are.
+/// Withdraws notes on the place and the movement of hands whose movement changed; phases stay.
 fn moved(work: &mut Work, sides: &[Side], operator: &str) {
     say::withdraw(
         work,

@@ -17,8 +17,7 @@ use crate::sources::{MedianTime, SpellingTimes};
 use crate::units::Seconds;
 use crate::work::{Group, Work};
 
-/// How long a letter is held, and the hand takes from letter to letter, where neither recipe nor
-/// corpus tells, in seconds.
+/// The usual time of a held letter, and of the hand from letter to letter, in seconds.
 const HOLD: f64 = 0.2;
 const CHANGE: f64 = 0.25;
 /// The longest of either that is taken from a corpus, in seconds.

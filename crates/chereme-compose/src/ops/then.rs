@@ -21,7 +21,7 @@ const WINDOW: f64 = 0.3;
 /// The least and most time of a transition, and a wrist's mean speed in one, in metres per second.
 const TIMES: (f64, f64, f64) = (0.15, 0.6, 1.0);
 
-/// Puts `next` behind `work`; returns what was done and how the hands meet.
+/// Appends `next` to `work`; returns a description of the effects and of the distance between the hands.
 pub(crate) fn then(
     work: &mut Work,
     next: Work,
@@ -82,7 +82,7 @@ pub(crate) fn then(
     })
 }
 
-/// Tells whether two skeletons are one body: all that may differ is where joints are that both movements place.
+/// Returns whether two skeletons are one body: they may differ only in offsets of joints that both movements place.
 fn one_body(first: &Work, second: &Work) -> bool {
     let (a, b) = (&first.skeleton, &second.skeleton);
     if Arc::ptr_eq(a, b) || a == b {
@@ -98,7 +98,7 @@ fn one_body(first: &Work, second: &Work) -> bool {
         })
 }
 
-/// Where a body is in a posture and which way it faces, as far as its joints tell.
+/// The position of a body in a posture, and its front as far as its joints show it.
 fn standing(work: &Work, frame: usize) -> (DVec3, Option<DVec3>) {
     let model = ModelPose::of(&work.skeleton, &work.pose(frame));
     if let Some(body) = work.anatomy.body_frame(&model) {
@@ -201,7 +201,7 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>) -> Seam {
     }
 }
 
-/// Tells whether a hand that the first sign uses has nothing to do in the second.
+/// Returns whether a hand of the first sign is idle in the second.
 fn stays(first: &Work, second: &Work, side: Side) -> bool {
     let used = |work: &Work, side: Side| {
         work.notes
@@ -220,7 +220,7 @@ fn hold(first: &Work, second: &mut Work, side: Side, leave: usize) {
             second.channels[joint].rotations.fill(rotation);
         }
     }
-    // What the hand shows when the first sign leaves it, it shows on.
+    // The hand keeps its value at the end of the first sign.
     let end = first.rate.instant(leave + 1);
     let shown = first.notes.iter().filter(|note| {
         let about = matches!(

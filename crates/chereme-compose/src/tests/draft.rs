@@ -8,7 +8,7 @@ use crate::sources::{
 };
 use crate::{Draft, Language, Recipe};
 
-/// Sources that tell what they were asked for.
+/// Sources that record the questions.
 struct Asked {
     shelf: Shelf,
     materials: RefCell<Vec<String>>,
@@ -83,8 +83,8 @@ fn recipe(text: &str) -> Recipe {
         .unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
-/// Recipes as they follow each other while somebody works: what changes is a setting, an operator's
-/// place, the source, a piece.
+/// Recipes in the order of somebody's work: from one to the next a setting, an operator's place, the source or a
+/// piece changes.
 const SOURCES: [&str; 4] = [
     "ESCARGOT",
     "BOL",

@@ -1,4 +1,4 @@
-//! What operators keep, and that they can be taken back.
+//! The invariants of operators, and their inverses.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! What each operator does.
+//! The effect of each operator.
 
 use super::*;
 
@@ -289,7 +289,7 @@ fn contacts_are_followed_through_every_operator() {
             "{told:?}"
         );
     }
-    // What was shrunk no longer reaches where it did, or is told to be brought back.
+    // A shrunk movement no longer reaches its contact, or the report says that it was brought back.
     let shrunk = made(&format!("{touching} | repeat 2 scale 0.3"));
     let told = format!("{}{:?}", shrunk.report, shrunk.report.contacts);
     assert!(told.contains("repetition 2: "), "{told}");

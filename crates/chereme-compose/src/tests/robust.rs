@@ -71,7 +71,7 @@ fn bodies_that_lack_something_are_told_what() {
     }
 }
 
-/// Steps of every kind, some of which cannot be taken.
+/// Steps of every kind, some of them impossible.
 const STEPS: [&str; 26] = [
     "configure right U",
     "configure both from BOL",

@@ -1,11 +1,11 @@
-//! What operators say of the signs they make, and which moment a place is measured at.
+//! The notes of operators on the signs they generate, and the moment at which a place is measured.
 
 use super::*;
 use crate::body;
 use crate::recipe::HandPoint;
 use crate::work::Work;
 
-/// What is said of a hand: component, part, value, and the time in milliseconds.
+/// The notes on a hand: component, part, value, and the time in milliseconds.
 fn said(made: &Made, side: Side, component: Component) -> Vec<(String, String, i64, i64)> {
     let of = |note: &crate::Note| {
         let About::Component(found, feature) = &note.about else {

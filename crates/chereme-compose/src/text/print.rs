@@ -93,7 +93,7 @@ const RESERVED: [&str; 44] = [
     "backwards",
 ];
 
-/// A name as recipes write it: plain where it can be, else quoted.
+/// A name in the spelling of recipes: plain if possible, else quoted.
 pub(crate) struct Name<'a>(pub(crate) &'a str);
 
 impl Display for Name<'_> {
@@ -122,7 +122,7 @@ fn is_plain(name: &str) -> bool {
         && Hands::from_word(name).is_none()
 }
 
-/// Tells whether `name` is an address with a quoted end, such as `recording:"NGT Thanks"`.
+/// Returns whether `name` is an address with a quoted end, such as `recording:"NGT Thanks"`.
 fn is_address(name: &str) -> bool {
     let Some((kind, quoted)) = name.split_once(":\"") else {
         return false;

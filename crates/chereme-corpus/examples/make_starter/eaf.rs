@@ -267,7 +267,7 @@ fn vocabularies(used: &Used) -> Vec<Vocabulary> {
     all
 }
 
-/// The value is the same in both languages; what it means is told in each.
+/// The value is the same in both languages; each language has its own description.
 fn entry(id: &str, english: &str, french: &str) -> Entry {
     let value = |language: &str, description: &str| EntryValue {
         language: language.to_owned(),

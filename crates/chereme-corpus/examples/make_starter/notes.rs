@@ -1,4 +1,4 @@
-//! What is said of a take on each tier: what the animator says about its movement.
+//! The annotations of a take on each tier, as the animator describes its movement.
 
 use chereme_compose::{About, Made};
 use chereme_motion::{Instant, Side, Span};
@@ -101,7 +101,7 @@ pub(crate) fn glosses(made: &Made) -> Vec<Span> {
     glosses.map(|note| later(note.span)).collect()
 }
 
-/// Returns what is said of the signs of `take`, tier by tier in order of time.
+/// Returns the annotations of the signs of `take`, tier by tier in order of time.
 pub(crate) fn notes(take: &Take, made: &Made) -> Vec<Note> {
     let phases: Vec<Note> = Side::BOTH
         .iter()

@@ -1,4 +1,4 @@
-//! The two files that people read: what the folder is, and the lexicon.
+//! The two files for people: the description of the folder, and the lexicon.
 
 use chereme_motion::Side;
 

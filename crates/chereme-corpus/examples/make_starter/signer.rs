@@ -4,7 +4,7 @@ use chereme_motion::axes::Axis;
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Joint, RotationOrder, Side, Skeleton};
 
-/// What the signer is called in the annotation files.
+/// The signer's name in the annotation files.
 pub(crate) const NAME: &str = "Camille (made)";
 
 /// Stature is 168 cm; lengths of limbs are shares of it after Drillis & Contini 1966.

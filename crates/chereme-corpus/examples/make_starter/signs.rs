@@ -11,11 +11,11 @@ use super::notes::{DIRECTION, MOVEMENT, PLACEMENT};
 pub(crate) struct Sign {
     /// The name, in French capitals as usual.
     pub(crate) gloss: String,
-    /// What it means in French and in English.
+    /// Its meaning in French and in English.
     pub(crate) means: [&'static str; 2],
     /// The names of its symbols, without the `ham` that each begins with.
     pub(crate) symbols: &'static str,
-    /// What body and head do, by the codes of SiGML, and how much of it; what the brows do is told only.
+    /// The activity of body and head, by the codes of SiGML, and its amount; brows are annotated only, not moved.
     pub(crate) acts: &'static [(NonmanualPart, &'static str, f64)],
     /// Values that say more than the symbols can, or one of several said at once.
     pub(crate) finer: &'static [Finer],

@@ -7,13 +7,13 @@ use super::signs::{self, Sign};
 pub(crate) struct Take {
     /// The name of its files.
     pub(crate) stem: &'static str,
-    /// What it shows, in English.
+    /// A description in English.
     pub(crate) about: &'static str,
     /// The signs.
     pub(crate) signs: Vec<Sign>,
     /// How long postures are held in seconds, where not as usual.
     pub(crate) hold: Option<f64>,
-    /// What the whole means in French and in English, where it is an utterance.
+    /// The meaning of the whole in French and in English, if it is an utterance.
     pub(crate) phrase: Option<[&'static str; 2]>,
     /// The seed of its small irregularities.
     pub(crate) seed: u64,

@@ -13,7 +13,7 @@ pub const LEAST: i64 = 10_000;
 /// Where a recording without movement ends: annotations make it longer.
 pub(super) const FAR: i64 = 1 << 50;
 
-/// What times the annotations of a tier have.
+/// How the annotations of a tier get their times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// Their own.
@@ -50,7 +50,7 @@ impl Kind {
 pub struct Held {
     /// The tier.
     pub tier: i64,
-    /// What times its annotations have.
+    /// How its annotations get their times.
     pub kind: Kind,
     /// The annotations that may be in the way, the held ones among them, in order of time.
     pub items: Vec<Item>,
@@ -83,7 +83,7 @@ impl Held {
     }
 }
 
-/// Returns the time within which annotations of a recording lie; `frames` tells whether it has movement.
+/// Returns the time within which annotations of a recording lie; `frames` says whether it has movement.
 #[must_use]
 pub fn limits(contents: &Contents, frames: bool) -> Limits {
     let to = if frames {
@@ -185,8 +185,8 @@ fn span_of(contents: &Contents, id: i64) -> Option<(i64, i64)> {
     })
 }
 
-/// Returns where a new annotation of a tier can be within `wanted`: what is free of it, and where the tier
-/// hangs below another what lies inside one annotation there.
+/// Returns the room for a new annotation of a tier within `wanted`: the free time, and on a tier below another the
+/// part inside one annotation of that tier.
 #[must_use]
 pub fn room(contents: &Contents, tier: &TierContents, wanted: (i64, i64)) -> Option<(i64, i64)> {
     let own = items(tier, None);
@@ -217,8 +217,8 @@ pub fn room(contents: &Contents, tier: &TierContents, wanted: (i64, i64)) -> Opt
     best
 }
 
-/// Returns the whole parent where it has no child yet, else the tail of the child that `wanted` begins in,
-/// or its head where it begins there.
+/// Returns the whole parent if it has no child yet, else the tail of the child in which `wanted` begins, or its
+/// head if both begin together.
 fn tiled_room(own: &[Item], above: Item, wanted: (i64, i64)) -> Option<(i64, i64)> {
     let mut below = own
         .iter()

@@ -48,7 +48,7 @@ use scope::Scope;
 /// One change of annotations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnnotationChange {
-    /// Where it is asked for, such as `changes.csv, line 3`; errors name it.
+    /// The place of the request, such as `changes.csv, line 3`; errors name it.
     pub place: Option<String>,
     /// A name by which later changes of the same list can call the annotation that this one adds.
     pub label: Option<String>,
@@ -56,7 +56,7 @@ pub struct AnnotationChange {
     pub action: AnnotationAction,
 }
 
-/// What to do to annotations.
+/// A change of annotations.
 ///
 /// Values are texts: an id, alias or name of the tier's inventory, or anything where the tier has
 /// none. On coded tiers (glosses, components, and those with an inventory) `unset`, `n/a` and
@@ -111,7 +111,7 @@ pub enum AnnotationAction {
         first: AnnotationName,
         /// The later one, which goes.
         second: AnnotationName,
-        /// What the merged one shall say; nothing where both say the same.
+        /// The value of the merged annotation; `None` if both have the same.
         value: Option<String>,
         /// Whether equal children that meet at the seam become one too.
         join: bool,
@@ -165,14 +165,13 @@ pub struct AnnotateOptions {
     pub snap: bool,
     /// Who says so.
     pub origin: AnnotationOrigin,
-    /// What becomes of annotations that are in the way of one that is added or moved: in normal mode
-    /// the change is refused.
+    /// The effect on annotations in the way of an added or moved one: in normal mode the change is refused.
     pub mode: Mode,
-    /// The unit of bare numbers in a table whose titles name none; seconds where nothing is said.
+    /// The unit of bare numbers in a table whose titles name none; seconds by default.
     pub unit: Option<TimeUnit>,
 }
 
-/// What became of a list of changes.
+/// The result of a list of changes.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct AnnotateReport {
     /// For each change the annotation that it added, changed or removed.
@@ -190,8 +189,8 @@ pub struct AnnotateReport {
 impl Corpus {
     /// Makes changes of annotations as one operation, in their order: all of them, or none.
     ///
-    /// Tokens and search follow. What a person changes or adds is from then on that person's, and
-    /// what moves loses the milliseconds of the file it came from.
+    /// Tokens and search follow. Annotations that a person changes or adds belong to that person from then on, and
+    /// moved ones lose the milliseconds of the file they came from.
     ///
     /// # Errors
     /// Where changes break a rule of their tier, name what is not there, or say what the tier's
@@ -592,7 +591,7 @@ fn is_symbolic(tier: &TierRow) -> bool {
         .is_some_and(|stereotype| !stereotype.is_alignable())
 }
 
-/// Returns what `text` says on a tier with that inventory, as the inventory's own id where it has one.
+/// Returns the value of `text` on a tier with that inventory, as the inventory's own id if it has one.
 fn reading(tier: &TierRow, inventory: Option<&StoredInventory>, text: &str) -> Result<Reading> {
     let coded = inventory.is_some() || tier.role == "component" || tier.role == "gloss";
     if !coded || text.trim().is_empty() {

@@ -31,7 +31,7 @@ impl TierName {
     /// Reads `tier:12`, or else the name of a tier of `recording`.
     ///
     /// # Errors
-    /// Where it is a name and no recording is given.
+    /// Fails if the text is a name and no recording is given.
     pub fn read(text: &str, recording: Option<&Name>) -> Result<Self> {
         match (text.parse(), recording) {
             (Ok(Address::Tier(number)), _) => Ok(Self::Number(number)),
@@ -126,7 +126,7 @@ pub(super) fn tier(connection: &Connection, name: &TierName) -> Result<TierRow> 
 
 const SEQUEL: &str = "could not be added";
 
-/// Tells whether a fault only follows from that of an earlier change.
+/// Returns whether a fault only follows from that of an earlier change.
 pub(super) fn is_sequel(fault: &Error) -> bool {
     matches!(fault, Error::Wrong { message, .. } if message.ends_with(SEQUEL))
 }

@@ -21,8 +21,8 @@ pub enum Scheme {
     Usual,
     /// Those of another recording.
     Like(Name),
-    /// What components say of the hand of a gloss tier, of both where it has none: handshape, placement,
-    /// movement with its direction, palm and finger direction below that tier.
+    /// The components of the hand of a gloss tier, of both hands if it has none: handshape, placement, movement
+    /// with its direction, palm and finger direction below that tier.
     ///
     /// Where a name is taken, that of the gloss tier stands behind it.
     Below(TierName),
@@ -116,7 +116,7 @@ fn add(
     Ok(added)
 }
 
-/// What a tier says and of which hand.
+/// Returns the subject of a tier, and its hand.
 fn says(row: &TierRow) -> (&str, Option<&str>, Option<&str>, Option<&str>) {
     (
         &row.role,

@@ -38,7 +38,7 @@ struct Clock {
     frames: usize,
 }
 
-/// What a change needs to be planned.
+/// The rows that a change needs to be planned.
 pub(super) struct Neighbourhood {
     pub(super) set: TierSet,
     pub(super) rows: BTreeMap<i64, AnnotationRow>,

@@ -40,7 +40,7 @@ pub struct NewTier {
     pub recording: Name,
     /// The name, which no other tier of the recording may have.
     pub name: String,
-    /// What its annotations say.
+    /// The subject of its annotations.
     pub role: TierRole,
     /// Whose hand they are about.
     pub hand: Option<Hands>,
@@ -74,12 +74,12 @@ impl NewTier {
     }
 }
 
-/// What shall be different about a tier; nothing leaves it as it is.
+/// A change of a tier; a missing field stays as it is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct TierChange {
     /// Its name.
     pub name: Option<String>,
-    /// What its annotations say.
+    /// The subject of its annotations.
     pub role: Option<TierRole>,
     /// Whose hand they are about, or nobody's.
     pub hand: Option<Option<Hands>>,
@@ -98,7 +98,7 @@ pub struct TierChange {
     pub language: Option<Option<String>>,
 }
 
-/// What went with a tier.
+/// The rows that were removed together with a tier.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct RemovedTiers {
     /// The tier and those below it.

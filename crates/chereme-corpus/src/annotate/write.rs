@@ -132,8 +132,8 @@ fn placed(row: AnnotationRow, new: &Annotation, parent_id: Option<i64>) -> Annot
     }
 }
 
-/// What the file said beyond the row, less what no longer holds: the vocabulary entry of another
-/// value, and that ends were never set.
+/// The properties from the file that the row does not hold, without those that a change made false: the vocabulary
+/// entry of another value, and the mark that ends were never set.
 fn source(source: Option<&str>, moved: bool, renamed: bool) -> Option<String> {
     let mut source: Value = serde_json::from_str(source?).ok()?;
     let map = source.as_object_mut()?;

@@ -1,4 +1,4 @@
-//! Rows of attributes: what a table says of a sign beyond its components.
+//! Rows of attributes: the properties of a sign in a table beyond its components.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +14,7 @@ pub(crate) struct AttributeRow {
     pub(crate) name: String,
     /// The cell, letter by letter.
     pub(crate) text: String,
-    /// The number that the cell is, where it is one.
+    /// The number in the cell, if it is one.
     pub(crate) number: Option<f64>,
 }
 

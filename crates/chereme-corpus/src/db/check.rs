@@ -1,4 +1,4 @@
-//! What the database itself can tell about damage.
+//! The database's own checks for damage.
 
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};

@@ -10,7 +10,7 @@ use crate::around::Around;
 use crate::contents::{AnnotationColumns, RecordingGlance, SignGlance, ValueState};
 use crate::error::Result;
 
-/// Returns the number of the newest operation; 0 where there is none.
+/// Returns the number of the newest operation; 0 if there is no operation.
 pub(crate) fn generation(connection: &Connection) -> Result<i64> {
     let sql = "SELECT coalesce(max(id), 0) FROM operation";
     Ok(connection

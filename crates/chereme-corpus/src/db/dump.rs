@@ -9,7 +9,7 @@ use super::motion::hex;
 use super::open;
 use crate::error::Result;
 
-/// The tables that a reader of the data wants, in the order in which they build on each other.
+/// The tables for a reader of the data, each after those it builds on.
 pub(crate) const TABLES: [&str; 24] = [
     "meta",
     "signer",
@@ -52,8 +52,8 @@ pub(crate) fn read_copy(path: &Path) -> Result<Connection> {
     Ok(connection)
 }
 
-/// Calls `take` with the names of a table's columns, then with each row as text; what is not set is
-/// nothing, bytes are hexadecimal, and bytes of kept files are left out.
+/// Calls `take` with the names of a table's columns, then with each row as text. An unset field is empty, bytes are
+/// hexadecimal, and bytes of kept files are left out.
 pub(crate) fn table(
     connection: &Connection,
     table: &str,

@@ -60,7 +60,7 @@ pub(crate) fn regloss(connection: &Connection, old: &str, new: &str) -> Result<u
     Ok(changed)
 }
 
-/// Writes what a recording is anew; its `signer` is not looked at.
+/// Writes a recording's row again; its `signer` is not used.
 pub(crate) fn update_recording(connection: &Connection, row: &RecordingRow) -> Result<()> {
     connection
         .prepare_cached(
@@ -81,7 +81,7 @@ pub(crate) fn update_recording(connection: &Connection, row: &RecordingRow) -> R
     Ok(())
 }
 
-/// Writes what a signer is anew.
+/// Writes a signer's row again.
 pub(crate) fn update_signer(connection: &Connection, row: &SignerRow) -> Result<()> {
     connection
         .prepare_cached("UPDATE signer SET name = ?2, handedness = ?3, notes = ?4 WHERE id = ?1")?
@@ -110,7 +110,7 @@ pub(crate) fn recordings_of_signer(connection: &Connection, signer: i64) -> Resu
     Ok(ids)
 }
 
-/// Writes a sign's gloss and notes anew.
+/// Writes a sign's gloss and notes again.
 pub(crate) fn update_sign(
     connection: &Connection,
     sign: i64,
@@ -133,7 +133,7 @@ pub(crate) fn sign(connection: &Connection, sign: i64) -> Result<(String, Option
         .query_row([sign], |row| Ok((row.get(0)?, row.get(1)?)))?)
 }
 
-/// Removes a translation of a sign, and tells whether it was there.
+/// Removes a translation of a sign, and returns whether it existed.
 pub(crate) fn remove_text(
     connection: &Connection,
     sign: i64,

@@ -23,7 +23,7 @@ pub(crate) use tracked::refers_to;
 
 const PART_BYTES: usize = 4 << 20;
 
-/// What an operation is to history.
+/// The kind of an operation in the history.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum OperationKind {
@@ -60,7 +60,7 @@ pub struct OperationRow {
     pub target: Option<i64>,
     /// The kind of work, such as `import`.
     pub name: String,
-    /// What was done, for people.
+    /// A summary of the operation for people.
     pub summary: String,
     /// How many rows changed.
     pub changes: i64,
@@ -137,7 +137,7 @@ pub(super) fn finish(
     Ok(())
 }
 
-/// Tells of every 512th change how far the work is.
+/// Reports the progress at every 512th change.
 fn step(progress: &mut Progress<'_>, task: &str, done: i64) -> Result<()> {
     if done % 512 != 0 {
         return Ok(());
@@ -308,7 +308,7 @@ pub(super) fn read_part(connection: &Connection, operation: i64, part: i64) -> R
     String::from_utf8(lines).map_err(|_| damaged(place(), "it is no text"))
 }
 
-/// A row that an operation changed, as JSON before and after; null where it was not there.
+/// A row that an operation changed, as JSON before and after; null if it did not exist.
 pub(crate) struct RowChange {
     pub(crate) table: String,
     pub(crate) before: Value,
@@ -348,7 +348,7 @@ pub(crate) fn steps(connection: &Connection) -> Result<(usize, usize)> {
     Ok((done.len(), undone.len()))
 }
 
-/// Returns the name of a row as people know it; nothing where it is gone or has none.
+/// Returns the name of a row as people know it; `None` if it is gone or has no name.
 pub(crate) fn name_of(connection: &Connection, table: &str, id: i64) -> Result<Option<String>> {
     let sql = match table {
         "recording" => "SELECT name FROM recording WHERE id = ?1",
@@ -365,7 +365,7 @@ pub(crate) fn name_of(connection: &Connection, table: &str, id: i64) -> Result<O
         .optional()?)
 }
 
-/// Returns the row that a tier refers to by `column`; nothing where it is gone.
+/// Returns the row that a tier refers to by `column`; `None` if it is gone.
 pub(crate) fn reference_of(
     connection: &Connection,
     table: &str,
@@ -398,7 +398,7 @@ impl Inverse {
         let key = columns[0].name.clone();
         let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
         let values: Vec<String> = columns.iter().map(from_image).collect();
-        // What an image of an earlier version does not have stays as it is.
+        // A field that an image of an earlier version lacks stays as it is.
         let settings: Vec<String> = columns
             .iter()
             .map(|column| {

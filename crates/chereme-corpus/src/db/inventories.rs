@@ -56,7 +56,7 @@ pub(crate) fn find(connection: &Connection, key: &str) -> Result<Option<i64>> {
         .optional()?)
 }
 
-/// Writes an inventory, or its document anew, and returns its row; `id` and `values` are not looked at.
+/// Writes an inventory or a new version of its document, and returns its row; `id` and `values` are not used.
 pub(crate) fn store(connection: &Connection, row: &InventoryRow) -> Result<i64> {
     connection
         .prepare_cached(
@@ -68,7 +68,7 @@ pub(crate) fn store(connection: &Connection, row: &InventoryRow) -> Result<i64> 
     Ok(find(connection, &row.key)?.unwrap_or_default())
 }
 
-/// Writes a value of an inventory, or its document anew.
+/// Writes a value of an inventory, or a new version of its document.
 pub(crate) fn store_value(
     connection: &Connection,
     inventory: i64,

@@ -20,10 +20,10 @@ pub(crate) enum Holds {
     Flag,
     /// JSON, filtered by the text of the second expression.
     Json(&'static str),
-    /// What a token is coded as, which the caller puts in from the row's `id`.
+    /// The components of a token, which the caller adds from the row's `id`.
     Components,
-    /// What a token, or a sign's citation form, is as notation, which the caller puts in from the
-    /// row number that the expression gives; filtered by the text of the second expression.
+    /// The notation of a token, or of a sign's citation form, which the caller adds from the row number that the
+    /// expression gives; filtered by the text of the second expression.
     Notation(&'static str),
 }
 

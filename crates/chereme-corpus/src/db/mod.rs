@@ -112,7 +112,7 @@ impl Store {
         self.operation_told(name, progress, |connection, _| work(connection))
     }
 
-    /// Does the same with work that tells where it is; it can be stopped until all of it is stored.
+    /// Does the same with work that reports its progress; it can be stopped until all of it is stored.
     pub(crate) fn operation_told<T>(
         &mut self,
         name: &str,
@@ -147,7 +147,7 @@ impl Store {
         history::check(&self.connection, progress)
     }
 
-    /// Makes the search index anew from the rows.
+    /// Builds the search index again from the rows.
     pub(crate) fn reindex(&mut self, progress: &mut Progress<'_>) -> Result<()> {
         let transaction = self
             .connection

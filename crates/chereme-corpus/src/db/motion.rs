@@ -1,4 +1,4 @@
-//! Rows of motion: blocks named by their content, and which frames of which track they are.
+//! Rows of motion: blocks named by their content, and the frames and tracks that they hold.
 
 use std::ops::Range;
 
@@ -43,7 +43,7 @@ pub(crate) fn insert_block(
     Ok(())
 }
 
-/// Stores the bytes of a block, where they are not there yet, and returns its name.
+/// Stores the bytes of a block unless they are stored already, and returns its name.
 fn insert_bytes(connection: &Connection, data: &[u8]) -> Result<Vec<u8>> {
     let hash = Sha256::digest(data).to_vec();
     connection
@@ -86,8 +86,8 @@ pub(crate) fn blocks(
     Ok(())
 }
 
-/// Returns the SHA-256 over the names of a track's blocks, and of its curves where it has any: the name
-/// of its movement.
+/// Returns the SHA-256 over the names of a track's blocks, and of its curves if it has any: the name of its
+/// movement.
 pub(crate) fn content_hash(connection: &Connection, track: i64) -> Result<String> {
     let mut statement = connection.prepare_cached(
         "SELECT channel_group, first_frame, hash FROM track_block WHERE track_id = ?1

@@ -1,4 +1,4 @@
-//! Rows of notations: what a token is in HamNoSys or SiGML.
+//! Rows of notations: tokens in HamNoSys or SiGML.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use rusqlite::{Connection, OptionalExtension, Row, params};
 use super::signs::json_list;
 use crate::error::Result;
 
-/// What a token is as notation.
+/// The notation of a token.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct NotationRow {
     /// The row.
@@ -24,7 +24,7 @@ pub(crate) struct NotationRow {
     pub(crate) line: Option<i64>,
     /// `hamnosys` or `sigml`.
     pub(crate) system: String,
-    /// The text as it was written, where it is HamNoSys.
+    /// The text as it was written, if it is HamNoSys.
     pub(crate) text: Option<String>,
     /// The tree with all that was said beside it, as JSON.
     pub(crate) document: String,
@@ -57,7 +57,7 @@ pub(crate) fn of_token(connection: &Connection, token: i64) -> Result<Option<Not
         .optional()?)
 }
 
-/// Tells whether any of these tokens has a notation.
+/// Returns whether any of these tokens has a notation.
 pub(crate) fn any(connection: &Connection, tokens: &[i64]) -> Result<bool> {
     let sql = "SELECT EXISTS (SELECT 1 FROM notation WHERE token_id IN (SELECT value FROM json_each(?1)))";
     Ok(connection
@@ -149,7 +149,7 @@ pub(crate) fn set(connection: &Connection, row: &NotationRow) -> Result<()> {
     Ok(())
 }
 
-/// Deletes the notation of a token, where it has one.
+/// Deletes the notation of a token, if it has one.
 pub(crate) fn delete(connection: &Connection, token: i64) -> Result<()> {
     connection
         .prepare_cached("DELETE FROM notation WHERE token_id = ?1")?

@@ -85,7 +85,7 @@ fn make(path: &Path, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()>
     Ok(())
 }
 
-/// A corpus in the making, under a name of its own; what is left of it goes in the end.
+/// A corpus that is being made, under a name of its own; it is removed if the work fails.
 struct Making(PathBuf);
 
 impl Making {
@@ -94,7 +94,7 @@ impl Making {
         Self(path.with_file_name(format!(".{name}.{}", Uuid::now_v7().simple())))
     }
 
-    /// Gives the file its name, where nothing has it: a link never replaces what is there.
+    /// Gives the file its name if the name is free: a link never replaces an existing file.
     fn publish(&self, path: &Path) -> Result<()> {
         let published = match fs::hard_link(&self.0, path) {
             // Some file systems know no links.
@@ -112,7 +112,7 @@ impl Drop for Making {
         for end in ["", "-wal", "-shm"] {
             let mut name = self.0.clone().into_os_string();
             name.push(end);
-            // What is not there need not go.
+            // A missing file needs no removal.
             let _ = fs::remove_file(name);
         }
     }
@@ -120,7 +120,7 @@ impl Drop for Making {
 
 const CHOOSE: &str = "choose a file that `chereme new` or `chereme import` made";
 
-/// Returns why a file can be no whole corpus, and what would be right, as far as its size tells.
+/// Returns why a file cannot be a whole corpus, and how to get one, judged by its size.
 fn outwardly_wrong(path: &Path) -> Result<Option<(String, &'static str)>> {
     let fault = |error| Error::file(path, error);
     let data = match fs::metadata(path) {
@@ -267,7 +267,7 @@ static WAITING: OnceLock<fn()> = OnceLock::new();
 ///
 /// It counts for the whole program, and only the first call does. After 20 seconds the work is refused.
 pub fn on_waiting(tell: fn()) {
-    // A second listener is not an error: the first one tells already.
+    // A second listener is not an error: the first one reports already.
     let _ = WAITING.set(tell);
 }
 
@@ -290,7 +290,7 @@ pub(super) fn configure(connection: &mut Connection) -> Result<()> {
     connection.busy_handler(Some(wait))?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
-    // Without it statements are parsed anew whenever a parameter changes.
+    // Without it statements are parsed again whenever a parameter changes.
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_ENABLE_QPSG, true)?;
     connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, LARGEST_VALUE)?;
     connection.set_prepared_statement_cache_capacity(128);

@@ -16,7 +16,7 @@ pub(crate) struct RecipeRow {
     pub text: String,
     /// The recipe and what was chosen for it, as JSON.
     pub document: String,
-    /// What making it told, as JSON.
+    /// The report of the evaluation, as JSON.
     pub report: String,
     /// The version of the program that made it.
     pub engine: String,
@@ -39,7 +39,7 @@ pub(crate) fn insert(connection: &Connection, row: &RecipeRow) -> Result<i64> {
     Ok(connection.last_insert_rowid())
 }
 
-/// Writes how a recording was made anew, and forgets what it was made from.
+/// Writes the recipe of a recording again, and forgets its earlier inputs.
 pub(crate) fn update(connection: &Connection, row: &RecipeRow) -> Result<()> {
     connection
         .prepare_cached(
@@ -104,7 +104,7 @@ pub(crate) fn insert_input(
     Ok(())
 }
 
-/// Returns how a recording was made, where it was.
+/// Returns the recipe of a recording, if it was generated.
 pub(crate) fn of_recording(connection: &Connection, recording: i64) -> Result<Option<RecipeRow>> {
     Ok(connection
         .prepare_cached(

@@ -17,7 +17,7 @@ pub struct SignerRow {
     pub id: i64,
     /// The name.
     pub name: String,
-    /// `right`, `left`, or nothing where it is not known.
+    /// `right`, `left`, or `None` if unknown.
     pub handedness: Option<String>,
     /// Remarks.
     pub notes: Option<String>,
@@ -71,8 +71,7 @@ pub(crate) struct MotionTrackRow {
     pub axes: String,
     /// The order in which the root's columns are meant, where the header has it wrong.
     pub root_order: Option<String>,
-    /// By how much the root's places are to be multiplied, where they are in another unit than the
-    /// bones.
+    /// The factor for the root's positions, if they are in another unit than the bones.
     pub root_scale: Option<f64>,
     /// Joint roles that a person set, as JSON.
     pub roles: Option<String>,
@@ -97,7 +96,7 @@ pub struct MediaTrackRow {
     pub media_type: Option<String>,
 }
 
-/// Returns the row of the signer called `name`, made where there is none.
+/// Returns the row of the signer called `name`, and inserts it if it is missing.
 pub(crate) fn signer_named(
     connection: &Connection,
     name: &str,
@@ -149,7 +148,7 @@ fn signer_row(row: &Row<'_>) -> rusqlite::Result<SignerRow> {
     })
 }
 
-/// Returns the row of the skeleton with this content hash, made of `document` where there is none.
+/// Returns the row of the skeleton with this content hash, and inserts it with `document` if it is missing.
 pub(crate) fn skeleton_stored(
     connection: &Connection,
     hash: &str,
@@ -260,7 +259,7 @@ pub(crate) struct SourceFileRow {
     pub id: i64,
     /// The recording that it is about.
     pub recording_id: Option<i64>,
-    /// What kind of file it is, such as `bvh`, `eaf`, `lexicon`, `inventory` or `sigml`.
+    /// The kind of file, such as `bvh`, `eaf`, `lexicon`, `inventory` or `sigml`.
     pub kind: String,
     /// The file's name, without its folder.
     pub name: String,
@@ -270,7 +269,7 @@ pub(crate) struct SourceFileRow {
     pub hash: String,
 }
 
-/// Writes down a file that rows came from, with its bytes where they are kept, and returns its row.
+/// Records a file that rows came from, with its bytes if they are kept, and returns its row.
 pub(crate) fn insert_source_file(
     connection: &Connection,
     row: &SourceFileRow,

@@ -1,4 +1,4 @@
-//! What the search index needs of the rows, and where its files lie among them.
+//! The rows that the search index needs, and the place of its files among them.
 
 pub(crate) mod answers;
 mod documents;
@@ -31,7 +31,7 @@ pub(crate) fn touches(connection: &Connection) -> Result<i64> {
     Ok(count)
 }
 
-/// The two counters that tell whether the index follows the rows, and the format it was made in.
+/// The two counters that show whether the index follows the rows, and the format it was built in.
 pub(crate) struct State {
     pub(crate) content: i64,
     pub(crate) indexed: i64,

@@ -48,11 +48,11 @@ pub struct TokenRow {
     pub origin: String,
     /// Whether it is the sign's citation form.
     pub citation: bool,
-    /// What its file said beyond this, as JSON.
+    /// Properties from its file that have no column, as JSON.
     pub source: Option<String>,
 }
 
-/// What a token's component is.
+/// The value of a token's component.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub(crate) struct TokenValueRow {
     /// The hand, or nothing where the component belongs to none or the whole sign.
@@ -75,7 +75,7 @@ pub(crate) struct TokenValueRow {
     pub annotation_id: Option<i64>,
 }
 
-/// Returns the row of the sign with this gloss, made where there is none.
+/// Returns the row of the sign with this gloss, and inserts it if it is missing.
 pub(crate) fn sign_glossed(connection: &Connection, gloss: &str) -> Result<i64> {
     if let Some(id) = find_sign(connection, gloss)? {
         return Ok(id);
@@ -137,7 +137,7 @@ pub(crate) fn texts(connection: &Connection, sign: i64) -> Result<Vec<(String, S
     Ok(texts)
 }
 
-/// Adds a translation of a sign, where it is not there yet.
+/// Adds a translation of a sign unless it exists.
 pub(crate) fn add_text(
     connection: &Connection,
     sign: i64,
@@ -393,7 +393,7 @@ pub(crate) fn tokens_of_sign(connection: &Connection, sign: i64) -> Result<Vec<T
     Ok(rows)
 }
 
-/// Tells whether a sign has a citation form that moves.
+/// Returns whether a sign has a citation form that moves.
 pub(crate) fn is_cited(connection: &Connection, sign: i64) -> Result<bool> {
     Ok(connection
         .prepare_cached(
@@ -411,8 +411,8 @@ pub(crate) struct HoldingRow {
     pub(crate) span_us: Option<(i64, i64)>,
 }
 
-/// Returns the tokens of recordings that hold a value of a component, captured ones first. What was made shows
-/// nothing that its sources do not, and would be shown to itself.
+/// Returns the tokens of recordings that hold a value of a component, captured ones first. Generated tokens are
+/// left out: they show nothing beyond their sources, and would be compared with themselves.
 pub(crate) fn tokens_holding(
     connection: &Connection,
     component: &str,

@@ -1,4 +1,4 @@
-//! What is said about captured movement, by time, for those who measure it.
+//! The annotations of captured movement, by time, for those who measure it.
 
 use rusqlite::{Connection, params};
 
@@ -16,7 +16,7 @@ pub(crate) struct MovementSpan {
     pub(crate) inventory_id: Option<i64>,
 }
 
-/// What an entry of a lexicon says about the movement of a captured token of the same sign.
+/// The movement that an entry of a lexicon gives for a captured token of the same sign.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct LexiconMovement {
     pub(crate) token: i64,
@@ -32,7 +32,7 @@ pub(crate) struct LexiconMovement {
 /// Returns up to `most` annotated movements with their size, manner and phases, in captured recordings,
 /// by recording and time.
 ///
-/// What the program itself said (a detector, a recipe) is left out.
+/// Annotations by the program itself (a detector, a recipe) are left out.
 pub(crate) fn movement_spans(connection: &Connection, most: usize) -> Result<Vec<MovementSpan>> {
     let mut statement = connection.prepare_cached(
         "SELECT t.recording_id, t.hand, t.feature, a.start_us, a.end_us, a.value, t.inventory_id

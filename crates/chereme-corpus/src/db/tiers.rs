@@ -23,7 +23,7 @@ pub struct TierRow {
     pub stereotype: Option<String>,
     /// `gloss`, `component`, `translation`, `comment` or `free`.
     pub role: String,
-    /// The component, where that is the role.
+    /// The component, if that is the role.
     pub component: Option<String>,
     /// The feature of the component, such as `brows`.
     pub feature: Option<String>,
@@ -37,7 +37,7 @@ pub struct TierRow {
     pub language: Option<String>,
     /// The inventory its values come from.
     pub inventory_id: Option<i64>,
-    /// What its file said beyond this, as JSON.
+    /// Properties from its file that have no column, as JSON.
     pub source: Option<String>,
 }
 
@@ -59,7 +59,7 @@ impl TierRow {
         self.feature = feature.flatten().map(str::to_owned);
     }
 
-    /// Tells whether it cuts movement into phases; these are of a stretch of signing, not of a sign.
+    /// Returns whether it divides movement into phases; these belong to a stretch of signing, not to a sign.
     pub(crate) fn is_of_phases(&self) -> bool {
         self.component.as_deref() == Some("movement") && self.feature.as_deref() == Some("phase")
     }
@@ -94,7 +94,7 @@ pub(crate) struct AnnotationRow {
     pub file_start_ms: Option<i64>,
     /// Its end in that file, in milliseconds, while it has not moved.
     pub file_end_ms: Option<i64>,
-    /// What its file said beyond this, as JSON.
+    /// Properties from its file that have no column, as JSON.
     pub source: Option<String>,
 }
 
@@ -171,7 +171,7 @@ pub(crate) fn insert_tier(connection: &Connection, row: &TierRow) -> Result<i64>
     Ok(connection.last_insert_rowid())
 }
 
-/// Writes what a tier is anew.
+/// Writes a tier's row again.
 pub(crate) fn update_tier(connection: &Connection, row: &TierRow) -> Result<()> {
     connection
         .prepare_cached(
@@ -267,7 +267,7 @@ pub(crate) fn insert_annotation(connection: &Connection, row: &AnnotationRow) ->
     Ok(connection.last_insert_rowid())
 }
 
-/// Writes an annotation anew.
+/// Writes an annotation's row again.
 pub(crate) fn update_annotation(connection: &Connection, row: &AnnotationRow) -> Result<()> {
     connection
         .prepare_cached(

@@ -91,7 +91,7 @@ pub(crate) struct TrackForm {
     pub(crate) metres_per_unit: Option<f64>,
     /// The axes of places, as `up,left`.
     pub(crate) axes: Option<String>,
-    /// What else the kind of track needs to be read, as JSON.
+    /// Further properties needed to read this kind of track, as JSON.
     pub(crate) layout: Option<String>,
 }
 

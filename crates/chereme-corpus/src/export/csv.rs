@@ -20,7 +20,7 @@ use crate::notation;
 use crate::progress::{Progress, Step, Unit};
 use crate::words::counted;
 
-/// A column of values: component, feature, hand, and the phase where it has a column of its own.
+/// A column of values: component, feature, hand, and the phase if it has a column of its own.
 type Column = (String, Option<String>, Option<String>, Option<Place>);
 
 /// A phase in the order of time.

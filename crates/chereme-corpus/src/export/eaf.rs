@@ -114,7 +114,7 @@ fn transcript(
     Ok(transcript)
 }
 
-/// What there is but tiers: that of the recording's first file, and the vocabularies of the others.
+/// The document besides its tiers: that of the recording's first file, and the vocabularies of the others.
 fn base(
     connection: &Connection,
     recording: &RecordingRow,
@@ -144,7 +144,7 @@ fn base(
     })
 }
 
-/// Says where media lie that were linked anew since the file was read; those that were not stay as it has them.
+/// Writes the new place of media that were linked again after the import; other links stay as the file has them.
 fn relink(connection: &Connection, recording: i64, transcript: &mut Transcript) -> Result<()> {
     let tracks = recordings::media_tracks(connection, recording)?;
     let before = std::mem::take(&mut transcript.media);
@@ -219,7 +219,7 @@ fn describe(
     Ok(())
 }
 
-/// What the tiers are whose names would be understood otherwise, as a mapping spells it.
+/// The roles of tiers whose names alone would be read differently, in the spelling of a mapping.
 fn roles_of_tiers(
     connection: &Connection,
     recording: &RecordingRow,
@@ -324,7 +324,7 @@ impl Writing<'_> {
             "unclear" => "unclear".to_owned(),
             _ => String::new(),
         };
-        // What its file left without an entry stays so.
+        // A value that its file left without an entry stays so.
         let entry = match text(&source, "entry") {
             None if row.origin != "file" => tier
                 .vocabulary
@@ -385,7 +385,7 @@ fn tier(row: &TierRow, parent: Option<usize>) -> Tier {
     }
 }
 
-/// Annotations in the order of time, or in that of their file where that is another.
+/// Annotations in the order of time, or in that of their file if the two differ.
 fn in_order(rows: Vec<AnnotationRow>) -> Vec<AnnotationRow> {
     let time = |row: &AnnotationRow| (row.start_us, row.position);
     let mut by_row = rows.clone();

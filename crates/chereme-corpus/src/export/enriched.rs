@@ -22,7 +22,7 @@ use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
 use crate::track::{self, TrackKind};
 
-/// What the folder tells its reader.
+/// The guide to the folder.
 const ABOUT: &str = include_str!("enriched.md");
 
 /// Writes the folder, which must not be there yet, and returns its files, checksums last.
@@ -82,7 +82,7 @@ impl Folder {
         Ok(self.files)
     }
 
-    /// Makes the folders above a file, notes it down, and returns where it goes.
+    /// Creates the folders above a file, records it, and returns its path.
     fn make(&mut self, path: &str) -> Result<PathBuf> {
         let full = self.root.join(path);
         let above = full.parent().unwrap_or(&self.root).to_owned();

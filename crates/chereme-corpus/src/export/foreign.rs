@@ -252,7 +252,7 @@ pub(super) fn text_grid(
     put(out, text.as_bytes())
 }
 
-/// Writes translations, or glosses if there are none, as subtitles.
+/// Writes translations, or glosses if the recording has no translation, as subtitles.
 ///
 /// # Errors
 /// If the recording has neither, its rows are damaged, or writing fails.

@@ -36,11 +36,11 @@ use crate::words::counted;
 /// What to export.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ExportWhat {
-    /// What an address names.
+    /// The thing at an address.
     Address(Address),
     /// These tokens, such as those that a query finds, in this order.
     Tokens(Vec<i64>),
-    /// What several addresses name.
+    /// The things at several addresses.
     Several(Vec<Address>),
     /// The inventory of this name.
     Inventory(String),
@@ -63,7 +63,7 @@ pub struct ExportOptions {
 pub struct ExportReport {
     /// The files.
     pub files: Vec<ExportedFile>,
-    /// What whoever reads the files should know.
+    /// Notes for the reader of the files.
     pub notes: Vec<String>,
 }
 
@@ -462,7 +462,7 @@ fn whole(
         })
     });
     if done.is_err() {
-        // What is left of a failed export is of no use; that it stays is no second failure.
+        // The rest of a failed export is of no use; if it stays, that is no second failure.
         let _ = fs::remove_file(&part);
     }
     done

@@ -74,7 +74,7 @@ fn notated(
     Ok(signs)
 }
 
-/// Tells what the file does not say, each kind of thing with how often and the first sign it is in.
+/// Notes each kind of property that the file cannot hold, with its count and the first sign that has it.
 fn tell_lost(signs: &[Notated], lost: &[Vec<String>], notes: &mut Vec<String>) {
     let mut kinds: BTreeMap<&str, (usize, &str)> = BTreeMap::new();
     for (sign, own) in signs.iter().zip(lost) {

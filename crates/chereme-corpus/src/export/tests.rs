@@ -1,4 +1,4 @@
-//! What is exported comes back when it is imported.
+//! Exports come back when they are imported.
 
 use std::path::{Path, PathBuf};
 

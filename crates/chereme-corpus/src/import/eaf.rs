@@ -534,7 +534,7 @@ fn write_annotations(
     Ok(())
 }
 
-/// Tells by a row's state how its value is missing, on tiers of glosses and components.
+/// Sets a row's state if its value is missing, on tiers of glosses and components.
 fn coded(mut row: AnnotationRow, guess: &TierGuess) -> AnnotationRow {
     let coded = matches!(
         guess.role,

@@ -48,7 +48,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     for inventory in &all {
         inventories::store(job.connection, inventory)?;
     }
-    // Values that were there before stay, so that both together may be none.
+    // Values that existed before stay, so that both together may be refused.
     let now = inventories::load(job.connection).map_err(|error| match error {
         Error::Damaged { reason, .. } => Error::wrong(format!(
             "with the values that the corpus has of it already: {reason}"

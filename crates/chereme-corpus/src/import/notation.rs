@@ -82,7 +82,7 @@ impl Text<'_> {
     }
 }
 
-/// Returns why a text is no notation to code a sign by, where it is none: it was garbled, or holds no symbol.
+/// Returns why a text cannot code a sign: it was garbled, or holds no symbol.
 pub(super) fn uncoded(gloss: &str, line: u64, text: &str) -> Option<ReportFinding> {
     let (message, remedy) = if is_garbled(text) {
         (

@@ -1,4 +1,4 @@
-//! What annotation files are understood as.
+//! How annotation files are read.
 
 mod again;
 mod captured;
@@ -205,7 +205,7 @@ fn phases_of_movement_cut_time_and_are_no_values_of_a_token() {
     assert_eq!(all.expect("listed").total, 3);
 }
 
-/// What annotations say: tier, start in ms, value.
+/// The annotations: tier, start in ms, value.
 fn said(corpus: &Corpus) -> Vec<String> {
     let connection = corpus.store.read();
     let tiers = recordings_of(corpus)

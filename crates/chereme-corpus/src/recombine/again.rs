@@ -1,4 +1,4 @@
-//! A made sign made anew: another recipe's movement in the place of what it was.
+//! Rebuilding a generated sign: the movement of another recipe takes the place of its own.
 
 use std::collections::BTreeSet;
 
@@ -23,10 +23,10 @@ use crate::tokens;
 impl Corpus {
     /// Makes the movement of a recipe and stores it in the place of a sign that was made before.
     ///
-    /// The sign keeps its recording, its name, its token and what people wrote on its tiers; its
-    /// movement, its recipe and the annotations that came with the movement are those of the new
-    /// recipe. What people wrote beyond the new end ends there; what began after it goes, and a
-    /// warning of the report tells so. All of it is one operation, and undo brings the former sign back.
+    /// The sign keeps its recording, its name, its token and the annotations that people wrote on its tiers; its
+    /// movement, its recipe and the annotations that came with the movement are those of the new recipe. People's
+    /// annotations that reach beyond the new end are cut there; those that began after it are removed, and a
+    /// warning of the report says so. All of it is one operation, and undo brings the former sign back.
     ///
     /// # Errors
     /// As [`preview`](Self::preview); where `sign` was not made by a recipe, and where the recipe takes
@@ -138,7 +138,7 @@ fn refuse_circle(
     Ok(())
 }
 
-/// What became of the annotations of the former movement.
+/// The result of removing the annotations of the former movement.
 #[derive(Default)]
 struct Cleared {
     /// The tiers that lost some that came with the movement.

@@ -20,9 +20,9 @@ pub(crate) struct Drafted {
 impl Corpus {
     /// Makes the movement of a recipe that is worked on, and stores nothing.
     ///
-    /// It is what [`preview`](Self::preview) makes. What a change of the recipe since the last draft
-    /// leaves as it was is not looked up and made again while the corpus stays as it is; `anew` looks
-    /// everything up again, also in files that recipes name.
+    /// Returns the same as [`preview`](Self::preview). Parts that a change of the recipe since the last draft
+    /// leaves alone are not evaluated again while the corpus stays as it is; with `anew` everything is looked up
+    /// again, including files that recipes name.
     ///
     /// # Errors
     /// As [`preview`](Self::preview), and [`Error::Stopped`] where the listener says so between two

@@ -22,7 +22,7 @@ pub struct MadePart {
 }
 
 impl MadePart {
-    /// Returns the address of its original; nothing where it was spelled, pointed or notated.
+    /// Returns the address of its original; `None` if it was spelled, pointed or notated.
     #[must_use]
     pub fn original(&self) -> Option<Address> {
         let address = self.from.parse().ok()?;
@@ -61,7 +61,7 @@ impl Corpus {
     }
 }
 
-/// Returns the pieces that notes tell of.
+/// Returns the pieces that notes describe.
 pub(super) fn of(notes: &[Note]) -> Vec<MadePart> {
     let gloss = |note: &&Note| note.about == About::Gloss;
     let part = |note: &Note| {

@@ -31,10 +31,10 @@ pub struct Answer {
     /// By field, how many further values have not been counted, if some have not.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub facets_left_out: BTreeMap<String, usize>,
-    /// What the conditions of the query widened to, matched, or could not match.
+    /// The wider values that conditions of the query accepted or matched, and conditions that cannot match.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<Finding>,
-    /// What whoever asked should know besides.
+    /// Further notes for the asker.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
@@ -71,8 +71,8 @@ pub struct Hit {
     /// How alike it is to the example, from 0 to 1, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub score: Option<f64>,
-    /// Values by field, such as `initial.right.placement`; a list where there are several. What is
-    /// not applicable is `n/a`, what is unclear `unclear`.
+    /// Values by field, such as `initial.right.placement`; a list if there are several. A value that does not apply
+    /// is `n/a`, an unclear one `unclear`.
     pub components: BTreeMap<String, Value>,
 }
 
@@ -85,8 +85,8 @@ pub const FACET_VALUES: usize = 20;
 /// gloss, the order in which tokens were stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Order {
-    /// The most alike to an example first; then where a text is the whole gloss, a word of the
-    /// gloss, part of what is said, part of a remark.
+    /// The most similar to an example first; then tokens whose whole gloss is the text, then a word of the gloss,
+    /// part of a translation, part of a remark.
     #[default]
     Rank,
     /// By recording and time.
@@ -180,7 +180,7 @@ impl Ranks {
     }
 }
 
-/// What the order of documents depends on.
+/// The keys that decide the order of documents.
 struct Places {
     id: Numbers<u64>,
     sign: Numbers<u64>,
@@ -340,7 +340,7 @@ fn row_facet(
     let least = all.min(most);
     if least > 0 && counts.len() > least {
         counts.select_nth_unstable_by(least - 1, |a, b| b.0.cmp(&a.0));
-        // Those of equal number are told apart by name, so all of them stay.
+        // Values with equal counts differ in name, so all of them stay.
         let bar = counts[least - 1].0;
         counts.retain(|(count, _)| *count >= bar);
     }

@@ -106,7 +106,7 @@ impl Beside {
         }
     }
 
-    /// Tells whether a token passes that no annotation of the tier shares time with.
+    /// Returns whether a token passes if no annotation of the tier shares time with it.
     fn passes_alone(&self) -> bool {
         self.relation.is_none()
             && self.other.iter().any(|other| match other {
@@ -272,7 +272,7 @@ struct Mark {
     passes: bool,
 }
 
-/// Annotations by start, with the latest end so far, so that those near a span are found.
+/// Annotations by start, with the latest end so far, to find those near a span.
 struct Marks {
     marks: Vec<Mark>,
     latest: Vec<Instant>,
@@ -289,7 +289,7 @@ impl Marks {
         Self { marks, latest }
     }
 
-    /// Tells whether the candidate stands in the relation to one that is not itself.
+    /// Returns whether the candidate stands in the relation to another annotation.
     fn any(
         &self,
         relation: Relation,

@@ -32,7 +32,7 @@ use super::whole;
 use crate::db::search::answers::{self, Named};
 use crate::error::{Error, Result};
 
-/// What answering a query looks at.
+/// The corpus and index that a query is answered from.
 pub(crate) struct Ask<'a> {
     pub(crate) connection: &'a Connection,
     pub(crate) index: &'a SearchIndex,
@@ -55,7 +55,7 @@ pub(crate) enum Failure {
     Other(Error),
 }
 
-/// What a step of answering gives.
+/// The result of a step of answering.
 pub(crate) type Asked<T> = std::result::Result<T, Failure>;
 
 impl From<QueryError> for Failure {

@@ -17,9 +17,9 @@ use super::{findings, steps};
 
 /// A comparison of a component, ready to be made.
 ///
-/// Where the field names no part of the component, it means the whole; a value that the whole does
-/// not know means the parts that know it (`nonmanual=raised`); and where nothing is named (`*`,
-/// `unset`) all parts count. Where it names no hand or phase, every reading of the token counts.
+/// A field that names no part of the component means the whole. A value that the whole does not know means the
+/// parts that know it (`nonmanual=raised`); without a value (`*`, `unset`) all parts count. If the field names no
+/// hand or phase, every reading of the token counts.
 pub(crate) struct ComponentTest {
     pub(crate) field: Field,
     subject_at: std::ops::Range<usize>,
@@ -68,7 +68,7 @@ impl ComponentTest {
         })
     }
 
-    /// Tells whether a reading of a part passes; `folded` is its value, folded.
+    /// Returns whether a reading of a part passes; `folded` is its value, folded.
     pub(crate) fn accepts(&self, part: Option<&str>, reading: &Reading, folded: &str) -> bool {
         let of_part = self.parts.iter().find(|(own, _)| own.as_deref() == part);
         of_part.is_some_and(|(_, accepted)| self.accepts_by(accepted, reading, folded))
@@ -158,7 +158,7 @@ impl ComponentTest {
         Ok(Plan::any(vec![found, absent]))
     }
 
-    /// Returns the values that pass, folded, where they are known without looking at each.
+    /// Returns the values that pass, folded, if they are known without a look at each.
     fn listed<'a>(
         &self,
         accepted: &'a [Accepted],

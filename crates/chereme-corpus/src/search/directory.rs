@@ -23,7 +23,7 @@ struct Files {
     deleted: BTreeSet<PathBuf>,
 }
 
-/// What has changed in a [`MemoryFolder`]: files to write, and names to delete.
+/// The changes of a [`MemoryFolder`]: files to write, and names to delete.
 pub(super) struct Changes {
     pub(super) written: Vec<(String, OwnedBytes)>,
     pub(super) deleted: Vec<String>,
@@ -35,8 +35,8 @@ impl MemoryFolder {
         self.write().data.insert(PathBuf::from(name), data);
     }
 
-    /// Returns a file that can only be as it is, where it is here: those that describe the others
-    /// are written anew under the same name.
+    /// Returns a file whose content can never change, if it is in memory; files that describe others are rewritten
+    /// under the same name and are not returned.
     pub(super) fn unchanging(&self, name: &str) -> Option<OwnedBytes> {
         if name.ends_with(".json") {
             return None;

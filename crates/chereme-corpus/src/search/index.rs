@@ -10,12 +10,12 @@
 //! | `facet` | `right.configuration=U` as printed | counts |
 //! | `start`, `end`, `duration` | microseconds | `duration<0.8s`; relations of time |
 //!
-//! Texts are [folded](chereme_sign::text::fold) before they come here; words are their stretches of
-//! letters and digits. Nothing is scored: what is found first is a matter of where, not how often.
+//! Texts are [folded](chereme_sign::text::fold) before they come here; words are their stretches of letters and
+//! digits. Nothing is scored: the order of results depends on the place of a match, not on its frequency.
 //!
-//! Two counters in `search_state` tell whether the index follows the rows: triggers of the schema
-//! count every change of the rows, whoever makes it, and the index writes down what it has seen, in
-//! the rows and in its own files.
+//! Two counters in `search_state` show whether the index follows the rows: triggers of the schema count every
+//! change of the rows, whoever makes it, and the index records the count it has seen, in the rows and in its own
+//! files.
 
 use std::cell::{Cell, RefCell, RefMut};
 
@@ -36,7 +36,7 @@ use crate::db::search::{self as rows, State, TokenDocument};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit, unheard};
 
-/// Raised whenever documents are made otherwise than before: indexes of other numbers are remade.
+/// Raised whenever the form of documents changes: indexes of other numbers are rebuilt.
 const FORMAT: i64 = 3;
 const WORDS: &str = "words";
 const MEMORY: usize = 64 << 20;
@@ -82,8 +82,8 @@ fn follows(state: &State) -> bool {
 }
 
 impl SearchIndex {
-    /// Brings the index to where the rows are: nothing to do as a rule, loaded where another
-    /// program has written since, made anew where it does not follow the rows.
+    /// Brings the index up to date: usually nothing to do, loads it if another program has written since, rebuilds
+    /// it if it does not follow the rows.
     pub(crate) fn refresh(&mut self, connection: &Connection) -> Result<()> {
         let state = State::read(connection)?;
         if !follows(&state) {
@@ -105,7 +105,7 @@ impl SearchIndex {
             .is_some_and(|open| open.indexed == indexed)
     }
 
-    /// Makes the index anew in a transaction of its own.
+    /// Rebuilds the index in a transaction of its own.
     fn mend(&mut self, connection: &Connection, noteworthy: bool) -> Result<()> {
         let transaction = rows::begin(connection)?;
         let mut hear = unheard;
@@ -115,13 +115,13 @@ impl SearchIndex {
         Ok(())
     }
 
-    /// Tells whether the index had to be made anew because it did not follow the rows.
+    /// Returns whether the index had to be rebuilt because it did not follow the rows.
     #[cfg(test)]
     pub(crate) fn was_rebuilt(&self) -> bool {
         self.rebuilt.get()
     }
 
-    /// Tells the same, once.
+    /// Returns the same, once.
     pub(crate) fn take_rebuilt(&self) -> bool {
         self.rebuilt.take()
     }
@@ -138,14 +138,14 @@ impl SearchIndex {
         (open.reader.searcher(), open.fields)
     }
 
-    /// Tells whether the index is where the rows are, as this connection reads them now.
+    /// Returns whether the index follows the rows, as this connection reads them now.
     pub(crate) fn is_current(&self, connection: &Connection) -> Result<bool> {
         let state = State::read(connection)?;
         let open = self.open.as_ref();
         Ok(follows(&state) && open.is_some_and(|open| open.indexed == state.indexed))
     }
 
-    /// Returns what is kept between queries, of the state of the index that is open.
+    /// Returns the memory that is kept between queries on the current state of the index.
     pub(crate) fn memory(&self) -> RefMut<'_, Memory> {
         let mut memory = self.memory.borrow_mut();
         memory.turn_to(self.open.as_ref().map_or(-1, |open| open.indexed));
@@ -179,7 +179,7 @@ impl SearchIndex {
         open.save(connection, state.content)
     }
 
-    /// Makes the index anew from all rows, inside the caller's transaction.
+    /// Rebuilds the index from all rows, inside the caller's transaction.
     pub(crate) fn rebuild(
         &mut self,
         connection: &Connection,
@@ -380,7 +380,7 @@ impl OpenIndex {
     }
 }
 
-/// Tells of every 256th token how far the index is.
+/// Reports progress at every 256th token.
 fn step(progress: &mut Progress<'_>, done: &mut u64, total: Option<u64>) -> Result<()> {
     *done += 1;
     if !done.is_multiple_of(256) {
@@ -394,7 +394,7 @@ fn step(progress: &mut Progress<'_>, done: &mut u64, total: Option<u64>) -> Resu
     })
 }
 
-/// What the index's own files say about how far it has seen.
+/// The record of the last count that the index has seen, as its own files hold it.
 fn payload(content: i64) -> String {
     format!("{FORMAT}:{content}")
 }

@@ -1,5 +1,5 @@
-//! What the index knows of itself: the readings there are, terms that fit a pattern, and the names
-//! and order of things; kept from query to query while the rows stay as they are.
+//! The index's knowledge of itself: the readings it holds, terms that fit a pattern, and the names and order of
+//! things; kept from query to query while the rows stay as they are.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
@@ -44,7 +44,7 @@ pub(crate) struct Labels {
     pub(crate) values: Vec<(u32, String)>,
 }
 
-/// What is kept between queries.
+/// The memory between queries.
 #[derive(Default)]
 pub(crate) struct Memory {
     /// The state of the index that `readings` and `signs` belong to.

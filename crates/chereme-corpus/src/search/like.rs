@@ -16,10 +16,10 @@ use crate::db::signs::TokenRow;
 
 /// How alike each document is to the examples, from 0 to 1.
 ///
-/// For each component that counts, it is the share of the example's readings that the token has
-/// too; hands are compared by their part in signing unless the component names a side, and a single
-/// value is the first and the last value alike. What the example has no value of does not count:
-/// two unset fields are not equal. Several components are weighted, several examples count alike.
+/// For each component in the comparison, the score is the share of the example's readings that the token has too.
+/// Hands are compared by their part in signing unless the component names a side, and a single value is both the
+/// first and the last value. Components that the example leaves unset do not count: two unset fields are not equal.
+/// Several components are weighted; several examples have equal weight.
 pub(crate) struct Scores {
     scores: BTreeMap<DocAddress, f64>,
     /// Likeness to single examples, and what it must be above.
@@ -55,7 +55,7 @@ impl Scores {
         self.scores.get(&doc).copied().unwrap_or(0.0).min(1.0)
     }
 
-    /// Tells whether a document is as alike to each example as is asked for.
+    /// Returns whether a document reaches the required similarity to each example.
     pub(crate) fn pass(&self, doc: DocAddress) -> bool {
         // Shares of a whole are added up, which is exact only to the last few digits.
         const SLACK: f64 = 1e-9;

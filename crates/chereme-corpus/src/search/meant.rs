@@ -1,4 +1,4 @@
-//! What everyday words ask for, in the values of the corpus.
+//! The meaning of everyday words, in the values of the corpus.
 
 use chereme_sign::inventory::Inventory;
 use chereme_sign::query;

@@ -1,8 +1,8 @@
 //! Retrieval: which tokens answer a query.
 //!
-//! A query is turned into a [plan](plan::Plan): what the [index](index) can tell is one question to
-//! it, what it cannot (relations of time, whole texts) is asked of the rows, of as few tokens as the
-//! rest of the query leaves over.
+//! A query becomes a [plan](plan::Plan): one question to the [index](index) for the conditions that it can answer,
+//! and a look at the rows for the others (relations of time, whole texts), on as few tokens as the rest of the
+//! query leaves.
 
 mod alone;
 mod answer;
@@ -50,10 +50,10 @@ use like::Scores;
 pub use meant::{guessed, meant};
 pub use tally::{NO_VALUE, Tally, TallyRow};
 
-/// What of an answer is wanted.
+/// The wanted part of an answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SearchOptions {
-    /// How many tokens to show at most; all of them where nothing is said.
+    /// The most tokens to show; all by default.
     pub limit: Option<usize>,
     /// How many tokens to leave out before.
     pub offset: usize,

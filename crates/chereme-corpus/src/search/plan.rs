@@ -1,4 +1,4 @@
-//! Plans: what of a query the index answers, and what is asked of the rows afterwards.
+//! Plans: the part of a query that the index answers, and the questions to the rows afterwards.
 
 use chereme_sign::query::Comparison;
 use tantivy::DocAddress;
@@ -29,10 +29,10 @@ pub(crate) enum Plan {
 
 /// A comparison of whole texts.
 pub(crate) struct WholeText {
-    /// What is said, or else the remarks.
+    /// Translations if true, else remarks.
     pub(crate) translation: bool,
     pub(crate) comparison: Comparison,
-    /// What every token that passes answers to, where the index can tell.
+    /// A condition that the index can check and that every passing token meets.
     pub(crate) narrowed: Option<Box<dyn Query>>,
 }
 
@@ -141,9 +141,9 @@ fn conjunction(mut clauses: Vec<(Occur, Box<dyn Query>)>) -> Plan {
     }
 }
 
-/// Returns the documents that a plan asks for, of those in `within` where it is given.
+/// Returns the documents that a plan selects, from those in `within` if it is given.
 ///
-/// What the rows must be asked is asked of no more tokens than the rest of the plan leaves over.
+/// The rows are asked only about tokens that the rest of the plan leaves.
 pub(crate) fn evaluate(ask: &Ask<'_>, plan: &Plan, within: Option<&[DocAddress]>) -> Asked<Docs> {
     if within.is_some_and(<[_]>::is_empty) {
         return Ok(Docs::new());

@@ -6,7 +6,7 @@
 
 use chereme_sign::{HandRef, Phase, Reading};
 
-/// What a reading's term says where it says no value.
+/// The content of a reading's term without a value.
 mod special {
     pub(super) const NOT_APPLICABLE: &str = "\u{1}n/a";
     pub(super) const UNCLEAR: &str = "\u{1}unclear";
@@ -153,8 +153,8 @@ pub(crate) fn hands_of(hand: Option<HandRef>) -> &'static [char] {
     }
 }
 
-/// Tells whether a value of this phase code counts where `phase` is asked for: the only value of
-/// a sign is its first and its last.
+/// Returns whether a value of this phase code counts for a query of `phase`: the only value of a sign is its first
+/// and its last.
 pub(crate) fn phase_counts(phase: Option<Phase>, code: &str) -> bool {
     match phase {
         None => true,

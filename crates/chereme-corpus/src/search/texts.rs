@@ -1,4 +1,4 @@
-//! Words and patterns of words, folded: what the index holds of texts, and how one text is compared.
+//! Words and patterns of words, folded: the form of texts in the index, and the comparison with one text.
 
 use chereme_sign::query::{Expression, Pattern, What};
 use chereme_sign::text::{edit_distance, fold};
@@ -73,7 +73,7 @@ impl Glob {
         self.0.first().map_or("", String::as_str)
     }
 
-    /// Tells whether the whole of a text, folded or not as the pattern is, fits.
+    /// Returns whether the whole of a text fits, folded or not as the pattern is.
     pub(crate) fn matches(&self, text: &str) -> bool {
         match &self.1 {
             Some((expression, true)) => return expression.finds_exactly(text),
@@ -98,7 +98,7 @@ impl Glob {
         rest.ends_with(last.as_str())
     }
 
-    /// Tells whether a text or its folded form fits: a regular expression may name accents.
+    /// Returns whether a text or its folded form fits: a regular expression may name accents.
     pub(crate) fn fits(&self, text: &str, folded: &str) -> bool {
         self.matches(folded) || self.1.is_some() && self.matches(text)
     }
@@ -109,7 +109,7 @@ impl Glob {
     }
 }
 
-/// Tells whether one text passes a test of words or slips; other tests hold of nothing.
+/// Returns whether one text passes a test of words or slips; other tests accept no text.
 pub(crate) fn passes(what: &What, text: &str) -> bool {
     match what {
         What::Words(_, patterns) => {

@@ -54,12 +54,12 @@ pub(crate) struct Accepted {
 }
 
 impl Accepted {
-    /// Tells whether a stored value is among them.
+    /// Returns whether a stored value is among them.
     pub(crate) fn fits(&self, value: &str, folded: &str) -> bool {
         self.means(value, folded) || self.narrower.contains(folded)
     }
 
-    /// Tells whether a stored value is among them without being narrower than what is asked for.
+    /// Returns whether a stored value is among them without being narrower than the query's value.
     pub(crate) fn means(&self, value: &str, folded: &str) -> bool {
         self.folded.contains(folded)
             || self.exact.contains(value)
@@ -73,7 +73,7 @@ impl Accepted {
                 .is_some_and(|glob| glob.matches(value))
     }
 
-    /// Returns all of them, folded, where they can be listed.
+    /// Returns all of them, folded, if they can be listed.
     pub(crate) fn listed(&self) -> Option<impl Iterator<Item = &String>> {
         let plain =
             self.exact.is_empty() && self.folded_glob.is_none() && self.exact_glob.is_none();
@@ -249,8 +249,8 @@ impl Vocabulary {
         narrower.retain(|text| !folded.contains(text));
     }
 
-    /// Adds the values of inventories without an order of their own that another inventory has under
-    /// what is meant, as people write them: `under chin`, `side of head`, `chin ipsi`.
+    /// Adds the values of inventories without an order of their own that another inventory places below the wanted
+    /// ones, as people write them: `under chin`, `side of head`, `chin ipsi`.
     fn add_places_of_tables(
         &self,
         accepted: &mut Accepted,
@@ -303,16 +303,16 @@ fn whole_of(place: &str) -> Option<&str> {
     sided.or_else(|| Some(place.rsplit_once(" of ")?.1))
 }
 
-/// What counts beside the values that are meant.
+/// The further spellings that count besides the wanted values.
 #[derive(Clone, Copy)]
 enum Reach {
-    /// Nothing, and case and accents tell.
+    /// No others, and case and accents matter.
     Letters,
     /// Nothing.
     Own,
     /// The values within them, whichever inventory says so.
     Narrower {
-        /// Whether the other spellings of what is meant count, too.
+        /// Whether the other spellings of the wanted values count, too.
         aliases: bool,
     },
 }

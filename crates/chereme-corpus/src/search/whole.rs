@@ -1,4 +1,4 @@
-//! Comparisons of texts: the gloss, what is said, and remarks.
+//! Comparisons of texts: glosses, translations and remarks.
 
 use chereme_sign::Reading;
 use chereme_sign::query::{
@@ -20,7 +20,7 @@ use super::terms::Mark;
 use super::texts::{Glob, words};
 use crate::db::search::answers;
 
-/// How long a word may be that is compared up to slips: what is built for it grows with it.
+/// The longest word that is compared up to slips: its automaton grows with the length.
 const LONGEST_FUZZY: usize = 64;
 /// How many words of the index one pattern inside a phrase may fit.
 const MOST_EXPANSIONS: u32 = 1 << 20;
@@ -184,7 +184,7 @@ pub(crate) fn filter(ask: &Ask<'_>, text: &WholeText, candidates: Docs) -> Asked
     Ok(found)
 }
 
-/// Tells whether one of the texts passes, or that there is none.
+/// Returns whether one of the texts passes, or that there is no text.
 fn texts_pass(comparison: &Comparison, texts: Vec<String>) -> bool {
     if texts.is_empty() {
         return comparison.accepts(&Reading::Unset, |_, _| false);
@@ -194,7 +194,7 @@ fn texts_pass(comparison: &Comparison, texts: Vec<String>) -> bool {
         .any(|text| text_passes(comparison, &Reading::Value(text)))
 }
 
-/// Tells whether a text that stands for itself passes.
+/// Returns whether a single text passes.
 pub(crate) fn text_passes(comparison: &Comparison, reading: &Reading) -> bool {
     comparison.accepts(reading, |text, wanted| match wanted {
         Wanted::Named(pattern) if comparison.operator == Operator::Exactly => {
@@ -211,8 +211,8 @@ pub(crate) fn words_plan(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
     Ok(Plan::any(places.into_iter().flatten().collect()))
 }
 
-/// Returns the plans for the places where a text can be found, the most telling first: the whole
-/// gloss, words of the gloss, what is said, remarks.
+/// Returns the plans for the places of a text, the most specific first: the whole gloss, words of the gloss,
+/// translations, remarks.
 pub(crate) fn places(ask: &Ask<'_>, test: &Test) -> Asked<Vec<Option<Plan>>> {
     match &test.what {
         What::Words(field, patterns) => {
@@ -251,7 +251,7 @@ fn fields_of(ask: &Ask<'_>, field: TextField) -> Vec<(usize, Field)> {
     wanted.map(|(place, _, field)| (place, field)).collect()
 }
 
-/// Returns the query for words side by side; nothing where there are none.
+/// Returns the query for adjacent words; `None` if there is no word.
 fn phrase(ask: &Ask<'_>, field: Field, globs: &[Glob]) -> Asked<Option<Box<dyn Query>>> {
     let literals: Option<Vec<&str>> = globs.iter().map(Glob::literal).collect();
     Ok(match (globs, literals) {

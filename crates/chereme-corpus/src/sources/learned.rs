@@ -1,4 +1,4 @@
-//! What recipes learn from the whole corpus: the usual course of its transitions, and the usual times
+//! The numbers that recipes learn from the whole corpus: the usual course of its transitions, and the usual times
 //! of its handshapes.
 
 pub(crate) mod language;
@@ -15,11 +15,11 @@ use crate::error::Result;
 use crate::inventories::StoredInventory;
 use crate::movement::{BLOCK_FRAMES, ChannelGroup, Track};
 
-/// How many frames are looked at in one piece, and how many pieces of a corpus at most: about half a
-/// minute of movement each hundred thousand frames of which take a second to look at.
+/// The frames that are read in one piece, and the most pieces of a corpus: about half a minute of movement each;
+/// hundred thousand frames take a second.
 const PIECE: usize = 4 * BLOCK_FRAMES;
 const MOST_PIECES: usize = 32;
-/// Fewer transitions than these tell no usual course, fewer times no usual time.
+/// With fewer transitions than these there is no usual course, with fewer times no usual time.
 const FEWEST_TRANSITIONS: usize = 8;
 const FEWEST_TIMES: usize = 5;
 /// The most annotations of handshapes that are looked at.

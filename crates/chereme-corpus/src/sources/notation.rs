@@ -25,7 +25,7 @@ pub(crate) const OWN_BODY: &str = "built-in body";
 /// The recording of the starter corpus whose first frame is that body at rest.
 const OWN_RECORDING: &str = "bol.bvh";
 
-/// What stands between the names of signs that follow one another.
+/// The separator between the names of signs that follow one another.
 pub(crate) const NEXT: &str = " + ";
 
 impl CorpusSources<'_> {
@@ -56,7 +56,7 @@ impl CorpusSources<'_> {
         Ok(signs)
     }
 
-    /// Tells whether a name is that of a sign or a token, notated or not.
+    /// Returns whether a name is that of a sign or a token, notated or not.
     fn has(&self, name: &str) -> bool {
         match name.parse() {
             Ok(Address::Gloss(gloss) | Address::Sign(Name::Text(gloss))) => {

@@ -14,12 +14,12 @@ use crate::address::{self, Name};
 use crate::db::tracks;
 use crate::error::{Error, Result};
 
-/// What is compared of a track.
+/// The part of a track that is compared.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Signal {
     /// The track's name.
     pub track: String,
-    /// Joints, points or curves, by name; if there is none, the wrists, and every channel if no wrist is known.
+    /// Joints, points or curves, by name; by default the wrists, and every channel if no wrist is known.
     pub channels: Vec<String>,
 }
 
@@ -41,7 +41,7 @@ pub struct Alignment {
     pub track: String,
     /// The track that it is compared with.
     pub to: String,
-    /// What was compared of the two.
+    /// The compared channels of the two.
     pub channels: [Vec<String>; 2],
     /// Its offset on the recording's clock now, in microseconds.
     pub offset_now_us: i64,

@@ -61,8 +61,8 @@ impl Corpus {
 
     /// Changes the track of a recording that has this name, and returns the recording's tracks.
     ///
-    /// The body of a recording is the track that its annotations and tokens were made on: it can be moved and
-    /// removed like the others, and annotations stay where they are on the clock.
+    /// The body of a recording is the track that its annotations and tokens were created on: it can be moved and
+    /// removed like the others, and annotations keep their times on the clock.
     ///
     /// # Errors
     /// If there is no such recording or track, or another track has the new name.

@@ -29,7 +29,7 @@ const CURVES: &str = "curves";
 /// How many channels are stored together at most, so that some of many are read alone.
 const TOGETHER: usize = 96;
 
-/// What markers need to be read besides their numbers.
+/// The properties of markers besides their numbers.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct MarkerLayout {
     pub(super) space: String,

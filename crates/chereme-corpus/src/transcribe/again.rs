@@ -24,7 +24,7 @@ use crate::recombine::{SOURCE, engine};
 use crate::sources::notation::{OWN_BODY, own_body};
 use crate::sources::standing;
 
-/// So many postures are made on each processor before it is told how far that is.
+/// The number of postures that each processor makes between two reports of progress.
 const AT_ONCE: usize = 8;
 
 /// A body that makes notation again as it was made.
@@ -39,7 +39,7 @@ pub(super) struct Proving<'a, 'p> {
 }
 
 impl Proving<'_, '_> {
-    /// Tells that so many more were made, and returns whether to go on.
+    /// Reports that this many more were made, and returns whether to go on.
     fn goes_on(&self, more: usize) -> bool {
         self.done.set(self.done.get() + more);
         let step = Step {
@@ -53,7 +53,7 @@ impl Proving<'_, '_> {
         !stopped
     }
 
-    /// Returns whether it was told to stop, and nothing was made since.
+    /// Returns whether the work was asked to stop, and nothing was made since.
     pub(super) fn stopped(&self) -> bool {
         self.stopped.get()
     }
@@ -95,8 +95,8 @@ impl Performs for Proving<'_, '_> {
 }
 
 impl Again {
-    /// Puts the body that a recording was made on upon the stage, where it was made of notation alone, by this
-    /// animator, and its body is what it was then; nothing for other recordings.
+    /// Returns the body for re-synthesis of a recording that was generated from notation alone, by this animator,
+    /// if its body has not changed since; `None` for other recordings.
     pub(super) fn of(connection: &Connection, stretch: &Stretch) -> Result<Option<Self>> {
         let made = recipes::of_recording(connection, stretch.recording.id)?;
         let made = made.filter(|row| row.engine == engine());
@@ -125,7 +125,7 @@ impl Again {
         Ok(Performer::new(stage, settings).ok().map(Self))
     }
 
-    /// Makes what is asked for, and tells `progress` of it.
+    /// Makes the wanted postures, and reports the progress to `progress`.
     pub(super) fn proving<'a, 'p>(&'a self, progress: &'a mut Progress<'p>) -> Proving<'a, 'p> {
         Proving {
             body: &self.0,
@@ -141,7 +141,7 @@ impl Again {
     }
 }
 
-/// What was made, and of what.
+/// The result of re-synthesis, and its source.
 #[derive(Deserialize)]
 struct Document {
     recipe: Recipe,
@@ -169,8 +169,8 @@ impl Document {
     }
 }
 
-/// Returns the frames of the one sign that a made stretch holds, the ways from and to rest left out; nothing where it
-/// does not say which they are.
+/// Returns the frames of the one sign in a generated stretch, without the transitions from and to rest; `None` if
+/// the stretch does not record them.
 pub(super) fn signed(
     connection: &Connection,
     track: &Track,

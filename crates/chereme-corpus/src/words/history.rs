@@ -1,4 +1,4 @@
-//! The history: what operations did, as sentences.
+//! The history: the effects of operations, as sentences.
 
 use std::fmt::Display;
 
@@ -126,7 +126,7 @@ fn plain(name: &str) -> Option<Text> {
     })
 }
 
-/// Returns what came of taking an operation back, as a sentence: what it had removed is restored.
+/// Returns the effect of undoing an operation, as a sentence: removed things are restored.
 #[must_use]
 pub fn taken_back(it: &OperationRow, language: Language) -> String {
     let restored = || {
@@ -145,13 +145,13 @@ pub fn taken_back(it: &OperationRow, language: Language) -> String {
     restored().unwrap_or_else(whole)
 }
 
-/// Returns `2 added, 1 changed in X`, or the names of what was done, as a sentence.
+/// Returns `2 added, 1 changed in X`, or the names of the changed things, as a sentence.
 fn annotated(summary: &str, language: Language) -> Option<String> {
     let (counts, place) = summary.rsplit_once(" in ")?;
     let mut said = Vec::new();
     let mut rest = Some(counts);
     while let Some(now) = rest {
-        // What a value says comes last, and may hold commas.
+        // The text of a value comes last, and may hold commas.
         if let Some(whole) = deeds::told(now, language) {
             said.push(whole);
             break;

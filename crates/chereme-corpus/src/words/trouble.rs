@@ -1,4 +1,4 @@
-//! What went wrong, where the corpus says it in another language.
+//! Errors of the corpus in another language.
 
 texts! {
     ERROR: "error: {what}", "erreur : {what}";

@@ -1,4 +1,4 @@
-//! The forms of a body, each of which follows its joints.
+//! The forms of a body; each of them follows its joints.
 
 use std::ops::Range;
 

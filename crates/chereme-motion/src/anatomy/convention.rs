@@ -9,16 +9,16 @@ use crate::hand::Side;
 use crate::pose::ModelPose;
 use crate::skeleton::Skeleton;
 
-/// What a skeleton's unit and axes seem to be, and why.
+/// The likely unit and axes of a skeleton, and the reasons.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConventionGuess {
-    /// The unit and axes; those of model space where nothing tells.
+    /// The unit and axes; those of model space if nothing shows others.
     pub convention: Convention,
     /// `m`, `cm`, `mm`, `inch`, `acclaim` (1/0.45 inch) or `unknown`.
     pub unit_name: &'static str,
-    /// How sure the guess is: 1 where everything fits, 0 where nothing tells.
+    /// Confidence in the guess: 1 if everything fits, 0 if there is no evidence.
     pub confidence: f64,
-    /// What the guess rests on and what speaks against it, a sentence each.
+    /// The evidence for and against the guess, a sentence each.
     pub reasons: Vec<String>,
 }
 
@@ -35,15 +35,15 @@ const UNITS: [(&str, f64); 5] = [
 /// The statures, in metres, of a body that a unit must give; children are signers too.
 const STATURE: std::ops::Range<f64> = 1.2..2.3;
 
-/// The stature, in metres, that a body is given whose unit is none of those that files are written in.
+/// The stature in metres assumed for a body whose unit is not one of the usual units of files.
 const PERSON: f64 = 1.7;
 
 /// Guesses the unit and axes of a skeleton as a file wrote it.
 ///
-/// The unit follows from the stature, the axes from the way from hips to shoulders (up) and from
-/// right to left. Many files keep bones along one local axis and put the body together by rotations
-/// only, so give the posture of the first frame, in the file's own unit and axes, where there is
-/// one: it is asked where the rest pose does not tell, or stands or faces otherwise.
+/// The unit follows from the stature; the axes follow from the direction from hips to shoulders (up) and from right
+/// to left. Many files keep bones along one local axis and put the body together by rotations only. Therefore pass
+/// the posture of the first frame, in the file's own unit and axes, if there is one: it decides if the rest pose is
+/// ambiguous, or if the two stand or face in different directions.
 #[must_use]
 pub fn detect_convention(skeleton: &Skeleton, first: Option<&ModelPose>) -> ConventionGuess {
     Anatomy::detect(skeleton).convention(skeleton, first)

@@ -47,7 +47,7 @@ struct Zero {
 const ARCH: [f64; 4] = [0.0, 0.0, 0.17, 0.40];
 /// How far the base of a finger is bent in a hand at ease, in radians: so far the palm stays flat.
 const LAX: f64 = 0.5;
-/// How far a finger is spread where it is spread wide, in radians.
+/// The spread of a finger in a wide spread hand, in radians.
 const WIDE: f64 = 0.35;
 
 /// Returns how far the bone inside the palm of a finger turns towards the palm.
@@ -58,7 +58,7 @@ fn arch(place: usize, finger: &FingerAngles) -> f64 {
 }
 
 impl HandFrame {
-    /// Returns the frame of a hand with at least one finger and a way to tell the thumb's side.
+    /// Returns the frame of a hand with at least one finger, if the side of the thumb can be found.
     pub(super) fn of(anatomy: &Anatomy, skeleton: &Skeleton, side: Side) -> Option<Self> {
         let hand = anatomy.joint(Part::Hand(side))?;
         let at = |part| {
@@ -196,9 +196,9 @@ fn bone_end(skeleton: &Skeleton, hand: usize, joint: usize, next: Option<usize>)
     skeleton.joint(joint).tip.map(|tip| place + turned * tip)
 }
 
-/// Whether thumb and fingers at rest lie and bend clearly away from the palm that the side tells:
-/// the skeleton was mirrored without its names. At least 0.3 rad for both, so that no hand at ease
-/// is taken for one.
+/// Returns whether thumb and fingers at rest lie and bend clearly away from the palm that the side implies: the
+/// skeleton was mirrored without its names. Both must do so by at least 0.3 rad, so that a hand at ease is never
+/// counted.
 fn is_inside_out(anatomy: &Anatomy, skeleton: &Skeleton, side: Side, axes: [DVec3; 3]) -> bool {
     let Some(hand) = anatomy.joint(Part::Hand(side)) else {
         return false;
@@ -224,9 +224,9 @@ fn is_inside_out(anatomy: &Anatomy, skeleton: &Skeleton, side: Side, axes: [DVec
 impl Anatomy {
     /// Returns the posture of the hand of `side`; angles of joints that the skeleton lacks are zero.
     ///
-    /// Nothing where the hand has no finger, or nothing tells which is the thumb's side. What the
-    /// angles cannot say (turns of a finger about its length, sideways bends of its outer joints) is
-    /// left out. The thumb's opposition is relative to the rest pose, where it is taken as zero.
+    /// Returns `None` if the hand has no finger, or if the side of the thumb is unknown. Turns of a finger about
+    /// its length and sideways bends of its outer joints have no angle and are left out. The thumb's opposition is
+    /// relative to the rest pose, which counts as zero.
     ///
     /// # Panics
     /// Where `pose` has fewer joints than `skeleton`.
@@ -332,7 +332,7 @@ impl Anatomy {
 
     /// Returns the unit vector out of the palm of `side` in model space.
     ///
-    /// Nothing where the hand has too few fingers to tell.
+    /// Returns `None` if the hand has too few fingers.
     #[must_use]
     pub fn palm_normal(&self, side: Side, model: &ModelPose) -> Option<DVec3> {
         let hand = self.joint(Part::Hand(side))?;
@@ -359,7 +359,7 @@ impl Anatomy {
     /// [`hand_direction`](Self::hand_direction) is `direction` and
     /// [`palm_normal`](Self::palm_normal) as near to `palm` as the right angle between them lets it.
     ///
-    /// Nothing where the hand has too few fingers to tell, or the two lie on one line.
+    /// Returns `None` if the hand has too few fingers, or if the two directions lie on one line.
     #[must_use]
     pub fn hand_rotation(&self, side: Side, direction: DVec3, palm: DVec3) -> Option<DQuat> {
         let frame = self.hand_frame(side)?;

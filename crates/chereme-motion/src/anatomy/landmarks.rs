@@ -166,10 +166,9 @@ impl Anatomy {
 
     /// Returns the place called `name` on the body in the posture `model`, in metres.
     ///
-    /// A side is written before or after (`left-ear`, `ear left`); blanks and underscores are as
-    /// good as hyphens. Places on the skin are placed at the distance from the bone that a person
-    /// of this size has. Nothing where the name is none of [`landmarks`](Self::landmarks), or the
-    /// skeleton lacks the joints for it.
+    /// The side stands before or after the name (`left-ear`, `ear left`); blanks and underscores count as hyphens.
+    /// Places on the skin lie at the distance from the bone that a person of this size has. Returns `None` for a
+    /// name that is not in [`landmarks`](Self::landmarks), or if the skeleton lacks the joints for it.
     #[must_use]
     pub fn landmark(&self, skeleton: &Skeleton, model: &ModelPose, name: &str) -> Option<DVec3> {
         let (side, name) = split(name);
@@ -318,9 +317,9 @@ impl Anatomy {
 
     /// Returns the frame of the trunk in the posture `model`.
     ///
-    /// Up runs from the hips to the shoulders, left along the collar bones where they are apart,
-    /// else along the shoulders, else along the hips; so a signer turned away from +Z is still
-    /// measured in body space. Nothing where the skeleton has no such joints, or they lie in a line.
+    /// Up runs from the hips to the shoulders. Left runs along the collar bones if they are apart, else along the
+    /// shoulders, else along the hips; so a signer turned away from +Z is still measured in body space. Returns
+    /// `None` if the skeleton lacks these joints, or if they lie in a line.
     #[must_use]
     pub fn body_frame(&self, model: &ModelPose) -> Option<BodyFrame> {
         let [left, up, forward] = super::measures::trunk_axes(self, model)?;

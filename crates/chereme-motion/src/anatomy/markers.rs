@@ -19,7 +19,7 @@ const MIDDLE: [&str; 16] = [
     "C7", "T8", "T10", "T12", "L5", "CLAV", "STRN", "SACR", "ARIEL", "MFHD", "MBHD", "TOPHEAD",
     "VSACRAL", "BACK", "TSPN", "LSPN",
 ];
-/// The fewest markers that names tell of: single leaves with such names may be joints.
+/// The fewest markers that are recognised by name: single leaves with such names may be joints.
 const FEWEST: usize = 4;
 /// The fewest joints of the skeleton of a whole body.
 const WHOLE: usize = 10;
@@ -90,7 +90,7 @@ fn body(skeleton: &Skeleton, labels: &[Option<Label>]) -> Option<usize> {
     above.first().copied()
 }
 
-/// Tells whether a name is one of a marker: `LFHD`, `NS:C7`, `RMID6`, `R.Shoulder.1` is none.
+/// Returns whether a name is that of a marker, such as `LFHD`, `NS:C7` or `RMID6`; `R.Shoulder.1` is a joint.
 fn is_marker(name: &str) -> bool {
     let bare = names::without_rig(name).trim();
     if bare.is_empty() || bare.chars().any(|c| c.is_lowercase()) {

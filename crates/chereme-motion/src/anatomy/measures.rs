@@ -40,8 +40,8 @@ pub struct Measures {
 }
 
 impl Measures {
-    /// Measures bone lengths, and distances in the posture `model` where bones do not tell; nothing
-    /// where the skeleton has no arm, leg or hand to go by.
+    /// Measures bone lengths, and distances in the posture `model` if the bones do not show them. Returns `None` if
+    /// the skeleton has no arm, leg or hand to measure.
     pub(super) fn of(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
         let arm = both(|side| {
             let arm = anatomy.arm(side)?;
@@ -114,9 +114,8 @@ fn hand_length(anatomy: &Anatomy, skeleton: &Skeleton, side: Side) -> Option<f64
     Some(length(skeleton, last, hand) + tip)
 }
 
-/// Returns the height of the head above its joint: from its tip or a child such as `HeadTop_End`,
-/// where that is long enough to be one; else two thirds of the head's height, which is where head
-/// joints usually are.
+/// Returns the height of the head above its joint: from its tip or a child such as `HeadTop_End`, if that is long
+/// enough; else two thirds of the head's height, the usual height of head joints.
 fn head_top(anatomy: &Anatomy, skeleton: &Skeleton, stature: f64) -> f64 {
     let usual = HEAD * stature * 2.0 / 3.0;
     let Some(head) = anatomy.joint(Part::Head) else {

@@ -71,14 +71,14 @@ pub enum Evidence {
     Topology,
 }
 
-/// A part that could be more joints than one, or a joint whose side nothing tells.
+/// A part that could be any of several joints, or a joint whose side is unknown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ambiguity {
     /// The part.
     pub part: Part,
     /// The joint that was taken.
     pub taken: usize,
-    /// Other joints whose names say the same; empty where it is the side that is not told.
+    /// Other joints whose names mean the same; empty if only the side is unknown.
     pub others: Vec<usize>,
 }
 
@@ -120,7 +120,7 @@ fn place(side: Side) -> usize {
 }
 
 impl Anatomy {
-    /// Finds the parts of the body by joint names, and by topology and side where they do not tell.
+    /// Finds the parts of the body by joint names, and by topology and side if names do not decide.
     #[must_use]
     pub fn detect(skeleton: &Skeleton) -> Self {
         Self::of(skeleton, detect::detect(skeleton, &BTreeMap::new()))
@@ -163,10 +163,9 @@ impl Anatomy {
 
     /// Returns the same anatomy measured in the posture `model` in place of the rest pose.
     ///
-    /// Give one where the signer stands upright, looking ahead, when
-    /// [`is_posed`](Self::is_posed) says that the rest pose does not tell: many files keep every
-    /// bone along one local axis and put the body together by rotations only. The hands' geometry is
-    /// always that of the rest pose.
+    /// Pass a posture in which the signer stands upright and looks ahead if [`is_posed`](Self::is_posed) returns
+    /// false: many files keep every bone along one local axis and put the body together by rotations only. The
+    /// hands' geometry is always that of the rest pose.
     #[must_use]
     pub fn with_reference(mut self, skeleton: &Skeleton, model: &ModelPose) -> Self {
         self.measures = Measures::of(&self, skeleton, model);
@@ -211,8 +210,8 @@ impl Anatomy {
         Some(model.rotation(arm.upper).inverse() * out.try_normalize()?)
     }
 
-    /// Returns the same anatomy with the first frame of `clip` as its reference where the rest pose
-    /// is none that a body takes; the clip is of the same skeleton.
+    /// Returns the same anatomy with the first frame of `clip` as its reference if no body takes the rest pose; the
+    /// clip has the same skeleton.
     #[must_use]
     pub fn with_clip(self, clip: &Clip) -> Self {
         if self.posed || clip.frames() == 0 {
@@ -221,8 +220,8 @@ impl Anatomy {
         self.with_reference(clip.skeleton(), &clip.model_pose(0))
     }
 
-    /// Returns whether the reference posture is one that a body takes: it tells up, left and
-    /// forward, and the arms do not both stick out the same way.
+    /// Returns whether a body can take the reference posture: it shows up, left and forward, and the arms do not
+    /// both point in the same direction.
     #[must_use]
     pub fn is_posed(&self) -> bool {
         self.posed
@@ -234,8 +233,8 @@ impl Anatomy {
         self.measures
     }
 
-    /// Returns the unit vector that the elbow of `side` points to, in the space of the upper arm's
-    /// joint and across the arm: the opposite of where it bends. Nothing where it is not known.
+    /// Returns the unit vector that the elbow of `side` points to, in the space of the upper arm's joint and across
+    /// the arm: the opposite of the direction in which it bends. Returns `None` if it is unknown.
     #[must_use]
     pub fn elbow(&self, side: Side) -> Option<DVec3> {
         self.elbows[place(side)]
@@ -257,7 +256,7 @@ impl Anatomy {
         self.found.get(&part).map(|&(_, evidence)| evidence)
     }
 
-    /// Returns the part that `joint` is; the chest where it is spine and chest.
+    /// Returns the part that `joint` plays; the chest if one joint is both spine and chest.
     #[must_use]
     pub fn part_of(&self, joint: usize) -> Option<Part> {
         self.parts.get(joint).copied().flatten()

@@ -1,14 +1,14 @@
-//! What a joint's name says, over the naming conventions that people meet.
+//! The meaning of a joint's name, across the naming conventions in use.
 //!
-//! A name is cut into words at separators, digits and capitals; words that tell the side, the
-//! rig's prefix and fillers are taken out; what is left is looked up in one table.
+//! Cuts a name into words at separators, digits and capitals, takes out words for the side, the rig's prefix and
+//! fillers, and looks up the rest in one table.
 
 use std::collections::BTreeMap;
 
 use crate::hand::{Finger, Side};
 
-/// What a joint's name says it is. `Shoulder`, `SideHip`, `Leg`, `Foot` and `Hand` mean different
-/// joints in different conventions; which one shows only beside the other joints' names.
+/// The meaning of a joint's name. `Shoulder`, `SideHip`, `Leg`, `Foot` and `Hand` mean different joints in
+/// different conventions; the other joints' names decide which.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Word {
     Root,

@@ -1,4 +1,4 @@
-//! Roles: what the user says about which joint is which part.
+//! Roles: the user's own assignment of joints to parts.
 
 use std::collections::BTreeMap;
 use std::str::FromStr;
@@ -28,7 +28,7 @@ pub struct Roles(
     pub BTreeMap<Part, String>,
 );
 
-/// What is wrong with roles.
+/// Why roles were refused.
 #[derive(Debug, thiserror::Error)]
 pub enum RolesError {
     /// A line has no equals sign.
@@ -44,7 +44,7 @@ pub enum RolesError {
     Part {
         /// The line, from 1.
         line: usize,
-        /// What it names instead.
+        /// Why it is refused.
         #[source]
         error: PartError,
     },
@@ -56,7 +56,7 @@ pub enum RolesError {
         /// The part.
         part: Part,
     },
-    /// The JSON is none, or not an object of parts and joint names.
+    /// The text is not JSON, or not an object of parts and joint names.
     #[error("the roles are no JSON object of parts and joint names: {0}")]
     Json(#[from] serde_json::Error),
     /// The skeleton has no joint of that name.

@@ -1,4 +1,4 @@
-//! What anatomy finds and places, on made bodies and on real files.
+//! Tests of the parts and landmarks that anatomy finds, on generated bodies and on real files.
 
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
@@ -510,8 +510,8 @@ fn thousands_of_joints_are_gone_through_whatever_they_are_called() {
     }
 }
 
-/// What the real files are: end of the path, unit, axes, usual parts missing besides digits, and
-/// whether both hands have fingers.
+/// The real files: end of the path, unit, axes, usual parts that are missing besides digits, and whether both hands
+/// have fingers.
 const REAL: [(&str, &str, &str, &str, bool); 19] = [
     ("test_freebvh.bvh", "cm", "+Y,+X", "", true),
     (

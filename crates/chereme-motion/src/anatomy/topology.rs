@@ -1,4 +1,4 @@
-//! Finding parts by how joints hang together, where names do not tell.
+//! Finds parts by the hierarchy of joints if names do not decide.
 
 use std::collections::BTreeMap;
 

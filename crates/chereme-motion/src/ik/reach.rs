@@ -37,9 +37,9 @@ pub struct ReachOptions {
     /// a millimetre wherever it can be reached; where a movement leaves the reach anyway, 0.05 lets
     /// the elbow open more calmly, at the price of 1.8 % of the arm's length at full extension.
     pub soft: f64,
-    /// From which share of the arm's length on the collar bone helps; it stays still without one.
-    /// Past it the collar bone turns the shoulder towards the target, so far that this share is
-    /// kept if it can. 0.9 suits people.
+    /// The share of the arm's length beyond which the collar bone helps; without one it stays still. Beyond it the
+    /// collar bone turns the shoulder towards the target, just enough to keep this share if it can. 0.9 suits
+    /// people.
     pub clavicle: Option<f64>,
     /// The turn of the collar bone in radians that is approached but never passed.
     pub clavicle_limit: f64,
@@ -172,7 +172,7 @@ fn solve(
     })
 }
 
-/// Which way an elbow points in a posture where nothing else tells.
+/// Returns the direction in which an elbow points in a posture that does not show it.
 fn back_and_down(anatomy: &Anatomy, skeleton: &Skeleton, pose: &Pose) -> Option<DVec3> {
     let frame = anatomy.body_frame(&ModelPose::of(skeleton, pose))?;
     Some(-frame.forward - frame.up)

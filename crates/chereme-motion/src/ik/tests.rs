@@ -1,4 +1,4 @@
-//! What reaching keeps and where it ends.
+//! Tests of the limits of reaching and of the joints that it keeps.
 
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;

@@ -7,10 +7,10 @@ use super::{IkError, finite};
 /// How [`two_bone`] treats the ends of its reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TwoBoneOptions {
-    /// The share of the arm's length, before full extension, in which the end falls softly behind a
-    /// target that goes on outwards, so that the elbow does not snap straight. At full extension
-    /// the end lags by this share over e: 0.004 of a 52 cm arm are 2.1 mm, a lag of 0.77 mm. A
-    /// source that is itself further extended is not pulled back. 0 is no softness.
+    /// The share of the arm's length, before full extension, in which the end falls softly behind a target that
+    /// moves outwards, so that the elbow does not snap straight. At full extension the end lags by this share over
+    /// e: 0.004 of a 52 cm arm are 2.1 mm, a lag of 0.77 mm. A source that is itself extended further is not pulled
+    /// back. 0 means no softness.
     pub soft: f64,
     /// Which way the middle points where the source is too straight to say; any length.
     pub pole: Option<DVec3>,
@@ -30,7 +30,7 @@ impl Default for TwoBoneOptions {
 pub struct TwoBone {
     /// The place of the joint between the bones.
     pub middle: DVec3,
-    /// The place of the end; the target where it can be reached.
+    /// The position of the end; the target if it can be reached.
     pub end: DVec3,
     /// The distance from root to target as a share of both bones' length; above 1 out of reach.
     pub extension: f64,

@@ -17,7 +17,7 @@ pub struct CueCode {
     pub language: String,
     /// The version, raised whenever a key changes.
     pub version: u32,
-    /// What people call the code, by language of the reader.
+    /// The names of the code, by language of the reader.
     pub names: BTreeMap<String, String>,
     /// Where the code was published.
     pub source: String,
@@ -90,7 +90,7 @@ pub struct CuePlacement {
 pub struct CueVariant {
     /// The name in options.
     pub id: String,
-    /// What it changes, by language of the reader.
+    /// A description of the change, by language of the reader.
     pub names: BTreeMap<String, String>,
     /// Vowels that go to another placement.
     #[serde(default)]

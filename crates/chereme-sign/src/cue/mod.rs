@@ -103,7 +103,7 @@ pub enum CueFinding {
     },
 }
 
-/// What a phone is to a code.
+/// The role of a phone in a code.
 enum Sound {
     Consonant(u8),
     /// The placements that a vowel passes; a diphthong has two.

@@ -1,4 +1,4 @@
-//! Inventories as JSON: every fault is told with its value and field.
+//! Inventories as JSON: every fault names its value and field.
 
 use super::{HandOrientation, Inventory, InventoryValue, Landmark, Stroke, key};
 use crate::component::Component;
@@ -12,9 +12,9 @@ use std::fmt;
 /// Where in an inventory's file something is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Place {
-    /// The inventory's id, or nothing where it is not known yet.
+    /// The inventory's id, or `None` if it is not known yet.
     pub inventory: Option<String>,
-    /// The value's id, or its number from 1 where it has none.
+    /// The value's id, or its number from 1 if it has no id.
     pub value: Option<String>,
     /// The field inside, such as `pose.index`.
     pub field: Option<String>,
@@ -46,7 +46,7 @@ pub enum InventoryError {
         line: usize,
         /// The column, from 1.
         column: usize,
-        /// What the reader of JSON says.
+        /// The message of the JSON reader.
         message: String,
     },
     /// Something has another type than it must have.
@@ -54,7 +54,7 @@ pub enum InventoryError {
     Type {
         /// Where.
         place: Place,
-        /// What is there and what would be right.
+        /// The fault, and the correct form.
         message: String,
     },
     /// A field is not known.

@@ -331,8 +331,8 @@ fn the_named_handshapes_are_there() {
     }
 }
 
-/// Ranges in degrees in the order of [`HandAngles::to_array`]: what an adult's hand does without
-/// pain, with some room.
+/// Ranges in degrees in the order of [`HandAngles::to_array`]: the movement of an adult's hand without pain, with
+/// some room.
 fn limits() -> Vec<(f64, f64)> {
     let mut all = vec![
         (-10.0, 75.0),

@@ -8,17 +8,17 @@ use super::tree::{At, Comparison, Test, What};
 use std::fmt::{self, Display, Formatter};
 use std::ops::{Bound, RangeBounds};
 
-/// What an attribute is to be.
+/// The condition on an attribute.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AttributeTest {
     /// A number within bounds.
     Number(Bound<f64>, Bound<f64>),
-    /// One of the values, or none of them; a value that is a number equals the same number written otherwise.
+    /// One of the values, or a value outside the list; a number equals the same number in another spelling.
     Value(Comparison),
 }
 
 impl AttributeTest {
-    /// Tells whether a number lies within the bounds; nothing else does.
+    /// Returns whether a number lies within the bounds.
     #[must_use]
     pub fn accepts(&self, number: f64) -> bool {
         match self {
@@ -49,7 +49,7 @@ pub(super) const ATTRIBUTE: &str = "attribute";
 /// The same in French.
 const ATTRIBUT: &str = "attribut";
 
-/// Tells whether a word opens the name of an attribute in parentheses.
+/// Returns whether a word opens the name of an attribute in parentheses.
 pub(super) fn opens_name(word: &str) -> bool {
     word == ATTRIBUTE || word == ATTRIBUT
 }
@@ -60,7 +60,7 @@ pub(super) fn prefixed(word: &str) -> Option<&str> {
     Some(name).filter(|name| opens_name(&first.to_lowercase()) && !name.is_empty())
 }
 
-/// Tells whether a number of the name's own follows, as in `frequency>0.4` or `frequency=0.2..0.5`; the cursor
+/// Returns whether a number of the name's own follows, as in `frequency>0.4` or `frequency=0.2..0.5`; the cursor
 /// stands before the operator.
 pub(super) fn follows(cursor: &Cursor<'_>) -> bool {
     let mut ahead = cursor.clone();

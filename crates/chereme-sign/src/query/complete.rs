@@ -1,4 +1,4 @@
-//! What could be written at a cursor.
+//! Completion of a query at a cursor.
 
 use super::lex::{Cursor, Place, is_quote};
 use super::tree::{At, Missing, Property, TextField, TimeField};
@@ -9,15 +9,14 @@ use crate::relation::Relation;
 use crate::text::fold;
 use std::ops::Range;
 
-/// What could stand at a place of a query, and which characters it would replace.
+/// The kinds of text that may stand at a place of a query, and the characters that a completion replaces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Completion {
     /// The kind of thing that could stand here.
     pub expected: Expected,
-    /// What is written of it before the cursor, without an opening quote.
+    /// Its part before the cursor, without an opening quote.
     pub prefix: String,
-    /// The characters (not bytes) that a completion replaces, quotes included; empty where nothing
-    /// is written yet.
+    /// The characters (not bytes) that a completion replaces, quotes included; empty if nothing is written yet.
     pub replace: Range<usize>,
     /// The words of the language itself that begin with the prefix, in the order to offer them.
     /// Values of inventories, names of signers and the like are known to the caller only.
@@ -47,7 +46,7 @@ pub enum Expected {
     Time(TimeField),
     /// The distance after `within`.
     Distance,
-    /// What the distance after `within` is counted from.
+    /// The reference of the distance after `within`.
     Reference,
     /// The name of a tier, in parentheses.
     TierName,
@@ -171,7 +170,7 @@ struct Scan<'a> {
     len: usize,
 }
 
-/// What stands at the cursor, and where that which is written of it begins.
+/// The kind of text at the cursor, and its start.
 type Found = (Expected, At);
 
 impl Scan<'_> {
@@ -251,7 +250,7 @@ impl Scan<'_> {
         if let Some(operator) = self.cursor.operator() {
             self.cursor.pos += operator.chars().count();
             if expected == Expected::Component {
-                // A weight, of which nothing is known.
+                // A weight: no value can be proposed.
                 self.word(&Expected::Unknown, Place::Value)?;
             } else {
                 self.values(&self.subject(at), operator)?;

@@ -1,4 +1,4 @@
-//! What is wrong with a query, and where.
+//! The error of a query, with its position.
 
 use super::print::write_value;
 use super::tree::At;
@@ -16,11 +16,11 @@ const WIDTH: usize = 100;
 pub struct QueryError {
     /// The characters (not bytes) of the query that are wrong; empty where something is missing.
     pub at: Range<usize>,
-    /// What is wrong, in one sentence without a full stop.
+    /// The error, in one sentence without a full stop.
     pub message: String,
     /// What would be right; may be empty where the suggestion says it all.
     pub remedy: String,
-    /// What to write in place of [`at`](Self::at), where one thing was most likely meant.
+    /// The text to write in place of [`at`](Self::at), if one meaning is most likely.
     pub suggestion: Option<String>,
 }
 

@@ -26,7 +26,7 @@ impl Expression {
     /// Compiles an expression.
     ///
     /// # Errors
-    /// With the reason, in one line, if it is none, or needs too much memory.
+    /// Returns the reason, in one line, if the text is not a regular expression or needs too much memory.
     pub fn new(source: &str) -> Result<Self, String> {
         if source.chars().count() > MAX_CHARS {
             return Err(format!("it is longer than {MAX_CHARS} characters"));

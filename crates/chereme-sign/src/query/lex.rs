@@ -3,7 +3,7 @@
 use super::tree::At;
 use super::{Expression, Pattern, QueryError, words};
 
-/// What a bare word may hold depends on where it stands.
+/// The place of a bare word, which decides the characters it may hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
     /// Where a term begins: an operator ends the word.
@@ -49,7 +49,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Steps over `c` if it is next, and tells whether it was.
+    /// Steps over `c` if it is next, and returns whether it was.
     pub(super) fn eat(&mut self, c: char) -> bool {
         let found = self.peek() == Some(c);
         self.pos += usize::from(found);
@@ -239,7 +239,7 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// Tells whether `text` can be written without quotes at this place.
+/// Returns whether `text` can be written without quotes at this place.
 pub(super) fn is_bare(text: &str, place: Place) -> bool {
     let chars: Vec<char> = text.chars().collect();
     let starts_expression = |c: char| place != Place::Term && c == '/';

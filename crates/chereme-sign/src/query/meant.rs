@@ -1,4 +1,4 @@
-//! What is meant by a query in everyday words: "handshape U", "main droite configuration plate", "chin".
+//! The meaning of a query in everyday words: "handshape U", "main droite configuration plate", "chin".
 
 use super::{Pattern, Query, words};
 use crate::component::{Component, HandRef};
@@ -20,8 +20,8 @@ const BESIDE: [&str; 12] = [
 
 /// Returns the query that is meant by words that name components before their values, of these inventories.
 ///
-/// Words that name nothing stay as they are; none where nothing is named, or the text is written in the
-/// language of queries already.
+/// Words that name nothing stay as they are. Returns `None` if no word names anything, or if the text is a query
+/// already.
 #[must_use]
 pub fn meant(text: &str, inventories: &[&Inventory]) -> Option<String> {
     read(text, &[], |words| named(words, inventories))
@@ -170,7 +170,7 @@ fn hand(words: &[String]) -> (Option<HandRef>, usize) {
     }
 }
 
-/// Tells whether a word is one of these names, or French for one.
+/// Returns whether a word is one of these names, or French for one.
 fn says(word: &str, names: &[&str]) -> bool {
     is_one_of(word, names) || names.contains(&words::part(word).as_str())
 }

@@ -1,8 +1,8 @@
 //! The query language: which tokens are like this?
 //!
-//! A query is parsed into a tree ([`Query`]), every part of which knows where it was written, so
-//! that whoever answers it can point at a value nobody knows ([`unknown_value`]). Printing a
-//! query gives its canonical text. [`complete`] tells what could be written at a cursor.
+//! A query is parsed into a tree ([`Query`]). Every part of it knows its place in the text, so that an answer can
+//! point at an unknown value ([`unknown_value`]). Printing a query gives its canonical text. [`complete`] lists the
+//! texts that may follow at a cursor.
 //!
 //! ```
 //! use chereme_sign::query::Query;
@@ -41,14 +41,13 @@
 //! | time | *number* (`s` `ms` `min`) |
 //! | text | a bare word or `"…"`, with `*` for any characters |
 //!
-//! Notes: a bare word ends at a blank, a comma, a quote or a closing parenthesis; a balanced group
-//! such as `X(1)` belongs to it. After an operator only `=` ends it besides, so that `INDEX:1`
-//! stays whole. Curly quotes are quotes. Joints are understood in any case; relations and `like`
-//! only in lower case, because glosses are written in capitals. A relation is said of the token
-//! itself: `gloss=CHAT overlaps nonmanual.brows=raised` is two terms, both of which must hold.
-//! A regular expression is looked for anywhere in the text; `gloss~/^BO/` is `gloss=/^BO/`.
-//! In lower case `et`, `ou` and `non` are joints, too, and French words stand for relations where
-//! a comparison follows: `chevauche`, `avant`, `après`, `dans`, `couvre`.
+//! Notes: a bare word ends at a blank, a comma, a quote or a closing parenthesis; a balanced group such as `X(1)`
+//! belongs to it. After an operator only `=` ends it as well, so that `INDEX:1` stays whole. Curly quotes are
+//! quotes. Joints are understood in any case; relations and `like` only in lower case, because glosses are written
+//! in capitals. A relation is a term about the token itself: `gloss=CHAT overlaps nonmanual.brows=raised` is two
+//! terms, and both must hold. A regular expression may match anywhere in the text; `gloss~/^BO/` is `gloss=/^BO/`.
+//! In lower case `et`, `ou` and `non` are joints, too, and French words stand for relations if a comparison
+//! follows: `chevauche`, `avant`, `après`, `dans`, `couvre`.
 
 mod attributes;
 mod compare;
@@ -92,7 +91,7 @@ pub const MAX_CHARS: usize = 10_000;
 /// How deep parentheses and negations may stand inside each other.
 pub const MAX_DEPTH: usize = 64;
 
-/// What a person needs to know to write a query, in plain text of at most 80 columns.
+/// A guide to writing queries, in plain text of at most 80 columns.
 pub const HELP: &str = r#"A query is a row of terms that must all hold of a token:
 
   right.configuration=U placement=chin    U on the right hand, near the chin

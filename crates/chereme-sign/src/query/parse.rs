@@ -244,7 +244,7 @@ fn worded(cursor: &mut Cursor<'_>) -> Result<Expr, QueryError> {
     }
 }
 
-/// Reads the name of a saved search, of which `name` stands at `at` after the sign.
+/// Reads the rest of a saved search's name; `name` is its start, at `at` after the sign.
 fn saved_search(cursor: &mut Cursor<'_>, at: At, name: &str) -> Result<Expr, QueryError> {
     let (mut name, mut at) = (name.to_owned(), at);
     if name.is_empty() && cursor.peek().is_some_and(is_quote) {
@@ -269,7 +269,7 @@ fn example_follows(cursor: &Cursor<'_>) -> bool {
     word.starts_with("token:") || word.starts_with("sign:")
 }
 
-/// Tells whether an opening parenthesis is next, after blanks.
+/// Returns whether an opening parenthesis is next, after blanks.
 fn opens(cursor: &Cursor<'_>) -> bool {
     let mut ahead = cursor.clone();
     ahead.skip_blanks();

@@ -97,13 +97,13 @@ impl Pattern {
         }
     }
 
-    /// Tells whether every text matches: the pattern is `*` alone.
+    /// Returns whether every text matches: the pattern is `*` alone.
     #[must_use]
     pub fn matches_everything(&self) -> bool {
         self.as_prefix() == Some("")
     }
 
-    /// Tells whether the whole of `text` fits, without regard to case and accents.
+    /// Returns whether the whole of `text` fits, without regard to case and accents.
     #[must_use]
     pub fn matches(&self, text: &str) -> bool {
         if let Some(expression) = &self.expression {

@@ -56,13 +56,12 @@ impl Eq for At {}
 /// Printing gives canonical text, and parsing what was printed gives an equal query.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Query {
-    /// What holds of the tokens; an empty [`Expr::And`] holds of all.
+    /// The condition on the tokens; an empty [`Expr::And`] accepts all.
     pub root: Expr,
 }
 
 impl Query {
-    /// Returns every comparison of the query in the order in which they are written, those on the
-    /// right of relations too.
+    /// Returns every comparison of the query in written order, those on the right of relations too.
     #[must_use]
     pub fn tests(&self) -> Vec<&Test> {
         let mut found = Vec::new();
@@ -160,11 +159,11 @@ pub struct Test {
     pub at: At,
     /// Where the thing compared is named.
     pub subject_at: At,
-    /// What is compared with what.
+    /// The subject of the comparison.
     pub what: What,
 }
 
-/// What a test compares.
+/// The subject of a test.
 #[derive(Debug, Clone, PartialEq)]
 pub enum What {
     /// A component of the token: `right.configuration=U`. Where no hand or phase is named, it
@@ -181,7 +180,7 @@ pub enum What {
     Fuzzy {
         /// The text searched.
         field: TextField,
-        /// What it should resemble.
+        /// The text to resemble.
         text: String,
         /// How many characters may be added, left out, changed or swapped: 1 or 2.
         slips: u8,
@@ -217,11 +216,11 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Tells whether a reading passes; one reading never passes for [`Steps`](Wanted::Steps).
+    /// Returns whether a reading passes; one reading never passes for [`Steps`](Wanted::Steps).
     ///
-    /// `fits` tells whether a value is the [`Named`](Wanted::Named) one that is asked for, or has
-    /// the [`Features`](Wanted::Features); it is called with nothing else, and looks at the
-    /// operator to know whether narrower values count.
+    /// `fits` decides whether a value is the [`Named`](Wanted::Named) one in the query, or has the
+    /// [`Features`](Wanted::Features). It is called for these two only, and reads the operator to know whether
+    /// narrower values count.
     #[must_use]
     pub fn accepts(&self, reading: &Reading, fits: impl Fn(&str, &Wanted) -> bool) -> bool {
         let passes = |value: &Value| match (&value.wanted, reading) {
@@ -257,8 +256,8 @@ pub enum Operator {
     Is,
     /// `==`: it is one of the values, exactly; text with case and accents; features and no others.
     Exactly,
-    /// `!=`: it is none of the values. Where one of them is a name or a list of features, it must
-    /// also *have* a value, unlike `not placement=chest`, which holds of uncoded tokens too.
+    /// `!=`: the reading differs from all these values. If one of them is a name or a list of features, the reading
+    /// must also *be* a value, unlike `not placement=chest`, which accepts uncoded tokens too.
     IsNot,
 }
 
@@ -271,7 +270,7 @@ pub struct Value {
     pub wanted: Wanted,
 }
 
-/// What a value is to be.
+/// The wanted value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Wanted {
     /// `*`: any value, as long as there is one.
@@ -305,7 +304,7 @@ pub enum Missing {
     Unset,
     /// `n/a`: there is nothing to code.
     NotApplicable,
-    /// `unclear`: somebody looked and could not tell.
+    /// `unclear`: somebody looked and could not decide.
     Unclear,
 }
 
@@ -337,11 +336,11 @@ impl Missing {
 /// A text that belongs to a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum TextField {
-    /// All the texts below; what bare words and quoted text are searched in.
+    /// All the texts below; bare words and quoted text search them.
     Any,
     /// The gloss.
     Gloss,
-    /// What is said, in a spoken language.
+    /// The meaning, in a spoken language.
     Translation,
     /// The annotators' remarks.
     Comment,
@@ -408,7 +407,7 @@ impl TimeTest {
         }
     }
 
-    /// Tells whether a time of this many microseconds passes.
+    /// Returns whether a time of this many microseconds passes.
     #[must_use]
     pub fn accepts(self, micros: i64) -> bool {
         self.bounds().contains(&micros)
@@ -425,7 +424,7 @@ pub struct Related {
     pub at: At,
     /// How the token's span stands to that of the other annotation.
     pub relation: Relation,
-    /// What the other annotation is: a component, a text or a tier.
+    /// The other annotation: a component, a text or a tier.
     pub other: Test,
 }
 
@@ -460,6 +459,6 @@ pub struct Weighted {
     pub at: At,
     /// The component.
     pub field: Field,
-    /// How much it counts beside the others: above 0, at most 1000; 1 where nothing is said.
+    /// Its weight among the terms: above 0, at most 1000; 1 by default.
     pub weight: f64,
 }

@@ -203,7 +203,7 @@ fn feature(cursor: &mut Cursor<'_>) -> Result<Feature, QueryError> {
     })
 }
 
-/// Tells whether a feature's name may hold this character.
+/// Returns whether a feature's name may hold this character.
 pub(super) fn is_feature_char(c: char) -> bool {
     !c.is_whitespace() && !lex::is_quote(c) && !matches!(c, ',' | '[' | ']' | '(' | ')' | '*')
 }

@@ -62,7 +62,7 @@ impl Property {
         }
     }
 
-    /// Returns the only values there are, where they are fixed.
+    /// Returns the only possible values, if they are fixed.
     #[must_use]
     pub fn fixed_values(self) -> Option<&'static [&'static str]> {
         match self {
@@ -228,7 +228,7 @@ pub(super) fn missing(word: &str) -> Option<Missing> {
         .find(|missing| missing.name() == word)
 }
 
-/// Tells whether a bare word never is a word to search for.
+/// Returns whether a bare word is reserved and never searched for.
 pub(super) fn is_reserved(word: &str) -> bool {
     joint(word).is_some()
         || plain_relation(word).is_some()
@@ -238,7 +238,7 @@ pub(super) fn is_reserved(word: &str) -> bool {
         || INSTEAD_OF_ON.contains(&word)
 }
 
-/// Tells whether an opening parenthesis right after this word is not part of a word.
+/// Returns whether an opening parenthesis right after this word is not part of a word.
 pub(super) fn opens_group(word: &str) -> bool {
     joint(word).is_some()
         || plain_relation(word).is_some()
@@ -273,7 +273,7 @@ pub(super) fn part(text: &str) -> String {
         .map_or(text, |(_, english)| (*english).to_owned())
 }
 
-/// What stands on the left of a comparison when its name is one word and no component.
+/// The left side of a comparison if its name is one word and no component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Simple {
     Text(TextField),

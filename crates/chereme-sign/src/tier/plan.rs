@@ -50,10 +50,10 @@ pub(super) fn hull(a: Span, b: Span) -> Span {
 
 /// Returns the edits that carry out `change` with all its consequences.
 ///
-/// `fresh` gives the handle of each new annotation. Nothing changes in `set`, which may be a whole
-/// recording or only the neighbourhood that [`Change::window`] describes. The edits come in an
-/// order in which no annotation ever lacks its parent: what is put, parents first, then what is
-/// removed, children first. A change that changes nothing gives no edits.
+/// `fresh` gives the handle of each new annotation. Nothing changes in `set`, which may be a whole recording or
+/// only the neighbourhood that [`Change::window`] describes. The order of the edits never leaves an annotation
+/// without its parent: first the written ones, parents first, then the removed ones, children first. A change
+/// without effect gives no edits.
 ///
 /// # Errors
 /// [`EditError`] where the change would break a rule of [the tiers](super) or names what is not

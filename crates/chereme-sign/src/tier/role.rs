@@ -1,4 +1,4 @@
-//! What the annotations of a tier say, and of which hand: one reader and one writer for every file, command and row.
+//! The subject of a tier's annotations, and their hand: one reader and one writer for every file, command and row.
 
 use crate::component::{Component, Field, HandRef, Phase};
 use crate::text::{did_you_mean, fold, nearest};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// What the annotations of a tier say.
+/// The subject of a tier's annotations.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TierRole {
@@ -20,7 +20,7 @@ pub enum TierRole {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         feature: Option<String>,
     },
-    /// What is said, in a spoken language.
+    /// The meaning, in a spoken language.
     Translation,
     /// Remarks of the annotators.
     Comment,
@@ -138,7 +138,7 @@ impl Hands {
         }
     }
 
-    /// Returns the one hand, where it is one.
+    /// Returns the hand, if it is a single one.
     #[must_use]
     pub fn one(self) -> Option<HandRef> {
         match self {
@@ -160,13 +160,13 @@ impl fmt::Display for Hands {
     }
 }
 
-/// What the annotations of a tier say, and whose hand they are about: `right.configuration`, `both.gloss`,
-/// `nonmanual.brows`, `translation`.
+/// The subject of a tier's annotations, and their hand: `right.configuration`, `both.gloss`, `nonmanual.brows`,
+/// `translation`.
 ///
-/// What is printed reads back as the same.
+/// The printed form reads back as the same topic.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct TierTopic {
-    /// What the annotations say.
+    /// The subject of the annotations.
     pub role: TierRole,
     /// Whose hand they are about, if a hand's.
     pub hand: Option<Hands>,

@@ -18,16 +18,16 @@ pub struct Item {
     pub end: i64,
 }
 
-/// What becomes of the neighbours.
+/// The effect of a change on the neighbours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Mode {
-    /// They stay: what is moved takes the nearest place that is free, what is resized stops at them.
+    /// They stay: a moved annotation takes the nearest free place, a resized one stops at them.
     #[default]
     Normal,
     /// They are pushed on as far as they are in the way.
     Bulldozer,
-    /// All that comes after moves along; before the start where that is resized.
+    /// All later annotations move too; all earlier ones if the start is resized.
     Shift,
 }
 
@@ -42,7 +42,7 @@ pub enum Grip {
     Whole,
 }
 
-/// What holds every annotation: from when to when, and how short one may get.
+/// The limits of every annotation: its earliest start, its latest end, and its shortest length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
     /// The earliest start, in microseconds.
@@ -151,8 +151,8 @@ pub fn opened(items: &[Item], wanted: (i64, i64), mode: Mode, limits: Limits) ->
     Some(changed.map(|(_, new)| new).collect())
 }
 
-/// Returns changed annotations in an order in which they can be changed one after the other without
-/// ever overlapping: what goes to the right from the last on, what goes to the left from the first on.
+/// Returns changed annotations in an order that never makes two of them overlap: those that move right from the
+/// last, those that move left from the first.
 #[must_use]
 pub fn in_order(items: &[Item], changed: &[Item]) -> Vec<Item> {
     let right = |new: &Item| {
@@ -197,7 +197,7 @@ impl Limits {
     }
 }
 
-/// Turns time around, so that what is said of ends holds of starts.
+/// Reverses time, so that a rule for ends serves for starts.
 fn mirrored(items: &[Item]) -> Vec<Item> {
     let turned = items.iter().rev().map(|item| Item {
         start: -item.end,
@@ -321,7 +321,7 @@ fn right(items: &[Item], chosen: &BTreeSet<i64>, by: i64, mode: Mode, limits: Li
     new
 }
 
-/// Puts one where it has room nearest to `start`.
+/// Puts one annotation into the room nearest to `start`.
 fn nearest_room(items: &[Item], at: usize, start: i64, limits: Limits) -> Item {
     let item = items[at];
     let length = item.end - item.start;

@@ -58,7 +58,7 @@ impl Chord {
         !function && !self.alt
     }
 
-    /// Returns the chord as people read it: with the sign that stands on the key, where it has one.
+    /// Returns the chord as people read it: with the sign on the key, if it has one.
     pub(crate) fn label(self) -> String {
         let name = self.key.name();
         let sign = match self.key {

@@ -1,4 +1,4 @@
-//! What the mouse does, as one table: the help shows it beside the keys.
+//! The gestures of the mouse, as one table: the help shows it next to the keys.
 
 use crate::action::Menu;
 use crate::words::{Language, Text, gestures as words};
@@ -26,7 +26,7 @@ pub(crate) enum Act {
 /// A row of the table.
 #[derive(Debug)]
 pub(crate) struct Gesture {
-    /// Among which keys it is told.
+    /// The group of keys that lists it.
     pub(crate) menu: Menu,
     pub(crate) held: Option<Held>,
     pub(crate) act: Act,
@@ -91,7 +91,7 @@ gestures! {
 }
 
 impl Gesture {
-    /// Returns what is done, as people read it: `Ctrl+click on an annotation`.
+    /// Returns the gesture as people read it: `Ctrl+click on an annotation`.
     pub(crate) fn text(&self, language: Language) -> String {
         let act = match self.act {
             Act::Click => words::CLICK,

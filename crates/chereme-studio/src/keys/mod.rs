@@ -21,7 +21,7 @@ pub(crate) enum Keymap {
     /// Those of ELAN.
     #[default]
     Elan,
-    /// Those of Praat, where it has any.
+    /// Those of Praat, if it has any.
     Praat,
     /// Those of video editors: J, K, L.
     Editor,
@@ -98,7 +98,7 @@ impl Keys {
         self.bound.get(&action).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the keys of an action as people read them, such as `Ctrl+Z`; empty where it has none.
+    /// Returns the keys of an action as people read them, such as `Ctrl+Z`; empty if it has no keys.
     pub(crate) fn text(&self, action: Action) -> String {
         let all: Vec<String> = self.of(action).iter().map(|it| it.label()).collect();
         all.join(", ")
@@ -151,7 +151,7 @@ impl Keys {
         input: &mut InputState,
         place: Place,
     ) -> Option<(Action, Option<String>)> {
-        // The system tells of these keys by what they ask for.
+        // The system reports these keys as their action.
         let clipboard = |key| self.action(Chord::new(key, Modifiers::COMMAND), place);
         loop {
             let pressed = |event: &Event| match event {

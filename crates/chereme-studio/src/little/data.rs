@@ -1,16 +1,16 @@
-//! Little figures without a window: which moments are drawn, in which order, what is kept.
+//! Little figures without a window: the moments to draw, their order, and the pictures to keep.
 
 use chereme_motion::{Instant, Span};
 
 /// Pictures a second where there are not too many.
 const RATE: f64 = 25.0;
-/// So many pictures are drawn at that rate; longer movement gets fewer a second.
+/// The number of pictures at that rate; longer movement gets fewer a second.
 const USUAL: usize = 64;
 /// The most pictures of a loop, and the least a second.
 const MOST: usize = 96;
 const LEAST_RATE: f64 = 10.0;
 
-/// Returns the part of `span` that a loop shows: its beginning, where it is long.
+/// Returns the part of `span` that a loop shows: its beginning, if it is long.
 pub(crate) fn shown(span: Span) -> Span {
     let most = (MOST as f64 / LEAST_RATE * 1e6) as i64;
     let end = span.start().shifted(span.micros().min(most));

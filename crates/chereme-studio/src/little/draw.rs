@@ -23,7 +23,7 @@ const POSTURES: usize = 64 << 20;
 /// How many bodies are kept; signers of one corpus share few skeletons.
 const BODIES: usize = 8;
 
-/// What window and thread share.
+/// The data that window and thread share.
 #[derive(Default)]
 pub(super) struct Board {
     state: Mutex<State>,
@@ -118,7 +118,7 @@ impl Board {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Tells the thread that there may be something to do.
+    /// Wakes the thread, as there may be work.
     pub(super) fn tell(&self) {
         self.changed.notify_all();
     }
@@ -161,7 +161,7 @@ impl Board {
 }
 
 impl State {
-    /// Returns what is most needed: what is seen and least drawn.
+    /// Returns the most urgent task: the visible loop with the fewest pictures.
     fn task(&mut self) -> Option<Task> {
         let since = self.now.saturating_sub(PATIENCE);
         let mut next: Option<(f32, &Key, &mut Strip, Option<Arc<Ready>>)> = None;
@@ -223,7 +223,7 @@ impl State {
     }
 }
 
-/// What the thread keeps from picture to picture.
+/// The thread's memory from picture to picture.
 #[derive(Default)]
 struct Hand {
     raster: Raster,

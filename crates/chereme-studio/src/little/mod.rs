@@ -8,9 +8,9 @@
 //! if seen.little.show(ui, seen, out, &cell, "BOL").clicked() { … }
 //! ```
 //!
-//! Movement is loaded on a lane of its own and drawn by a thread of its own, the middle picture first,
-//! then ever finer steps; pictures are kept until there are too many of them. The window only shows
-//! what is there. [`Figures::hand`] shows a posture of one hand alone, the picture of a handshape.
+//! Movement is loaded on a lane of its own and drawn by a thread of its own, the middle picture first, then ever
+//! finer steps; pictures are kept until there are too many of them. The window only shows finished pictures.
+//! [`Figures::hand`] shows a posture of one hand alone, the picture of a handshape.
 
 mod data;
 mod draw;
@@ -41,7 +41,7 @@ pub(crate) enum Motion {
     Made(Arc<Made>),
 }
 
-/// What of the signer is looked at.
+/// The part of the signer in the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(crate) enum Focus {
     /// Head, shoulders, and the hands wherever they go.
@@ -131,7 +131,7 @@ pub(crate) struct Figures {
     own: RefCell<Own>,
 }
 
-/// What only the window's thread knows.
+/// The data of the window's thread alone.
 #[derive(Default)]
 struct Own {
     thread: Option<JoinHandle<()>>,

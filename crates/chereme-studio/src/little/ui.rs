@@ -1,4 +1,4 @@
-//! Little figures on the window: what is drawn is shown, what is not is asked for.
+//! Little figures on the window: shows finished pictures, and requests the others.
 
 use chereme_motion::{HandAngles, Side};
 use eframe::egui::epaint::RectShape;
@@ -14,7 +14,7 @@ use crate::context::{Outbox, Seen};
 use crate::words::stage as words;
 use crate::work::Work;
 
-/// How much movement is asked for at once: what scrolls out of sight is not waited for.
+/// The most movement requested at once: a figure that scrolls out of sight need not wait.
 const ASKED: usize = 4;
 /// Frames of the window after which a texture that was not shown is let go.
 const SWEEP: u64 = 60;
@@ -22,7 +22,7 @@ const SWEEP: u64 = 60;
 const BEAT: f64 = 1.0 / 30.0;
 const RADIUS: f32 = 6.0;
 
-/// What there is to be seen.
+/// The thing to see.
 enum Sight {
     Picture(usize, std::sync::Arc<eframe::egui::ColorImage>),
     Preparing,
@@ -111,7 +111,7 @@ impl Figures {
         self.put(ui, seen, &key, sight, rect);
     }
 
-    /// Begins the thread, and tells it which frame of the window this is.
+    /// Begins the thread, and gives it the number of the window's frame.
     fn begin(&self, ui: &Ui) {
         let now = ui.ctx().cumulative_pass_nr();
         let mut own = self.own.borrow_mut();
@@ -135,7 +135,7 @@ impl Figures {
         }
     }
 
-    /// Has the movement loaded, where it was not asked for yet.
+    /// Loads the movement, unless it was requested before.
     fn load(&self, state: &mut State, source: &Source, motion: &Motion, out: &mut Outbox) {
         if state.films.contains_key(source) {
             return;
@@ -234,7 +234,7 @@ fn edge(ui: &Ui, response: &Response, rect: Rect) {
         .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
 }
 
-/// What stands where no picture is yet, or none will be: head and shoulders, faintly.
+/// The stand-in for a missing picture: head and shoulders, faintly.
 fn stand_in(ui: &Ui, seen: &Seen<'_>, rect: Rect, coming: bool) {
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     painter.rect_filled(rect, RADIUS, ui.visuals().extreme_bg_color);

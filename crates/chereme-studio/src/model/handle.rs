@@ -23,8 +23,8 @@ impl Handle {
         matches!(self.to, Goal::AtPoint(_))
     }
 
-    /// Returns what a drag changes, in metres to the left, up and forward: the way, the way beside
-    /// another sign, or the point; of a named place the way to it, where it is known.
+    /// Returns the value that a drag changes, in metres to the left, up and forward: the offset, the offset from
+    /// another sign, or the point; for a named place the offset to it, if it is known.
     pub(crate) fn value(&self, arm: f64) -> Option<[f64; 3]> {
         let sum = |legs: &[chereme_corpus::recipe::Leg]| {
             let way = legs

@@ -1,4 +1,4 @@
-//! Movement that was made and lies in no recording: what a recipe gives before it is stored.
+//! Generated movement outside of a recording: the result of a recipe before it is stored.
 
 use std::sync::Arc;
 
@@ -11,15 +11,15 @@ use chereme_sign::Handedness;
 pub(crate) struct Made {
     /// What it is called: the gloss or the recipe.
     pub(crate) name: String,
-    /// The token whose notation it was made of, where it is that alone.
+    /// The token whose notation it was generated from, if that is its only source.
     pub(crate) token: Option<i64>,
     pub(crate) clip: Clip,
-    /// What the face does in each frame; none where it is at rest throughout.
+    /// The face in each frame; empty if it is at rest throughout.
     pub(crate) faces: Vec<Face>,
     pub(crate) anatomy: Arc<Anatomy>,
     /// Which hand the signer signs with.
     pub(crate) handedness: Handedness,
-    /// What it was made from, with the time of each piece.
+    /// The pieces it was built from, with the time of each.
     pub(crate) parts: Vec<MadePart>,
 }
 

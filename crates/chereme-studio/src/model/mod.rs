@@ -1,4 +1,4 @@
-//! What the window knows of the corpus: a snapshot that never changes, and the movement that is shown.
+//! The window's knowledge of the corpus: an immutable snapshot, and the movement on the stage.
 
 pub(crate) mod handle;
 pub(crate) mod made;
@@ -10,14 +10,14 @@ use std::sync::Arc;
 use chereme_corpus::{Contents, Overview, RecordingGlance, TierContents};
 use chereme_motion::{Instant, Span};
 
-/// The corpus at one moment, and what is said about the recording that is shown.
+/// The corpus at one moment, and the annotations of the open recording.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Snapshot {
     pub(crate) overview: Arc<Overview>,
     pub(crate) open: Option<Arc<Opened>>,
 }
 
-/// What is said about a recording, and where each annotation is in it.
+/// The annotations of a recording, and the place of each in it.
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) contents: Contents,
@@ -121,13 +121,13 @@ impl Snapshot {
         at.is_ok_and(|at| signs[at].notated)
     }
 
-    /// Returns what is said about that recording, where it is the one that was read.
+    /// Returns the annotations of that recording, if it is the one that was read.
     pub(crate) fn contents(&self, recording: i64) -> Option<&Contents> {
         let contents = &self.open.as_deref()?.contents;
         (contents.recording.id == recording).then_some(contents)
     }
 
-    /// Returns the annotation of that row, where it is in the recording that was read.
+    /// Returns the annotation of that row, if it is in the recording that was read.
     pub(crate) fn annotation(&self, id: i64) -> Option<Found<'_>> {
         let open = self.open.as_deref()?;
         let (tier, at) = *open.places.get(&id)?;

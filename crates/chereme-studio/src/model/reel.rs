@@ -32,7 +32,7 @@ struct Source {
 }
 
 impl Reel {
-    /// Turns to a recording; what is loaded of it stays where its movement is the same.
+    /// Turns to a recording; loaded pieces stay if the movement is the same.
     pub(crate) fn load(&mut self, recording: Option<&RecordingGlance>) {
         let source = recording.and_then(|it| {
             Some(Source {
@@ -79,13 +79,13 @@ impl Reel {
         Some(moving.clip.sample(inside))
     }
 
-    /// Returns what the face does at that moment, where it is told.
+    /// Returns the face at that moment, if it is known.
     pub(crate) fn face(&self, at: Instant) -> Option<Face> {
         let (moving, inside) = self.piece(at)?;
         Face::at(&moving.faces, moving.clip.rate(), inside)
     }
 
-    /// Returns the piece of a moment, where it is loaded, and the moment in it.
+    /// Returns the piece of a moment, if it is loaded, and the moment in it.
     fn piece(&self, at: Instant) -> Option<(&Moving, Instant)> {
         let source = self.source.as_ref()?;
         let frame = source.frame(at);

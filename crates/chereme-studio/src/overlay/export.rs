@@ -1,4 +1,4 @@
-//! Export: what is selected or found, in the formats that hold it, to a place that is remembered.
+//! Export: writes the selection or the results of a search, in a suitable format, to a place that is remembered.
 
 use std::path::{Path, PathBuf};
 
@@ -15,13 +15,13 @@ use crate::settings::Settings;
 use crate::words::{Text, export as words, fill, shell};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// What can be exported.
+/// The things that can be exported.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum What {
     Token(i64, String),
     Tier(i64, String),
     Recording(i64, String),
-    /// What a query finds, and how many tokens that were.
+    /// The results of a query, and their number.
     Found(String, usize),
     All,
 }

@@ -20,7 +20,7 @@ use crate::words::{Language, Text, fill, gestures, shell as words};
 #[derive(Debug, Default)]
 pub(crate) struct KeysHelp {
     open: bool,
-    /// What is looked for, and whether the field for it is to have the keyboard.
+    /// The text to look for, and whether its field takes the keyboard.
     text: String,
     fresh: bool,
     /// The action that waits for its new key.

@@ -1,4 +1,4 @@
-//! What lies above the panes: notices, the command palette, the keys, the settings.
+//! The layers above the panes: notices, the command palette, the keys, the settings.
 
 pub(crate) mod export;
 pub(crate) mod keys;

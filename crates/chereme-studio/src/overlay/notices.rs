@@ -27,7 +27,7 @@ const MOST: usize = 4;
 pub(crate) enum Kind {
     /// It was done.
     Done,
-    /// It is to be noted: what cannot be done now, or what others did.
+    /// A warning: an impossible action, or a change by others.
     Warning,
     /// It failed.
     Error,
@@ -56,13 +56,13 @@ impl Kind {
 pub(crate) struct Notice {
     id: u64,
     pub(crate) kind: Kind,
-    /// Whether it only stands in the status line, as it tells what one did oneself.
+    /// Whether it appears in the status line only, as it reports the user's own action.
     quiet: bool,
-    /// What can be done about it.
+    /// The remedies.
     offers: Vec<(Text, Command)>,
     pub(crate) text: String,
     pub(crate) remedy: Option<String>,
-    /// What the corpus itself said.
+    /// The corpus's own message.
     detail: Option<String>,
     /// Whether it stays until it is put away.
     pub(crate) stays: bool,
@@ -119,7 +119,7 @@ impl Notices {
         self.all.retain(|notice| notice.offers.is_empty());
     }
 
-    /// Tells what went wrong, and what helps.
+    /// Reports a failure, and the remedy.
     pub(crate) fn trouble(&mut self, error: &Error, task: Option<Text>, language: Language) {
         if matches!(error, Error::Stopped) {
             self.hint(words::STOPPED.of(language));
@@ -135,7 +135,7 @@ impl Notices {
         }
     }
 
-    /// Tells that the settings could not be written.
+    /// Reports that the settings could not be written.
     pub(crate) fn unsaved(&mut self, error: &dyn Display, language: Language) {
         self.add(
             Kind::Error,
@@ -145,7 +145,7 @@ impl Notices {
         );
     }
 
-    /// Tells what came of work, where that is worth a word.
+    /// Reports the outcome of work, if it deserves a word.
     pub(crate) fn of(&mut self, outcome: &Outcome, language: Language) {
         let written = matches!(
             outcome,
@@ -197,7 +197,7 @@ impl Notices {
         self.hint(text);
     }
 
-    /// Tells what a check found: faults with their places and what helps, which stay until they are put away.
+    /// Reports the results of a check: faults with their places and remedies, which stay until they are dismissed.
     fn checked(&mut self, report: &CheckReport, language: Language) {
         if report.ok && report.mended.is_empty() {
             return self.hint(words::CHECKED_WELL.of(language));
@@ -225,7 +225,7 @@ impl Notices {
 
     fn add(&mut self, kind: Kind, text: String, remedy: Option<String>, stays: bool) {
         self.all.retain(|notice| {
-            // One hint follows another; what is to be put away stays.
+            // A hint replaces the hint before it; a notice that must be dismissed stays.
             notice.text != text && (stays || notice.stays || notice.since.is_none())
         });
         self.next += 1;
@@ -246,8 +246,8 @@ impl Notices {
         }
     }
 
-    /// Shows the newest hint at the end of the status line, where there is room for it; what one did oneself is cut
-    /// where there is little.
+    /// Shows the newest hint at the end of the status line, if there is room for it; a report of the user's own
+    /// action is cut short.
     pub(crate) fn line(&mut self, ui: &mut Ui, language: Language) {
         self.in_line = None;
         let Some(notice) = self.all.iter().rev().find(|it| !it.stays) else {

@@ -1,4 +1,4 @@
-//! What one does in the first five minutes, in the order in which one does it.
+//! The steps of the first five minutes, in order.
 
 use eframe::egui::{Align2, Context, Id, Label, RichText, ScrollArea, Window};
 
@@ -6,7 +6,7 @@ use crate::action::Action;
 use crate::keys::Keys;
 use crate::words::{Language, Text, steps as words};
 
-/// What it is about, and how it is done: keys are named between braces.
+/// The subject of a step, and the instructions: keys are named between braces.
 const STEPS: [(Text, Text); 9] = [
     (words::LOOK, words::LOOK_HOW),
     (words::SELECT, words::SELECT_HOW),

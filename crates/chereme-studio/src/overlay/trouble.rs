@@ -1,5 +1,4 @@
-//! What went wrong, as people read it: a sentence and what helps in their language, and what the corpus
-//! itself said.
+//! Failures as people read them: a sentence and a remedy in their language, and the corpus's own message.
 
 use std::io::ErrorKind;
 
@@ -9,16 +8,16 @@ use chereme_corpus::{Cause, Error};
 use super::remedy;
 use crate::words::{Language, Text, fill, trouble as words};
 
-/// What is told of a failure.
+/// The report of a failure.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Told {
     pub(crate) text: String,
     pub(crate) remedy: Option<String>,
-    /// What the corpus said, where that is in another language than the sentence.
+    /// The corpus's message, if its language is not that of the sentence.
     pub(crate) detail: Option<String>,
 }
 
-/// Returns what is told of a failure of `task`, which is a noun such as `Import`.
+/// Returns the report of a failure of `task`, which is a noun such as `Import`.
 pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Told {
     let helps = |remedy: &str| {
         let text = crate::words::shell::REMEDY.of(language);

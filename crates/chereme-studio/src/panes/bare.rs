@@ -1,4 +1,4 @@
-//! A sign that nothing moves of yet: what can be done about it.
+//! A sign without movement: the actions it allows.
 
 use eframe::egui::{Frame, Label, Margin, Panel, RichText, Ui};
 
@@ -16,11 +16,11 @@ pub(crate) enum Bare {
     Making,
     /// Its notation could not be animated, for this reason.
     Failed(String),
-    /// What is seen was animated from its notation, and is stored nowhere.
+    /// The movement on the stage was animated from its notation, and is stored nowhere.
     Animated,
 }
 
-/// A list lower than this keeps its room: what is said stands in one line then.
+/// A list lower than this keeps its room: then the text is one line.
 const LOW: f32 = 300.0;
 
 /// Says what there is of a sign, and offers what can be done.
@@ -31,7 +31,7 @@ pub(crate) fn show(
     (token, gloss): (i64, &str),
     bare: &Bare,
 ) {
-    // Below what is listed, which stays where it is.
+    // Below the list, which keeps its place.
     let frame = Frame::new().inner_margin(Margin::symmetric(0, 6));
     let id = ui.scope_id().with("bare");
     let low = ui.available_height() < LOW;

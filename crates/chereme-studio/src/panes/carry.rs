@@ -16,7 +16,7 @@ use crate::words::{library as words, search};
 /// How large the figure under the pointer is.
 const FIGURE: f32 = 96.0;
 
-/// What moves under the pointer while a sign is carried.
+/// The picture that follows the pointer while a sign is carried.
 #[derive(Clone)]
 struct Picture {
     gloss: String,

@@ -10,10 +10,10 @@ use eframe::egui::{
 /// How many candidates are offered at once.
 pub(crate) const OFFERED: usize = 40;
 
-/// How wide the list is at least where it tells more than names.
+/// The least width of a list that shows more than names.
 const TOLD: f32 = 320.0;
 
-/// What is told beside a candidate, where something is.
+/// The remark on a candidate, if it has one.
 type About<'a> = dyn Fn(&str) -> Option<String> + 'a;
 
 /// How a line of text with completion looks.
@@ -25,7 +25,7 @@ pub(crate) struct Line<'a> {
     pub(crate) width: f32,
     /// Whether Enter takes a candidate that is the only one and begins with what is typed.
     pub(crate) takes_only: bool,
-    /// What is told beside each candidate.
+    /// The remark on each candidate.
     pub(crate) about: Option<&'a About<'a>>,
 }
 
@@ -41,7 +41,7 @@ impl Default for Line<'_> {
     }
 }
 
-/// What became of the line in this frame.
+/// The outcome of the line in this frame.
 pub(crate) struct Typed {
     #[allow(dead_code, reason = "what else lies on the line")]
     pub(crate) response: Response,
@@ -52,7 +52,7 @@ pub(crate) struct Typed {
     pub(crate) entered: bool,
 }
 
-/// What is remembered of a list of candidates between frames.
+/// The memory of a list of candidates between frames.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Listed {
     /// The candidate that Enter takes.

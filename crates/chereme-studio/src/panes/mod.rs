@@ -84,7 +84,7 @@ pub(crate) struct Carried {
     pub(crate) gloss: String,
 }
 
-/// What became of an action that was offered to a pane.
+/// The outcome of an action that was offered to a pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Acted {
     /// It is not this pane's.
@@ -95,7 +95,7 @@ pub(crate) enum Acted {
     Cannot(Text),
 }
 
-/// What every pane does.
+/// The duties of every pane.
 pub(crate) trait Pane {
     /// Draws it, and asks for what a person does in it.
     fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox);
@@ -108,10 +108,10 @@ pub(crate) trait Pane {
     /// Hears what came of work, its own or that of others.
     fn hear(&mut self, _id: WorkId, _ended: &Ended) {}
 
-    /// It was brought to the front by an action: what is typed shall go to it.
+    /// An action brought it to the front: typed text goes to it.
     fn come(&mut self) {}
 
-    /// Another was brought to the front by an action: what is typed is no longer for this one.
+    /// An action brought another pane to the front: typed text no longer goes to this one.
     fn leave(&mut self) {}
 }
 
@@ -152,7 +152,7 @@ impl Panes {
         }
     }
 
-    /// Offers an action to each pane; returns why it cannot be done, where that is so.
+    /// Offers an action to each pane; returns why it is impossible, if it is.
     pub(crate) fn act(
         &mut self,
         action: Action,

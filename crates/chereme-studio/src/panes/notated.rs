@@ -17,7 +17,7 @@ const KEPT: usize = 80;
 /// Signs made of their notation.
 #[derive(Debug, Default)]
 pub(crate) struct Notated {
-    /// What is being made: of which token, and what it is called.
+    /// The movement in the making: its token, and its name.
     making: Option<(WorkId, i64, String)>,
     /// By token; why not where it could not be made.
     made: BTreeMap<i64, Result<Arc<Made>, String>>,
@@ -30,7 +30,7 @@ pub(crate) struct Notated {
 }
 
 impl Notated {
-    /// Returns the movement of a token; where it is not there it is made, one at a time.
+    /// Returns the movement of a token; missing movement is animated, one token at a time.
     pub(crate) fn get(&mut self, token: i64, gloss: &str, out: &mut Outbox) -> Option<Arc<Made>> {
         if let Some(made) = self.made.get(&token) {
             return made.as_ref().ok().cloned();

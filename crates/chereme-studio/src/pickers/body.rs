@@ -324,7 +324,7 @@ pub(super) fn icon(ui: &Ui, rect: Rect, seen: &Seen<'_>, value: &InventoryValue)
     true
 }
 
-/// Returns the picture of a panel where it is drawn.
+/// Returns the picture of a panel if it is drawn.
 fn picture(ui: &Ui, panel: Panel, turned: bool, dark: bool) -> Option<TextureId> {
     gallery::picture(ui.ctx(), key((panel, turned, dark)), move || {
         let height = 300.0 * FINER;

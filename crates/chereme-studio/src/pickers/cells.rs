@@ -9,7 +9,7 @@ use super::keys::Pressed;
 use super::{Picker, Seen};
 use crate::words::{fill, pickers as words};
 
-/// A value and where it is shown.
+/// A value and its rectangle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
     /// Its place in the inventory.
@@ -29,7 +29,7 @@ pub(super) struct State {
     pub(super) hovered: bool,
 }
 
-/// What all cells of a picker share.
+/// The settings that all cells of a picker share.
 pub(super) struct Cells<'a> {
     pub(super) seen: &'a Seen<'a>,
     pub(super) inventory: &'a Inventory,

@@ -60,7 +60,7 @@ pub(crate) fn hand(value: &InventoryValue) -> Option<HandAngles> {
     value.pose.or_else(|| HOUSE.get(&fold(name)).copied())
 }
 
-/// Returns what a value is called: its id, and its name where that is another.
+/// Returns the label of a value: its id, and its name if that differs.
 pub(crate) fn label(value: &InventoryValue, language: Language) -> String {
     let name = value.name(language.code());
     if fold(name) == fold(&value.id) {
@@ -147,8 +147,8 @@ pub(crate) enum Way {
     Down,
 }
 
-/// Returns the cell that is next from `at` that way: the nearest of those that lie more that way than
-/// aside; left and right go on in the order of the cells where there is none.
+/// Returns the cell that is next from `at` in that direction: the nearest of those that lie more in that direction
+/// than aside; without one, left and right continue in the order of the cells.
 pub(crate) fn walk(rects: &[Rect], at: usize, way: Way) -> usize {
     let Some(here) = rects.get(at).map(Rect::center) else {
         return 0;

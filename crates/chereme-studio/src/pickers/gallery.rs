@@ -53,7 +53,7 @@ impl Gallery {
     }
 }
 
-/// Returns the picture of that key where it is drawn; wished for the first time, it is drawn.
+/// Returns the picture of that key if it is drawn; the first call has it drawn.
 pub(super) fn picture(
     ctx: &Context,
     key: u64,

@@ -49,7 +49,7 @@ fn laid(symbols: &[Symbol], em: f32, width: f32) -> Laid {
     }
 }
 
-/// Shows what is typed as a notation, in symbols or in their names, drawn; nothing where it is none.
+/// Shows typed text as a notation, in symbols or in their names, drawn; nothing for other text.
 pub(crate) fn of_text(ui: &mut Ui, seen: &Seen<'_>, text: &str, em: f32) -> Option<Response> {
     let names = to_names(text).ok()?;
     let symbols: Vec<Symbol> = names.into_iter().filter_map(Symbol::from_name).collect();

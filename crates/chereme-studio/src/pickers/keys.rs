@@ -4,7 +4,7 @@ use eframe::egui::{Event, Key, Modifiers, Ui};
 
 use super::data::Way;
 
-/// What was pressed in a picker in this frame.
+/// The keys pressed in a picker in this frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Pressed {
     pub(super) way: Option<Way>,

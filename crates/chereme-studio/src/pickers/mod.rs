@@ -49,13 +49,13 @@ pub(crate) struct Picker {
     at: Option<String>,
     /// The cell that has the focus.
     focus: Option<Id>,
-    /// It was just opened: what is typed shall go to it.
+    /// It was just opened: typed text goes to it.
     fresh: bool,
     /// Its button opens it as soon as it is drawn.
     opens: bool,
-    /// The values of the digits from 1 on; the first ones where nothing is said.
+    /// The values of the digits from 1 on; the first ones by default.
     pub(crate) digits: Vec<String>,
-    /// The inventory and the value of which all that is known is asked for.
+    /// The inventory and the value whose details are requested.
     asked: Option<(String, String)>,
     /// Of places: those in space rather than those on the body, from the side, and how far off.
     space: bool,
@@ -157,7 +157,7 @@ pub(crate) fn button(
     let popup = Popup::from_toggle_button_response(&response)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .accessible_name(name);
-    // It stays within its pane, so that the stage, where what is picked is seen, stays free.
+    // It stays within its pane, so that the stage with the picked value stays free.
     let pane = ui.clip_rect();
     let wide = data::width(data::kind(inventory)).min(screen.x - 48.0);
     let room = pane.width() - 24.0;
@@ -184,8 +184,8 @@ pub(crate) fn button(
     picked
 }
 
-/// Paints the picture of a value where it has one: a hand, a place on the body, a glyph, an arrow.
-/// Returns whether it has.
+/// Paints the picture of a value if it has one: a hand, a place on the body, a glyph, an arrow. Returns whether it
+/// has.
 #[allow(dead_code, reason = "for whoever shows values")]
 pub(crate) fn picture(
     ui: &Ui,

@@ -98,7 +98,7 @@ pub(super) fn cell(
     frame(&painter, rect, state, colours.accent, colours.rule);
 }
 
-/// Paints the frame that tells how a cell is.
+/// Paints the frame that shows the state of a cell.
 pub(super) fn frame(
     painter: &eframe::egui::Painter,
     rect: Rect,

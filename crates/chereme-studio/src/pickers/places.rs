@@ -56,7 +56,7 @@ const DISTANCE: f32 = 9.0;
 
 static SCENE: OnceLock<Option<Scene>> = OnceLock::new();
 
-/// Returns the body where it was read already.
+/// Returns the body if it was read already.
 pub(crate) fn ready() -> Option<&'static Scene> {
     SCENE.get()?.as_ref()
 }

@@ -1,6 +1,6 @@
 //! Directions around a middle: where the palm looks, where fingers point, where a hand moves.
 //!
-//! Drawn as the signer sees it, as HamNoSys does: what goes to the signer's right goes to the right.
+//! Drawn as the signer sees it, as HamNoSys does: the signer's right is on the right.
 
 use chereme_sign::inventory::InventoryValue;
 use eframe::egui::{Align2, Color32, Painter, Rect, RichText, Sense, TextStyle, Ui, Vec2, vec2};

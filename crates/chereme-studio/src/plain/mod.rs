@@ -1,9 +1,9 @@
-//! Shapes as rectangles of whole pixels, where they are nothing else.
+//! Draws shapes as rectangles of whole pixels if they have that form.
 //!
-//! What draws a window in software pays for each triangle, and takes two that are a rectangle along the screen's
-//! axes as one where all that it draws at once is such pairs. Shapes come with soft edges of many triangles from egui,
-//! also where an edge lies between two pixels and nothing of its softness is seen. Here rectangles, also those with
-//! round corners, and level and upright lines become the same pixels without them.
+//! A window drawn by software pays for each triangle, and draws two triangles that form a rectangle along the
+//! screen's axes as one if all of a batch are such pairs. egui gives shapes soft edges of many triangles, even at
+//! an edge between two pixels that shows no softness. Here rectangles, also those with round corners, and level and
+//! upright lines become the same pixels without them.
 
 mod surface;
 #[cfg(test)]
@@ -67,11 +67,11 @@ struct Sheet {
     done: Vec<ClippedShape>,
     /// Rectangles that are not among those done yet.
     mesh: Mesh,
-    /// Where what is drawn at once is seen, what it shows, and of how many triangles it is.
+    /// The clip of a batch, its texture, and its number of triangles.
     clip: Rect,
     texture: TextureId,
     count: usize,
-    /// What has another place to be seen is drawn by itself: every other time it is wider by nothing.
+    /// A batch with another clip is drawn by itself: every other time its clip is wider by nothing.
     aside: bool,
 }
 
@@ -136,7 +136,7 @@ impl Sheet {
         }
     }
 
-    /// Begins with what is drawn at once, where this is not drawn with the last.
+    /// Begins a batch, unless it can join the last one.
     fn turn_to(&mut self, clip: Rect, texture: TextureId, count: usize) {
         let same = clip == self.clip && texture == self.texture;
         if !same || self.count + count > AT_ONCE {
@@ -172,7 +172,7 @@ impl Sheet {
 }
 
 impl Sheet {
-    /// Adds a line where it is level or upright; returns whether it is.
+    /// Adds a line if it is level or upright; returns whether it is.
     fn line(&mut self, clip: Rect, [from, to]: [Pos2; 2], stroke: Stroke) -> bool {
         let upright = from.x == to.x;
         let width = stroke.width * self.scale;

@@ -82,7 +82,7 @@ impl Surface {
     }
 }
 
-/// Returns a share of a pixel, all or nothing where it is nearly that.
+/// Returns a share of a pixel, rounded to all or nothing if it is near.
 fn slightly(share: f32) -> f32 {
     match share {
         it if it < SLIGHT => 0.0,

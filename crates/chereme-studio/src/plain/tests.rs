@@ -1,4 +1,4 @@
-//! Compares pictures: what egui makes of shapes, and what becomes of them here.
+//! Compares pictures: shapes as egui draws them, and the result here.
 
 use eframe::egui::epaint::{ClippedPrimitive, Primitive, TessellationOptions, Tessellator, Vertex};
 use eframe::egui::{CornerRadius, vec2};

@@ -1,4 +1,4 @@
-//! What actions are called in menus, in the command palette and among the keys.
+//! The names of actions in menus, in the command palette and among the keys.
 
 texts! {
     STARTER: "Open the starter corpus", "Ouvrir le corpus de départ";

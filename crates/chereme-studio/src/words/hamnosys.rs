@@ -1,4 +1,4 @@
-//! What symbols of HamNoSys mean.
+//! The meaning of HamNoSys symbols.
 
 use chereme_sign::hamnosys::Class;
 
@@ -97,7 +97,7 @@ pub(crate) fn meaning(name: &str, language: Language) -> Option<String> {
     })
 }
 
-/// What symbols mean that are no ways.
+/// The meaning of symbols that are not directions.
 #[rustfmt::skip]
 const MEANINGS: [(&str, Text); 139] = [
     ("space", text("a blank", "une espace")),

@@ -1,7 +1,8 @@
 //! Every word the window says, in English and French; one file for each part of it.
 //!
-//! What the command line says too is in [`chereme_corpus::words`]. A text is a constant of its table; `{name}` in it is filled by [`fill`]. To add one, write a line
-//! into the table of its part; to add a table, name it in `TABLES` of the tests below.
+//! Texts that the command line uses too are in [`chereme_corpus::words`]. A text is a constant of its table;
+//! [`fill`] fills `{name}` in it. To add one, write a line into the table of its part; to add a table, name it in
+//! `TABLES` of the tests below.
 
 pub use chereme_corpus::words::Language;
 pub(crate) use chereme_corpus::words::{Text, fill, history, merge, trouble};

@@ -1,4 +1,4 @@
-//! Opening: which corpus the window is to show, made first where there is none.
+//! Opening: the corpus for the window, created first if it does not exist.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -18,10 +18,10 @@ pub(crate) enum Begin {
     Open(PathBuf),
     /// A new, empty one.
     New(PathBuf),
-    /// The starter corpus, made in this folder where it is not there yet.
+    /// The starter corpus, built in this folder unless it exists.
     Starter(PathBuf),
-    /// The one beside this folder, made empty where there is none, to take in what is in the folder once that was
-    /// looked at.
+    /// The one beside this folder, created empty if missing, to take in the files of the folder once the user has
+    /// looked at them.
     Folder(PathBuf),
     /// The same for files, in the folder of the first.
     Files(Vec<PathBuf>),
@@ -32,7 +32,7 @@ pub(crate) struct Beginning {
     news: Receiver<Telling>,
     pub(crate) far: Far,
     stop: Arc<AtomicBool>,
-    /// What is to be looked at in the import then.
+    /// The files to look at in the import then.
     pub(crate) look: Vec<PathBuf>,
     /// The corpus that is made only to take it in.
     pub(crate) made: Option<PathBuf>,
@@ -78,7 +78,7 @@ impl Beginning {
         self.stop.store(true, Ordering::Relaxed);
     }
 
-    /// Returns the path of the corpus, or why there is none, when it has ended.
+    /// Returns the path of the corpus, or the reason for its lack, when it has ended.
     pub(crate) fn ended(&mut self) -> Option<Result<PathBuf>> {
         while let Ok(step) = self.news.try_recv() {
             match step {
@@ -141,7 +141,7 @@ impl Begin {
     }
 }
 
-/// Opens the starter corpus in `folder`, made first where it is not there.
+/// Opens the starter corpus in `folder`, built first if missing.
 fn starter(folder: &Path, author: &str, progress: &mut Progress<'_>) -> Result<PathBuf> {
     let path = folder.join("starter.chereme");
     if path.is_file() {
@@ -162,7 +162,7 @@ fn filled(path: &Path, folder: &Path, author: &str, progress: &mut Progress<'_>)
     let done = corpus.import(&[folder.to_owned()], &ImportOptions::default(), progress);
     drop(corpus);
     if done.is_err() {
-        // What is left is an empty corpus that nobody has seen.
+        // The rest is an empty corpus that nobody has seen.
         let _ = std::fs::remove_file(path);
     }
     done.map(|_| ())
@@ -227,7 +227,7 @@ mod tests {
             let corpus = Corpus::open(&want, "A").expect("opened");
             let overview = corpus.overview(10).expect("read");
             assert!(overview.recordings.is_empty() && overview.operations.is_empty());
-            // One that is there already is gone on with.
+            // Work continues on an existing one.
             assert_eq!(what.look().1, None);
             assert_eq!(begin(what).expect("opened"), want);
         }

@@ -156,8 +156,7 @@ pub(super) fn carry(
     })
 }
 
-/// Takes operations back one after the other, or does them again; what was done stays done where it is
-/// stopped.
+/// Undoes operations one after the other, or redoes them; finished ones stay if it is stopped.
 fn walk(
     corpus: &mut Corpus,
     back: bool,
@@ -183,7 +182,7 @@ fn walk(
 /// How many different originals are loaded.
 const ORIGINALS: usize = 24;
 
-/// Loads the original of each piece, of equal ones once; what is gone is no error.
+/// Loads the original of each piece, of equal ones once; a missing one is not an error.
 fn originals(corpus: &Corpus, parts: Vec<MadePart>) -> Outcome {
     let mut known: BTreeMap<String, Option<Arc<Moving>>> = BTreeMap::new();
     let loaded = parts.into_iter().map(|part| {

@@ -24,7 +24,7 @@ const OPERATIONS: usize = 2000;
 /// Wakes the window; called from any thread.
 pub(crate) type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// What the threads tell the window.
+/// The threads' messages to the window.
 #[derive(Debug)]
 pub(crate) enum News {
     /// The corpus as it is now, and whether this window's own work changed it.
@@ -41,11 +41,11 @@ pub(crate) enum News {
     Ended(WorkId, Ended, About),
 }
 
-/// What a piece of work was about.
+/// The subject of a piece of work.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct About {
     pub(crate) task: Text,
-    /// Whether the pane that asked for it tells by itself what went wrong.
+    /// Whether the pane that requested it shows errors itself.
     pub(crate) quiet: bool,
 }
 
@@ -85,7 +85,7 @@ pub(crate) struct Desk {
 }
 
 impl Desk {
-    /// Opens the corpus at `path` on every thread; what fails is told as news.
+    /// Opens the corpus at `path` on every thread; failures arrive as news.
     pub(crate) fn open(path: &Path, author: &str, wake: &Wake) -> Self {
         let (tell, news) = channel();
         let station = Station {
@@ -291,7 +291,7 @@ impl Station {
                 Ok(false) => {}
                 Err(error) => self.say(News::Unread(error)),
             }
-            // What goes on is not over yet.
+            // Running work is not over yet.
             before = begun & !1;
             let mut next = wishes.recv_timeout(LOOK);
             while let Ok(wish) = next {
@@ -315,13 +315,13 @@ impl Station {
     }
 }
 
-/// Returns whether what changed between two readings may be this window's own work: it began, ended or went on
-/// meanwhile, as the counts of its begins and ends tell.
+/// Returns whether a change between two readings may be this window's own work: some work began, ended or ran
+/// meanwhile, as the counts of begins and ends show.
 fn is_own(before: u64, now: u64) -> bool {
     now != before || now % 2 == 1
 }
 
-/// What the reading thread knows.
+/// The data of the reading thread.
 struct Reading {
     corpus: Corpus,
     /// The recording whose tiers are wanted.

@@ -95,7 +95,7 @@ pub(crate) enum Work {
     RenameSearch(String, String),
     /// Keeps a search no longer.
     ForgetSearch(String),
-    /// Looks the whole corpus through; what is derived and wrong is made anew where that is wished.
+    /// Checks the whole corpus; wrong derived rows are built again on request.
     Check {
         /// Whether it is.
         mend: bool,
@@ -116,7 +116,7 @@ pub(crate) enum Work {
     Draft {
         /// The recipe.
         recipe: String,
-        /// Whether everything is looked up anew.
+        /// Whether everything is looked up again.
         anew: bool,
     },
     /// Says what could be made from a token.
@@ -155,7 +155,7 @@ pub(crate) enum Work {
     },
 }
 
-/// What came of a piece of [`Work`].
+/// The outcome of a piece of [`Work`].
 #[derive(Debug)]
 #[allow(dead_code, reason = "panes read what they need")]
 pub(crate) enum Outcome {
@@ -186,7 +186,7 @@ pub(crate) enum Outcome {
     Looked(Details),
     /// Tokens were found.
     Found(Answer),
-    /// What stands around tokens.
+    /// The annotations around tokens.
     Around(Vec<Around>),
     /// The signs have places on a map.
     Mapped(Arc<SignMap>),
@@ -194,7 +194,7 @@ pub(crate) enum Outcome {
     Previewed(Arc<Recombination>),
     /// What could be made.
     Suggested(Suggestions),
-    /// What a typed path may become.
+    /// The completions of a typed path.
     Paths(String, Vec<String>),
     /// Files were written.
     Exported(ExportReport),
@@ -211,7 +211,7 @@ pub(crate) enum Outcome {
     },
     /// The movement of a span, where there is some.
     Stretch(Option<Arc<Moving>>),
-    /// Pieces that a sign was made of, each with its original where it has one.
+    /// Pieces of a generated sign, each with its original if it has one.
     Originals(Vec<(MadePart, Option<Arc<Moving>>)>),
     /// A piece of movement was measured.
     Measured {
@@ -233,7 +233,7 @@ pub(crate) enum Shared {
     Made(Arc<Made>),
 }
 
-/// A thread with a connection of its own; what is in one lane is done in order.
+/// A thread with a connection of its own; work in one lane is done in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Lane {
     /// Changes of the corpus.
@@ -337,7 +337,7 @@ impl Work {
         }
     }
 
-    /// Returns whether the pane that asked for it tells what is wrong, at its place.
+    /// Returns whether the pane that requested it shows errors itself.
     pub(crate) fn is_quiet(&self) -> bool {
         matches!(
             self,
@@ -355,7 +355,7 @@ impl Work {
         )
     }
 
-    /// Returns whether it may be stopped when the window closes: what a person has typed may not.
+    /// Returns whether it may be stopped when the window closes: text that a person typed must be stored.
     pub(crate) fn may_stop(&self) -> bool {
         self.lane() != Lane::Edit
             || matches!(

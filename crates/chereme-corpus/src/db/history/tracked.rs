@@ -92,7 +92,7 @@ const TOUCHING: [(&str, &str, &str); 9] = [
     ("tier", "UPDATE", "WHERE t.recording_id = NEW.recording_id"),
 ];
 
-/// What is said while a token lasts is found by search too: event, row, start and end of the change.
+/// Annotations during a token are found by search too: event, row, start and end of the change.
 const SAYING: [(&str, &str, &str, &str); 3] = [
     ("INSERT", "NEW", "NEW.start_us", "NEW.end_us"),
     (

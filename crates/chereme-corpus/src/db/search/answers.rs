@@ -1,4 +1,4 @@
-//! What answering a query reads of the rows beyond the index.
+//! The rows that an answer reads beyond the index.
 
 use rusqlite::{Connection, OptionalExtension, Row};
 
@@ -162,7 +162,7 @@ pub(crate) fn coded_in_recording(
     each_coded(connection, sql, (recording, component), take)
 }
 
-/// Tells whether the signer of a recording is left-handed.
+/// Returns whether the signer of a recording is left-handed.
 pub(crate) fn left_handed(connection: &Connection, recording: i64) -> Result<bool> {
     let found = connection
         .prepare_cached(
@@ -208,8 +208,8 @@ pub(crate) fn on_tier(
     each_coded(connection, sql, [tier], take)
 }
 
-/// Returns what is said of a token in spoken languages, and the remarks on it: those of its sign,
-/// and the annotations that share time with it.
+/// Returns the translations of a token and the remarks on it: those of its sign, and the annotations that share
+/// time with it.
 pub(crate) fn texts_of_token(
     connection: &Connection,
     token: i64,

@@ -28,7 +28,7 @@ pub(crate) struct TokenDocument {
     pub(crate) time: Option<(i64, i64)>,
 }
 
-/// What a row of values becomes in the index.
+/// The terms of a row of values in the index.
 pub(crate) struct ReadingTerms {
     pub(crate) terms: Vec<String>,
     /// `right.configuration=U`, where the row has a value.
@@ -109,7 +109,7 @@ impl TokenFields {
     }
 }
 
-/// Rows of values by token, of which those of the next token can be taken.
+/// Rows of values in order of tokens; gives those of the next token at a time.
 struct Values<'s> {
     rows: Rows<'s>,
     /// The token of the row that the cursor stands on.
@@ -204,7 +204,7 @@ impl Hands {
     }
 }
 
-/// What is known of a recording: its signer, and what is said and remarked in it, by time.
+/// The context of a recording: its signer, its translations and its remarks, by time.
 struct Around {
     signer: Option<i64>,
     left_handed: bool,

@@ -1,5 +1,5 @@
-//! What rows of lexicons become: homonyms, spellings, attributes, notation in a wrong encoding; and whose tokens
-//! those of several participants are.
+//! How rows of lexicons are read: homonyms, spellings, attributes, notation in a wrong encoding; and to whom the
+//! tokens of several participants belong.
 
 use super::*;
 use crate::{ListFilter, ListKind, Name, SignerChange, TierChange, TierName};

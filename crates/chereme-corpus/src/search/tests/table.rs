@@ -5,7 +5,7 @@ use crate::Error;
 use crate::progress::{Progress, unheard};
 use crate::search::{Finding, FindingKind, Order, Tally, TallyRow};
 
-/// Two recordings of two signers and a lexicon; the glosses tell what is what.
+/// Two recordings of two signers and a lexicon; the glosses name the case.
 fn sample() -> Sample {
     let mut sample = Sample::new();
     let one = sample.recording("Session 1", "Anna", "right");

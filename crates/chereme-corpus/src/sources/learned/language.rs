@@ -1,9 +1,9 @@
 //! Body language as captured movement shows it: how large, how long and how deep what people annotated
 //! is.
 //!
-//! Only captured movement counts, and only where someone has told the kind of a movement: on a tier, or
-//! in the lexicon entry of its sign. What the program itself told is not asked: its categories are those
-//! of the usual body language. Movements whose size nobody has marked are of the usual one.
+//! Only captured movement counts, and only if a person has named the kind of movement: on a tier, or in the lexicon
+//! entry of its sign. Annotations by the program itself do not count: its categories are those of the usual body
+//! language. Movements without a marked size have the usual size.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -23,12 +23,12 @@ use crate::error::Result;
 use crate::inventories::StoredInventory;
 use crate::movement::{ChannelGroup, Track};
 
-/// Fewer movements than these tell nothing: the usual number stays.
+/// With fewer movements than these the usual number stays.
 const FEWEST: usize = 8;
 /// The most annotations that are looked at, and the most movements that are measured: evenly spread.
 const MOST_SPANS: usize = 50_000;
 const MOST_MEASURED: usize = 600;
-/// What is looked at before and after a stretch, in microseconds: annotations are not that exact.
+/// The margin before and after a stretch, in microseconds: annotations are not exact.
 const AROUND: i64 = 300_000;
 /// The shortest transition, in seconds, whatever its way takes of it.
 const LEAST_TRANSITION: f64 = 0.05;
@@ -50,7 +50,7 @@ struct Told {
     hand: Option<String>,
     kind: String,
     size: Option<String>,
-    /// Whether it is in the usual manner, so that its time tells something.
+    /// Whether its manner is the usual one, so that its time counts.
     plain: bool,
     /// Whether the stretch is a whole sign, in which only one stroke may be.
     sign: bool,
@@ -181,7 +181,7 @@ impl Samples {
         }
     }
 
-    /// Returns the numbers that there are enough movements for, the signer's own where they are enough.
+    /// Returns the numbers with enough movements, the signer's own if these are enough.
     pub(crate) fn language(&self, signer: Option<&str>) -> Language {
         let mut values = BTreeMap::new();
         for (name, samples) in &self.0 {
@@ -247,8 +247,7 @@ fn rising(values: &mut BTreeMap<String, LanguageValue>, names: &[&str; 3]) {
     }
 }
 
-/// Returns what component tiers tell: kinds of movement with the size and manner that go with them, and
-/// phases.
+/// Returns the information on component tiers: kinds of movement with their size and manner, and phases.
 fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told> {
     let id = |span: &MovementSpan| -> String {
         let own = inventories
@@ -279,7 +278,7 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told
             _ => continue,
         };
         let beside = |feature: &str| {
-            // Spans come by recording and time: what shares time lies near.
+            // Spans come by recording and time: those that share time are near.
             let near = spans[n.saturating_sub(64)..].iter();
             let near = near.take_while(|it| {
                 it.recording_id < span.recording_id
@@ -307,8 +306,8 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told
     told
 }
 
-/// Returns what lexicon entries tell of captured tokens on whose movement nothing is annotated: those
-/// with one movement of one size, made once, on which all entries of the sign agree.
+/// Returns the movements that lexicon entries give for captured tokens without an annotation of movement: only
+/// tokens with one movement of one size, made once, on which all entries of the sign agree.
 fn in_lexicon(rows: &[LexiconMovement]) -> Vec<Told> {
     let mut told = Vec::new();
     for token in rows.chunk_by(|a, b| a.token == b.token) {

@@ -1,4 +1,4 @@
-//! What a cursor in a query is offered.
+//! Tests of the completions offered at a cursor of a query.
 
 use super::*;
 

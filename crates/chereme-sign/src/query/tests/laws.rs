@@ -1,4 +1,4 @@
-//! What holds of any text and of any query.
+//! Laws of any text and of any query.
 
 use super::super::*;
 use super::{CANONICAL, REWRITTEN};

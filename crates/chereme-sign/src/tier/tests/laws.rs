@@ -1,4 +1,4 @@
-//! Random changes, one after another: what holds whatever they are.
+//! Random changes, one after another, and the laws that always hold.
 
 use proptest::prelude::*;
 

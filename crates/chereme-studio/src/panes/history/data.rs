@@ -1,4 +1,4 @@
-//! What was done as sentences, and how many steps lead to any of it, without a window.
+//! Operations as sentences, and the number of steps back to each of them, without a window.
 
 use std::collections::BTreeMap;
 
@@ -93,8 +93,8 @@ pub(crate) fn next(operations: &[OperationRow], back: bool, language: Language) 
     Some(sentence(found, language))
 }
 
-/// Returns what was done since `before`, as a sentence; of others it says who did it, and of one's own work nothing
-/// where that is told otherwise.
+/// Returns the operations since `before`, as a sentence. The sentence names other people; the user's own work is
+/// left out if another notice reports it.
 pub(crate) fn news(
     [before, now]: [&[OperationRow]; 2],
     own: bool,

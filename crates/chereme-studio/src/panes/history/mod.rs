@@ -1,4 +1,4 @@
-//! What was done, by whom, the newest first; back to any point and forward again.
+//! Operations and their authors, the newest first; back to any point and forward again.
 
 mod conflicts;
 pub(crate) mod data;

@@ -1,4 +1,4 @@
-//! What was understood of files, as lines, rows and marks, without a window.
+//! The interpretation of files, as lines, rows and marks, without a window.
 
 use std::collections::BTreeMap;
 
@@ -82,7 +82,7 @@ pub(crate) fn parts(file: &FileReport) -> Option<BTreeMap<String, String>> {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Guess {
     pub(crate) name: String,
-    /// As mappings spell it, such as `right.configuration`; blank where it is not known.
+    /// In the spelling of mappings, such as `right.configuration`; blank if unknown.
     pub(crate) role: String,
     pub(crate) sure: f64,
     pub(crate) why: String,
@@ -135,7 +135,7 @@ fn role(value: &Value) -> String {
     }
 }
 
-/// What tiers can be said to be.
+/// The roles that a person can give to tiers.
 pub(crate) const ROLES: [&str; 25] = [
     "gloss",
     "right.gloss",
@@ -170,7 +170,7 @@ pub(crate) fn mapping(chosen: &BTreeMap<String, String>) -> Mapping {
     Mapping::from_json(&document.to_string()).unwrap_or_default()
 }
 
-/// Returns which joint is which part, as a person says it; nothing where nothing is said.
+/// Returns the user's roles of joints; `None` if the user gave none.
 pub(crate) fn roles(chosen: &BTreeMap<String, String>) -> Option<Roles> {
     let trimmed = |(part, joint): (&String, &String)| (part.clone(), joint.trim().to_owned());
     let all: BTreeMap<String, String> = chosen.iter().map(trimmed).collect();

@@ -1,4 +1,4 @@
-//! What was understood of each file, and what of it a person changes before anything is written.
+//! The interpretation of each file, and the user's corrections before anything is written.
 
 use std::path::Path;
 
@@ -120,7 +120,7 @@ fn understood(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport, 
     }
 }
 
-/// What a tier is taken for, to be changed.
+/// The role of a tier, which can be changed.
 fn tier(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, guess: &data::Guess) {
     let chosen = said.tiers.get(&guess.name).cloned();
     let now = chosen.clone().unwrap_or_else(|| guess.role.clone());
@@ -214,7 +214,7 @@ fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
     });
 }
 
-/// What is odd about a file, with its line and what would be right.
+/// The findings about a file, with their lines and remedies.
 fn findings(ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
     for finding in &file.findings {
         let colour = match finding.severity {

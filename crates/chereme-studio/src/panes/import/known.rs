@@ -1,4 +1,4 @@
-//! What a person knows better than the files.
+//! Corrections by the user, who knows more than the files.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::context::Seen;
 use crate::panes::complete::{Line, complete, fitting};
 use crate::words::{Text, fill, import as words};
 
-/// What a person says that files do not.
+/// The user's corrections.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Said {
     signer: String,
@@ -20,12 +20,12 @@ pub(super) struct Said {
     metres_per_unit: Option<f64>,
     licence: String,
     mend_root: bool,
-    /// What becomes of one's own edits where a file changed.
+    /// The rule for the user's own edits if a file changed.
     own_edits: OwnEdits,
     axes: Option<Axes>,
-    /// What tiers are, by name.
+    /// The roles of tiers, by name.
     pub(super) tiers: BTreeMap<String, String>,
-    /// Which joint each part of the body is, blank where there is none.
+    /// The joint of each part of the body, blank if it has none.
     pub(super) joints: BTreeMap<String, String>,
 }
 
@@ -48,7 +48,7 @@ impl Said {
     }
 }
 
-/// What a person knows better than the files.
+/// Shows the corrections that the user can make.
 pub(super) fn show(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
     CollapsingHeader::new(seen.say(words::KNOWN_BETTER))
         .id_salt("known")

@@ -1,5 +1,4 @@
-//! Import: what was understood of files before anything is written, what a person knows better, and
-//! then the writing.
+//! Import: shows the interpretation of files before anything is written, takes corrections, and then writes.
 
 mod body;
 mod data;
@@ -28,11 +27,11 @@ pub(crate) use paths::Paths;
 #[derive(Default)]
 pub(crate) struct Import {
     path: String,
-    /// Files that were dropped or chosen, where they are several.
+    /// Files that were dropped or chosen, if there are several.
     dropped: Vec<PathBuf>,
     paths: Paths,
     said: Said,
-    /// What was said when the files were looked at last.
+    /// The corrections at the last look at the files.
     looked: Said,
     asked: Option<WorkId>,
     report: Option<ImportReport>,
@@ -239,7 +238,7 @@ impl Pane for Import {
     }
 
     fn come(&mut self) {
-        // What was given is looked at; a list of paths would lie over what is pressed next.
+        // Given files are looked at; a list of paths would cover the next button.
         self.come = self.files().is_empty();
     }
 }

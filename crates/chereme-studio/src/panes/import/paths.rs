@@ -6,7 +6,7 @@ use crate::context::Outbox;
 use crate::panes::complete::{Line, Typed, complete, fitting};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// What a typed path may become, as far as it was asked.
+/// The completions of a typed path, as far as they were requested.
 #[derive(Default)]
 pub(crate) struct Paths {
     of: String,

@@ -1,4 +1,4 @@
-//! What is told of recordings, signers, signs and values.
+//! The details of recordings, signers, signs and values.
 
 use chereme_corpus::{
     MediaChange, Name, RecordingChange, RecordingDetails, RecordingGlance, SignChange, SignDetails,

@@ -1,4 +1,4 @@
-//! What the inspector shows, as lines and texts, without a window.
+//! The content of the inspector, as lines and texts, without a window.
 
 use chereme_corpus::{RecordingGlance, SignerDetails, TierContents, TierRow, TrackRow};
 use chereme_motion::Instant;
@@ -7,10 +7,10 @@ use crate::panes::library::data as library;
 use crate::panes::timeline::data::time_text;
 use crate::words::{Text, fill, inspector as words};
 
-/// A line: what it is called, and what it says.
+/// A line: its name and its text.
 pub(crate) type Line = (Text, String);
 
-/// Returns what is known of a recording's movement; what nobody said is left out.
+/// Returns the details of a recording's movement, without missing ones.
 pub(crate) fn recording_lines(it: &RecordingGlance, origin: impl Fn(&str) -> String) -> Vec<Line> {
     let frames = match it.rate {
         Some(rate) if it.frames > 0 => Some(format!("{} × {:.3} Hz", it.frames, rate.per_second())),
@@ -88,7 +88,7 @@ pub(crate) fn measures(it: &SignerDetails) -> Vec<Line> {
     .into()
 }
 
-/// Returns the words for a field such as `initial.right.placement`, and what is left of it.
+/// Returns the words for a field such as `initial.right.placement`, and the rest of it.
 pub(crate) fn field_words(field: &str) -> (Vec<Text>, Vec<&str>) {
     let (mut texts, mut rest) = (Vec::new(), Vec::new());
     for part in field.split('.') {

@@ -1,4 +1,4 @@
-//! Lines that can be changed: what is typed is stored by Enter or by going on, Escape leaves it.
+//! Editable lines: Enter or a move to another field stores the text, Escape restores it.
 
 use eframe::egui::{ComboBox, Grid, Id, Key, RichText, Role, Ui, WidgetInfo};
 
@@ -107,7 +107,7 @@ pub(super) fn notes(ui: &mut Ui, seen: &Seen<'_>, id: Id, value: &str) -> Option
     None
 }
 
-/// Shows a list to choose from; returns what was chosen, where it is another.
+/// Shows a list to choose from; returns the choice, if it is new.
 pub(super) fn choice<T: PartialEq + Clone>(
     ui: &mut Ui,
     seen: &Seen<'_>,

@@ -1,4 +1,4 @@
-//! What is selected, and what belongs to it: shown, and changed where that can be undone.
+//! The selection and its details: shown, and editable if undo can restore them.
 
 mod about;
 pub(crate) mod data;
@@ -35,7 +35,7 @@ type Selected = (Option<i64>, Option<i64>, Option<i64>);
 /// The pane.
 #[derive(Default)]
 pub(crate) struct Inspector {
-    /// What was turned to, until something else is selected.
+    /// The subject, until something else is selected.
     turned: Option<Thing>,
     selected: Selected,
     /// The corpus that `known` is of.
@@ -65,7 +65,7 @@ impl Inspector {
         }
     }
 
-    /// Returns what is known of something, and asks where nothing is yet.
+    /// Returns the details of something, and requests them if they are missing.
     fn details(&mut self, thing: &Thing, out: &mut Outbox) -> Option<Result<Details, String>> {
         if let Some(known) = self.known.get(thing) {
             return Some(known.clone());

@@ -28,7 +28,7 @@ impl Part {
     /// Returns the part that a symbol belongs to after one of `self`; nothing for brackets and signs
     /// between, which go with what stands beside them.
     fn after(self, class: Class) -> Option<Self> {
-        // What a movement leads to, and what changes in it, is of the movement.
+        // Symbols of the target of a movement, and of changes during it, belong to the movement.
         if self == Self::Movement {
             return Some(Self::Movement);
         }
@@ -48,7 +48,7 @@ impl Part {
     }
 }
 
-/// Returns the parts of a notation, each with its symbols; nothing of a text that is none.
+/// Returns the parts of a notation, each with its symbols; an empty list for text that is not notation.
 pub(super) fn parts(text: &str) -> Vec<(Text, Vec<Symbol>)> {
     let Ok(names) = to_names(text) else {
         return Vec::new();

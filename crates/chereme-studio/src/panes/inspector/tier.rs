@@ -1,4 +1,4 @@
-//! What is told of a tier, and changed.
+//! The details of a tier, which can be changed.
 
 use chereme_corpus::{Hands, StoredInventory, TierChange, TierName, TierRow, Values};
 use eframe::egui::{Id, Ui};

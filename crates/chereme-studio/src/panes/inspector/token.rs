@@ -1,4 +1,4 @@
-//! What is told of a token, and changed.
+//! The details of a token, which can be changed.
 
 use chereme_corpus::{Address, TokenDetails};
 use chereme_motion::{Instant, Span};
@@ -128,8 +128,8 @@ pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
         });
 }
 
-/// Returns what a field of a token is called; what distinguishes fields of one component stands before whose hand they
-/// are of.
+/// Returns the name of a field of a token; the distinction between fields of one component stands before the name
+/// of the hand.
 fn field_name(seen: &Seen<'_>, field: &str) -> String {
     let (texts, rest) = data::field_words(field);
     let mut name: Vec<&str> = texts.iter().map(|text| seen.say(*text)).collect();
@@ -139,7 +139,7 @@ fn field_name(seen: &Seen<'_>, field: &str) -> String {
     name.join(" ")
 }
 
-/// What a token is coded as; what an annotation says can be changed.
+/// The coding of a token; values of annotations can be changed.
 fn coding(
     it: &mut Inspector,
     ui: &mut Ui,

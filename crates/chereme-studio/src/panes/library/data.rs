@@ -1,4 +1,4 @@
-//! What the lists of recordings and of signs say, without a window.
+//! The text of the lists of recordings and of signs, without a window.
 
 use std::collections::BTreeMap;
 
@@ -94,7 +94,7 @@ pub(crate) fn origin_text(origin: &str) -> Option<Text> {
     }
 }
 
-/// What there is to be seen of a sign.
+/// The visible form of a sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Moves {
     /// Its citation form lies in a recording.
@@ -150,7 +150,7 @@ fn moves(sign: &SignGlance) -> Moves {
 /// Returns where a sign comes from, and how many tokens it has.
 pub(crate) fn about(sign: &SignGlance, origin: Option<&str>, language: Language) -> String {
     let what = match moves(sign) {
-        // What was made was not recorded.
+        // A generated recording was not captured.
         Moves::Recorded(..) => origin
             .filter(|it| *it != "captured")
             .and_then(origin_text)

@@ -39,7 +39,7 @@ enum List {
 #[derive(Default)]
 pub(crate) struct Library {
     filter: String,
-    /// What was chosen to be listed; signs where there are no recordings.
+    /// The chosen list; signs if there are no recordings.
     list: Option<List>,
     rows: Rows,
     /// The row that keys are at, and the one that they go to.
@@ -52,7 +52,7 @@ pub(crate) struct Library {
     notated: Notated,
 }
 
-/// The rows, found anew where what they depend on changed.
+/// The rows, filtered again when their inputs change.
 #[derive(Default)]
 struct Rows {
     of: Option<(usize, String, Language)>,
@@ -136,7 +136,8 @@ impl Library {
         self.listed(seen)
     }
 
-    /// Chooses a sign: it is shown at its place, or made of its notation; a bare one tells what can be done.
+    /// Chooses a sign: shows it at its place, or animates its notation; for a bare sign the pane lists the possible
+    /// actions.
     fn choose(&mut self, row: &SignRow, out: &mut Outbox) {
         self.chosen = Some(row.clone());
         let Some(token) = row.token else { return };
@@ -162,7 +163,7 @@ impl Library {
         self.notated.show(out);
     }
 
-    /// Tells of the chosen sign what can be done where nothing moves.
+    /// Lists the possible actions for the chosen sign if it has no movement.
     fn hint(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let Some((row, token)) = self.chosen.as_ref().and_then(|row| Some((row, row.token?)))
         else {
@@ -210,7 +211,7 @@ impl Library {
         }
     }
 
-    /// Gives a row the focus that the keys went to, and keeps the keys where it has it.
+    /// Gives a row the focus that the keys went to, and keeps the keys there.
     fn focus(&mut self, ui: &Ui, response: &Response, at: usize) {
         if self.reach == Some(at) {
             self.reach = None;

@@ -19,13 +19,13 @@ const FAR: f64 = 0.005;
 /// How near the edge a dragged card makes the list scroll.
 const EDGE: f32 = 28.0;
 
-/// How long nothing is typed before what is wrong with it is told, in seconds.
+/// The pause in typing before an error is shown, in seconds.
 const TYPING: f64 = 1.2;
 
 /// What is dragged: a card of the stack.
 struct Dragged(u64);
 
-/// What a person did to the stack in this frame.
+/// The action of the user on the stack in this frame.
 enum Did {
     Choose(u64),
     Change(u64, What),
@@ -33,7 +33,7 @@ enum Did {
     Move(u64, usize),
 }
 
-/// A card with what is known of it.
+/// A card with its results.
 struct Shown<'a> {
     card: &'a Card,
     first: bool,
@@ -160,7 +160,7 @@ fn frame(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &m
     }
 }
 
-/// The line above a card: what it is, on or off, and what can be done with it.
+/// The line above a card: its name, its switch, and its actions.
 fn header(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &mut Vec<Did>) {
     let card = shown.card;
     let title = seen.say(catalogue::title(&card.what));
@@ -262,8 +262,8 @@ fn menu(ui: &mut Ui, seen: &Seen<'_>, id: u64, did: &mut Vec<Did>) {
     }
 }
 
-/// What became of a card: what it did, how near it came, or why it cannot be done; returns what it becomes where
-/// a slip in it is mended.
+/// The outcome of a card: its effects, its residual, or why it is impossible; returns the corrected card if the
+/// user accepts a proposed correction.
 fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) -> Option<What> {
     if let Some(trouble) = shown.trouble {
         ui.label(

@@ -87,7 +87,7 @@ pub(super) fn hands(ui: &mut Ui, seen: &Seen<'_>, value: &mut Hands, both: bool)
     choose(ui, seen.say(words::HAND), value, &all)
 }
 
-/// Shows a number with a slider; what is typed may go beyond it.
+/// Shows a number with a slider; a typed number may lie beyond it.
 pub(super) fn slide(
     ui: &mut Ui,
     name: &str,
@@ -410,7 +410,7 @@ pub(super) fn of_inventory(
     typed.changed | changed
 }
 
-/// Returns the value of which all that is known was asked for in a picker of a card.
+/// Returns the value whose details the user requested in a picker of a card.
 pub(super) fn asked(ui: &Ui) -> Option<Thing> {
     let id = Id::unique(ASKED);
     ui.data_mut(|data| {
@@ -447,7 +447,7 @@ pub(crate) fn selected_token(seen: &Seen<'_>) -> Option<(i64, String)> {
     Some((token.id, token.gloss.clone()))
 }
 
-/// Returns the recipe to begin with and its gloss: what is selected, or the notated sign on the stage.
+/// Returns the first recipe and its gloss: the selection, or the notated sign on the stage.
 pub(super) fn selected_recipe(seen: &Seen<'_>) -> Option<(String, String)> {
     if let Some(showing) = &seen.shown.made
         && let Some(token) = showing.made.token

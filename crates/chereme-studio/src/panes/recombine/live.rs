@@ -1,5 +1,5 @@
-//! The preview: whatever the recipe is now is being made, one at a time, the newest next. What takes
-//! long and is not wanted any more is stopped, but never twice in a row: while one drags, something is seen.
+//! The preview: the current recipe is evaluated, one at a time, the newest next. Slow evaluations that are no
+//! longer wanted are stopped, but never twice in a row: during a drag, the user sees a result.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,15 +12,15 @@ use crate::command::Command;
 use crate::context::Outbox;
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// What a preview is of.
+/// The subject of a preview.
 #[derive(Debug, Clone, PartialEq)]
 struct Wish {
     text: String,
-    /// The corpus at that moment: what the sources are may change.
+    /// The generation of the corpus: the sources may change.
     generation: i64,
 }
 
-/// What the report says of one card.
+/// The report's part about one card.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Note {
     pub(super) did: Vec<String>,
@@ -45,11 +45,11 @@ const PATIENCE: f64 = 0.15;
 /// The preview.
 #[derive(Default)]
 pub(super) struct Live {
-    /// Whether everything is to be looked up anew.
+    /// Whether everything is to be looked up again.
     anew: bool,
     /// Whether the one that is being made was stopped, and whether the one before it was.
     stopped: [bool; 2],
-    /// What is being made, with the card of each path of its report.
+    /// The running evaluation, with the card of each path of its report.
     running: Option<(WorkId, Wish, Stack)>,
     /// When it was asked for, in seconds of the window's clock.
     since: f64,
@@ -57,7 +57,7 @@ pub(super) struct Live {
     fresh: bool,
     /// How long the last one took, in seconds, until it was seen.
     pub(super) took: f64,
-    /// What was made last, or could not be.
+    /// The last evaluation, which may have failed.
     of: Option<Wish>,
     pub(super) made: Option<Arc<Recombination>>,
     pub(super) notes: BTreeMap<u64, Note>,
@@ -65,7 +65,7 @@ pub(super) struct Live {
 }
 
 impl Live {
-    /// Has the recipe made where it is another than was made last and nothing is being made.
+    /// Evaluates the recipe if it differs from the last evaluated one and no evaluation is running.
     ///
     /// `generation` is that of the corpus, `now` the time on the window's clock.
     pub(super) fn follow(
@@ -106,7 +106,7 @@ impl Live {
         self.since = now;
     }
 
-    /// Has everything looked up anew, also where the recipe is the same.
+    /// Looks everything up again, even if the recipe is the same.
     pub(super) fn reload(&mut self) {
         self.anew = true;
     }

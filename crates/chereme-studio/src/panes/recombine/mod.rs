@@ -41,7 +41,7 @@ const SETTLES: f64 = 0.4;
 #[derive(Default)]
 pub(crate) struct Recombine {
     stack: Stack,
-    /// The recipe as it is typed; that of the cards where it can be read.
+    /// The recipe as typed; that of the cards if it can be read.
     text: String,
     /// Why the text cannot be read.
     wrong: Option<String>,
@@ -59,7 +59,7 @@ pub(crate) struct Recombine {
     storing: Option<WorkId>,
     /// The sign that was stored last: its gloss and recording.
     stored: Option<(String, i64)>,
-    /// Whether the stage shows what was made, and not the recording.
+    /// Whether the stage shows the result, and not the recording.
     on_stage: bool,
     /// The movement that was last given to the stage.
     given: Option<Arc<Recombination>>,
@@ -89,7 +89,7 @@ fn read(text: &str) -> Result<Recipe, String> {
     }
     text.parse().map_err(|error: RecipeError| match &error {
         RecipeError::Text(at) => {
-            // What stands there is shown, for counting letters is no work for people.
+            // Shows the text at the error, since counting letters is no work for people.
             let start = at.at.saturating_sub(24);
             let letters = |from: usize, count: usize| -> String {
                 at.text.chars().skip(from).take(count).collect()
@@ -133,7 +133,7 @@ impl Recombine {
         }
     }
 
-    /// Takes in what was done to the corpus; what was done to the recipe before is a step before it.
+    /// Counts the operations on the corpus; a change of the recipe before them is a step before them.
     fn count(&mut self, operations: &[OperationRow]) {
         if self.steps.is_behind(operations) {
             self.settle();
@@ -141,8 +141,8 @@ impl Recombine {
         }
     }
 
-    /// Takes a change in as a step when nothing is dragged or typed, and no other has followed at once; what
-    /// was changed before the mouse is pressed is a step of its own.
+    /// Makes a change a step when nothing is dragged or typed, and no other change has followed at once; a change
+    /// before the mouse is pressed is a step of its own.
     fn settle_in_time(&mut self, ui: &Ui) {
         let (now, held) = ui.input(|input| (input.time, input.pointer.any_down()));
         if ui.input(|input| input.pointer.any_pressed()) {
@@ -232,13 +232,13 @@ impl Recombine {
         }
     }
 
-    /// Returns whether what was made last has not been given to the stage yet.
+    /// Returns whether the stage has not received the last result yet.
     pub(crate) fn has_news(&self) -> bool {
         self.live.has_news()
     }
 
-    /// Has made what the recipe is now, and gives the stage what was made and the handle for it; `now` is
-    /// the time on the window's clock.
+    /// Evaluates the current recipe, and gives the stage the result and its handle; `now` is the time on the
+    /// window's clock.
     pub(crate) fn keep_up(&mut self, seen: &Seen<'_>, now: f64, out: &mut Outbox) {
         let generation = seen.snapshot.overview.generation;
         if self.wrong.is_none() {
@@ -252,7 +252,7 @@ impl Recombine {
         }
     }
 
-    /// Gives the stage what was made, where it shall show it, and the recording back where not.
+    /// Gives the stage the result if it shows results, and else the recording.
     fn show_on_stage(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
         let made = self.live.made.as_ref().filter(|_| self.on_stage);
         let same = match (made, &self.given) {
@@ -272,7 +272,7 @@ impl Recombine {
         out.send(Command::Made(shown));
     }
 
-    /// Takes what was typed: the cards follow where it can be read.
+    /// Takes typed text: the cards follow if it can be read.
     fn type_in(&mut self, text: String) {
         self.text = text;
         if self.text.trim().is_empty() {
@@ -289,7 +289,7 @@ impl Recombine {
         }
     }
 
-    /// Takes what was done to the cards: the text follows.
+    /// Takes a change of the cards: the text follows.
     fn follow_cards(&mut self) {
         self.wrong = None;
         self.on_stage = true;

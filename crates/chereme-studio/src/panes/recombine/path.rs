@@ -16,7 +16,7 @@ const BOARD: f32 = 0.8;
 /// Ways shorter than this in metres are no part of a path.
 const LEAST: f64 = 0.02;
 
-/// Returns the ways of an offset to the left, up and forward, in metres; none where it is nothing.
+/// Returns the legs of an offset to the left, up and forward, in metres; an empty list for a zero offset.
 pub(super) fn legs_of(offset: [f64; 3]) -> Vec<Leg> {
     let axes = [
         (Direction::Left, Direction::Right),
@@ -32,7 +32,7 @@ pub(super) fn legs_of(offset: [f64; 3]) -> Vec<Leg> {
     all.filter(|(metres, _)| *metres != 0.0).map(leg).collect()
 }
 
-/// Returns the ways of an offset, one of no length where it is nothing: that is an offset still.
+/// Returns the legs of an offset, one of length zero for a zero offset: that is an offset still.
 pub(crate) fn offset_legs(offset: [f64; 3]) -> Vec<Leg> {
     let mut legs = legs_of(offset);
     if legs.is_empty() {
@@ -59,7 +59,7 @@ pub(super) fn offset_of(legs: &[Leg]) -> Option<[f64; 3]> {
     Some(sum.to_array().map(|metres| tidy(metres * 100.0) / 100.0))
 }
 
-/// Shows an offset as three lengths, or as ways where it is more than that.
+/// Shows an offset as three lengths, or as legs if it needs more than that.
 pub(super) fn offset(ui: &mut Ui, seen: &Seen<'_>, legs: &mut Vec<Leg>) -> bool {
     let Some(mut offset) = offset_of(legs) else {
         return rows(ui, seen, legs, false);

@@ -1,4 +1,4 @@
-//! What a made sign is made of: where each channel comes from, joins, contacts, warnings.
+//! The composition of a generated sign: the source of each channel, joins, contacts, warnings.
 
 use chereme_corpus::recipe::{JoinReport, Report};
 use eframe::egui::{CollapsingHeader, Grid, RichText, Ui};

@@ -1,4 +1,4 @@
-//! The settings of each source and operator as widgets; what they cannot show is a line of its text.
+//! The settings of each source and operator as widgets; a setting without a widget is a line of its text.
 
 use chereme_corpus::recipe::{
     Cue, Factor, Goal, Hands, Node, PhaseRule, Recipe, Spell, Step, Transition,
@@ -179,7 +179,7 @@ fn spell(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Spell) -> bool {
     changed | transition(ui, seen, at, &mut it.via)
 }
 
-/// Shows a part as its text; `take` takes what was typed where it can be read.
+/// Shows a part as its text; `take` receives typed text that can be read.
 fn as_text(
     ui: &mut Ui,
     seen: &Seen<'_>,

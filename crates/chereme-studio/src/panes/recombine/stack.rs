@@ -1,8 +1,8 @@
-//! A recipe as a stack of cards: sources, and what is done to each, in order.
+//! A recipe as a stack of cards: sources, and the operators on each, in order.
 //!
-//! Text and cards are the same recipe. What cards cannot show, such as an utterance in parentheses, is
-//! one card with its text. Cards that are switched off, or not filled in yet, stay in the stack and are
-//! left out of the text.
+//! Text and cards are the same recipe. A part that cards cannot show, such as an utterance in parentheses, is one
+//! card with its text. Cards that are switched off, or not filled in yet, stay in the stack and are left out of the
+//! text.
 
 use std::collections::BTreeMap;
 
@@ -168,7 +168,7 @@ impl Stack {
         counts(&self.cards[at]) && counts(&self.cards[self.piece_of(at).start])
     }
 
-    /// Returns the places of the source that the card at `at` belongs to and of what is done to it.
+    /// Returns the places of the source that the card at `at` belongs to and of its operators.
     pub(crate) fn piece_of(&self, at: usize) -> std::ops::Range<usize> {
         let is_source = |at: &usize| self.cards[*at].what.is_source();
         let start = (0..=at).rev().find(is_source).unwrap_or(0);
@@ -350,7 +350,7 @@ impl Stack {
         Some(id)
     }
 
-    /// Removes a card; with a source goes what is done to it, unless it is the only one.
+    /// Removes a card; its operators go with a source, unless it is the only one.
     pub(crate) fn remove(&mut self, id: u64) {
         let Some(at) = self.position(id) else { return };
         if self.cards[at].what.is_source() {
@@ -360,7 +360,7 @@ impl Stack {
         }
     }
 
-    /// Puts a copy after a card, of a source with what is done to it, and returns its number.
+    /// Puts a copy after a card, of a source with its operators, and returns its number.
     pub(crate) fn duplicate(&mut self, id: u64) -> Option<u64> {
         let at = self.position(id)?;
         let range = if self.cards[at].what.is_source() {
@@ -385,8 +385,8 @@ impl Stack {
         }
     }
 
-    /// Moves a card to stand before the one that is at `to` now; a source takes what is done to it
-    /// along and goes between pieces. Returns whether anything moved.
+    /// Moves a card to stand before the one that is at `to` now; a source takes its operators along and lands
+    /// between pieces. Returns whether anything moved.
     pub(crate) fn move_to(&mut self, id: u64, to: usize) -> bool {
         let Some(from) = self.position(id) else {
             return false;

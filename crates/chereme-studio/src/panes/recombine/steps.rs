@@ -1,5 +1,4 @@
-//! What was done to the recipe, to be taken back and done again in its order with what was done to
-//! the corpus.
+//! Changes of the recipe, to be undone and redone in order with operations on the corpus.
 
 use chereme_corpus::{OperationKind, OperationRow};
 
@@ -48,7 +47,7 @@ impl<T: Clone> Steps<T> {
         self.newest.is_none() || operations.first().map(|it| it.id) > self.newest
     }
 
-    /// Takes in what was done to the corpus since; `operations` are the newest first.
+    /// Takes in the operations on the corpus since; `operations` are the newest first.
     pub(super) fn follow(&mut self, operations: &[OperationRow]) {
         let newest = operations.first().map(|it| it.id);
         let Some(known) = self.newest else {
@@ -70,7 +69,7 @@ impl<T: Clone> Steps<T> {
         self.newest = newest.or(self.newest);
     }
 
-    /// Returns the page to go back to; nothing where it is the corpus's turn.
+    /// Returns the page to go back to; `None` if the corpus is next.
     pub(super) fn back(&mut self) -> Option<T> {
         let entry = self.done.pop_if(|it| matches!(it, Entry::Page(..)))?;
         self.undone.push(entry.clone());
@@ -80,7 +79,7 @@ impl<T: Clone> Steps<T> {
         }
     }
 
-    /// Returns the page to go forward to; nothing where it is the corpus's turn.
+    /// Returns the page to go forward to; `None` if the corpus is next.
     pub(super) fn forward(&mut self) -> Option<T> {
         let entry = self.undone.pop_if(|it| matches!(it, Entry::Page(..)))?;
         self.done.push(entry.clone());

@@ -1,4 +1,4 @@
-//! The bar below the cards: what was made, the gloss, and storing.
+//! The bar below the cards: the result, its gloss, and the button to store it.
 
 use eframe::egui::{Button, RichText, Ui};
 

@@ -1,4 +1,4 @@
-//! What could be made from a sign: partners that differ in one component, and values nobody used.
+//! Suggestions from a sign: partners that differ in one component, and values that no sign has.
 
 use chereme_corpus::{Address, Suggestions};
 use eframe::egui::{RichText, Ui};
@@ -13,7 +13,7 @@ use crate::work::{Ended, Outcome, Work, WorkId};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Proposal {
     pub(super) recipe: String,
-    /// The gloss of the partner, where it has no movement yet.
+    /// The gloss of the partner, if it has no movement yet.
     pub(super) gloss: Option<String>,
     /// The partner and what differs, or the value.
     pub(super) name: String,
@@ -93,7 +93,7 @@ pub(super) fn field_text(field: &str) -> Option<Text> {
 }
 
 impl Suggest {
-    /// Asks about a sign, where it is another than the last.
+    /// Requests suggestions for a sign, if it is another than the last.
     fn follow(&mut self, of: &str, out: &mut Outbox) {
         if self.of == of {
             return;

@@ -1,4 +1,4 @@
-//! Beside the query: what was asked before, help by examples, and what is said where nothing is found.
+//! The column next to the query: earlier queries, help by examples, and advice for empty results.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -32,11 +32,11 @@ const EXAMPLES: [(&str, Text); 9] = [
     ("origin=made", words::EXAMPLE_MADE),
 ];
 
-/// What stands beside the query.
+/// The column next to the query.
 #[derive(Debug, Default)]
 pub(super) struct Aside {
     kept: Kept,
-    /// Where nothing is found: what each condition left out would give.
+    /// For an empty result: the results without each condition.
     without: Option<Without>,
     leaving: BTreeMap<WorkId, usize>,
     /// How many tokens have a component that was asked for, and which of them is proposed from movement now.
@@ -121,17 +121,17 @@ fn components(query: &str) -> BTreeSet<Component> {
     builder::rows(&query).iter().filter_map(asked).collect()
 }
 
-/// Returns the components of which nothing is coded.
+/// Returns the components without any coding.
 fn uncoded(counts: &BTreeMap<Component, usize>) -> Vec<Component> {
     let none = counts.iter().filter(|(_, count)| **count == 0);
     none.map(|(component, _)| *component).collect()
 }
 
-/// What a query that finds nothing would find without each of its conditions.
+/// The results of an empty query without each of its conditions.
 #[derive(Debug, Clone, PartialEq)]
 struct Without {
     query: String,
-    /// What its words may mean instead.
+    /// Another meaning that its words may have.
     meant: Option<String>,
     /// The condition, the query without it, and how many that finds.
     parts: Vec<(String, String, Option<usize>)>,

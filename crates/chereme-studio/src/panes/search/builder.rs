@@ -8,7 +8,7 @@ use chereme_sign::query::{
 };
 use chereme_sign::{Component, Field};
 
-/// What a condition is about.
+/// The subject of a condition.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Subject {
     Component(Field),
@@ -41,7 +41,7 @@ pub(crate) enum Condition {
     Time(TimeField, TimeTest),
     /// It is like an example: how much each component counts, in the order of [`Component::ALL`].
     Like(Example, [f64; 5], Option<f64>),
-    /// What the builder cannot change, as it is written.
+    /// A part that the builder cannot change, as it is written.
     Written(Expr),
 }
 

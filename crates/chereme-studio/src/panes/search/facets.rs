@@ -27,8 +27,8 @@ const PARTS: [(&str, Text); 6] = [
     ("final", words::FINAL),
 ];
 
-/// Returns whether a query wants a value of a facet, and the query that a click on it gives: narrowed by the value as
-/// a whole, or without it where it is wanted already. A field that no query names gives nothing.
+/// Returns whether a query wants a value of a facet, and the query that a click on it gives: narrowed by the value
+/// as a whole, or without it if the query wants it already. Returns `None` for a field that no query names.
 fn clicked(query: &str, field: &str, value: &str) -> Option<(bool, String)> {
     let condition = facet_condition(field, value)?;
     let on = wants(query, &condition);
@@ -131,7 +131,7 @@ fn facet_name(field: &str, seen: &Seen<'_>) -> String {
     name
 }
 
-/// Offers behind the other button what is known of a value.
+/// Offers the details of a value behind the other button.
 fn menu(seen: &Seen<'_>, response: &Response, thing: Thing, out: &mut Outbox) {
     response.context_menu(|ui| {
         if ui.button(seen.say(library::INSPECT)).clicked() {
@@ -141,8 +141,8 @@ fn menu(seen: &Seen<'_>, response: &Response, thing: Thing, out: &mut Outbox) {
     });
 }
 
-/// Draws one value with its picture, its count, and a bar that is as long as it is frequent; returns the row
-/// of its inventory too, where it has one.
+/// Draws one value with its picture, its count, and a bar of a length proportional to the count; returns the row of
+/// its inventory too, if it has one.
 fn facet(
     ui: &mut Ui,
     seen: &Seen<'_>,

@@ -1,4 +1,4 @@
-//! The query as text: what is wrong is marked where it is, and what could be written is offered.
+//! The query as text: errors are marked at their place, and completions are offered.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -31,7 +31,7 @@ pub(crate) struct Field {
     cursor: Option<usize>,
 }
 
-/// What became of the field in a frame.
+/// The outcome of the field in a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Typed {
     pub(crate) changed: bool,
@@ -155,7 +155,7 @@ impl Field {
             Some(at) => {
                 let only = enter && self.at.is_none();
                 typed.changed = self.take(offers, at);
-                // Nothing is left to choose where that is all of a query.
+                // No further choice is left if this is the whole query.
                 typed.entered = only && Query::parse(&self.text).is_ok();
             }
             None => typed.entered = enter,

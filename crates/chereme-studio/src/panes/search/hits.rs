@@ -44,7 +44,7 @@ impl Sort {
     }
 }
 
-/// What answers a query.
+/// The answer to a query.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
     /// The query in its canonical form.
@@ -55,7 +55,7 @@ pub(crate) struct Found {
     pub(crate) findings: Vec<Finding>,
     pages: BTreeMap<usize, Vec<Hit>>,
     around: BTreeMap<i64, Around>,
-    /// The places of hits where they are put in order here.
+    /// The order of hits, if they are sorted here.
     sorted: Option<Vec<usize>>,
 }
 
@@ -81,7 +81,7 @@ impl Found {
         self.around.extend(pairs);
     }
 
-    /// Returns the hit at that place, where it is there already.
+    /// Returns the hit at that place, if it was read already.
     pub(crate) fn hit(&self, at: usize) -> Option<&Hit> {
         let at = self
             .sorted
@@ -136,7 +136,7 @@ impl Found {
     }
 }
 
-/// Returns where a hit is, as the recording's name and the span, where it was recorded.
+/// Returns the place of a hit, as the recording's name and the span, if it was recorded.
 pub(crate) fn place(hit: &Hit) -> Option<(&str, Span)> {
     let (start, end) = hit.start_us.zip(hit.end_us)?;
     let span = Span::between(Instant::from_micros(start), Instant::from_micros(end));
@@ -158,8 +158,8 @@ pub(crate) fn duration_text(hit: &Hit) -> String {
     })
 }
 
-/// Returns the values of a hit as component, feature and value, the dominant hand before the weak
-/// one, component by component, each value once: what its picture shows.
+/// Returns the values of a hit as component, feature and value, the dominant hand before the weak one, component by
+/// component, each value once: the values in its picture.
 pub(crate) fn coding(hit: &Hit) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = Vec::new();
     for hand in ["right", "dominant", "left", "weak", ""] {

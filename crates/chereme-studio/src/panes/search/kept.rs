@@ -20,9 +20,9 @@ pub(super) struct Kept {
     /// The name under which the query is to be kept, and the search that gets another name.
     name: String,
     renaming: Option<(String, String)>,
-    /// The list was just opened: what is typed is a name.
+    /// The list was just opened: typed text is a name.
     opened: bool,
-    /// How many each kept search finds, where it was counted.
+    /// The number of hits of each saved search, if it was counted.
     counts: BTreeMap<String, Option<usize>>,
     counting: BTreeMap<WorkId, String>,
     /// Those of this computer while they are taken over, and whether they are.
@@ -143,7 +143,7 @@ impl Kept {
         chosen
     }
 
-    /// Draws the field in which a kept search gets another name, where it is this one.
+    /// Draws the field in which a saved search gets another name, if it is this one.
     fn rename(&mut self, ui: &mut Ui, seen: &Seen<'_>, name: &str, out: &mut Outbox) -> bool {
         let Some((of, text)) = self.renaming.as_mut().filter(|(of, _)| of == name) else {
             return false;
@@ -169,7 +169,7 @@ impl Kept {
         true
     }
 
-    /// Offers what was kept on this computer, before corpora kept searches.
+    /// Offers the searches saved on this computer, from before corpora saved searches.
     fn of_this_computer(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let old = &seen.settings.searches.saved;
         if old.is_empty() {
@@ -203,7 +203,7 @@ impl Kept {
     }
 }
 
-/// Returns the options of a search of which only the number of hits is wanted.
+/// Returns the options of a search for the number of hits alone.
 pub(super) fn only_counted() -> SearchOptions {
     SearchOptions {
         limit: Some(0),

@@ -51,7 +51,7 @@ pub(crate) use rows::{feature_text, field_text};
 const PAUSE: f64 = 0.35;
 /// How high hits are at least below the query; where they have less, all is scrolled.
 const LOW: f32 = 170.0;
-/// The most hits of which all neighbours are asked for at once.
+/// The most hits whose neighbours are requested together.
 const MOST_AROUND: usize = 64;
 
 /// How hits are shown.
@@ -66,7 +66,7 @@ pub(crate) enum View {
 pub(crate) struct Search {
     field: Field,
     rows: Rows,
-    /// What was picked from the board of HamNoSys symbols.
+    /// The symbols picked from the board of HamNoSys.
     symbols: String,
     /// Whether the rows are shown.
     built: bool,
@@ -90,7 +90,7 @@ pub(crate) struct Search {
     found: Option<Found>,
     /// The query that was asked for last, as it was written.
     query: String,
-    /// What the corpus says is wrong with it.
+    /// The error that the corpus reports.
     wrong: Option<Wrong>,
     /// It was stopped before there was an answer.
     stopped: bool,
@@ -111,7 +111,7 @@ pub(crate) struct Search {
     come: bool,
 }
 
-/// What is wrong with a query, and from which character on.
+/// The error of a query, and its first character.
 struct Wrong {
     from: Option<usize>,
     error: String,
@@ -284,7 +284,7 @@ impl Search {
         self.found.as_ref()?.hit(self.at).map(results::carried)
     }
 
-    /// Tells of the opened hit what can be done where nothing moves.
+    /// Lists the possible actions for the opened hit if it has no movement.
     pub(super) fn hint(&self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let found = self.found.as_ref().zip(self.opened);
         let Some(hit) = found.and_then(|(found, at)| found.hit(at)) else {
@@ -454,7 +454,7 @@ impl Pane for Search {
 impl Search {
     fn answered(&mut self, ended: &Ended) {
         if matches!(ended, Err(error) if !matches!(error, Error::Stopped)) {
-            // What answered another query is no answer to this one.
+            // The answer to another query does not answer this one.
             self.found = None;
             (self.at, self.opened, self.scrolled) = (0, None, 0.0);
         }

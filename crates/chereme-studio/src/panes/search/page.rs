@@ -73,7 +73,7 @@ impl Search {
         if typed.down && self.found.as_ref().is_some_and(|found| found.total > 0) {
             self.reach(self.at);
         }
-        // What no query can say is told by the field itself.
+        // The field itself reports text that is not a query.
         let told = Query::parse(&self.field.text).is_err();
         if let Some(wrong) = self
             .wrong
@@ -112,7 +112,7 @@ impl Search {
         if settled && !typed.unfinished && error.is_none() {
             self.ask(out);
         } else if settled && error.is_some_and(|error| error.at.start < end) {
-            // What answered another query is no answer to this one.
+            // The answer to another query does not answer this one.
             (self.found, self.changed) = (None, None);
         } else if self.changed.is_some() {
             ui.ctx().request_repaint_after_secs(PAUSE as f32);
@@ -192,7 +192,7 @@ impl Search {
         }
     }
 
-    /// Returns whether facets are shown: beside the hits as usual, above them only where that is wished.
+    /// Returns whether facets are shown: next to the hits as usual, above them only on request.
     fn counts(&self, ui: &Ui) -> bool {
         self.counted.unwrap_or(ui.available_width() > WIDE)
     }

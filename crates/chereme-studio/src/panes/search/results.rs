@@ -204,7 +204,7 @@ fn percent(score: f64) -> i64 {
     (score * 100.0).round() as i64
 }
 
-/// Returns the movement of a hit, where it has some.
+/// Returns the movement of a hit, if it has any.
 fn motion(hit: &Hit, seen: &Seen<'_>) -> Option<Motion> {
     let (name, span) = hits::place(hit)?;
     let recording = seen.snapshot.recording_named(name)?;
@@ -447,7 +447,7 @@ fn strip(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect) {
     }
 }
 
-/// Puts text into a column; what stands before a hit stands at its side, and is cut at the far end.
+/// Puts text into a column; the words before a hit end at its side, and are cut at the far end.
 fn put(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: eframe::egui::Color32, end: bool) {
     let rect = rect.shrink2(vec2(5.0, 0.0));
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));

@@ -18,10 +18,10 @@ use crate::pickers::{self, Picker};
 use crate::script::edit;
 use crate::words::{Text, fill, search as words};
 
-/// What the builder knows besides the query.
+/// The builder's data besides the query.
 #[derive(Debug, Default)]
 pub(crate) struct Rows {
-    /// What each value is picked with, by row and place.
+    /// The picker of each value, by row and place.
     pub(super) pickers: BTreeMap<(usize, usize), Picker>,
     /// A row that says nothing yet.
     draft: Option<Condition>,
@@ -87,7 +87,7 @@ pub(super) fn show(
         rows.draft = all.pop();
     }
     if let Some(row) = added {
-        // What it is that is looked for comes next.
+        // The object of the search comes next.
         let pictures = match &row {
             Condition::Values(Subject::Component(field), ..) => inventory(seen, field).is_some(),
             _ => false,

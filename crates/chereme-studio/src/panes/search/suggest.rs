@@ -1,4 +1,4 @@
-//! What could be written next in a query: words of the language, values, names and glosses.
+//! Completions of a query: words of the language, values, names and glosses.
 
 use chereme_corpus::KeptSearch;
 use chereme_sign::query::{Completion, Expected, Missing, Property, Query, TextField, complete};
@@ -15,9 +15,9 @@ const MOST: usize = 10;
 /// Something that could be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Offer {
-    /// What is written, in quotes where it needs them.
+    /// The text to write, in quotes if it needs them.
     pub(crate) text: String,
-    /// What it means, where that is not the same.
+    /// Its meaning, if it differs.
     pub(crate) about: String,
 }
 
@@ -102,8 +102,8 @@ fn kept(query: &str, name: &str, snapshot: &Snapshot) -> Offers {
     }
 }
 
-/// Returns a query in which origins that are called as the window calls them stand as queries have them; what is
-/// only notated is a lexicon entry.
+/// Returns a query in which the window's names of origins become those of queries; a merely notated sign is a
+/// lexicon entry.
 pub(super) fn with_origins(query: &str) -> Option<String> {
     let error = Query::parse(query).err()?;
     let before: String = query.chars().take(error.at.start).collect();
@@ -125,7 +125,7 @@ pub(super) fn with_origins(query: &str) -> Option<String> {
         .or_else(|| called(library::NOTATED).then_some("lexicon"))?;
     let after: String = query.chars().skip(error.at.end).collect();
     let mended = format!("{before}{id}{after}");
-    // Another word may be left to be said otherwise.
+    // Another word may still need a correction.
     match Query::parse(&mended) {
         Ok(_) => Some(mended),
         Err(next) if next.at.start > error.at.start => with_origins(&mended),

@@ -1,4 +1,4 @@
-//! What a notation asks for: signs that have the values it means.
+//! The query for a notation: signs that have its values.
 
 use chereme_sign::hamnosys::components::Mapper;
 use chereme_sign::hamnosys::{Class, Notated, Symbol, parse_lenient, to_names};
@@ -59,7 +59,7 @@ fn query<'i>(text: &str, inventories: impl Iterator<Item = &'i Inventory>) -> St
     builder::text(&rows)
 }
 
-/// Returns whether a notation says something of a component; what it leaves to what is usual is not asked for.
+/// Returns whether a notation writes a component; defaults are not searched for.
 fn is_written(text: &str, component: Component) -> bool {
     let classes: &[Class] = match component {
         Component::Placement => &[Class::Location],

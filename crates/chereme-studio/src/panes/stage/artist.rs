@@ -26,7 +26,7 @@ pub(super) struct Wish {
 pub(super) struct Figure {
     pub(super) body: Arc<Body>,
     pub(super) pose: ModelPose,
-    /// What its face does, where it is not at rest.
+    /// The face, if it is not at rest.
     pub(super) face: Option<Face>,
 }
 
@@ -46,18 +46,18 @@ pub(super) struct Pane {
     pub(super) camera: Camera,
     /// Columns and rows.
     pub(super) size: [usize; 2],
-    /// What is drawn, the lowest first.
+    /// The sheets to draw, the lowest first.
     pub(super) layers: Vec<Sheet>,
 }
 
-/// What is drawn at once, over what is below.
+/// Shapes drawn together, over the sheets below.
 pub(super) struct Sheet {
     /// The place of the figure among those of the wish.
     pub(super) figure: Option<usize>,
     /// Trails and grids.
     pub(super) marks: Option<Arc<Mesh>>,
     pub(super) opacity: f32,
-    /// Whether it is hidden by what was drawn before it, where that is nearer.
+    /// Whether nearer shapes drawn before it hide it.
     pub(super) veiled: bool,
 }
 
@@ -162,7 +162,7 @@ impl Shared {
     }
 }
 
-/// What is behind a lock, also where another thread died with it.
+/// The data behind a lock, even if another thread died with it.
 fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -174,7 +174,7 @@ struct Hand {
     canvases: Vec<Canvas>,
 }
 
-/// What is kept for a pane.
+/// The memory of a pane.
 #[derive(Default)]
 struct Canvas {
     raster: Raster,
@@ -182,7 +182,7 @@ struct Canvas {
     ground: Option<Ground>,
 }
 
-/// What lies below the figures, and all that its picture depends on.
+/// The picture below the figures, and everything it depends on.
 struct Ground {
     mesh: Arc<Mesh>,
     camera: Camera,
@@ -274,7 +274,7 @@ impl Canvas {
         ColorImage::new(pane.size, pixels.collect())
     }
 
-    /// Returns a picture of what lies below the figures, which is drawn only where it is another than the last.
+    /// Returns the picture below the figures, which is drawn only if it differs from the last.
     fn on_ground(&mut self, pane: &Pane, mesh: &Arc<Mesh>, style: &Style) -> Image {
         let same = |it: &Ground| {
             let size = [it.image.width(), it.image.height()];

@@ -68,7 +68,7 @@ impl Eye {
         self.shift[1] += down / self.zoom;
     }
 
-    /// Goes nearer by that factor, or farther where it is below 1.
+    /// Moves nearer by that factor, or farther if it is below 1.
     pub(crate) fn nearer(&mut self, factor: f32) {
         self.zoom = (self.zoom * factor).clamp(0.2, 20.0);
     }
@@ -146,7 +146,7 @@ pub(crate) enum Who {
     Both,
 }
 
-/// A part of the stage: where it is, whose eye it has, and who is seen.
+/// A part of the stage: its rectangle, its eye, and its signer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Part {
     pub(crate) rect: Rect,
@@ -212,10 +212,10 @@ pub(crate) fn usual_views(count: usize) -> &'static [View] {
     }
 }
 
-/// What is drawn beside the signer.
+/// The extras drawn with the signer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Shows {
-    /// How far trails reach, in seconds, where they are shown.
+    /// The reach of trails, in seconds, if they are shown.
     pub(crate) trails: Option<f64>,
     pub(crate) ghosts: bool,
     pub(crate) grid: bool,

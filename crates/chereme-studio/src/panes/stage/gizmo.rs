@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3, Vec3};
 
 /// How long an axis is in the picture where it lies across, in points.
 pub(super) const REACH: f32 = 64.0;
-/// Axes that point at the eye so much that less than this is left of them are not drawn.
+/// Axes that point at the eye are left out below this length on screen.
 const LEAST: f32 = 12.0;
 /// How many frames are looked at for where the body faces.
 const LOOKS: usize = 16;
@@ -74,7 +74,7 @@ impl Directions {
     }
 }
 
-/// What of the handle is dragged.
+/// The part of the handle that is dragged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
     /// One of left, up and forward.
@@ -185,7 +185,7 @@ pub(super) struct Laid {
     pub(super) ends: [Option<[f32; 2]>; 3],
 }
 
-/// Returns where a handle at `origin` lies; nothing where it is behind the eye.
+/// Returns the place of a handle at `origin`; `None` if it is behind the eye.
 pub(super) fn laid(projection: &Projection, origin: DVec3, axes: DMat3) -> Option<Laid> {
     let at = projection.project(origin.as_vec3());
     let ends = [0, 1, 2].map(|nth| {

@@ -27,7 +27,7 @@ const NEAR: f32 = 34.0;
 const STEP: f64 = 0.01;
 const FAR_STEP: f64 = 0.05;
 
-/// What the stage knows of the handle from frame to frame.
+/// The stage's memory of the handle from frame to frame.
 #[derive(Default)]
 pub(super) struct Holding {
     directions: Option<(Of, Option<Directions>)>,
@@ -36,7 +36,7 @@ pub(super) struct Holding {
     middles: Vec<Id>,
     /// The card, and what it was before it was last dragged or moved by keys.
     before: Option<(u64, chereme_corpus::recipe::Goal)>,
-    /// How far what is seen was dragged along, by another button than that for the handle.
+    /// The distance that the view was dragged, by another button than that for the handle.
     pub(super) panned: Vec2,
 }
 
@@ -135,7 +135,7 @@ fn id(ui: &Ui, pane: Rect, side: Side) -> Id {
     ui.scope_id().with(("handle", x, y, side.name()))
 }
 
-/// Shows the handle of one hand, and takes what is done with it.
+/// Shows the handle of one hand, and takes its drags.
 fn one(
     holding: &mut Holding,
     ui: &mut Ui,
@@ -193,7 +193,7 @@ fn one(
     }
     let pointer = ui.input(|input| input.pointer.interact_pos());
     let nearest = pointer.map_or(Part::Middle, |at| nearest(held, &laid, at));
-    // What was taken stays taken, wherever the pointer goes.
+    // A grabbed part stays grabbed, wherever the pointer moves.
     let taken = own_part(holding, held).unwrap_or(nearest);
     let parts = ends
         .iter()

@@ -53,7 +53,7 @@ pub(super) fn zones(overview: &Overview) -> Vec<Zone> {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Mark {
     pub(super) name: String,
-    /// The placement value, where it is one.
+    /// The placement value, if it has one.
     pub(super) zone: Option<String>,
     /// The row of its inventory; of no zone it is not looked at.
     inventory: i64,

@@ -73,7 +73,7 @@ pub(crate) struct Stage {
     /// The numbers of the last wish and of the one that the pictures are of.
     wished: u64,
     shown: u64,
-    /// What the pictures that were asked for last show.
+    /// The look of the last requested pictures.
     asked: Option<Look>,
     /// Whether the moment at the playhead is not loaded yet.
     coming: bool,
@@ -129,7 +129,7 @@ impl Default for Stage {
 struct Of(usize);
 
 impl Stage {
-    /// Makes the figures of what is shown, where it is something else; `time` is that of the window's clock.
+    /// Builds the figures of the shown movement, if it changed; `time` is that of the window's clock.
     fn follow(&mut self, seen: &Seen<'_>, time: f64, out: &mut Outbox) {
         let made = seen.shown.made.as_ref().map(|showing| &showing.made);
         let sample = seen.reel.sample();
@@ -143,7 +143,7 @@ impl Stage {
             (None, None) => None,
         };
         if self.signer.as_ref().map(|it| it.0) != now.map(|it| it.0) {
-            // While a hand is placed, the eye stays where it is.
+            // While a hand is placed, the eye keeps its position.
             let newer = self.made && made.is_some();
             let steady = newer && seen.shown.handle.is_some();
             self.replaced = newer.then_some(time);
@@ -296,7 +296,7 @@ fn note_place(ui: &Ui, rect: Rect) {
     ui.data_mut(|data| data.insert_temp(Id::unique(PLACE), (frame, rect)));
 }
 
-/// Returns where the stage has its pictures, where it is in sight.
+/// Returns the rectangle of the stage's pictures, if it is in sight.
 pub(crate) fn place(ctx: &Context) -> Option<Rect> {
     let (frame, rect): (u64, Rect) = ctx.data(|data| data.get_temp(Id::unique(PLACE)))?;
     (frame + 1 >= ctx.cumulative_frame_nr()).then_some(rect)

@@ -1,4 +1,4 @@
-//! What made movement was made from: the original of each of its pieces, at its time.
+//! The sources of generated movement: the original of each of its pieces, at its time.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ pub(super) struct Original {
     source: Option<Source>,
     work: Option<WorkId>,
     parts: Vec<Piece>,
-    /// Whether the pieces were told, with or without originals.
+    /// Whether the pieces are known, with or without originals.
     told: bool,
 }
 
@@ -29,7 +29,7 @@ enum Source {
 /// A piece of the made movement.
 pub(super) struct Piece {
     pub(super) part: MadePart,
-    /// Its original, where it has one.
+    /// Its original, if it has one.
     pub(super) shown: Option<(Arc<Moving>, Subject)>,
 }
 

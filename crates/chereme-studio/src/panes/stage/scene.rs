@@ -1,4 +1,4 @@
-//! What is drawn beside the signer: ghosts of other moments, trails, grid and floor.
+//! The extras of a picture: ghosts of other moments, trails, grid and floor.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -49,7 +49,7 @@ pub(super) enum Movement<'a> {
 }
 
 impl Movement<'_> {
-    /// Returns the posture at that moment, where it is loaded.
+    /// Returns the posture at that moment, if it is loaded.
     pub(super) fn pose(self, skeleton: &Skeleton, at: Instant) -> Option<ModelPose> {
         let pose = match self {
             Self::Reel(reel) => reel.pose(at)?,
@@ -59,7 +59,7 @@ impl Movement<'_> {
         Some(ModelPose::of(skeleton, &pose))
     }
 
-    /// Returns what the face does at that moment, where it is told.
+    /// Returns the face at that moment, if it is known.
     pub(super) fn face(self, at: Instant) -> Option<Face> {
         match self {
             Self::Reel(reel) => reel.face(at),
@@ -69,8 +69,8 @@ impl Movement<'_> {
 }
 
 impl Subject {
-    /// Returns the subject of a movement; a body is taken over from another of the same skeleton, and what
-    /// is framed where it is to stay `steady`.
+    /// Returns the subject of a movement. A body is taken over from another movement of the same skeleton, and so
+    /// is its frame if it must stay `steady`.
     pub(super) fn after(
         before: Option<Self>,
         clip: &Clip,

@@ -12,7 +12,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{fill, stage as words};
 
-/// What is shown beside the signer, and into how many views the stage is parted.
+/// The switches for extras of the picture and for the number of views.
 pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
     ui.horizontal_wrapped(|ui| {
@@ -61,7 +61,7 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
                 out.send(Command::Do(action));
             }
         }
-        // After them all: a button stays where it is when another is pressed.
+        // After them all: a button keeps its place when another is pressed.
         if stage.shows.trails.is_some() {
             reach(stage, ui, seen);
         }

@@ -1,4 +1,4 @@
-//! The stage's widgets: what is shown, the pictures, and what the mouse does on them.
+//! The stage's widgets: the extras, the pictures, and the gestures of the mouse on them.
 
 use chereme_figure::Theme;
 use chereme_figure::camera::{Camera, Projection};
@@ -120,7 +120,7 @@ fn films(
     Some(rest)
 }
 
-/// Returns why there is no signer to be seen, where there is none.
+/// Returns why no signer can be seen, if there is a reason.
 fn why_nothing(stage: &Stage, seen: &Seen<'_>) -> Option<Text> {
     if seen.shown.made.is_some() {
         stage.signer.is_none().then_some(words::NO_MOVEMENT)
@@ -235,8 +235,8 @@ fn turn(stage: &mut Stage, ui: &Ui, response: &Response, part: &Part) {
     }
 }
 
-/// Wishes for the pictures where they are others than the last, and shows those there are; returns
-/// the signer's posture in them, for what is laid over them.
+/// Requests the pictures if they differ from the last, and shows the finished ones; returns the signer's posture in
+/// them, for the layers above.
 fn pictures(
     stage: &mut Stage,
     ui: &mut Ui,
@@ -276,7 +276,7 @@ fn pictures(
         shows: stage.shows,
         dark: seen.dark,
         samples: {
-            // What a change made has to be there at once.
+            // The result of a change must appear at once.
             let weight = if changing.is_some() { HASTE } else { 1.0 };
             data::samples(moving, [(area * shrink * shrink * weight) as usize, 1])
         },
@@ -294,7 +294,7 @@ fn pictures(
             artist.await_newest(stage.wished, AT_ONCE);
         }
     }
-    // A pixel of the picture is one of the window, where it is not too large.
+    // A pixel of the picture is one of the window, unless the picture is too large.
     let options = if shrink < 1.0 {
         TextureOptions::LINEAR
     } else {
@@ -554,7 +554,7 @@ pub(super) fn chip_on(
     painter.galley(rect.min + vec2(6.0, 3.0), galley, colour);
 }
 
-/// What there is to say about the whole: that a moment is being loaded, that hands have no fingers.
+/// Shows notes on the whole: a moment is being loaded, hands have no fingers.
 fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
     let at = whole.center_bottom() - vec2(0.0, 8.0);
     let mittens = stage

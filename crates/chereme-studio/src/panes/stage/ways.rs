@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::data::{Compare, Eye, Shows, VIEWS};
 use super::{REACH, Stage};
 
-/// What of the stage is remembered.
+/// The stage's settings that are remembered.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct StageWays {

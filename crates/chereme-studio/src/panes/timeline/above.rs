@@ -1,4 +1,4 @@
-//! What lies above the rows: annotations as they will be, what is dragged, and the field for values.
+//! The layer above the rows: annotations in their future form, dragged ones, and the field for values.
 
 use chereme_corpus::Contents;
 use eframe::egui::{Rangef, Rect, TextStyle, Ui};

@@ -284,7 +284,7 @@ mod tests {
         let whole = (500, 600);
         assert_eq!(below(&[2]), [(2, whole), (4, whole), (3, whole)]);
         assert_eq!(below(&[3]), [(3, (10, 20))]);
-        // What hangs below another that is chosen too is made once.
+        // An annotation below another chosen one is created once.
         assert_eq!(below(&[1, 3]).len(), 2);
     }
 }

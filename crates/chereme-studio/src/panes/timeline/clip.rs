@@ -1,8 +1,8 @@
 //! Annotations as text for the clipboard: a table with tabs, as spreadsheets give and take it.
 //!
-//! What is copied has the columns `tier`, `start`, `end` and `value`, times in seconds. What is pasted
-//! may have them in any order and by other names, or none and times beside each other; a single column is
-//! values, and a line without tabs one value.
+//! Copied text has the columns `tier`, `start`, `end` and `value`, times in seconds. Pasted text may have them in
+//! any order and by other names, or no titles and two times in each line; a single column is values, and a line
+//! without tabs one value.
 
 use chereme_corpus::Moment;
 use chereme_sign::text::fold;
@@ -14,7 +14,7 @@ use crate::words::{Text, timeline as words};
 pub(crate) struct Said {
     /// The line of the text, counted from 1.
     pub(crate) line: usize,
-    /// The name of its tier, where that is said.
+    /// The name of its tier, if the text has one.
     pub(crate) tier: Option<String>,
     pub(crate) start: i64,
     pub(crate) end: i64,
@@ -33,7 +33,7 @@ pub(crate) struct Odd {
 /// What a text is.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Clip {
-    /// Annotations, and lines that are none.
+    /// Annotations, and lines that cannot be read.
     Rows(Vec<Said>, Vec<Odd>),
     /// Values, one below the other, each with its line.
     Values(Vec<(usize, String)>),
@@ -50,7 +50,7 @@ pub(crate) fn write<'a>(rows: impl Iterator<Item = (&'a str, i64, i64, String)>)
     text
 }
 
-/// Returns a time in seconds, to the microsecond where it has any.
+/// Returns a time in seconds, to the microsecond if it has any.
 fn seconds(micros: i64) -> String {
     let sign = if micros < 0 { "-" } else { "" };
     let (whole, part) = (micros.abs() / 1_000_000, micros.abs() % 1_000_000);

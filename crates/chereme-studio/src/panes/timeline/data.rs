@@ -1,4 +1,4 @@
-//! What the timeline shows, without a window: which time is where, ticks, rows, and bars.
+//! The content of the timeline, without a window: the place of times, ticks, rows, and bars.
 
 use chereme_corpus::{AnnotationColumns, TierContents, ValueState};
 use chereme_motion::{Instant, Span};
@@ -44,8 +44,8 @@ impl Window {
         self.start + f64::from(x) * self.scale
     }
 
-    /// Returns the window with times `factor` as wide, that of `around` where it was; never wider
-    /// than `whole`, never nearer than a tenth of a millisecond a point.
+    /// Returns the window with times `factor` as wide, and `around` at its old place; never wider than `whole`,
+    /// never nearer than a tenth of a millisecond a point.
     pub(crate) fn zoomed(&self, factor: f64, around: f64, whole: Span, width: f32) -> Self {
         let widest = Self::whole(whole, width).scale;
         let scale = (self.scale * factor).clamp(100.0_f64.min(widest), widest);
@@ -59,7 +59,7 @@ impl Window {
         Self { start, ..*self }.within(whole, width)
     }
 
-    /// Returns the window so that `micros` is in it: a page on where it is not.
+    /// Returns a window that contains `micros`: the next page if it lies outside.
     pub(crate) fn following(&self, micros: f64, whole: Span, width: f32) -> Self {
         let x = self.x(micros);
         if (0.0..=width).contains(&x) {
@@ -79,8 +79,8 @@ impl Window {
     }
 }
 
-/// Returns what of a recording is to be seen first, with `at` in it: all of it where that can be read
-/// (nothing is returned then), else so much that annotations of usual length can.
+/// Returns the first window of a recording, with `at` in it: `None` for all of it if annotations can be read then,
+/// else a width at which annotations of usual length can.
 pub(crate) fn first_window(
     tiers: &[TierContents],
     whole: Span,
@@ -91,7 +91,7 @@ pub(crate) fn first_window(
     /// made where not.
     const LEAST: f64 = 14.0;
     const WIDE: f64 = 56.0;
-    /// What is to be seen where nothing is annotated, and the least ever.
+    /// The width of the window without annotations, and its least width.
     const MINUTE: f64 = 60e6;
     const FEW_SECONDS: f64 = 4e6;
     let all = Window::whole(whole, width);
@@ -192,7 +192,7 @@ pub(crate) fn length_text(micros: i64) -> String {
     format!("{}.{:03} s", millis / 1000, millis % 1000)
 }
 
-/// An annotation on the timeline, or several too narrow to be told apart.
+/// An annotation on the timeline, or several that are too narrow to be drawn apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Bar {
     /// The place of the first in the tier's columns.

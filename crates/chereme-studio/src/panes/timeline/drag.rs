@@ -1,4 +1,4 @@
-//! What a gesture does while the button is held, and when it is let go.
+//! The effect of a gesture while the button is held, and when it is released.
 
 use std::collections::BTreeSet;
 
@@ -19,13 +19,13 @@ use crate::words::timeline as words;
 /// From how far a boundary catches, in points.
 const REACH: f64 = 8.0;
 
-/// What of a gesture is to be seen.
+/// The visible effect of a gesture.
 #[derive(Debug, Default)]
 pub(super) struct Sight {
     pub(super) ghosts: Vec<Ghost>,
     /// Whether they cannot be there.
     pub(super) refused: bool,
-    /// The ghost whose times are told.
+    /// The ghost whose times are shown.
     pub(super) told: Option<(i64, i64)>,
     /// Where a time settled.
     pub(super) caught: Option<(i64, Catch)>,
@@ -103,7 +103,7 @@ impl Drawing<'_, '_> {
             contents,
             seen: self.seen,
         };
-        // The playhead goes along with what is dragged, and would hold it back.
+        // The playhead moves with the drag, and would hold it back.
         let marks = [self.timeline.mark];
         let snaps = self.seen.settings.timeline.snaps;
         let reach = (REACH * self.window.scale) as i64;

@@ -1,4 +1,4 @@
-//! What actions do to annotations: each is one operation of the corpus.
+//! The effect of actions on annotations: each is one operation of the corpus.
 
 use std::collections::BTreeSet;
 
@@ -63,7 +63,7 @@ impl<'a> Scene<'a> {
         self.seen.shown.player.playhead().micros()
     }
 
-    /// Returns the frames of the recording's movement, where it has any.
+    /// Returns the frames of the recording's movement, if it has any.
     pub(super) fn frames(&self) -> Option<Frames> {
         let glance = self.seen.snapshot.recording(self.contents.recording.id)?;
         let rate = glance.rate.filter(|_| glance.frames > 0)?;
@@ -170,7 +170,7 @@ fn create(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
     }
 }
 
-/// Opens the value to be chosen by picture; where it is open already, turns to pictures or back.
+/// Opens the value to be chosen by picture; if it is open already, turns to pictures or back.
 fn by_picture(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
     let chosen = &scene.seen.shown.annotations;
     if timeline.editing.is_none() {
@@ -199,7 +199,7 @@ fn by_picture(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
     }
 }
 
-/// Returns whether values of an inventory are told by pictures.
+/// Returns whether values of an inventory have pictures.
 pub(super) fn has_pictures(inventory: &chereme_sign::Inventory) -> bool {
     pickers::data::kind(inventory) != pickers::data::Kind::Names
 }

@@ -24,7 +24,7 @@ const WIDTH: f32 = 260.0;
 /// The height that the field with its list wants.
 const ROOM: f32 = 260.0;
 
-/// What a value is typed for.
+/// The target of a typed value.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Target {
@@ -48,7 +48,7 @@ pub(crate) struct Editing {
     pub(crate) recording: i64,
     pub(crate) target: Target,
     pub(crate) text: String,
-    /// What the text was at first.
+    /// The text at the beginning.
     #[serde(default)]
     pub(super) before: String,
     /// The choice that arrow keys went to.
@@ -112,7 +112,7 @@ impl Editing {
         }
     }
 
-    /// Returns its time, where it is one annotation.
+    /// Returns its time, if it is one annotation.
     pub(super) fn span(&self, scene: &Scene<'_>) -> Option<(i64, i64)> {
         match &self.target {
             Target::New { start, end, .. } => Some((*start, *end)),
@@ -125,7 +125,7 @@ impl Editing {
     }
 }
 
-/// What was done in the field.
+/// The key pressed in the field.
 enum Said {
     Nothing,
     /// Keep this; and go on to the next annotation.
@@ -133,7 +133,7 @@ enum Said {
     Drop,
 }
 
-/// Shows the field below `below`, and does what is said in it.
+/// Shows the field below `below`, and carries out its keys.
 pub(super) fn show(
     timeline: &mut Timeline,
     ui: &mut Ui,
@@ -186,7 +186,7 @@ pub(super) fn show(
     done(timeline, (editing, tier), said, out);
 }
 
-/// Does what was said in the field.
+/// Carries out a key of the field.
 fn done(
     timeline: &mut Timeline,
     (editing, tier): (Editing, &TierContents),
@@ -439,8 +439,8 @@ fn text_field(ui: &mut Ui, editing: &mut Editing, label: &str) -> Response {
     response
 }
 
-/// Puts what was typed where it belongs now: under the annotation that was stored meanwhile, or into a
-/// notice where its place is gone. What was stored as it was typed needs nothing.
+/// Puts typed text to its new place: under the annotation that was stored meanwhile, or into a notice if its place
+/// is gone. Text that was stored as typed needs nothing.
 fn find_place(editing: Editing, scene: &Scene<'_>, out: &mut Outbox) -> Option<Editing> {
     if let Target::New { tier, start, end } = editing.target
         && let Some(columns) = scene.tier_of(tier).map(|tier| &tier.annotations)

@@ -1,4 +1,4 @@
-//! What the mouse does on the lanes: select time, move and resize, create, select several.
+//! The mouse on the lanes: select time, move and resize, create, select several.
 //!
 //! | mouse | does |
 //! |---|---|
@@ -27,7 +27,7 @@ use crate::words::{Text, timeline as words};
 /// How far around an edge it is taken hold of, in points.
 const EDGE: f32 = 5.0;
 
-/// What the mouse is doing.
+/// The running gesture of the mouse.
 #[derive(Debug)]
 pub(super) enum Gesture {
     /// Selecting time from there on.
@@ -73,7 +73,7 @@ pub(super) struct Dragging {
     pub(super) changed: Vec<Vec<Item>>,
     /// The annotation under the mouse.
     pub(super) id: i64,
-    /// What is dragged and all below it: none of it catches.
+    /// The dragged annotations and all below them: a drag never snaps to them.
     pub(super) except: BTreeSet<i64>,
 }
 

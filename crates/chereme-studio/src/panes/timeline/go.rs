@@ -20,8 +20,8 @@ pub(super) struct GoBox {
     text: String,
 }
 
-/// Returns the time that a text means: a time, `f512` for the frame that the stage calls so, `+2` and
-/// `-0.5` from `now`, `50%` of the whole. Nothing where it is none.
+/// Returns the time that a text means: a time, `f512` for a frame as the stage counts it, `+2` and `-0.5` from
+/// `now`, `50%` of the whole. Returns `None` for other text.
 fn target(text: &str, now: i64, whole: Span, frames: Option<Frames>) -> Option<i64> {
     let text = text.trim().to_lowercase().replace(',', ".");
     let (from, end) = (whole.start().micros(), whole.end().micros());
@@ -128,7 +128,7 @@ fn drop_label(ui: &mut Ui, text: &str) {
     ui.add(Label::new(text).wrap());
 }
 
-/// Returns a time as the stage tells it.
+/// Returns a time in the stage's format.
 fn there(scene: &Scene<'_>, at: i64) -> String {
     let time = time_text(Instant::from_micros(at));
     let Some(frames) = scene.frames() else {

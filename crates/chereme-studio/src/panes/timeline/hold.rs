@@ -1,4 +1,4 @@
-//! What is held when annotations are dragged; the library says it.
+//! The annotations that move in a drag; the library decides them.
 
 pub(crate) use chereme_corpus::hold::*;
 #[cfg(test)]

@@ -119,7 +119,7 @@ struct Piece {
 pub(crate) struct Curves {
     source: Option<Source>,
     pieces: BTreeMap<usize, Piece>,
-    /// What is being measured; one at a time, so that what comes into sight is next.
+    /// The running measurement; one at a time, so that the next visible one comes next.
     asked: Option<(WorkId, usize)>,
     /// Pieces that could not be measured.
     failed: bool,
@@ -199,8 +199,7 @@ impl Curves {
             .fold(0.0, f32::max)
     }
 
-    /// Returns for each column of the screen the least and largest number of a curve, nothing where it is
-    /// not measured.
+    /// Returns for each column of the screen the least and largest number of a curve, `None` if it is not measured.
     pub(super) fn columns(
         &self,
         of: (Lane, usize),
@@ -227,7 +226,7 @@ impl Curves {
         self.ends(|piece| piece.stored.get(name), window, width)
     }
 
-    /// Returns the number of a stored curve at a time; nothing where that is not known yet.
+    /// Returns the number of a stored curve at a time; `None` if it is not known yet.
     pub(super) fn stored_at(&self, name: &str, micros: i64) -> Option<f32> {
         let frame = self.source?.frame(micros);
         let piece = self.pieces.get(&(frame / PIECE))?;
@@ -239,8 +238,8 @@ impl Curves {
         )
     }
 
-    /// Returns the frames of a curve in sight as runs without a gap, each from left to right: where each frame is,
-    /// in points, and its number. Nothing where frames are too narrow to be told apart.
+    /// Returns the frames of a curve in sight as runs without a gap, each from left to right: the place of each
+    /// frame, in points, and its number. Returns an empty list if frames are too narrow to be drawn apart.
     pub(super) fn runs(&self, of: (Lane, usize), window: &Window, width: f32) -> Option<Vec<Run>> {
         self.through(|piece| piece.series.get(&of), window, width)
     }

@@ -367,7 +367,7 @@ impl Drawing<'_, '_> {
     }
 }
 
-/// Paints a small text into `rect`, with an ellipsis where it is cut.
+/// Paints a small text into `rect`, with an ellipsis if it is cut.
 fn cut(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
     let wrap = Some(TextWrapMode::Truncate);
     let galley = WidgetText::from(text).into_galley(ui, wrap, rect.width(), TextStyle::Small);

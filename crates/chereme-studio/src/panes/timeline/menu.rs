@@ -1,4 +1,4 @@
-//! What can be done on a lane, behind the other button of the mouse.
+//! The actions on a lane, behind the other button of the mouse.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::words::timeline as words;
 
-/// What the menu leaves free of the window's height.
+/// The part of the window's height that the menu leaves free.
 const MARGIN: f32 = 30.0;
 
 const VALUE: [Action; 2] = [Action::EditValue, Action::PictureValue];
@@ -43,8 +43,8 @@ const AWAY: [Action; 3] = [
 ];
 
 impl Drawing<'_, '_> {
-    /// Shows the menu, about the annotation under the pointer where that is not among several; where none
-    /// is, the playhead goes there.
+    /// Shows the menu for the annotation under the pointer, or for all selected ones if it is among them; without
+    /// one, the playhead moves there.
     pub(super) fn lane_menu(
         &mut self,
         response: &Response,

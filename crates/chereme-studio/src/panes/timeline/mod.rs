@@ -82,7 +82,7 @@ pub(crate) fn contents_of(annotations: &[(i64, i64, i64)]) -> chereme_corpus::Co
 /// The pane.
 #[derive(Default)]
 pub(crate) struct Timeline {
-    /// What of the recording is to be seen; the whole where nothing is said.
+    /// The visible part of the recording; the whole by default.
     window: Option<Window>,
     /// The recording the window is of, and the windows of those that were shown before.
     of: Option<i64>,
@@ -95,10 +95,10 @@ pub(crate) struct Timeline {
     reveal: bool,
     /// Whether it was in sight in this frame, or the last.
     drawn: bool,
-    /// What the mouse is doing, and where the playhead was when it began.
+    /// The running gesture of the mouse, and the playhead at its beginning.
     gesture: Option<gesture::Gesture>,
     mark: i64,
-    /// What was asked for and is not in the snapshot yet.
+    /// Requests that the snapshot does not show yet.
     pending: BTreeMap<WorkId, Then>,
     /// Annotations as they will be, until the snapshot has them.
     ghosts: Vec<Ghost>,
@@ -122,7 +122,7 @@ pub(crate) struct Timeline {
     /// The text that is to be pasted.
     clip: Option<String>,
     tier_box: Option<tier_box::TierBox>,
-    /// A tier that was asked for, described again where it is refused.
+    /// A requested tier, described again if it is refused.
     tier_asked: Option<(WorkId, tier_box::TierBox)>,
     /// The name of a tier to be selected as soon as it is there.
     tier_named: Option<String>,
@@ -165,16 +165,16 @@ impl Ghost {
     }
 }
 
-/// What is to happen when work has ended.
+/// The action after work has ended.
 #[derive(Debug, Clone, Default)]
 struct Then {
     /// Select what was added.
     select: bool,
     /// Have its value typed.
     edit: bool,
-    /// What it will look like.
+    /// Its future look.
     ghosts: Vec<Ghost>,
-    /// What was typed for it; put back where it is refused.
+    /// The text typed for it; put back if it is refused.
     typed: Option<Editing>,
 }
 
@@ -299,7 +299,7 @@ impl Timeline {
         self.clip = Some(text);
     }
 
-    /// Returns what of each recording is seen, where that is not the whole.
+    /// Returns the visible part of each recording, if that is not the whole.
     pub(crate) fn windows(&self) -> BTreeMap<i64, Window> {
         let now = self.of.map(|of| (of, self.window));
         let all = self

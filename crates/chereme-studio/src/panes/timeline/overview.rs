@@ -24,7 +24,7 @@ const LEAST: f32 = 12.0;
 /// How much is annotated, column by column.
 #[derive(Debug, Default)]
 pub(super) struct Overview {
-    /// Of which snapshot, how wide, for which tier.
+    /// The snapshot, the width and the tier it was built for.
     of: Option<(usize, usize, Option<i64>)>,
     /// From 0 to 1, over all tiers.
     all: Vec<f32>,
@@ -54,7 +54,7 @@ fn density<'a>(
     let start = whole.start().micros();
     let scale = width as f64 / whole.micros().max(1) as f64;
     let column = |at: i64| (((at - start) as f64 * scale).max(0.0) as usize).min(width);
-    // What begins and what ends at each column; counted from the left on they tell how many there are.
+    // The begins and ends at each column; their sum from the left is the number of annotations.
     let mut change = vec![0_i64; width + 1];
     for tier in tiers {
         let columns = &tier.annotations;
@@ -126,7 +126,7 @@ impl Drawing<'_, '_> {
         response.on_hover_text(label);
     }
 
-    /// Returns where what is to be seen lies in the strip.
+    /// Returns the box of the visible part in the strip.
     fn overview_box(&self, strip: Rect) -> Rect {
         let x = self.overview_x(strip);
         let (left, right) = (
@@ -275,7 +275,7 @@ mod tests {
         let of = |tiers: &[TierContents], width| density(tiers.iter(), whole, width);
         assert_eq!(of(&all.tiers, 10), [1, 1, 2, 0, 0, 0, 0, 0, 0, 1]);
         assert_eq!(of(&all.tiers[..1], 2), [2, 0]);
-        // What is shorter than a column is there too, and what lies beyond the end at the end.
+        // An annotation shorter than a column is shown too, and one beyond the end at the end.
         let odd = contents(&[(1, None, "", &[(1, 500, 501, None), (2, 5000, 6000, None)])]);
         assert_eq!(of(&odd.tiers, 4), [0, 0, 1, 1]);
         assert_eq!(of(&[], 0), [] as [u32; 0]);

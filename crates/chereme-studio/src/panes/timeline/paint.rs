@@ -75,7 +75,7 @@ pub(super) fn bar_text(tier: &TierContents, bar: &Bar, seen: &Seen<'_>) -> Strin
         .to_owned()
 }
 
-/// Paints a bar into `rect`, faintly where it is being dragged.
+/// Paints a bar into `rect`, faintly while it is dragged.
 pub(super) fn bar(
     painter: &Painter,
     rect: Rect,
@@ -122,7 +122,7 @@ pub(super) fn bar(
     }
 }
 
-/// Paints text into a bar, at its start or where the bar comes into sight; what has no room ends in an ellipsis.
+/// Paints text into a bar, at its start or at the edge of the view; text without room ends in an ellipsis.
 fn inside(painter: &Painter, rect: Rect, text: String, font: &FontId, ink: Color32) {
     let room = rect.shrink2(vec2(2.0, 0.0)).intersect(painter.clip_rect());
     let left = rect.left().max(painter.clip_rect().left()) + 5.0;
@@ -130,7 +130,7 @@ fn inside(painter: &Painter, rect: Rect, text: String, font: &FontId, ink: Color
     job.wrap = TextWrapping::truncate_at_width((room.right() - left).max(0.0));
     let galley = painter.layout_job(job);
     let at = pos2(left, rect.center().y - galley.size().y / 2.0);
-    // What has an edge of its own to be cut off at is drawn by itself.
+    // Text with an edge of its own is cut and drawn by itself.
     if left + galley.size().x <= room.right() {
         painter.galley(at, galley, ink);
     } else {

@@ -121,7 +121,7 @@ fn paste(
     if plan.odd.is_empty() {
         return put(timeline, &plan.adds, out);
     }
-    // What was copied here and has no room needs no list of lines.
+    // Text copied here that has no room needs no list of lines.
     let taken = plan.odd.iter().all(|it| it.why == words::ODD_TAKEN);
     if plan.adds.is_empty() && taken {
         let why = if here.is_some() {
@@ -259,7 +259,7 @@ pub(super) struct Add {
     pub(super) value: String,
 }
 
-/// What of a text can be added, and what not.
+/// The annotations to add from a text, and the lines that cannot be added.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Plan {
     /// In an order in which they can be added.

@@ -1,4 +1,4 @@
-//! What of a pasted text has no place: told line by line, before anything is pasted.
+//! The lines of a pasted text without a place: listed before anything is pasted.
 
 use eframe::egui::{Align2, Id, Key, Label, Modifiers, ScrollArea, Ui, Window, vec2};
 
@@ -8,7 +8,7 @@ use super::paste::{self, Plan};
 use crate::context::Outbox;
 use crate::words::{fill, shell, timeline as words};
 
-/// How many lines are told.
+/// The most lines in the list.
 const MOST: usize = 200;
 
 /// The list while it is open.
@@ -17,7 +17,7 @@ pub(super) struct PasteBox {
     pub(super) plan: Plan,
 }
 
-/// Shows the list, and pastes the others where that is said.
+/// Shows the list, and pastes the other lines if the user confirms.
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     let Some(shown) = timeline.paste_box.take() else {
         return;

@@ -167,8 +167,8 @@ fn step_tier(scene: &Scene<'_>, out: &mut Outbox, by: isize) {
     out.send(Command::Annotations(under.into_iter().collect()));
 }
 
-/// Selects the annotation of the tier below or above that lies at the same time, with its span; only the
-/// tier where there is none.
+/// Selects the annotation of the tier below or above that lies at the same time, with its span; only the tier if
+/// there is no such annotation.
 fn climb(scene: &Scene<'_>, out: &mut Outbox, by: isize) {
     let Some(tier) = neighbour(scene, by) else {
         return;

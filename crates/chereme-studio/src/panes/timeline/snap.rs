@@ -6,7 +6,7 @@ use chereme_corpus::TierContents;
 use chereme_motion::{Instant, Rate};
 use serde::{Deserialize, Serialize};
 
-/// What times settle on.
+/// The kinds of times that a drag snaps to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Snaps {
@@ -25,7 +25,7 @@ impl Default for Snaps {
     }
 }
 
-/// Why a time is where it is.
+/// The reason for the place of a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Catch {
     Boundary,
@@ -57,7 +57,7 @@ impl Frames {
     }
 }
 
-/// What a time can settle on now.
+/// The times that a drag can snap to now.
 pub(crate) struct Guides<'a> {
     pub(crate) snaps: Snaps,
     pub(crate) tiers: &'a [TierContents],
@@ -73,7 +73,7 @@ pub(crate) struct Guides<'a> {
 }
 
 impl Guides<'_> {
-    /// Returns where a time settles and why; where nothing is near, where it is.
+    /// Returns the time to snap to and the reason; the time itself if nothing is near.
     pub(crate) fn settle(&self, micros: i64) -> (i64, Option<Catch>) {
         let boundary = self
             .snaps

@@ -21,7 +21,7 @@ use crate::work::Work;
 /// The field for the name.
 const NAME_FIELD: &str = "timeline tier name";
 
-/// What is to become of a tier.
+/// The planned change of a tier.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum What {
     Add,
@@ -43,11 +43,11 @@ pub(super) struct TierBox {
     fresh: bool,
     /// The name that was proposed for it.
     proposed: String,
-    /// What goes along when it is copied.
+    /// The parts that are copied with it.
     copied: Copied,
 }
 
-/// What was pressed in the box.
+/// The button pressed in the box.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Pressed {
     Nothing,
@@ -156,7 +156,7 @@ impl TierBox {
         adds.then(|| self.name.trim().to_owned())
     }
 
-    /// Returns what is to be done; nothing where the role is none.
+    /// Returns the work to do; `None` if the role cannot be read.
     fn work(&self, recording: i64, before: Option<&Self>) -> Option<Work> {
         if let What::Copy(id) = self.what {
             let name = self.name.trim().to_owned();
@@ -267,7 +267,7 @@ fn parents(contents: &Contents, what: &What) -> Vec<String> {
     fit.map(|tier| tier.row.name.clone()).collect()
 }
 
-/// Shows the box while it is open, and does what is said in it.
+/// Shows the box while it is open, and carries out its buttons.
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     let Some(mut tier) = timeline.tier_box.take() else {
         return;

@@ -1,4 +1,4 @@
-//! What actions do to tiers.
+//! The effect of actions on tiers.
 
 use std::collections::BTreeSet;
 
@@ -100,7 +100,7 @@ pub(super) fn act(
     Acted::Yes
 }
 
-/// Asks for an order of the tiers, where it is another than theirs.
+/// Requests an order of the tiers, if it differs from theirs.
 pub(super) fn order(scene: &Scene<'_>, order: Vec<i64>, out: &mut Outbox) -> Acted {
     let tiers = &scene.contents.tiers;
     if tiers.iter().map(|it| it.row.id).eq(order.iter().copied()) {

@@ -33,7 +33,7 @@ const NAMED: f32 = 8.0;
 /// Where rows are, kept from frame to frame.
 #[derive(Debug, Default)]
 pub(super) struct Layout {
-    /// The tiers in sight, by their place in the recording's list, and where they are.
+    /// The tiers in sight, by their index in the recording's list, and their places.
     pub(super) rows: Vec<(usize, Rangef)>,
     /// The rows that there are, for a snapshot and the names that are folded and hidden.
     all: Vec<Row>,
@@ -62,8 +62,8 @@ impl Layout {
         found.map(|(tier, _)| *tier)
     }
 
-    /// Finds rows and the width of names anew where the snapshot, the ways or the pane changed; returns
-    /// whether there are other rows now.
+    /// Builds the rows and the width of names again if the snapshot, the settings or the pane changed; returns
+    /// whether the rows are new.
     fn update(&mut self, ui: &Ui, contents: &Contents, seen: &Seen<'_>) -> bool {
         let ways = &seen.settings.timeline;
         let open = seen.snapshot.open.as_ref();
@@ -334,7 +334,7 @@ impl Drawing<'_, '_> {
         if let Some(gesture) = &self.timeline.gesture {
             moving.extend(gesture.moving());
         }
-        // What was selected elsewhere, a hit for one, comes into sight; and it stays there where the pane is another.
+        // Things selected elsewhere, such as a hit, come into sight, and stay there if the pane changes.
         let selected = self.seen.shown.tier;
         if selected != self.timeline.layout.seen && !ui.input(|input| input.pointer.any_down()) {
             self.timeline.layout.seen = selected;
@@ -379,7 +379,7 @@ impl Drawing<'_, '_> {
         self.editor(ui, contents, lane);
     }
 
-    /// Returns how far to scroll so that the selected tier is in sight, where that was asked for.
+    /// Returns the distance to scroll to bring the selected tier into sight, on request.
     fn reveal(&mut self, all: &[Row], contents: &Contents, height: f32) -> Option<f32> {
         if !std::mem::take(&mut self.timeline.reveal) {
             return None;
@@ -388,7 +388,7 @@ impl Drawing<'_, '_> {
         let number = all.iter().position(is)?;
         let at = number as f32 * ROW;
         let top = self.timeline.layout.top;
-        // What hangs below it is shown as well, as far as there is room for both.
+        // Tiers below it are shown as well, if there is room for both.
         let below = all[number + 1..].iter();
         let family = below
             .take_while(|row| row.depth > all[number].depth)

@@ -1,4 +1,4 @@
-//! What can be said on a tier: the values of its inventory and those in use, filtered while typing.
+//! The possible values on a tier: those of its inventory and those in use, filtered while typing.
 
 use std::collections::BTreeMap;
 
@@ -10,11 +10,11 @@ use chereme_sign::text::fold;
 pub(crate) struct Choice {
     /// What is stored.
     pub(crate) value: String,
-    /// What it is called in the window's language, where that says more.
+    /// Its name in the window's language, if that adds something.
     pub(crate) name: Option<String>,
     /// How often the tier says it.
     pub(crate) used: usize,
-    /// What else it is known by, folded, to filter by.
+    /// Its other names, folded, to filter by.
     known: Vec<String>,
 }
 
@@ -134,7 +134,7 @@ pub(crate) struct Digits {
 }
 
 impl Digits {
-    /// Returns the values of the digits 1 to 9 on a tier; those used from now on get what is left.
+    /// Returns the values of the digits 1 to 9 on a tier; newly used ones get the free digits.
     pub(crate) fn of(&mut self, tier: i64, choices: &Choices) -> &[String] {
         let given = self.given.entry(tier).or_default();
         for choice in &choices.all {

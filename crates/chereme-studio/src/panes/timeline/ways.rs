@@ -15,9 +15,9 @@ use crate::context::{Outbox, Seen};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Ways {
-    /// What becomes of the neighbours.
+    /// The treatment of the neighbours.
     pub(crate) mode: Mode,
-    /// What times settle on.
+    /// The kinds of times that drags snap to.
     pub(crate) snaps: Snaps,
     /// Which lanes of movement are shown.
     pub(crate) lanes: BTreeSet<Lane>,
@@ -46,7 +46,7 @@ impl Default for Ways {
 }
 
 impl Ways {
-    /// Returns them after an action; nothing where it is not about them.
+    /// Returns the settings after an action; `None` if the action is not about them.
     pub(crate) fn after(&self, action: Action) -> Option<Self> {
         let mut ways = self.clone();
         match action {
