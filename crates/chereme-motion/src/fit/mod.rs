@@ -1,6 +1,6 @@
 //! Fits a skeleton to optical markers: the rotations of its joints that bring it nearest to them.
 //!
-//! Each marker whose label is known belongs to a bone ([`labels`]). The skeleton is scaled to the distances of
+//! Each marker whose label is known belongs to a bone (module `labels`). The skeleton is scaled to the distances of
 //! the markers, then turned frame by frame by damped least squares; the place of each marker on its bone is found from
 //! the frames themselves, as skin and clothing put it elsewhere than any table. The error of every marker comes with the
 //! result, so that nobody takes a fit for a capture unseen.
