@@ -20,6 +20,7 @@ mod error;
 mod export;
 mod face;
 mod film;
+mod hands;
 mod import;
 mod info;
 mod inventories;
@@ -138,7 +139,8 @@ pub use search::{
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};
 pub use track::{
-    Alignment, MediaFile, NewTrack, Signal, SkeletonTrack, Track, TrackChange, TrackKind, TrackRow,
+    Alignment, FitReport, FitResidual, MediaFile, NewTrack, Signal, SkeletonTrack, Track,
+    TrackChange, TrackKind, TrackRow,
 };
 pub use transcribe::{Transcribed, TranscribedFeature, TranscribedStage, TranscribedValue};
 pub use values::MergedValues;
@@ -149,6 +151,8 @@ pub struct Corpus {
     learned: RefCell<sources::Learned>,
     /// The inventories as they were at that generation.
     inventories: RefCell<Option<(i64, Arc<Vec<StoredInventory>>)>>,
+    /// The corrections of finger angles by recording.
+    hands: RefCell<hands::Kept>,
     /// The recipe that is worked on.
     drafted: recombine::Drafted,
     /// Expressions of faces as numbers, as they were after the newest operation.
@@ -165,6 +169,7 @@ impl Corpus {
             store: Store::create(path, author, inventories::store_builtin)?,
             learned: RefCell::default(),
             inventories: RefCell::default(),
+            hands: RefCell::default(),
             drafted: recombine::Drafted::default(),
             faces: RefCell::default(),
         })
@@ -179,6 +184,7 @@ impl Corpus {
             store: Store::open(path, author)?,
             learned: RefCell::default(),
             inventories: RefCell::default(),
+            hands: RefCell::default(),
             drafted: recombine::Drafted::default(),
             faces: RefCell::default(),
         })

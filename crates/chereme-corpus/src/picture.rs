@@ -1,6 +1,7 @@
 //! Pictures of stored movement and of inventories, drawn without a window.
 
 mod faces;
+mod points;
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -21,7 +22,7 @@ use crate::Corpus;
 use crate::address::{self, Address, Stretch};
 use crate::animate::Staging;
 use crate::curves;
-use crate::db::signs;
+use crate::db::{recordings, signs};
 use crate::error::{Error, Result};
 use crate::face;
 use crate::film::{Shape, write_film};
@@ -228,6 +229,11 @@ impl Corpus {
         };
         let from = stretch.span.start();
         let span = Span::between(from, from.shifted(stretch.span.micros().min(LONGEST)));
+        if recordings::body_track(connection, stretch.recording.id)?.is_none()
+            && let Some(points) = points::of(connection, &stretch, span)?
+        {
+            return points::draw(&points, &title(&stretch), to, options, progress);
+        }
         let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
         let title = title(&moving.stretch);
         let captions = match options.captions {

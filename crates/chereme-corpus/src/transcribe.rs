@@ -5,7 +5,7 @@ mod again;
 use chereme_analysis::transcribe::{
     Feature, FeatureKind, Options, Stage, transcribe, transcribe_proven,
 };
-use chereme_motion::{Side, Span};
+use chereme_motion::{HandCorrection, Side, Span};
 use chereme_sign::hamnosys::{Notated, Sign, print, to_names};
 use serde::Serialize;
 
@@ -20,6 +20,8 @@ use again::Again;
 
 /// The longest stretch in seconds that is taken for one sign.
 const LONGEST: f64 = 60.0;
+/// A correction of finger angles above this, in radians, is reported.
+const MUCH: f64 = 0.15;
 
 /// A piece of movement as HamNoSys, each feature with how far the movement is from it.
 #[derive(Debug, Clone, Serialize)]
@@ -138,8 +140,10 @@ impl Corpus {
         };
         let dominant = self.dominant(&stretch)?;
         let again = Again::of(connection, &stretch)?;
+        let hands = crate::hands::corrections(connection, &self.hands, &stretch.recording)?;
         let options = Options {
             dominant,
+            hands,
             longest: LONGEST + 1.0,
             language: again.as_ref().map_or(usual.language, Again::language),
             ..usual
@@ -160,6 +164,7 @@ impl Corpus {
         let printed = print(&written.sign);
         let mut findings = written.findings;
         findings.extend(printed.losses.iter().map(|loss| loss.message.clone()));
+        findings.extend(corrected(&hands));
         let at = |frame: usize| clip.rate().instant(frames.start + frame).micros();
         let (first, end) = written.frames;
         Ok(Transcribed {
@@ -247,6 +252,20 @@ impl Corpus {
         let left = signer.is_some_and(|it| it.handedness.as_deref() == Some("left"));
         Ok(if left { Side::Left } else { Side::Right })
     }
+}
+
+/// Says by how much finger angles were corrected, if that is much.
+fn corrected(hands: &[HandCorrection; 2]) -> Option<String> {
+    let most = hands
+        .iter()
+        .map(HandCorrection::largest)
+        .fold(0.0, f64::max);
+    (most > MUCH).then(|| {
+        format!(
+            "fingers are read against the straightest posture of this signer's own takes, up to {:.0} degrees bent",
+            most.to_degrees()
+        )
+    })
 }
 
 fn span_end(span: Span, least: i64) -> i64 {

@@ -36,6 +36,7 @@
 //! | [`raster`] | triangles to pixels, with lines between parts |
 //! | [`image`], [`writer`] | pixels, and PNG |
 //! | [`sheet`] | contact sheets, thumbnails |
+//! | [`points`] | markers, and points from film, as dots and limbs |
 //! | [`animation`] | moving pictures, and GIF |
 //! | [`strip`] | several of them next to each other, with captions |
 //! | [`handshape`] | a hand alone, from joint angles |
@@ -58,6 +59,7 @@ mod ink;
 pub mod letters;
 pub mod mesh;
 pub mod palette;
+pub mod points;
 mod quantize;
 pub mod raster;
 pub mod sheet;
@@ -73,6 +75,7 @@ pub use faces::face_sheet;
 pub use handshape::{HandView, HandshapeOptions, handshape_picture, handshape_sheet};
 pub use image::Image;
 pub use palette::{Colour, Palette, Theme};
+pub use points::{PointCloud, points_sheet};
 pub use sheet::{Frames, Progress, SheetOptions, contact_sheet, thumbnail};
 pub use strip::{Caption, Strip};
 pub use view::{Framing, View, stroke};

@@ -6,6 +6,8 @@ pub mod compare;
 pub mod curves;
 pub mod eaf;
 pub mod faces;
+#[cfg(feature = "fbx")]
+pub mod fbx;
 mod finding;
 pub mod gltf;
 pub mod hns;
@@ -13,6 +15,7 @@ pub mod lexicon;
 pub mod mp4;
 pub mod pose;
 pub mod roles;
+mod scene;
 pub mod sigml;
 pub mod subtitles;
 pub mod table;
@@ -22,3 +25,4 @@ pub mod tracks;
 pub mod trc;
 
 pub use finding::{Finding, Severity};
+pub use scene::Scene;

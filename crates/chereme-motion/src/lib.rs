@@ -57,7 +57,9 @@ pub mod skeleton;
 pub mod time;
 pub mod times;
 
-pub use anatomy::{Anatomy, ArmChain, Evidence, Part, Roles, RolesError};
+pub use anatomy::{
+    Anatomy, ArmChain, Evidence, HandCorrection, HandRange, Part, Roles, RolesError,
+};
 pub use axes::{Axes, Axis, Convention, Direction};
 pub use clip::{Channel, Clip, ClipError};
 pub use column::Column;

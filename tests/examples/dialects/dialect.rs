@@ -6,7 +6,7 @@ use chereme_motion::{Finger, Part, Side};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dialect {
     pub(crate) name: &'static str,
-    /// Its name of a part.
+    /// Its name for a part.
     pub(crate) part: fn(Part) -> String,
     /// Before every name, such as `Anna:`.
     pub(crate) space: &'static str,
@@ -30,6 +30,12 @@ pub(crate) struct Dialect {
     pub(crate) odd: bool,
     /// Noise of rotations in radians.
     pub(crate) noise: f64,
+    /// How far thumbs are turned toward the palm at rest, in radians.
+    pub(crate) opposed: f64,
+    /// How far the straightest finger of the signer is bent, in radians: a fist is bent no more than usual.
+    pub(crate) lax: f64,
+    /// Whether digits lack their last joint.
+    pub(crate) short: bool,
 }
 
 const PLAIN: Dialect = Dialect {
@@ -47,6 +53,9 @@ const PLAIN: Dialect = Dialect {
     broken: false,
     odd: false,
     noise: 0.0,
+    opposed: 0.0,
+    lax: 0.0,
+    short: false,
 };
 
 /// Returns every dialect; the last has all that is odd at once.
@@ -137,6 +146,31 @@ pub(crate) fn all() -> Vec<Dialect> {
             ..PLAIN
         },
         Dialect {
+            name: "opposed-rest",
+            opposed: 0.7,
+            bent: 0.3,
+            ..PLAIN
+        },
+        Dialect {
+            name: "short-digits",
+            short: true,
+            ..PLAIN
+        },
+        Dialect {
+            name: "lax-signer",
+            lax: 0.35,
+            ..PLAIN
+        },
+        Dialect {
+            name: "lax-and-noisy",
+            part: mixamo,
+            lax: 0.25,
+            noise: 0.02,
+            bent: 0.3,
+            ends: true,
+            ..PLAIN
+        },
+        Dialect {
             name: "all-at-once",
             part: unreal,
             space: "NS:",
@@ -150,6 +184,8 @@ pub(crate) fn all() -> Vec<Dialect> {
             broken: true,
             odd: true,
             noise: 0.02,
+            opposed: 0.3,
+            lax: 0.2,
             ..PLAIN
         },
     ]

@@ -5,8 +5,8 @@
 //! is then written as other people's programs write it: joints called and turned otherwise, other units and axes, rest
 //! poses with lowered arms or fists, fingers of three or four joints and with metacarpals, a wrapper above the hips,
 //! optical markers beside them, offsets that are wrong, odd first frames, noise. Each file is imported like anybody's,
-//! and handshape, palm and place are read from it and compared with what was put there. Without a capture the starter
-//! corpus has one; with a FOLDER the files are left there, to be looked at.
+//! and handshape, palm and place are read from it and compared with what was put there. Without a capture that of the
+//! starter corpus is used, and the tables are written to RESULTS.md; with a FOLDER the files are left there, to be looked at.
 
 #![allow(clippy::print_stdout)]
 
@@ -24,41 +24,79 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let own = tempfile::tempdir()?;
-    let capture = match arguments.first() {
-        Some(path) => PathBuf::from(path),
-        None => starter(own.path())?,
-    };
-    let folder = arguments.get(1).map_or(own.path(), Path::new);
-    let source = read::import(own.path(), "source", &capture)?;
-    let staged = rig::staged(&source)?;
-    let truth = read::readings(&source.anatomy, &staged.clip, &staged.frames)?;
-    println!(
-        "{} handshapes on the body of {}\n",
+    match arguments.as_slice() {
+        [] => {
+            let mut text = HEAD.to_owned();
+            for capture in captures(own.path())? {
+                text += &table(&capture, own.path())?;
+            }
+            print!("{text}");
+            let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/dialects/RESULTS.md");
+            std::fs::write(file, text)?;
+        }
+        [capture] => print!("{}", table(Path::new(capture), own.path())?),
+        [capture, folder, ..] => print!("{}", table(Path::new(capture), Path::new(folder))?),
+    }
+    Ok(())
+}
+
+/// The text before the tables in the file of results.
+const HEAD: &str = "# The same handshapes in many dialects of skeletons
+
+Written by `cargo run -p chereme-tests --example dialects`; with `CHEREME_SHARED_DATA` other people's captures are used too.
+Every handshape of the inventory is put on the right hand of a capture, which is then written as other programs write it,
+imported, and read again. A column counts the readings that are right: the nearest handshape of the inventory, the nearest
+of 26 directions of palm and fingers, and the nearest of 12 places. *Off* is the largest error of a hand's posture.
+";
+
+/// Returns the table of a capture; files are left in the folder.
+fn table(capture: &Path, folder: &Path) -> Result<String> {
+    let own = tempfile::tempdir()?;
+    let source = read::import(own.path(), "source", capture)?;
+    let staged = rig::staged(&source.moving)?;
+    let truth = read::readings(&source, &staged.clip, &staged.frames, false)?;
+    let name = capture.file_stem().unwrap_or_default().to_string_lossy();
+    let mut text = format!(
+        "\n## {} handshapes on the body of `{name}`\n\n{}",
         truth.len(),
-        capture.display()
+        read::HEAD
     );
-    println!("| dialect | handshape | palm | fingers | place | off | first that is wrong |");
-    println!("|---|--:|--:|--:|--:|--:|---|");
     let mut worst: Option<(usize, &str)> = None;
+    let (mut right, mut all) = (0, 0);
     for dialect in dialect::all() {
         let path = folder.join(format!("{}.bvh", dialect.name));
-        let prefix = rig::write(&source, &staged, &dialect, &path)?;
+        let prefix = rig::write(&source.moving, &staged, &dialect, &path)?;
         let moving = read::import(own.path(), dialect.name, &path)?;
         let frames: Vec<usize> = staged.frames.iter().map(|frame| frame + prefix).collect();
-        let found = read::readings(&moving.anatomy, &moving.clip, &frames)?;
+        let found = read::readings(&moving, &moving.moving.clip, &frames, true)?;
         let score = read::compare(&truth, &found);
-        println!("{}", score.row(dialect.name));
+        text += &score.row(dialect.name);
+        right += score.all() - score.wrong();
+        all += score.all();
         if worst.is_none_or(|(most, _)| score.wrong() > most) {
             worst = Some((score.wrong(), dialect.name));
         }
     }
-    match worst {
-        Some((0, _)) | None => println!("\nEvery dialect reads right."),
-        Some((wrong, name)) => {
-            println!("\nThe worst dialect is {name}: {wrong} readings are wrong.")
-        }
+    text += &match worst {
+        Some((0, _)) | None => format!("\n{right} of {all} readings are right.\n"),
+        Some((wrong, name)) => format!(
+            "\n{right} of {all} readings are right. The worst dialect is {name}: {wrong} readings are wrong.\n"
+        ),
+    };
+    Ok(text)
+}
+
+/// Returns the capture of the starter corpus, and those of other people if there are some.
+fn captures(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut all = vec![starter(folder)?];
+    if let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") {
+        let names = [
+            "upf-gti-performs/NGT Thanks.bvh",
+            "upf-gti-animics/create_db_m.bvh",
+        ];
+        all.extend(names.map(|name| Path::new(&data).join("motion/bvh").join(name)));
     }
-    Ok(())
+    Ok(all)
 }
 
 /// Returns the capture of the starter corpus, unpacked.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use chereme_corpus::{Address, Moving, Name};
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Anatomy, Clip, HandAngles, Side};
+use chereme_motion::{Anatomy, Clip, Finger, HandAngles, HandCorrection, Part, Side};
 use chereme_sign::hamnosys::Direction;
 use chereme_sign::inventory;
 
@@ -12,6 +12,9 @@ use crate::Result;
 
 /// The hand that is read.
 pub(crate) const SIDE: Side = Side::Right;
+
+/// A direction at the limit of two is right within this angle in radians.
+const LIMIT: f64 = 0.09;
 
 /// Places that the table distinguishes.
 const PLACES: [&str; 12] = [
@@ -33,18 +36,31 @@ const PLACES: [&str; 12] = [
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reading {
     pub(crate) shape: String,
-    palm: String,
-    fingers: String,
+    /// The nearest direction, and the vector itself.
+    palm: (String, DVec3),
+    fingers: (String, DVec3),
     place: &'static str,
     /// Where the palm's middle is, in shoulder widths of the body.
     at: DVec3,
     angles: HandAngles,
+    known: [bool; HandAngles::LEN],
+}
+
+/// A recording as the corpus has it.
+pub(crate) struct Imported {
+    pub(crate) moving: Moving,
+    /// The correction of the right hand's angles that its take shows.
+    correction: HandCorrection,
 }
 
 /// Imports a file and returns its movement as the corpus has it.
-pub(crate) fn import(folder: &Path, name: &str, file: &Path) -> Result<Moving> {
+pub(crate) fn import(folder: &Path, name: &str, file: &Path) -> Result<Imported> {
     let corpus = crate::corpus_of(folder, name, file)?;
-    Ok(corpus.movement(&Address::Recording(Name::Number(1)))?)
+    let [correction, _] = corpus.hand_corrections(&Name::Number(1))?;
+    Ok(Imported {
+        moving: corpus.movement(&Address::Recording(Name::Number(1)))?,
+        correction,
+    })
 }
 
 /// Returns the handshapes of the inventory that differ in their posture, with the first name of each.
@@ -67,23 +83,55 @@ pub(crate) fn shapes() -> Vec<(String, HandAngles)> {
 
 /// Returns how far two postures are apart: the root of the mean square of all angles, in radians.
 fn distance(a: &HandAngles, b: &HandAngles) -> f64 {
-    let pairs = a.to_array().into_iter().zip(b.to_array());
-    let sum: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
-    (sum / HandAngles::LEN as f64).sqrt()
+    known_distance(a, b, &[true; HandAngles::LEN])
 }
 
-/// Reads frames of a clip.
-pub(crate) fn readings(anatomy: &Anatomy, clip: &Clip, frames: &[usize]) -> Result<Vec<Reading>> {
+/// Returns how far two postures are apart as far as a skeleton shows it.
+fn known_distance(a: &HandAngles, b: &HandAngles, known: &[bool; HandAngles::LEN]) -> f64 {
+    let pairs = a.to_array().into_iter().zip(b.to_array());
+    let known = pairs.zip(known).filter(|(_, known)| **known);
+    let squares: Vec<f64> = known.map(|((a, b), _)| (a - b).powi(2)).collect();
+    (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+}
+
+/// Returns which angles the joints of a skeleton show.
+fn known(anatomy: &Anatomy) -> [bool; HandAngles::LEN] {
+    let has = |part| anatomy.joint(part).is_some();
+    std::array::from_fn(|n| match n {
+        0..=2 => has(Part::Thumb(SIDE, 0)),
+        3 | 4 => has(Part::Thumb(SIDE, n as u8 - 2)),
+        _ => {
+            let finger = Finger::ALL[(n - 5) / 4];
+            has(Part::Finger(SIDE, finger, ((n - 5) % 4).max(1) as u8))
+        }
+    })
+}
+
+/// Reads frames of a clip, corrected as the take shows or as they are.
+pub(crate) fn readings(
+    from: &Imported,
+    clip: &Clip,
+    frames: &[usize],
+    corrected: bool,
+) -> Result<Vec<Reading>> {
     let shapes = shapes();
+    let anatomy = &from.moving.anatomy;
+    let known = known(anatomy);
     let read = |frame: usize| {
         let pose = clip.pose(frame);
         let model = clip.model_pose(frame);
         let skeleton = clip.skeleton();
         let body = anatomy.body_frame(&model)?;
-        let angles = anatomy.hand_angles(skeleton, SIDE, &pose)?;
-        let near = |shape: &&(String, HandAngles)| distance(&shape.1, &angles);
+        let mut angles = anatomy.hand_angles(skeleton, SIDE, &pose)?;
+        if corrected {
+            angles = from.correction.of(&angles);
+        }
+        let near = |shape: &&(String, HandAngles)| known_distance(&shape.1, &angles, &known);
         let shape = shapes.iter().min_by(|a, b| near(a).total_cmp(&near(b)))?;
-        let way = |way: DVec3| nearest(body.direction_to_body(way));
+        let way = |way: DVec3| {
+            let own = body.direction_to_body(way);
+            (nearest(own), own)
+        };
         let palm = anatomy.landmark(skeleton, &model, "right-palm")?;
         let far = |name: &&str| {
             let at = anatomy.landmark(skeleton, &model, name);
@@ -96,6 +144,7 @@ pub(crate) fn readings(anatomy: &Anatomy, clip: &Clip, frames: &[usize]) -> Resu
             place: PLACES.iter().min_by(|a, b| far(a).total_cmp(&far(b)))?,
             at: body.to_body(palm),
             angles,
+            known,
         })
     };
     let found: Option<Vec<Reading>> = frames.iter().map(|&frame| read(frame)).collect();
@@ -121,9 +170,10 @@ pub(crate) struct Score {
     first: Option<String>,
 }
 
-/// Compares the readings with the truth. A direction or place at the limit of two is right if it lies within a few
-/// degrees or centimetres of the truth.
+/// Compares the readings with the truth. A direction or place at the limit of two is right within a
+/// few degrees or centimetres of the truth.
 pub(crate) fn compare(truth: &[Reading], found: &[Reading]) -> Score {
+    let near = |a: DVec3, b: DVec3| a.angle_between(b) < LIMIT;
     let mut score = Score {
         all: truth.len(),
         shape: 0,
@@ -135,10 +185,12 @@ pub(crate) fn compare(truth: &[Reading], found: &[Reading]) -> Score {
     };
     for (want, is) in truth.iter().zip(found) {
         score.shape += usize::from(want.shape == is.shape);
-        score.palm += usize::from(want.palm == is.palm);
-        score.fingers += usize::from(want.fingers == is.fingers);
+        score.palm += usize::from(want.palm.0 == is.palm.0 || near(want.palm.1, is.palm.1));
+        score.fingers +=
+            usize::from(want.fingers.0 == is.fingers.0 || near(want.fingers.1, is.fingers.1));
         score.place += usize::from(want.place == is.place || want.at.distance(is.at) < 0.1);
-        score.off = score.off.max(distance(&want.angles, &is.angles));
+        let off = known_distance(&want.angles, &is.angles, &is.known);
+        score.off = score.off.max(off);
         if want.shape != is.shape && score.first.is_none() {
             let mut far: Vec<(usize, f64)> = want
                 .angles
@@ -147,6 +199,7 @@ pub(crate) fn compare(truth: &[Reading], found: &[Reading]) -> Score {
                 .zip(is.angles.to_array())
                 .map(|(a, b)| (b - a).to_degrees())
                 .enumerate()
+                .filter(|(n, _)| is.known[*n])
                 .collect();
             far.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
             let far: Vec<String> = far[..3]
@@ -164,7 +217,18 @@ pub(crate) fn compare(truth: &[Reading], found: &[Reading]) -> Score {
     score
 }
 
+/// The head of the table.
+pub(crate) const HEAD: &str =
+    "| dialect | handshape | palm | fingers | place | off | first that is wrong |
+|---|--:|--:|--:|--:|--:|---|
+";
+
 impl Score {
+    /// Returns how many readings there are.
+    pub(crate) fn all(&self) -> usize {
+        4 * self.all
+    }
+
     /// Returns how many readings are wrong.
     pub(crate) fn wrong(&self) -> usize {
         4 * self.all - self.shape - self.palm - self.fingers - self.place
@@ -174,7 +238,7 @@ impl Score {
     pub(crate) fn row(&self, name: &str) -> String {
         let of = |right: usize| format!("{right}/{}", self.all);
         format!(
-            "| {name} | {} | {} | {} | {} | {:.1}° | {} |",
+            "| {name} | {} | {} | {} | {} | {:.1}° | {} |\n",
             of(self.shape),
             of(self.palm),
             of(self.fingers),

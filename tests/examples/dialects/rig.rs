@@ -45,6 +45,21 @@ pub(crate) fn staged(source: &Moving) -> Result<Staged> {
     Ok(Staged { clip, frames })
 }
 
+/// Returns the posture that a hand takes whose straightest finger is bent by `lax`, and whose fist is as usual.
+fn lax(angles: &HandAngles, lax: f64) -> HandAngles {
+    let mut lazy = *angles;
+    let bend = |angle: f64, full: f64| lax + angle * (1.0 - lax / full);
+    for finger in &mut lazy.fingers {
+        for (angle, full) in finger.flexion.iter_mut().zip([1.5, 1.7, 1.2]) {
+            *angle = bend(*angle, full);
+        }
+    }
+    lazy.thumb.radial += 0.4 * lax;
+    lazy.thumb.palmar += 0.4 * lax;
+    lazy.thumb.flexion = lazy.thumb.flexion.map(|angle| angle + 0.5 * lax);
+    lazy
+}
+
 /// A joint of the dialect's skeleton.
 struct Bone {
     name: String,
@@ -67,7 +82,20 @@ pub(crate) fn write(
     let clip = &staged.clip;
     let bones = bones(source, dialect);
     let rest = rest(source, dialect);
-    let mut models: Vec<ModelPose> = (0..clip.frames()).map(|f| clip.model_pose(f)).collect();
+    let posture = |frame: usize| {
+        let mut pose = clip.pose(frame);
+        if dialect.lax > 0.0
+            && let Some(angles) = source.anatomy.hand_angles(clip.skeleton(), SIDE, &pose)
+        {
+            let angles = lax(&angles, dialect.lax);
+            let skeleton = clip.skeleton();
+            source
+                .anatomy
+                .set_hand_angles(skeleton, SIDE, &angles, &mut pose);
+        }
+        ModelPose::of(clip.skeleton(), &pose)
+    };
+    let mut models: Vec<ModelPose> = (0..clip.frames()).map(posture).collect();
     let prefix = if dialect.odd { 2 } else { 0 };
     for _ in 0..prefix {
         models.insert(0, t_pose_far_away(source, &clip.pose(0)));
@@ -79,7 +107,7 @@ pub(crate) fn write(
     };
     let unit = |v: DVec3| turn * v * dialect.unit;
     let place = |model: &ModelPose, bone: &Bone| unit(model.point(bone.of, bone.at));
-    // The wrapper is turned and moved; the joints below it compensate.
+    // The wrapper is somewhere else and turned; the hips below it make up for that.
     let more = usize::from(dialect.wrapped);
     let (wrap, wrapped_turn) = match dialect.wrapped {
         true => (
@@ -213,8 +241,15 @@ fn bones(source: &Moving, dialect: &Dialect) -> Vec<Bone> {
     let mut known: Vec<Option<usize>> = vec![None; skeleton.len()];
     for (index, joint) in skeleton.joints().iter().enumerate() {
         let part = anatomy.part_of(index);
-        // A node that is no part and ends a chain is an end of a bone, not a joint.
+        // A joint that is no part and ends a chain is an end of a bone.
         if part.is_none() && skeleton.children(index).is_empty() {
+            continue;
+        }
+        let last = matches!(part, Some(Part::Finger(_, _, 3) | Part::Thumb(_, 2)));
+        if dialect.short && last {
+            if let Some(parent) = joint.parent.and_then(|parent| known[parent]) {
+                bones[parent].tip = Some(joint.offset);
+            }
             continue;
         }
         let mut parent = joint.parent.and_then(|parent| known[parent]);
@@ -298,6 +333,7 @@ fn rest(source: &Moving, dialect: &Dialect) -> ModelPose {
         angles.thumb.radial = 0.5 * (1.0 - dialect.bent).max(0.0);
         angles.thumb.palmar = 0.4 * dialect.bent;
         angles.thumb.flexion = [0.5 * dialect.bent; 2];
+        angles.thumb.opposition = dialect.opposed;
         anatomy.set_hand_angles(skeleton, side, &angles, &mut pose);
     }
     ModelPose::of(skeleton, &pose)

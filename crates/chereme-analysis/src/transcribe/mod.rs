@@ -36,7 +36,7 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-use chereme_motion::{Anatomy, Clip, Side};
+use chereme_motion::{Anatomy, Clip, HandCorrection, Side};
 use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, Sign};
 use serde::Serialize;
 
@@ -57,6 +57,8 @@ pub struct Options {
     /// Expected distance (m) between a hand and its intended place: some of the body's places are an
     /// average person's, and signers are not exact. Longer notation must be nearer by a share of this.
     pub slack: f64,
+    /// Corrections of the finger angles of the right and the left hand, as the signer's takes show them.
+    pub hands: [HandCorrection; 2],
 }
 
 impl Default for Options {
@@ -70,6 +72,7 @@ impl Default for Options {
             between: true,
             longest: 60.0,
             slack: 0.02,
+            hands: [HandCorrection::default(); 2],
         }
     }
 }

@@ -150,6 +150,8 @@ impl<'a> Scene<'a> {
                 .ok_or(TranscribeError::NoBody)?;
             for track in tracks.iter_mut().flatten() {
                 let angles = anatomy.hand_angles(clip.skeleton(), track.side, &pose);
+                let correction = &options.hands[usize::from(track.side == Side::Left)];
+                let angles = angles.map(|angles| correction.of(&angles));
                 track.angles.push(angles.unwrap_or_default());
                 scene.add(track, &model, &axes);
             }

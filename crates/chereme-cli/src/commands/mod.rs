@@ -10,6 +10,7 @@ mod demo;
 mod diff;
 mod export;
 mod face;
+mod fit;
 mod history;
 mod import;
 mod inventory;
@@ -54,6 +55,7 @@ pub(crate) enum Command {
     Annotate(annotate::Args),
     Inventory(inventory::Args),
     Track(track::Args),
+    Fit(fit::Args),
     Search(search::Args),
     Recombine(recombine::Args),
     Animate(animate::Args),
@@ -112,6 +114,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Propose(args) => propose::run(cli, args, output),
         Command::Keys(args) => keys::run(cli, args, output),
         Command::Track(args) => track::run(cli, args, output),
+        Command::Fit(args) => fit::run(cli, args, output),
         Command::Search(args) => search::run(cli, args, output),
         Command::Recombine(args) => recombine::run(cli, args, output),
         Command::Animate(args) => animate::run(cli, args, output),

@@ -93,6 +93,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let scale = root_scale(&first, &found.anatomy, found.convention.axes.up().vector());
     mend_root(job, track, summary.root_fix, scale, &mut report)?;
     tell_odd_frames(job, recording, &mut report)?;
+    super::tracks::keep_beside(job, recording, track, &found.anatomy, &mut report)?;
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     Ok(report)
 }
@@ -149,7 +150,7 @@ fn compare(job: &Job<'_>, report: &mut FileReport) -> Result<()> {
     Ok(())
 }
 
-/// Stores the joints' positions as the whole movement places them, and reports offsets that differ.
+/// Stores where the whole movement puts joints, and tells of offsets that say otherwise.
 fn place_joints(
     job: &Job<'_>,
     track: i64,
@@ -186,8 +187,12 @@ fn listed(names: &[&str]) -> String {
     }
 }
 
-/// Reports bind poses, T-poses and jumps at the ends of a recording.
-fn tell_odd_frames(job: &Job<'_>, recording: i64, report: &mut FileReport) -> Result<()> {
+/// Tells of bind poses, T-poses and jumps at the ends of a recording.
+pub(super) fn tell_odd_frames(
+    job: &Job<'_>,
+    recording: i64,
+    report: &mut FileReport,
+) -> Result<()> {
     let stored = Track::of(job.connection, recording)?;
     let anatomy = stored.anatomy(job.connection)?;
     let odd = stored.odd_frames(job.connection, &anatomy)?;
@@ -221,10 +226,10 @@ fn wrong(error: chereme_formats::bvh::raw::BvhError) -> Error {
         .advise(remedy)
 }
 
-/// Guesses of unit and axes with less confidence than this are reported.
-const SURE: f64 = 0.7;
+/// Guesses of unit and axes that are less sure than this are told.
+pub(super) const SURE: f64 = 0.7;
 
-/// The interpretation of a file's skeleton.
+/// What a file's skeleton was understood as.
 struct Understood {
     convention: Convention,
     groups: std::collections::BTreeMap<ChannelGroup, Vec<usize>>,
@@ -357,7 +362,7 @@ fn describe(
     report.understand("reasons", &guess.reasons);
 }
 
-fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, anatomy: &Anatomy) {
+pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, anatomy: &Anatomy) {
     let name = |joint: usize| skeleton.joint(joint).name.clone();
     let roles: Vec<_> = anatomy
         .found()
@@ -541,8 +546,8 @@ fn finish(job: &mut Job<'_>, recording: i64, track: i64, frames: u64, rate: Rate
     Ok(())
 }
 
-/// The factor for the root's positions that makes the legs reach the ground, if it is a step between units: the
-/// root in metres above bones in centimetres.
+/// By how much the root's places must be multiplied so that the legs reach the ground, where that is
+/// a step between units: the root in metres above bones in centimetres.
 fn root_scale(first: &Clip, anatomy: &Anatomy, up: DVec3) -> Option<f64> {
     let rest = first.skeleton().rest_model_pose();
     let feet = Side::BOTH.map(|side| anatomy.joint(Part::Foot(side)));

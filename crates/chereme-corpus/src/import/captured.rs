@@ -6,10 +6,11 @@ use std::path::Path;
 
 use chereme_formats::eaf::Transcript;
 use chereme_formats::tracks::{Content, Tracks};
-use chereme_formats::{Finding, c3d, curves, gltf, pose, subtitles, textgrid, trc};
+use chereme_formats::{Finding, Scene, c3d, curves, gltf, pose, subtitles, textgrid, trc};
+use chereme_motion::{Anatomy, Convention};
 
 use super::report::ReportFinding;
-use super::{FileReport, FileStatus, Job, eaf, inventory, lexicon, tracks};
+use super::{FileReport, FileStatus, Job, bvh, eaf, inventory, lexicon, tracks};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 use crate::track::{NewTrack, SkeletonTrack, Track};
@@ -74,21 +75,56 @@ fn holds_curves(path: &Path) -> Result<bool> {
 
 /// Reads a skeleton of glTF with its movement, and the weights of morph targets.
 pub(super) fn import_gltf(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    let folder = job.path.parent().unwrap_or(Path::new("")).to_owned();
+    scene(job, progress, |bytes| {
+        let beside = |name: &str| fs::read(folder.join(name)).ok();
+        gltf::read(bytes, &beside).map_err(|it| it.to_string())
+    })
+}
+
+/// Reads a skeleton of FBX with its movement, and the weights of blend shapes.
+#[cfg(feature = "fbx")]
+pub(super) fn import_fbx(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    scene(job, progress, |bytes| {
+        chereme_formats::fbx::read(bytes).map_err(|it| it.to_string())
+    })
+}
+
+/// Stores the body of a scene and the curves of its face, and describes them as those of a BVH.
+fn scene(
+    job: &mut Job<'_>,
+    progress: &mut Progress<'_>,
+    read: impl FnOnce(&[u8]) -> std::result::Result<(Scene, Vec<Finding>), String>,
+) -> Result<FileReport> {
     if let Some(report) = job.unchanged() {
         return Ok(report);
     }
     let bytes = job.bytes()?;
     job.tell(progress)?;
-    let folder = job.path.parent().unwrap_or(Path::new(""));
-    let beside = |name: &str| fs::read(folder.join(name)).ok();
-    let (scene, findings) =
-        gltf::read(&bytes, &beside).map_err(|it| Error::wrong(it.to_string()))?;
+    let (scene, findings) = read(&bytes).map_err(Error::wrong)?;
     job.tell(progress)?;
+    let mut report = begun(job, findings);
+    let skeleton = scene.clip.skeleton().clone();
+    let roles = job.options.roles.clone().unwrap_or_default();
+    let anatomy = Anatomy::with_roles(&skeleton, &roles).map_err(|error| {
+        Error::wrong(error.to_string()).advise("correct the roles file (--roles), or leave it out")
+    })?;
+    let convention = facing(job, &scene, &anatomy);
+    report.understand("joints", skeleton.len());
+    report.understand("frame_rate", scene.clip.rate().to_string());
+    report.understand("metres_per_unit", convention.metres_per_unit);
+    report.understand("axes", convention.axes.to_string());
+    bvh::describe_anatomy(&mut report, &skeleton, &anatomy);
+    let moves = scene.clip.frames() > 1;
+    let rate = scene.clip.rate();
+    let mut markers = tracks::Beside::of(&skeleton, &anatomy);
+    markers.push(&scene.clip);
+    let markers = markers.track(rate, convention).filter(|_| moves);
     let mut new = vec![NewTrack::new(
         "body",
         Track::Skeleton(SkeletonTrack {
             clip: scene.clip,
-            convention: scene.convention,
+            convention,
             roles: job.options.roles.clone(),
         }),
     )];
@@ -97,10 +133,32 @@ pub(super) fn import_gltf(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Res
             .morphs
             .map(|morphs| NewTrack::new("face", Track::Curves(morphs))),
     );
-    let mut report = begun(job, findings);
+    new.extend(markers.map(|markers| NewTrack::new("markers", Track::Markers(markers))));
     let recording = tracks::store(job, new, &mut report)?;
     job.keep(Some(recording), None)?;
+    if moves {
+        bvh::tell_odd_frames(job, recording, &mut report)?;
+    }
     Ok(report)
+}
+
+/// Returns unit and axes: the file's, with left as the body's joints show it, or what the caller says.
+fn facing(job: &Job<'_>, scene: &Scene, anatomy: &Anatomy) -> Convention {
+    let stated = scene.convention;
+    let pose = (scene.clip.frames() > 0).then(|| scene.clip.model_pose(0));
+    let found = anatomy.convention(scene.clip.skeleton(), pose.as_ref());
+    let axes = found.convention.axes;
+    let agrees = axes.up() == stated.axes.up() && found.confidence >= bvh::SURE;
+    Convention {
+        metres_per_unit: job
+            .options
+            .metres_per_unit
+            .unwrap_or(stated.metres_per_unit),
+        axes: job
+            .options
+            .axes
+            .unwrap_or(if agrees { axes } else { stated.axes }),
+    }
 }
 
 /// Reads a TextGrid of Praat.

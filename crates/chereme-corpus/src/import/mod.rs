@@ -262,7 +262,7 @@ impl Import<'_> {
         progress: &mut Progress<'_>,
     ) -> Result<()> {
         let connection = self.connection;
-        let mut before = [0; READERS.len()];
+        let mut before = vec![0; READERS.len()];
         let total = |reader| {
             files
                 .iter()

@@ -27,7 +27,7 @@ pub(super) struct Reader {
 
 /// The kinds in the order in which an import reads them: annotations come last, so that they find
 /// their recordings and the values that they use.
-pub(super) static READERS: [Reader; 13] = [
+pub(super) static READERS: &[Reader] = &[
     Reader {
         endings: &["json"],
         kind: "inventory",
@@ -45,12 +45,21 @@ pub(super) static READERS: [Reader; 13] = [
         read: bvh::import,
     },
     Reader {
-        endings: &["glb", "gltf", "vrm"],
+        endings: &["glb", "gltf", "vrm", "vrma"],
         kind: "gltf",
         holds: "movement",
         looks: always,
         keeps_inventories: true,
         read: captured::import_gltf,
+    },
+    #[cfg(feature = "fbx")]
+    Reader {
+        endings: &["fbx"],
+        kind: "fbx",
+        holds: "movement",
+        looks: always,
+        keeps_inventories: true,
+        read: captured::import_fbx,
     },
     Reader {
         endings: &["c3d"],
@@ -149,7 +158,7 @@ struct Unread {
 
 const MEDIA: &str = "import the .eaf that names it, or link it: chereme media";
 
-static UNREAD: [Unread; 9] = [
+static UNREAD: &[Unread] = &[
     Unread {
         endings: &["txt"],
         what: "text without HamNoSys",
@@ -170,9 +179,10 @@ static UNREAD: [Unread; 9] = [
         what: "settings or vocabularies of ELAN",
         remedy: "import the .eaf next to it; this file goes with it",
     },
+    #[cfg(not(feature = "fbx"))]
     Unread {
         endings: &["fbx"],
-        what: "movement in a form that is not read",
+        what: "movement in a form that this build of the program does not read",
         remedy: "open it in Blender and export .glb or .bvh",
     },
     Unread {
@@ -228,7 +238,7 @@ pub(super) fn unread(path: &Path) -> Error {
 /// Lists the endings that are read, with what such files hold.
 fn endings() -> String {
     let mut kinds: Vec<(&str, Vec<String>)> = Vec::new();
-    for reader in &READERS {
+    for reader in READERS {
         let dotted = reader.endings.iter().map(|it| format!(".{it}"));
         match kinds.iter_mut().find(|(holds, _)| *holds == reader.holds) {
             Some((_, all)) => all.extend(dotted),
@@ -262,7 +272,6 @@ mod tests {
     fn what_is_not_read_is_named_with_a_remedy() {
         for (name, said) in [
             ("a.etf", "template"),
-            ("a.FBX", "movement"),
             ("a.docx", "not known"),
             ("noending", "not known"),
         ] {

@@ -1,12 +1,17 @@
 //! Tracks that a file holds into the recording that they belong to.
 
+use chereme_motion::{
+    Anatomy, Clip, Column, Convention, Marker, Markers, Rate, Skeleton, Space, Times,
+};
 use serde_json::json;
 
+use super::report::ReportFinding;
 use super::{FileReport, Job, bvh};
 use crate::db::recordings;
 use crate::db::tracks::{self, TrackRow};
 use crate::error::Result;
-use crate::track::{NewTrack, store};
+use crate::movement::{self, BLOCK_FRAMES};
+use crate::track::{NewTrack, Track, store};
 
 /// Stores the tracks of a file and returns their recording: the one that the caller named, that of the files with this
 /// folder and stem, or a new one. The report gets a line for each track, and the caller's offset is added to each.
@@ -42,4 +47,94 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     report.understand("tracks", rows.iter().map(shown).collect::<Vec<_>>());
     Ok(recording)
+}
+
+/// Keeps the optical markers that are leaves beside the skeleton as a track of points.
+pub(super) fn keep_beside(
+    job: &mut Job<'_>,
+    recording: i64,
+    track: i64,
+    anatomy: &Anatomy,
+    report: &mut FileReport,
+) -> Result<()> {
+    if anatomy.markers().is_empty() {
+        return Ok(());
+    }
+    let stored = movement::Track::of_row(job.connection, track)?;
+    let frames = stored.frames();
+    let head = stored.raw_clip(job.connection, 0..1)?;
+    let mut beside = Beside::of(head.skeleton(), anatomy);
+    if !beside.fits(frames) {
+        report.findings.push(ReportFinding::warning(
+            "the markers beside the skeleton are too many to be kept as a track of points; they stay its joints",
+            "cut the take into shorter files",
+        ));
+        return Ok(());
+    }
+    for start in (0..frames).step_by(8 * BLOCK_FRAMES) {
+        let part = start..(start + 8 * BLOCK_FRAMES).min(frames);
+        beside.push(&stored.raw_clip(job.connection, part)?);
+    }
+    if let Some(markers) = beside.track(stored.rate, stored.convention) {
+        let new = NewTrack {
+            offset_us: job.options.offset_us,
+            ..NewTrack::new("markers", Track::Markers(markers))
+        };
+        store::store(job.connection, recording, &new)?;
+        job.count("tracks", 1);
+    }
+    Ok(())
+}
+
+/// The most places of markers beside a skeleton that are kept as a track.
+const MOST: usize = 12_000_000;
+
+/// The optical markers beside a skeleton, collected as points in the file's unit and axes.
+pub(super) struct Beside {
+    joints: Vec<usize>,
+    names: Vec<String>,
+    places: Vec<[Vec<f64>; 3]>,
+}
+
+impl Beside {
+    /// Starts with the markers that an anatomy knows.
+    pub(super) fn of(skeleton: &Skeleton, anatomy: &Anatomy) -> Self {
+        let joints = anatomy.markers().to_vec();
+        let name = |&joint: &usize| skeleton.joint(joint).name.clone();
+        Self {
+            names: joints.iter().map(name).collect(),
+            places: joints.iter().map(|_| Default::default()).collect(),
+            joints,
+        }
+    }
+
+    /// Returns whether there is a marker, and few enough places of them in so many frames.
+    pub(super) fn fits(&self, frames: usize) -> bool {
+        !self.joints.is_empty() && self.joints.len().saturating_mul(frames) <= MOST
+    }
+
+    /// Adds frames that follow the ones before.
+    pub(super) fn push(&mut self, clip: &Clip) {
+        for (&joint, places) in self.joints.iter().zip(&mut self.places) {
+            for at in clip.path(joint) {
+                for (axis, values) in places.iter_mut().enumerate() {
+                    values.push(at[axis]);
+                }
+            }
+        }
+    }
+
+    /// Returns the track; nothing if there is no marker.
+    pub(super) fn track(self, rate: Rate, convention: Convention) -> Option<Markers> {
+        let points = self.names.into_iter().zip(self.places);
+        let points = points.map(|(name, places)| {
+            Marker::new(name, places.map(Column::doubles).into_iter().collect())
+        });
+        Markers::new(
+            Times::Even(rate),
+            Space::World(convention),
+            points.collect(),
+        )
+        .ok()
+    }
 }

@@ -6,10 +6,12 @@
 //! | [`read`] | rows and blocks into a track, whole or in part |
 //! | [`change`] | tracks of a recording as operations: added, moved on the clock, renamed, removed |
 //! | [`align`] | where one track lies on another's clock, found from their movement |
+//! | [`fit`] | a skeleton fitted to markers |
 //! | [`table`] | a track as a table of its exact numbers |
 
 pub(crate) mod align;
 mod change;
+mod fit;
 pub(crate) mod read;
 pub(crate) mod store;
 pub(crate) mod table;
@@ -22,6 +24,7 @@ use chereme_motion::{Clip, Convention, Curves, Markers};
 pub use crate::db::tracks::{TrackKind, TrackRow};
 pub use align::{Alignment, Signal};
 pub use change::TrackChange;
+pub use fit::{FitReport, FitResidual};
 
 /// What a track holds.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,15 +9,10 @@ use chereme_motion::glam::DVec3;
 
 use super::convert::number;
 use super::raw::{Block, Hierarchy};
+use crate::scene;
 
 /// The most frames from which a median is taken.
 const MOST: usize = 2048;
-/// Distance between a joint and its offset above which the offset counts as wrong, as a share of the
-/// longer of both.
-const OFF: f64 = 0.15;
-/// Largest median distance of a bone's end from its median position, as a share of the bone's length;
-/// joints that move more are not attached to a bone.
-const SPREAD: f64 = 0.25;
 /// Decimals of numbers in the file's unit.
 const DECIMALS: u8 = 6;
 
@@ -105,32 +100,12 @@ impl Bones {
     pub fn place(&self, hierarchy: &mut Hierarchy) -> Vec<usize> {
         let mut moved = Vec::new();
         for placed in &self.joints {
-            let at = placed.median();
+            let at = scene::placed(placed.offset, &placed.found);
             hierarchy.joints[placed.joint].placed =
                 at.map(|at| at.to_array().map(|value| number(value, DECIMALS)));
             moved.extend(at.map(|_| placed.joint));
         }
         moved
-    }
-}
-
-impl Placed {
-    /// Returns the median position of a joint that stays near it and whose offset contradicts it.
-    fn median(&self) -> Option<DVec3> {
-        let at = DVec3::from_array([0, 1, 2].map(|axis| {
-            let mut values: Vec<f64> = self.found.iter().map(|at| at[axis]).collect();
-            values.sort_by(f64::total_cmp);
-            values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
-        }));
-        if !at.is_finite() || at.abs().max_element() > 1e9 {
-            return None;
-        }
-        let length = at.length().max(self.offset.length());
-        let mut far: Vec<f64> = self.found.iter().map(|it| it.distance(at)).collect();
-        far.sort_by(f64::total_cmp);
-        let spread = far.get(far.len() / 2).copied().unwrap_or_default();
-        let off = at.distance(self.offset) > OFF * length;
-        (off && spread < SPREAD * at.length().max(1e-9)).then_some(at)
     }
 }
 

@@ -16,6 +16,7 @@ mod tests;
 pub mod vrma;
 mod write;
 
+pub use crate::scene::Scene;
 pub use error::Error;
-pub use read::{Scene, read};
+pub use read::read;
 pub use write::{About, Note, write};

@@ -12,21 +12,9 @@ use super::error::Error;
 use super::model::{Animation, Document, Node};
 use super::sample::{Keys, place, turn};
 use crate::finding::Finding;
+use crate::scene::{Scene, near_usual, settle};
 use crate::tally::Findings;
 use crate::tracks::{rate_of, unique};
-
-/// The moving body in a document.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Scene {
-    /// The movement in the file's unit and axes; one frame at rest if the file has no animation.
-    pub clip: Clip,
-    /// Unit and axes: metres, up is Y, facing Z (a VRM 0 model faces the other way).
-    pub convention: Convention,
-    /// The weights of morph targets, if they move.
-    pub morphs: Option<Curves>,
-    /// The name of the animation that was read.
-    pub take: Option<String>,
-}
 
 /// Frames a second of a skeleton without movement.
 const STILL_RATE: u32 = 30;
@@ -425,7 +413,7 @@ fn scene(data: &Data<'_>, rig: Rig, findings: &mut Findings) -> Result<Scene, Er
             take: animation.name.clone(),
         });
     };
-    let channels = skeleton.joints().iter().zip(&moved).zip(&rig.scales);
+    let channels = rig.joints.iter().zip(&moved).zip(&rig.scales);
     let channels = channels.map(|((joint, moved), scale)| Channel {
         rotations: match &moved.rotation {
             Some(keys) => grid.times().map(|time| turn(&keys.at(time))).collect(),
@@ -437,7 +425,20 @@ fn scene(data: &Data<'_>, rig: Rig, findings: &mut Findings) -> Result<Scene, Er
                 .collect()
         }),
     });
-    let clip = Clip::new(skeleton.clone(), grid.rate, channels.collect())
+    let mut channels: Vec<Channel> = channels.collect();
+    let mut joints = rig.joints;
+    let wrong = settle(&mut joints, &mut channels);
+    if wrong > 0 {
+        findings.push(Finding::note(
+            None,
+            format!(
+                "{wrong} joints at rest are not where the movement has them; the movement counts"
+            ),
+        ));
+    }
+    let fault = |error: chereme_motion::SkeletonError| Error::Skeleton(error.to_string());
+    let skeleton = Arc::new(Skeleton::new(joints).map_err(fault)?);
+    let clip = Clip::new(skeleton, grid.rate, channels)
         .map_err(|error| Error::Skeleton(error.to_string()))?;
     let morphs = morphs(document, &weights, &grid);
     Ok(Scene {
@@ -618,17 +619,6 @@ impl Grid {
     fn times(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.frames).map(|frame| self.first + frame as f64 * self.rate.frame_time())
     }
-}
-
-/// Returns the usual rate near a rate that 32-bit times give, else the rate itself.
-fn near_usual(rate: f64) -> f64 {
-    let usual = [
-        23.976, 24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0, 90.0, 100.0, 119.88, 120.0, 240.0,
-    ];
-    let near = usual
-        .into_iter()
-        .find(|usual| (rate / usual - 1.0).abs() < 5e-4);
-    near.unwrap_or(rate)
 }
 
 fn morphs(document: &Document, weights: &[Weights], grid: &Grid) -> Option<Curves> {

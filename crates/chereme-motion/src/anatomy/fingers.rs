@@ -167,6 +167,15 @@ impl HandFrame {
         self.basis * order.to_quat(angles) * self.basis.inverse()
     }
 
+    /// Returns how far a turn bends a thumb's bone across the palm: the angle between the bones as they lie, however
+    /// the hinge is turned, negative if it is bent back.
+    fn across(&self, turn: DQuat) -> f64 {
+        let bone = turn * self.along;
+        let bend = bone.dot(self.along).clamp(-1.0, 1.0).acos();
+        let forward = bone.dot(self.palm) - bone.dot(self.radial);
+        if forward < 0.0 { -bend } else { bend }
+    }
+
     fn angles(&self, order: RotationOrder, turn: DQuat) -> [f64; 3] {
         order.angles(self.basis.inverse() * turn * self.basis, [0.0; 3])
     }
@@ -252,7 +261,7 @@ impl Anatomy {
             radial,
             palmar,
             opposition: -opposition,
-            flexion: [middle, end].map(|turn| -first(RotationOrder::YXZ, turn)[0]),
+            flexion: [middle, end].map(|turn| turn.map_or(0.0, |turn| frame.across(turn))),
         };
         let fingers = frame.fingers.map(|zeros| {
             let [base, middle, end] = turns(&zeros);

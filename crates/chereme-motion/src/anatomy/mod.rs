@@ -26,6 +26,7 @@
 //! | `measures` | the size of the body, the frame of the trunk |
 //! | `convention` | the unit and axes a skeleton was written in |
 //! | `landmarks` | places on the body |
+//! | `range` | where a signer's fingers are straight and fully bent, from the takes themselves |
 //! | `fingers` | finger angles to local rotations and back, directions of the hand |
 
 mod convention;
@@ -36,6 +37,7 @@ mod markers;
 mod measures;
 mod names;
 mod part;
+mod range;
 mod roles;
 mod topology;
 
@@ -52,6 +54,7 @@ use serde::{Deserialize, Serialize};
 pub use convention::{ConventionGuess, detect_convention};
 pub use measures::{BodyFrame, Measures};
 pub use part::{Part, PartError};
+pub use range::{HandCorrection, HandRange};
 pub use roles::{Roles, RolesError};
 
 use crate::clip::Clip;

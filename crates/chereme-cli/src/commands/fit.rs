@@ -1,0 +1,72 @@
+//! `chereme fit`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::Name;
+
+use super::track::recording;
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Fit a skeleton to the markers of a recording, with the distance of every marker
+///
+/// The movement becomes a track of the recording, and the distances of the markers in every frame a track of curves;
+/// the markers stay as they are. Markers are known by their labels: Plug-in Gait, the 41 markers of CMU, Helen Hayes.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme fit mine.chereme recording:3
+  chereme fit mine.chereme recording:3 --to recording:1
+  chereme fit mine.chereme recording:3 --dry-run --json")]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The recording with markers, such as recording:3
+    #[arg(value_parser = recording)]
+    recording: Name,
+    /// The recording whose skeleton is fitted; without it the program's own body
+    #[arg(long, value_name = "RECORDING", value_parser = recording)]
+    to: Option<Name>,
+    /// The track of markers, if there are several
+    #[arg(long, value_name = "NAME")]
+    track: Option<String>,
+    /// Report the distances and store nothing
+    #[arg(long)]
+    dry_run: bool,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let track = args.track.as_deref();
+    let report = corpus.fit_markers(&args.recording, track, args.to.as_ref(), args.dry_run)?;
+    let rows: Vec<Vec<String>> = report
+        .residuals
+        .iter()
+        .map(|it| {
+            vec![
+                it.marker.clone(),
+                it.joint.clone(),
+                format!("{:.1}", it.median_mm),
+                format!("{:.1}", it.most_mm),
+                format!("{:.0} %", it.seen * 100.0),
+            ]
+        })
+        .collect();
+    output.table(&["marker", "joint", "median_mm", "most_mm", "seen"], &rows)?;
+    output.line(format!(
+        "{} frames; the skeleton in {:.3} of its size; markers are {:.1} mm from it in the median",
+        report.frames, report.scale, report.median_mm
+    ))?;
+    if !report.unused.is_empty() {
+        output.line(format!("not used: {}", report.unused.join(", ")))?;
+    }
+    for finding in &report.findings {
+        output.line(format!("warning: {finding}"))?;
+    }
+    match &report.track {
+        Some(track) => output.line(format!("stored as the track {track:?}"))?,
+        None => output.line("nothing was stored")?,
+    }
+    output.document(report)
+}

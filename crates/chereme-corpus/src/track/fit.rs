@@ -1,0 +1,213 @@
+//! A skeleton fitted to the markers of a recording, by command only.
+
+use std::sync::Arc;
+
+use chereme_motion::fit::{Fitted, fit};
+use chereme_motion::{Anatomy, Column, Convention, Curve, Curves, Skeleton, Times};
+use rusqlite::Connection;
+use serde::Serialize;
+
+use super::{NewTrack, SkeletonTrack, Track, TrackKind, TrackRow, read, store};
+use crate::Corpus;
+use crate::address::{self, Name};
+use crate::db::{recordings, tracks};
+use crate::error::{Error, Result};
+use crate::movement;
+use crate::picture::built_in_body;
+
+/// A median distance above this, in metres, or markers seen in a smaller share of frames, make no capture.
+const FAR: f64 = 0.02;
+const SEEN: f64 = 0.6;
+
+/// A skeleton that was fitted to markers.
+#[derive(Debug, Clone, Serialize)]
+pub struct FitReport {
+    /// The track of markers.
+    pub markers: String,
+    /// The name of the new track with the movement; nothing if it was not stored.
+    pub track: Option<String>,
+    /// The size of the skeleton relative to the given one.
+    pub scale: f64,
+    /// The frames that were fitted.
+    pub frames: usize,
+    /// Frames with too few markers, in which the posture before is held.
+    pub held: usize,
+    /// The median of the markers' median distances, in millimetres.
+    pub median_mm: f64,
+    /// Each marker with its distance from where the skeleton has it.
+    pub residuals: Vec<FitResidual>,
+    /// Labels of markers that belong to no known bone.
+    pub unused: Vec<String>,
+    /// Warnings about the result.
+    pub findings: Vec<String>,
+}
+
+/// How far a marker is from where the fitted skeleton has it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FitResidual {
+    /// The marker's label.
+    pub marker: String,
+    /// The joint whose bone it is on.
+    pub joint: String,
+    /// The median distance in millimetres.
+    pub median_mm: f64,
+    /// The distance that 19 of 20 frames are below, in millimetres.
+    pub most_mm: f64,
+    /// The share of frames in which it is seen.
+    pub seen: f64,
+}
+
+impl Corpus {
+    /// Fits a skeleton to a recording's markers: that of another recording, or the program's own body.
+    ///
+    /// The movement becomes a track `body` of the recording (another name if it has one), and the distance of every
+    /// marker in every frame a track of curves, `fit residual`; the markers stay. With `dry_run` nothing is stored.
+    ///
+    /// # Errors
+    /// If there is no such recording or track of markers, the points have no place in a room, too few labels are known,
+    /// or the skeleton is not a body's.
+    pub fn fit_markers(
+        &mut self,
+        recording: &Name,
+        track: Option<&str>,
+        to: Option<&Name>,
+        dry_run: bool,
+    ) -> Result<FitReport> {
+        let connection = self.store.read();
+        let row = address::recording(connection, recording)?;
+        let markers = chosen(connection, &row.name, row.id, track)?;
+        let (skeleton, anatomy) = skeleton(connection, to)?;
+        let points = read::markers(connection, &markers, None)?;
+        let fitted = fit(&points, &skeleton, &anatomy).map_err(|error| {
+            Error::wrong(error.to_string())
+                .at(&row.name)
+                .advise("markers are known by labels such as LSHO, RWRA, C7 or R.Elbow; rename them in the file")
+        })?;
+        let mut report = report(&markers.name, &fitted);
+        if dry_run {
+            return Ok(report);
+        }
+        let new = new_tracks(&fitted, markers.offset_us)?;
+        let names = self.store.operation("fit markers", |connection| {
+            let mut names = Vec::new();
+            for track in &new {
+                let id = store::store(connection, row.id, track)?;
+                names.push(tracks::track(connection, id)?.name);
+            }
+            let summary = format!(
+                "{}: a skeleton fitted to {}, {:.0} mm",
+                row.name, markers.name, report.median_mm
+            );
+            Ok((names, summary))
+        })?;
+        report.track = names.into_iter().next();
+        Ok(report)
+    }
+}
+
+fn chosen(
+    connection: &Connection,
+    recording: &str,
+    id: i64,
+    track: Option<&str>,
+) -> Result<TrackRow> {
+    let all = tracks::tracks(connection, id)?;
+    let found = match track {
+        Some(name) => Some(super::change::named(&all, recording, name)?),
+        None => all.iter().find(|it| it.kind == TrackKind::Markers),
+    };
+    let found = found.filter(|it| it.kind == TrackKind::Markers);
+    found.cloned().ok_or_else(|| {
+        Error::wrong(format!("{recording:?} has no track of markers"))
+            .at(recording)
+            .advise(
+                "import a .c3d or .trc file into it: chereme import CORPUS FILE --into recording:3",
+            )
+    })
+}
+
+/// Returns a skeleton in metres and model space.
+fn skeleton(connection: &Connection, to: Option<&Name>) -> Result<(Arc<Skeleton>, Anatomy)> {
+    let Some(name) = to else {
+        let (clip, anatomy) = built_in_body()?;
+        return Ok((clip.skeleton().clone(), anatomy.as_ref().clone()));
+    };
+    let row = address::recording(connection, name)?;
+    recordings::body_track(connection, row.id)?.ok_or_else(|| {
+        Error::wrong(format!("{:?} has no skeleton", row.name))
+            .at(&row.name)
+            .advise("name a recording of movement, or leave --to out for the program's own body")
+    })?;
+    let track = movement::Track::of(connection, row.id)?;
+    let clip = track.clip(connection, 0..1, &movement::ChannelGroup::ALL)?;
+    Ok((clip.skeleton().clone(), track.anatomy(connection)?))
+}
+
+fn new_tracks(fitted: &Fitted, offset_us: i64) -> Result<Vec<NewTrack>> {
+    let curve = |marker: &chereme_motion::fit::FittedMarker| Curve {
+        name: marker.name.clone(),
+        unit: "mm".to_owned(),
+        values: Column::doubles(marker.distances.iter().map(|it| it * 1000.0).collect()),
+    };
+    let curves = fitted.markers.iter().map(curve).collect();
+    let curves = Curves::new(Times::Even(fitted.clip.rate()), curves)
+        .map_err(|error| Error::wrong(error.to_string()))?;
+    let body = SkeletonTrack {
+        clip: fitted.clip.clone(),
+        convention: Convention::MODEL,
+        roles: None,
+    };
+    let track = |name: &str, track| NewTrack {
+        offset_us,
+        ..NewTrack::new(name, track)
+    };
+    Ok(vec![
+        track("body", Track::Skeleton(body)),
+        track("fit residual", Track::Curves(curves)),
+    ])
+}
+
+fn report(markers: &str, fitted: &Fitted) -> FitReport {
+    let mm = |metres: f64| (metres * 10_000.0).round() / 10.0;
+    let skeleton = fitted.clip.skeleton();
+    let seen = fitted.markers.iter().map(|marker| marker.seen).sum::<f64>()
+        / fitted.markers.len().max(1) as f64;
+    let mut findings = Vec::new();
+    if fitted.median() > FAR || seen < SEEN {
+        findings.push(format!(
+            "this is no capture of a skeleton: markers are {:.0} mm from it in the median and seen in {:.0} % of the \
+             frames; a good fit is below {:.0} mm and above {:.0} %",
+            fitted.median() * 1000.0,
+            seen * 100.0,
+            FAR * 1000.0,
+            SEEN * 100.0
+        ));
+    }
+    if fitted.held > 0 {
+        findings.push(format!(
+            "{} frames have too few markers; the posture before is held in them",
+            fitted.held
+        ));
+    }
+    FitReport {
+        markers: markers.to_owned(),
+        track: None,
+        scale: (fitted.scale * 1000.0).round() / 1000.0,
+        frames: fitted.clip.frames(),
+        held: fitted.held,
+        median_mm: mm(fitted.median()),
+        residuals: fitted
+            .markers
+            .iter()
+            .map(|marker| FitResidual {
+                marker: marker.name.clone(),
+                joint: skeleton.joint(marker.joint).name.clone(),
+                median_mm: mm(marker.median),
+                most_mm: mm(marker.most),
+                seen: (marker.seen * 1000.0).round() / 1000.0,
+            })
+            .collect(),
+        unused: fitted.unused.clone(),
+        findings,
+    }
+}

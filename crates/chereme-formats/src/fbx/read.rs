@@ -1,0 +1,400 @@
+//! A scene's skeleton, movement and blend shapes.
+
+use std::sync::Arc;
+
+use chereme_motion::{
+    Axes, Axis, Channel, Clip, Column, Convention, Curve, Curves, Direction, Rate, Skeleton, Times,
+};
+use ufbx::{AllocatorOpts, AnimStack, CoordinateAxis, ErrorType, LoadOpts};
+
+use super::joints::{Animated, Rig};
+use crate::finding::Finding;
+use crate::scene::{Scene, near_usual, settle};
+use crate::tally::Findings;
+use crate::tracks::{rate_of, unique};
+
+/// A reason why a file could not be read as FBX.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// The bytes are no FBX.
+    #[error("this is no FBX file")]
+    NoFbx,
+    /// The file is of a version or kind that is not supported.
+    #[error(
+        "FBX of this version is not supported; open it in Blender or MotionBuilder and save it as FBX 2013 or later"
+    )]
+    Version,
+    /// The file is damaged, or larger inside than it may be.
+    #[error("the file is damaged: {0}")]
+    Damaged(String),
+    /// There is no skeleton.
+    #[error("the file holds no skeleton: no bone and no animated node")]
+    NoSkeleton,
+    /// The take is longer than can be held.
+    #[error(
+        "its take lasts {seconds:.0} s with {joints} joints; at most {most} positions can be held"
+    )]
+    TooLong {
+        /// The length of the take.
+        seconds: f64,
+        /// The number of joints.
+        joints: usize,
+        /// The largest number of joints times frames.
+        most: usize,
+    },
+    /// The joints are not a tree, or their numbers are not positions and rotations.
+    #[error("{0}")]
+    Skeleton(String),
+}
+
+/// Memory for a scene: so much, and so many times the size of its file.
+const MEMORY: (usize, usize) = (64 << 20, 96);
+/// No scene gets more memory than this.
+const MOST_MEMORY: usize = 4 << 30;
+/// A deeper tree is no skeleton.
+const DEEPEST: u32 = 512;
+const MOST_NODES: usize = 20_000;
+/// The most joints times frames.
+const MOST_POSITIONS: usize = 60_000_000;
+/// Frames a second where the file says none.
+const USUAL_RATE: f64 = 30.0;
+/// Curves are looked at for their rate up to this many keys.
+const MOST_KEYS: usize = 4_000_000;
+
+/// Reads an FBX file, binary or ASCII.
+///
+/// # Errors
+/// [`Error`] if the bytes are no FBX of a supported version, are damaged, or hold no skeleton.
+pub fn read(bytes: &[u8]) -> Result<(Scene, Vec<Finding>), Error> {
+    let limit = |share: usize| AllocatorOpts {
+        memory_limit: MEMORY
+            .0
+            .saturating_add(bytes.len().saturating_mul(MEMORY.1))
+            .min(MOST_MEMORY)
+            / share,
+        ..AllocatorOpts::default()
+    };
+    let options = LoadOpts {
+        temp_allocator: limit(1),
+        result_allocator: limit(1),
+        ignore_geometry: true,
+        ignore_embedded: true,
+        load_external_files: false,
+        node_depth_limit: DEEPEST,
+        ..LoadOpts::default()
+    };
+    if !is_fbx(bytes) {
+        return Err(Error::NoFbx);
+    }
+    let scene = ufbx::load_memory(bytes, options).map_err(|error| match error.type_ {
+        ErrorType::UnrecognizedFileFormat | ErrorType::EmptyFile => Error::NoFbx,
+        ErrorType::UnsupportedVersion => Error::Version,
+        _ => Error::Damaged(error.description.to_string()),
+    })?;
+    if scene.nodes.len() > MOST_NODES {
+        let nodes = scene.nodes.len();
+        return Err(Error::Skeleton(format!("{nodes} nodes are too many")));
+    }
+    let mut findings = Findings::default();
+    for warning in scene.metadata.warnings.iter() {
+        findings.add("warnings of the parser", || {
+            Finding::note(None, warning.description.to_string())
+        });
+    }
+    let convention = convention(&scene, &mut findings);
+    let stack = take(&scene, &mut findings);
+    let animated = stack.map(Animated::of).unwrap_or_default();
+    let rig = Rig::of(&scene, &animated, &mut findings);
+    if rig.joints.is_empty() {
+        return Err(Error::NoSkeleton);
+    }
+    let read = match stack {
+        Some(stack) => moving(&scene, stack, rig, convention, &mut findings)?,
+        None => still(rig, convention, &mut findings)?,
+    };
+    Ok((read, findings.finish()))
+}
+
+/// Returns whether bytes begin as binary FBX, or as text with what ASCII FBX has near its beginning.
+fn is_fbx(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(4096)];
+    let has = |word: &[u8]| head.windows(word.len()).any(|it| it == word);
+    head.starts_with(b"Kaydara FBX Binary") || has(b"FBX")
+}
+
+fn convention(scene: &ufbx::Scene, findings: &mut Findings) -> Convention {
+    let settings = &scene.settings;
+    let metres = settings.unit_meters;
+    let metres_per_unit = if metres.is_finite() && metres > 0.0 {
+        metres
+    } else {
+        findings.push(Finding::warning(
+            None,
+            "it states no unit; centimetres are taken",
+        ));
+        0.01
+    };
+    let [right, up, front] =
+        [settings.axes.right, settings.axes.up, settings.axes.front].map(direction);
+    let axes = up.zip(right).and_then(|(up, right)| Axes::new(up, right));
+    let handed = axes.zip(front).is_none_or(|(_, front)| {
+        let (right, up) = (right.map(Direction::vector), up.map(Direction::vector));
+        right
+            .zip(up)
+            .is_none_or(|(right, up)| right.cross(up).dot(front.vector()) > 0.0)
+    });
+    if !handed {
+        findings.push(Finding::warning(
+            None,
+            "its axes are left-handed: left and right may be exchanged",
+        ));
+    }
+    Convention {
+        metres_per_unit,
+        axes: axes.unwrap_or_else(|| {
+            findings.push(Finding::warning(
+                None,
+                "it states no axes; Y is taken for up",
+            ));
+            Convention::MODEL.axes
+        }),
+    }
+}
+
+fn direction(axis: CoordinateAxis) -> Option<Direction> {
+    let (axis, negative) = match axis {
+        CoordinateAxis::PositiveX => (Axis::X, false),
+        CoordinateAxis::NegativeX => (Axis::X, true),
+        CoordinateAxis::PositiveY => (Axis::Y, false),
+        CoordinateAxis::NegativeY => (Axis::Y, true),
+        CoordinateAxis::PositiveZ => (Axis::Z, false),
+        CoordinateAxis::NegativeZ => (Axis::Z, true),
+        CoordinateAxis::Unknown => return None,
+    };
+    Some(Direction { axis, negative })
+}
+
+/// Returns the first take that moves a node, else the first; the others that move are named.
+fn take<'s>(scene: &'s ufbx::Scene, findings: &mut Findings) -> Option<&'s AnimStack> {
+    let stacks: Vec<&AnimStack> = scene.anim_stacks.into_iter().collect();
+    let moving: Vec<&AnimStack> = stacks
+        .iter()
+        .copied()
+        .filter(|stack| !Animated::of(stack).nodes.is_empty())
+        .collect();
+    if moving.len() > 1 {
+        let names: Vec<&str> = moving[1..].iter().map(|it| &*it.element.name).collect();
+        findings.push(
+            Finding::warning(
+                None,
+                format!(
+                    "only its first take was read; left out: {}",
+                    names.join(", ")
+                ),
+            )
+            .with_remedy("export each take to a file of its own"),
+        );
+    }
+    moving.first().or(stacks.first()).copied()
+}
+
+fn still(rig: Rig<'_>, convention: Convention, findings: &mut Findings) -> Result<Scene, Error> {
+    findings.push(Finding::warning(
+        None,
+        "it has no animation; one frame at rest was made",
+    ));
+    let skeleton = Skeleton::new(rig.joints).map_err(|error| Error::Skeleton(error.to_string()))?;
+    let rate = rate_of(USUAL_RATE).ok_or(Error::NoSkeleton)?;
+    Ok(Scene {
+        clip: Clip::still(Arc::new(skeleton), rate, 1),
+        convention,
+        morphs: None,
+        take: None,
+    })
+}
+
+/// When frames are.
+struct Grid {
+    rate: Rate,
+    first: f64,
+    frames: usize,
+}
+
+impl Grid {
+    fn times(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..self.frames).map(|frame| self.first + frame as f64 * self.rate.frame_time())
+    }
+}
+
+fn moving(
+    scene: &ufbx::Scene,
+    stack: &AnimStack,
+    mut rig: Rig<'_>,
+    convention: Convention,
+    findings: &mut Findings,
+) -> Result<Scene, Error> {
+    let grid = grid(scene, stack, rig.joints.len(), findings)?;
+    let mut channels: Vec<Channel> = rig
+        .moves
+        .iter()
+        .map(|moves| Channel {
+            rotations: Vec::with_capacity(grid.frames),
+            translations: moves.then(|| Vec::with_capacity(grid.frames)),
+        })
+        .collect();
+    for time in grid.times() {
+        for (channel, local) in channels.iter_mut().zip(rig.at(&stack.anim, time)) {
+            let turn = match channel.rotations.last() {
+                Some(before) if before.dot(local.turn) < 0.0 => -local.turn,
+                _ => local.turn,
+            };
+            channel.rotations.push(turn);
+            if let Some(places) = &mut channel.translations {
+                places.push(local.place);
+            }
+        }
+    }
+    let mut joints = std::mem::take(&mut rig.joints);
+    let wrong = settle(&mut joints, &mut channels);
+    if wrong > 0 {
+        findings.push(Finding::note(
+            None,
+            format!(
+                "{wrong} joints at rest are not where the movement has them; the movement counts"
+            ),
+        ));
+    }
+    let fault = |error: String| Error::Skeleton(error);
+    let skeleton = Skeleton::new(joints).map_err(|error| fault(error.to_string()))?;
+    let clip = Clip::new(Arc::new(skeleton), grid.rate, channels)
+        .map_err(|error| fault(error.to_string()))?;
+    Ok(Scene {
+        clip,
+        convention,
+        morphs: morphs(scene, stack, &grid),
+        take: Some(stack.element.name.to_string()),
+    })
+}
+
+/// Returns the frames of a take: its range, at the rate of its keys if they are dense, else that of the file.
+fn grid(
+    scene: &ufbx::Scene,
+    stack: &AnimStack,
+    joints: usize,
+    findings: &mut Findings,
+) -> Result<Grid, Error> {
+    let stated = scene.settings.frames_per_second;
+    let stated = if stated.is_finite() && stated > 0.0 {
+        near_usual(stated)
+    } else {
+        USUAL_RATE
+    };
+    let keys = Keys::of(scene);
+    let per_second = keys.rate.map_or(stated, near_usual);
+    let rate = rate_of(per_second)
+        .or_else(|| rate_of(stated))
+        .or_else(|| rate_of(USUAL_RATE))
+        .ok_or(Error::NoSkeleton)?;
+    if (rate.per_second() / stated - 1.0).abs() > 0.01 {
+        findings.push(Finding::note(
+            None,
+            format!(
+                "its keys come {:.3} times a second, though it states {stated:.3}; the keys count",
+                rate.per_second()
+            ),
+        ));
+    }
+    let fits = |(first, last): &(f64, f64)| {
+        let frames = (last - first) * rate.per_second();
+        first.is_finite() && (0.0..=MOST_POSITIONS as f64 / joints.max(1) as f64).contains(&frames)
+    };
+    let stated = (stack.time_begin, stack.time_end);
+    let (first, last) = [Some(stated), keys.range]
+        .into_iter()
+        .flatten()
+        .find(fits)
+        .ok_or(Error::TooLong {
+            seconds: stated.1 - stated.0,
+            joints,
+            most: MOST_POSITIONS,
+        })?;
+    if (first, last) != stated {
+        findings.push(Finding::warning(
+            None,
+            "the range of its take is no time; that of its keys is taken",
+        ));
+    }
+    if first.abs() > 1e-6 {
+        findings.push(Finding::note(
+            None,
+            format!("its take begins at {first:.3} s; that is 0 s here"),
+        ));
+    }
+    let frames = ((last - first) * rate.per_second() + 1e-6).floor() as usize + 1;
+    Ok(Grid {
+        rate,
+        first,
+        frames,
+    })
+}
+
+/// The rate and range of the keys of all curves.
+#[derive(Default)]
+struct Keys {
+    /// Keys a second of the curve with the most of them, if there is one in most of its frames.
+    rate: Option<f64>,
+    /// The times of the first and last key.
+    range: Option<(f64, f64)>,
+}
+
+impl Keys {
+    fn of(scene: &ufbx::Scene) -> Self {
+        let mut keys = Self::default();
+        let mut most = 2;
+        for curve in &scene.anim_curves {
+            let times = &curve.keyframes;
+            let (Some(first), Some(last)) = (times.first(), times.last()) else {
+                continue;
+            };
+            let (low, high) = keys.range.unwrap_or((first.time, last.time));
+            keys.range = Some((low.min(first.time), high.max(last.time)));
+            if times.len() <= most || times.len() > MOST_KEYS {
+                continue;
+            }
+            most = times.len();
+            let mut steps: Vec<f64> = times
+                .windows(2)
+                .map(|pair| pair[1].time - pair[0].time)
+                .collect();
+            steps.sort_by(f64::total_cmp);
+            let step = steps[steps.len() / 2];
+            let dense = (last.time - first.time) / step < 2.0 * times.len() as f64;
+            keys.rate = (step > 1e-6 && dense).then(|| 1.0 / step);
+        }
+        keys
+    }
+}
+
+/// Returns the weights of the blend shapes that the take moves.
+fn morphs(scene: &ufbx::Scene, stack: &AnimStack, grid: &Grid) -> Option<Curves> {
+    let moved: std::collections::BTreeSet<u32> = stack
+        .layers
+        .into_iter()
+        .flat_map(|layer| layer.anim_props.iter())
+        .map(|prop| prop.element.element_id)
+        .collect();
+    let channels = scene.blend_channels.into_iter();
+    let channels: Vec<&ufbx::BlendChannel> = channels
+        .filter(|channel| moved.contains(&channel.element.element_id))
+        .collect();
+    if channels.len().saturating_mul(grid.frames) > MOST_POSITIONS {
+        return None;
+    }
+    let names = channels.iter().map(|it| &*it.element.name);
+    let curve = |(channel, name): (&&ufbx::BlendChannel, String)| {
+        let weight = |time| ufbx::evaluate_blend_weight(&stack.anim, channel, time);
+        Curve::new(name, Column::doubles(grid.times().map(weight).collect()))
+    };
+    let curves = channels.iter().zip(unique(names, "target")).map(curve);
+    Curves::new(Times::Even(grid.rate), curves.collect()).ok()
+}

@@ -1,0 +1,125 @@
+//! The moving body that files of scenes hold, and what such files have in common.
+
+use chereme_motion::glam::DVec3;
+use chereme_motion::{Channel, Clip, Convention, Curves, Joint};
+
+/// The moving body in a document.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The movement in the file's unit and axes; one frame at rest if the file has no animation.
+    pub clip: Clip,
+    /// Unit and axes of the file.
+    pub convention: Convention,
+    /// The weights of morph targets, if they move.
+    pub morphs: Option<Curves>,
+    /// The name of the animation that was read.
+    pub take: Option<String>,
+}
+
+/// The most frames from which a median is taken.
+const MOST: usize = 2048;
+/// Distance between a joint and its offset above which the offset counts as wrong, as a share of the
+/// longer of both.
+const OFF: f64 = 0.15;
+/// Largest median distance of a bone's end from its median position, as a share of the bone's length;
+/// joints that move more are not attached to a bone.
+const SPREAD: f64 = 0.25;
+/// Places that differ less than this share of their length are equal.
+const SAME: f64 = 1e-7;
+
+/// Returns the median position of a joint if the joint stays near it and its `offset` contradicts it; `found`
+/// are its positions in its parent's space.
+pub(crate) fn placed(offset: DVec3, found: &[DVec3]) -> Option<DVec3> {
+    let at = DVec3::from_array([0, 1, 2].map(|axis| {
+        let mut values: Vec<f64> = found.iter().map(|at| at[axis]).collect();
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+    }));
+    if !at.is_finite() || at.abs().max_element() > 1e9 {
+        return None;
+    }
+    let length = at.length().max(offset.length());
+    let mut far: Vec<f64> = found.iter().map(|it| it.distance(at)).collect();
+    far.sort_by(f64::total_cmp);
+    let spread = far.get(far.len() / 2).copied().unwrap_or_default();
+    let off = at.distance(offset) > OFF * length;
+    (off && spread < SPREAD * at.length().max(1e-9)).then_some(at)
+}
+
+/// Puts the joints whose movement contradicts their offsets where their movement has them, and drops positions
+/// that never differ from the offset. Joints that carry most of the body keep both: they move in the room.
+/// Returns how many offsets were wrong.
+pub(crate) fn settle(joints: &mut [Joint], channels: &mut [Channel]) -> usize {
+    let count = joints.len();
+    let mut below = vec![1_usize; count];
+    for joint in (0..count).rev() {
+        if let Some(parent) = joints[joint].parent {
+            below[parent] += below[joint];
+        }
+    }
+    let mut moved = 0;
+    for (joint, channel) in channels.iter_mut().enumerate() {
+        let Some(places) = &channel.translations else {
+            continue;
+        };
+        if joint > 0 && below[joint] * 2 <= count {
+            let step = places.len().div_ceil(MOST).max(1);
+            let found: Vec<DVec3> = places.iter().copied().step_by(step).collect();
+            if let Some(at) = placed(joints[joint].offset, &found) {
+                joints[joint].offset = at;
+                moved += 1;
+            }
+        }
+        let offset = joints[joint].offset;
+        let same = |place: &DVec3| place.distance(offset) <= SAME * offset.length().max(1e-6);
+        if places.iter().all(same) {
+            channel.translations = None;
+        }
+    }
+    moved
+}
+
+/// Returns the usual rate near a rate that rounded times give, else the rate itself.
+pub(crate) fn near_usual(rate: f64) -> f64 {
+    let usual = [
+        23.976, 24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0, 90.0, 100.0, 119.88, 120.0, 240.0,
+    ];
+    let near = usual
+        .into_iter()
+        .find(|usual| (rate / usual - 1.0).abs() < 5e-4);
+    near.unwrap_or(rate)
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_motion::glam::DQuat;
+
+    use super::*;
+
+    #[test]
+    fn a_joint_is_where_its_movement_puts_it_and_still_places_are_dropped() {
+        let channel = |places: Vec<DVec3>| Channel {
+            rotations: vec![DQuat::IDENTITY; places.len()],
+            translations: Some(places),
+        };
+        let mut joints = vec![
+            Joint::new("hips", None, DVec3::Y),
+            Joint::new("chest", Some(0), DVec3::Y),
+            Joint::new("finger", Some(1), DVec3::X),
+            Joint::new("tip", Some(2), DVec3::new(60.0, 3.0, 0.0)),
+        ];
+        let mut channels = vec![
+            channel(vec![DVec3::X, DVec3::Y, DVec3::Z]),
+            channel(vec![DVec3::Y; 3]),
+            channel(vec![DVec3::X; 3]),
+            channel([2.0, 2.01, 1.99].map(|x| DVec3::new(x, 0.0, 0.0)).to_vec()),
+        ];
+        assert_eq!(settle(&mut joints, &mut channels), 1);
+        assert_eq!(joints[3].offset, DVec3::new(2.0, 0.0, 0.0));
+        let kept: Vec<bool> = channels
+            .iter()
+            .map(|channel| channel.translations.is_some())
+            .collect();
+        assert_eq!(kept, [true, false, false, true]);
+    }
+}

@@ -1,0 +1,261 @@
+//! Finds from a signer's takes where each finger joint is straight and fully bent.
+//!
+//! Solvers, gloves and suits bend fingers that are straight by some 10 to 30 degrees, and stop short of a fist. The
+//! angles of one signer, looked at over all takes, show both: the straightest and the most bent that each joint
+//! ever is. [`HandRange`] collects them, and [`HandCorrection`] moves angles to where they belong.
+
+use super::Anatomy;
+use crate::clip::Clip;
+use crate::hand::{HandAngles, Side};
+
+/// Angles are counted in degrees from here.
+const LEAST: f64 = -60.0;
+/// Degrees that are counted.
+const BINS: usize = 220;
+/// The share of frames below the straightest and above the most bent.
+const TAIL: f64 = 0.02;
+/// Fewer frames than these show nothing.
+const FEWEST: u32 = 10;
+
+/// A joint that is never less bent than this, in degrees, is straight there; if it is seen to bend over
+/// [`MOVES`] degrees, up to [`LAX_MOVING`].
+const LAX: f64 = 25.0;
+const LAX_MOVING: f64 = 40.0;
+const MOVES: f64 = 35.0;
+/// How far base, middle and end joints bend backwards in people, in degrees.
+const BACK: [f64; 3] = [-15.0, -10.0, -10.0];
+/// The bends of base, middle and end joint in a fist, in degrees.
+const FIST: [f64; 3] = [88.0, 98.0, 68.0];
+/// The share of [`FIST`] from which the most bent posture is a fist, and the largest gain that makes it one.
+const NEARLY: f64 = 0.7;
+const MOST_GAIN: f64 = 1.3;
+/// The least radial and palmar angle of a thumb next to the index finger, in degrees, and the largest that is one.
+const BESIDE: [(f64, f64); 2] = [(12.0, 35.0), (2.0, 30.0)];
+/// The range in degrees over which a thumb is seen to move.
+const THUMB_MOVES: f64 = 25.0;
+
+/// The angles that one signer's hand takes, counted by degree.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct HandRange {
+    counts: Vec<[u32; BINS]>,
+    frames: u32,
+}
+
+impl Default for HandRange {
+    fn default() -> Self {
+        Self {
+            counts: vec![[0; BINS]; HandAngles::LEN],
+            frames: 0,
+        }
+    }
+}
+
+impl HandRange {
+    /// Adds every `step`th frame of a clip; hands without fingers add nothing.
+    pub fn observe(&mut self, clip: &Clip, anatomy: &Anatomy, side: Side, step: usize) {
+        for frame in (0..clip.frames()).step_by(step.max(1)) {
+            let pose = clip.pose(frame);
+            if let Some(angles) = anatomy.hand_angles(clip.skeleton(), side, &pose) {
+                self.add(&angles);
+            }
+        }
+    }
+
+    /// Adds one posture.
+    pub fn add(&mut self, angles: &HandAngles) {
+        for (counts, angle) in self.counts.iter_mut().zip(angles.to_array()) {
+            let bin = (angle.to_degrees() - LEAST).clamp(0.0, (BINS - 1) as f64);
+            counts[bin as usize] = counts[bin as usize].saturating_add(1);
+        }
+        self.frames = self.frames.saturating_add(1);
+    }
+
+    /// Returns how many postures were added.
+    #[must_use]
+    pub fn frames(&self) -> u32 {
+        self.frames
+    }
+
+    /// Returns the least and the largest value of an angle in degrees, without outliers.
+    fn ends(&self, angle: usize) -> (f64, f64) {
+        let most = (f64::from(self.frames) * TAIL).floor() as u32;
+        let counts = &self.counts[angle];
+        (
+            end(counts, 0..BINS, most),
+            end(counts, (0..BINS).rev(), most),
+        )
+    }
+
+    /// Returns the correction that these postures show; the identity for few postures.
+    #[must_use]
+    pub fn correction(&self) -> HandCorrection {
+        let mut found = HandCorrection::default();
+        if self.frames < FEWEST {
+            return found;
+        }
+        for finger in 0..4 {
+            for joint in 0..3 {
+                let angle = 6 + 4 * finger + joint;
+                (found.zero[angle], found.gain[angle]) = self.bend(angle, joint);
+            }
+        }
+        for (angle, (beside, most)) in BESIDE.into_iter().enumerate() {
+            let (low, high) = self.ends(angle);
+            if (beside..=most).contains(&low) && high - low > THUMB_MOVES {
+                found.zero[angle] = (low - beside).to_radians();
+            }
+        }
+        for angle in [3, 4] {
+            let (low, high) = self.ends(angle);
+            if (0.0..=LAX).contains(&low) && high - low > THUMB_MOVES {
+                found.zero[angle] = low.to_radians();
+            }
+        }
+        found
+    }
+
+    /// Returns where a joint of a finger is straight, in radians, and the gain of its bend.
+    fn bend(&self, angle: usize, joint: usize) -> (f64, f64) {
+        let (low, high) = self.ends(angle);
+        let moves = high - low > MOVES;
+        let zero = if low < BACK[joint] {
+            low - BACK[joint]
+        } else if (0.0..=LAX).contains(&low) || (moves && (0.0..=LAX_MOVING).contains(&low)) {
+            low
+        } else {
+            0.0
+        };
+        let share = (high - zero) / FIST[joint];
+        let gain = if (NEARLY..1.0).contains(&share) {
+            (1.0 / share).min(MOST_GAIN)
+        } else {
+            1.0
+        };
+        (zero.to_radians(), gain)
+    }
+}
+
+/// Returns the first degree after more than `most` frames.
+fn end(counts: &[u32; BINS], mut bins: impl Iterator<Item = usize>, most: u32) -> f64 {
+    let mut passed = 0;
+    let bin = bins.find(|&bin| {
+        passed += counts[bin];
+        passed > most
+    });
+    bin.map_or(0.0, |bin| LEAST + bin as f64 + 0.5)
+}
+
+/// Moves the angles of one signer's hand to where they belong: `(angle - zero) * gain`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HandCorrection {
+    zero: [f64; HandAngles::LEN],
+    gain: [f64; HandAngles::LEN],
+}
+
+impl Default for HandCorrection {
+    /// Returns the correction that changes nothing.
+    fn default() -> Self {
+        Self {
+            zero: [0.0; HandAngles::LEN],
+            gain: [1.0; HandAngles::LEN],
+        }
+    }
+}
+
+impl HandCorrection {
+    /// Returns the corrected angles.
+    #[must_use]
+    pub fn of(&self, angles: &HandAngles) -> HandAngles {
+        let all = angles.to_array();
+        HandAngles::from_array(std::array::from_fn(|n| {
+            (all[n] - self.zero[n]) * self.gain[n]
+        }))
+    }
+
+    /// Returns whether nothing is changed.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Returns the largest change of where a finger is straight, in radians.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.zero.iter().map(|zero| zero.abs()).fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hand::FingerAngles;
+
+    /// A hand whose fingers are all bent by this share of a fist.
+    fn bent(share: f64) -> HandAngles {
+        let flexion = FIST.map(|fist| (fist * share).to_radians());
+        HandAngles {
+            fingers: [FingerAngles {
+                spread: 0.0,
+                flexion,
+            }; 4],
+            ..HandAngles::default()
+        }
+    }
+
+    fn range(change: impl Fn(f64) -> f64, shares: std::ops::RangeInclusive<u32>) -> HandCorrection {
+        let mut range = HandRange::default();
+        for share in shares {
+            range.add(&bent(f64::from(share) / 100.0).map(&change));
+        }
+        range.correction()
+    }
+
+    fn off(correction: &HandCorrection, change: impl Fn(f64) -> f64, share: f64) -> f64 {
+        let read = correction.of(&bent(share).map(&change)).to_array();
+        let want = bent(share).to_array();
+        let apart = read.iter().zip(want).map(|(a, b)| (a - b).abs());
+        apart.fold(0.0, f64::max).to_degrees()
+    }
+
+    #[test]
+    fn fingers_that_are_never_straight_nor_closed_are_read_as_straight_and_closed() {
+        let lax = |angle: f64| {
+            if angle == 0.0 {
+                0.0
+            } else {
+                0.3 + angle * 0.68
+            }
+        };
+        let all = |angle: f64| 0.3 + angle * 0.68;
+        let correction = range(all, 0..=100);
+        for share in [0.01, 0.5, 1.0] {
+            let raw = off(&HandCorrection::default(), lax, share);
+            let now = off(&correction, lax, share);
+            assert!(now < 5.0 && raw > 2.0 * now, "{share}: {raw} {now}");
+        }
+    }
+
+    #[test]
+    fn good_angles_stay_and_a_hand_that_is_always_bent_is_no_straight_one() {
+        let same = |angle: f64| angle;
+        for (shares, worst) in [(0..=100, 3.5), (60..=90, 0.1), (45..=55, 0.1)] {
+            let correction = range(same, shares.clone());
+            for share in [0.5, 0.7] {
+                let off = off(&correction, same, share);
+                assert!(off < worst, "{shares:?} {share}: {off}");
+            }
+        }
+        assert!(range(same, 0..=3).is_none(), "too few frames");
+    }
+
+    #[test]
+    fn one_frame_of_noise_is_no_straight_finger() {
+        let mut range = HandRange::default();
+        for _ in 0..200 {
+            range.add(&bent(0.6));
+        }
+        range.add(&bent(0.1));
+        range.add(&bent(9.0));
+        assert!(range.correction().is_none());
+    }
+}
