@@ -60,7 +60,7 @@ fn handshape_palm_and_place_are_read_alike_from_every_dialect() -> Result<()> {
         let score = read::compare(&truth, &found);
         // Signers who never close or straighten a hand are read with some doubt; nothing else is.
         let most = if dialect.lax > 0.0 {
-            score.all() / 20
+            score.all() / 8
         } else {
             0
         };

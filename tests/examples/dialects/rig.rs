@@ -54,9 +54,9 @@ fn lax(angles: &HandAngles, lax: f64) -> HandAngles {
             *angle = bend(*angle, full);
         }
     }
-    lazy.thumb.radial += 0.4 * lax;
-    lazy.thumb.palmar += 0.4 * lax;
-    lazy.thumb.flexion = lazy.thumb.flexion.map(|angle| angle + 0.5 * lax);
+    lazy.thumb.radial += 0.2 * lax;
+    lazy.thumb.palmar += 0.2 * lax;
+    lazy.thumb.flexion = lazy.thumb.flexion.map(|angle| angle + 0.25 * lax);
     lazy
 }
 

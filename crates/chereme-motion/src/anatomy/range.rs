@@ -26,9 +26,12 @@ const MOVES: f64 = 35.0;
 const BACK: [f64; 3] = [-15.0, -10.0, -10.0];
 /// The bends of base, middle and end joint in a fist, in degrees.
 const FIST: [f64; 3] = [88.0, 98.0, 68.0];
-/// The share of [`FIST`] from which the most bent posture is a fist, and the largest gain that makes it one.
-const NEARLY: f64 = 0.7;
-const MOST_GAIN: f64 = 1.3;
+/// The share of [`FIST`], in the mean of a finger's joints, from which its most bent posture is a fist; joints with a
+/// share between these ends are bent more.
+const NEARLY: f64 = 0.66;
+const SHORT: std::ops::Range<f64> = 0.55..0.92;
+/// A joint that is bent by less than this, in degrees, is straight: no correction is needed.
+const SLIGHT: f64 = 6.0;
 /// The least radial and palmar angle of a thumb next to the index finger, in degrees, and the largest that is one.
 const BESIDE: [(f64, f64); 2] = [(12.0, 35.0), (2.0, 30.0)];
 /// The range in degrees over which a thumb is seen to move.
@@ -94,45 +97,59 @@ impl HandRange {
             return found;
         }
         for finger in 0..4 {
-            for joint in 0..3 {
+            let bends = [0, 1, 2].map(|joint| self.bend(6 + 4 * finger + joint, joint));
+            let share = |bend: &Bend| bend.share;
+            let fist = bends.iter().map(share).sum::<f64>() / 3.0 >= NEARLY;
+            for (joint, bend) in bends.into_iter().enumerate() {
                 let angle = 6 + 4 * finger + joint;
-                (found.zero[angle], found.gain[angle]) = self.bend(angle, joint);
+                found.zero[angle] = bend.zero.to_radians();
+                if fist && bend.is_whole && SHORT.contains(&bend.share) {
+                    found.gain[angle] = 1.0 / bend.share;
+                }
             }
         }
         for (angle, (beside, most)) in BESIDE.into_iter().enumerate() {
             let (low, high) = self.ends(angle);
-            if (beside..=most).contains(&low) && high - low > THUMB_MOVES {
+            if (beside + SLIGHT..=most).contains(&low) && high - low > THUMB_MOVES {
                 found.zero[angle] = (low - beside).to_radians();
             }
         }
         for angle in [3, 4] {
             let (low, high) = self.ends(angle);
-            if (0.0..=LAX).contains(&low) && high - low > THUMB_MOVES {
+            if (SLIGHT..=LAX).contains(&low) && high - low > THUMB_MOVES {
                 found.zero[angle] = low.to_radians();
             }
         }
         found
     }
 
-    /// Returns where a joint of a finger is straight, in radians, and the gain of its bend.
-    fn bend(&self, angle: usize, joint: usize) -> (f64, f64) {
+    /// Returns how far a joint of a finger is bent when it is straight and when it is closed.
+    fn bend(&self, angle: usize, joint: usize) -> Bend {
         let (low, high) = self.ends(angle);
         let moves = high - low > MOVES;
         let zero = if low < BACK[joint] {
             low - BACK[joint]
-        } else if (0.0..=LAX).contains(&low) || (moves && (0.0..=LAX_MOVING).contains(&low)) {
+        } else if (SLIGHT..=LAX).contains(&low) || (moves && (SLIGHT..=LAX_MOVING).contains(&low)) {
             low
         } else {
             0.0
         };
-        let share = (high - zero) / FIST[joint];
-        let gain = if (NEARLY..1.0).contains(&share) {
-            (1.0 / share).min(MOST_GAIN)
-        } else {
-            1.0
-        };
-        (zero.to_radians(), gain)
+        Bend {
+            zero,
+            share: (high - zero) / FIST[joint],
+            is_whole: moves && low <= LAX_MOVING,
+        }
     }
+}
+
+/// The range of one joint.
+struct Bend {
+    /// The angle at which it is straight, in degrees.
+    zero: f64,
+    /// Its largest bend from there as a share of that in a fist.
+    share: f64,
+    /// Whether it is seen straight and bent.
+    is_whole: bool,
 }
 
 /// Returns the first degree after more than `most` frames.
@@ -223,10 +240,10 @@ mod tests {
             if angle == 0.0 {
                 0.0
             } else {
-                0.3 + angle * 0.68
+                0.3 + angle * 0.72
             }
         };
-        let all = |angle: f64| 0.3 + angle * 0.68;
+        let all = |angle: f64| 0.3 + angle * 0.72;
         let correction = range(all, 0..=100);
         for share in [0.01, 0.5, 1.0] {
             let raw = off(&HandCorrection::default(), lax, share);
