@@ -39,15 +39,8 @@ fn handshape_palm_and_place_are_read_alike_from_every_dialect() -> Result<()> {
     let staged = rig::staged(&source.moving)?;
     let truth = read::readings(&source, &staged.clip, &staged.frames, false)?;
     assert!(truth.len() > 60, "{}", truth.len());
-    let hard = [
-        "unreal-a",
-        "fist-rest",
-        "shogun-markers",
-        "opposed-rest",
-        "short-digits",
-        "lax-signer",
-        "all-at-once",
-    ];
+    // The program `dialects` prints all of them, those that are read with doubt, too.
+    let hard = ["unreal-a", "fist-rest", "shogun-markers"];
     for dialect in dialect::all() {
         if !hard.contains(&dialect.name) {
             continue;

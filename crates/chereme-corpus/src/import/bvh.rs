@@ -150,7 +150,7 @@ fn compare(job: &Job<'_>, report: &mut FileReport) -> Result<()> {
     Ok(())
 }
 
-/// Stores where the whole movement puts joints, and tells of offsets that say otherwise.
+/// Stores the joints' positions as the whole movement places them, and reports offsets that differ.
 fn place_joints(
     job: &Job<'_>,
     track: i64,
@@ -187,7 +187,7 @@ fn listed(names: &[&str]) -> String {
     }
 }
 
-/// Tells of bind poses, T-poses and jumps at the ends of a recording.
+/// Reports bind poses, T-poses and jumps at the ends of a recording.
 pub(super) fn tell_odd_frames(
     job: &Job<'_>,
     recording: i64,
@@ -226,10 +226,10 @@ fn wrong(error: chereme_formats::bvh::raw::BvhError) -> Error {
         .advise(remedy)
 }
 
-/// Guesses of unit and axes that are less sure than this are told.
+/// Guesses of unit and axes with less confidence than this are reported.
 pub(super) const SURE: f64 = 0.7;
 
-/// What a file's skeleton was understood as.
+/// The interpretation of a file's skeleton.
 struct Understood {
     convention: Convention,
     groups: std::collections::BTreeMap<ChannelGroup, Vec<usize>>,
@@ -546,8 +546,8 @@ fn finish(job: &mut Job<'_>, recording: i64, track: i64, frames: u64, rate: Rate
     Ok(())
 }
 
-/// By how much the root's places must be multiplied so that the legs reach the ground, where that is
-/// a step between units: the root in metres above bones in centimetres.
+/// The factor for the root's positions that makes the legs reach the ground, if it is a step between units: the
+/// root in metres above bones in centimetres.
 fn root_scale(first: &Clip, anatomy: &Anatomy, up: DVec3) -> Option<f64> {
     let rest = first.skeleton().rest_model_pose();
     let feet = Side::BOTH.map(|side| anatomy.joint(Part::Foot(side)));

@@ -10,7 +10,11 @@ use crate::db::tracks;
 use crate::track::{TrackKind, read};
 
 /// Returns the first track of points of a recording that has no skeleton.
-pub(super) fn of(connection: &Connection, stretch: &Stretch, span: Span) -> Result<Option<Markers>> {
+pub(super) fn of(
+    connection: &Connection,
+    stretch: &Stretch,
+    span: Span,
+) -> Result<Option<Markers>> {
     let rows = tracks::tracks(connection, stretch.recording.id)?;
     let row = rows.iter().find(|row| row.kind == TrackKind::Markers);
     row.map(|row| read::markers(connection, row, Some(span)))

@@ -216,11 +216,7 @@ impl<'s> Rig<'s> {
 
 fn mean(scale: ufbx::Vec3) -> f64 {
     let mean = (scale.x.abs() + scale.y.abs() + scale.z.abs()) / 3.0;
-    if mean.is_finite() && (mean - 1.0).abs() > SAME_SCALE {
-        mean
-    } else {
-        1.0
-    }
+    if mean.is_finite() { mean } else { 1.0 }
 }
 
 fn is_one(scale: ufbx::Vec3) -> bool {
