@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use chereme_corpus::recipe::PhaseRule;
-use chereme_corpus::{CueOptions, KeysOptions, cue_phones_of_file};
+use chereme_corpus::{CueOptions, cue_phones_of_file};
 use chereme_sign::cue::Alphabet;
 use clap::ValueEnum;
 
-use super::keys::{AlphabetWord, SchwaWord};
+use super::keys::Spoken;
 use crate::args::Cli;
 use crate::output::Output;
 
@@ -27,30 +27,8 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The text, or the phones separated by blanks (a=120 is a phone of 120 ms)
-    #[arg(required_unless_present = "from")]
-    text: Option<String>,
-    /// Take phones and times from this TextGrid or EAF file
-    #[arg(long, value_name = "FILE", conflicts_with = "text")]
-    from: Option<PathBuf>,
-    /// The tier of phones in that file; else the first that is called as aligners call it
-    #[arg(long, value_name = "TIER", requires = "from")]
-    tier: Option<String>,
-    /// Read the input as phones in this alphabet
-    #[arg(long, value_enum, value_name = "ALPHABET")]
-    phones: Option<AlphabetWord>,
-    /// The code: french or english-us
-    #[arg(long, default_value = "french")]
-    code: String,
-    /// A habit of some cuers, such as schwa-as-eu; may be repeated
-    #[arg(long = "variant", value_name = "NAME")]
-    variants: Vec<String>,
-    /// Leave silent last consonants silent before a vowel
-    #[arg(long)]
-    no_liaison: bool,
-    /// When an e at the end of a word is said
-    #[arg(long, value_enum, default_value = "usual")]
-    schwa: SchwaWord,
+    #[command(flatten)]
+    spoken: Spoken,
     /// Whose body cues: a signer, or a recording for its skeleton; else the corpus chooses
     #[arg(long, value_name = "SIGNER")]
     signer: Option<String>,
@@ -97,19 +75,11 @@ impl From<RuleWord> for PhaseRule {
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
-    let mut reading = KeysOptions {
-        code: args.code.clone(),
-        phones: args.phones.map(Alphabet::from),
-        variants: args.variants.clone(),
-        french: chereme_sign::cue::french::Options {
-            liaison: !args.no_liaison,
-            schwa: args.schwa.into(),
-        },
-        pace: args.pace,
-    };
-    let text = match (&args.from, &args.text) {
+    let spoken = &args.spoken;
+    let mut reading = spoken.options(args.pace);
+    let text = match (&spoken.from, &spoken.text) {
         (Some(path), _) => {
-            let phones = cue_phones_of_file(path, args.tier.as_deref(), &reading)?;
+            let phones = cue_phones_of_file(path, spoken.tier.as_deref(), &reading)?;
             reading.phones = Some(Alphabet::Sampa);
             phones
         }

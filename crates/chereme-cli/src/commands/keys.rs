@@ -28,21 +28,31 @@ Examples:
   chereme keys --from talk.TextGrid --tier phones
   chereme keys 'h aU s' --phones sampa --code english-us")]
 pub(crate) struct Args {
-    /// The text, or the phones separated by blanks (a=120 is a phone of 120 ms)
-    #[arg(required_unless_present = "from")]
-    text: Option<String>,
-    /// Take phones and times from this TextGrid or EAF file
-    #[arg(long, value_name = "FILE", conflicts_with = "text")]
-    from: Option<PathBuf>,
-    /// The tier of phones in that file; else the first that is called as aligners call it
-    #[arg(long, value_name = "TIER", requires = "from")]
-    tier: Option<String>,
-    /// Read the input as phones in this alphabet
-    #[arg(long, value_enum, value_name = "ALPHABET")]
-    phones: Option<AlphabetWord>,
+    #[command(flatten)]
+    spoken: Spoken,
     /// Read the input as text (the default)
     #[arg(long = "text", conflicts_with = "phones")]
     as_text: bool,
+    /// Give keys times: phones last as usual times FACTOR, from 0.1 to 10; people who cue need about 1.6
+    #[arg(long, value_name = "FACTOR")]
+    pace: Option<f64>,
+}
+
+/// The text or phones to read, and how.
+#[derive(Debug, clap::Args)]
+pub(super) struct Spoken {
+    /// The text, or the phones separated by blanks (a=120 is a phone of 120 ms)
+    #[arg(required_unless_present = "from")]
+    pub(super) text: Option<String>,
+    /// Take phones and times from this TextGrid or EAF file
+    #[arg(long, value_name = "FILE", conflicts_with = "text")]
+    pub(super) from: Option<PathBuf>,
+    /// The tier of phones in that file; else the first that is called as aligners call it
+    #[arg(long, value_name = "TIER", requires = "from")]
+    pub(super) tier: Option<String>,
+    /// Read the input as phones in this alphabet
+    #[arg(long, value_enum, value_name = "ALPHABET")]
+    phones: Option<AlphabetWord>,
     /// The code: french or english-us
     #[arg(long, default_value = "french")]
     code: String,
@@ -55,13 +65,25 @@ pub(crate) struct Args {
     /// When an e at the end of a word is said
     #[arg(long, value_enum, default_value = "usual")]
     schwa: SchwaWord,
-    /// Give keys times: phones last as usual times FACTOR, from 0.1 to 10; people who cue need about 1.6
-    #[arg(long, value_name = "FACTOR")]
-    pace: Option<f64>,
+}
+
+impl Spoken {
+    pub(super) fn options(&self, pace: Option<f64>) -> KeysOptions {
+        KeysOptions {
+            code: self.code.clone(),
+            phones: self.phones.map(Alphabet::from),
+            variants: self.variants.clone(),
+            french: Options {
+                liaison: !self.no_liaison,
+                schwa: self.schwa.into(),
+            },
+            pace,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum AlphabetWord {
+enum AlphabetWord {
     Sampa,
     Ipa,
     Mfa,
@@ -78,7 +100,7 @@ impl From<AlphabetWord> for Alphabet {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum SchwaWord {
+enum SchwaWord {
     Usual,
     Dropped,
     Said,
@@ -94,25 +116,11 @@ impl From<SchwaWord> for Schwa {
     }
 }
 
-impl Args {
-    fn options(&self) -> KeysOptions {
-        KeysOptions {
-            code: self.code.clone(),
-            phones: self.phones.map(Alphabet::from),
-            variants: self.variants.clone(),
-            french: Options {
-                liaison: !self.no_liaison,
-                schwa: self.schwa.into(),
-            },
-            pace: self.pace,
-        }
-    }
-}
-
 pub(super) fn run(_: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let options = args.options();
-    let found = match (&args.from, &args.text) {
-        (Some(path), _) => cue_keys_of_file(path, args.tier.as_deref(), &options)?,
+    let spoken = &args.spoken;
+    let options = spoken.options(args.pace);
+    let found = match (&spoken.from, &spoken.text) {
+        (Some(path), _) => cue_keys_of_file(path, spoken.tier.as_deref(), &options)?,
         (None, Some(text)) => cue_keys(text, &options)?,
         (None, None) => bail!("there is nothing to read; write a text, or --from FILE"),
     };
