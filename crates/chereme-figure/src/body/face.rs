@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use glam::{DVec2, Vec2, Vec3};
 
 use super::delaunay;
-use super::form::{Solid, joined, smooth_step};
+use super::form::{Solid, crossing, joined, smooth_step};
 
 /// Corners of the mouth's loops and of the eyes' loops.
 pub(super) const MOUTH: usize = 24;
@@ -342,31 +342,13 @@ fn direction(at: Vec2) -> Vec3 {
 
 /// Returns the surface in a direction from the middle of the head.
 fn thrown(field: &dyn Fn(Vec3) -> f32, towards: Vec3) -> Vec3 {
-    let (mut low, mut high) = (0.1, 0.9);
-    for _ in 0..18 {
-        let middle = (low + high) * 0.5;
-        if field(MIDDLE + towards * middle) < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    MIDDLE + towards * high
+    crossing(field, MIDDLE, towards, (0.1, 0.9), 18)
 }
 
 /// Returns the surface at a height in a level direction from the middle of the head.
 fn level(field: &dyn Fn(Vec3) -> f32, towards: Vec3, y: f32) -> Vec3 {
     let from = Vec3::new(0.0, y, MIDDLE.z);
-    let (mut low, mut high) = (0.05, 0.7);
-    for _ in 0..18 {
-        let middle = (low + high) * 0.5;
-        if field(from + towards * middle) < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    from + towards * high
+    crossing(field, from, towards, (0.05, 0.7), 18)
 }
 
 fn from_front(field: &dyn Fn(Vec3) -> f32, x: f32, y: f32) -> f32 {

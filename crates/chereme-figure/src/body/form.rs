@@ -118,8 +118,19 @@ pub(super) fn thrown(field: &dyn Fn(Vec3) -> f32, from: Vec3, towards: Vec3, ste
         }
         far += (-away * 0.7).max(step * 0.2);
     }
-    let (mut low, mut high) = ((far - step * 2.0).max(0.0), far);
-    for _ in 0..12 {
+    crossing(field, from, towards, ((far - step * 2.0).max(0.0), far), 12)
+}
+
+/// Returns the point on the surface between two distances along a line, by bisection: the field is below 0 at the
+/// first and above at the second. Each of `rounds` halves the doubt.
+pub(super) fn crossing(
+    field: &dyn Fn(Vec3) -> f32,
+    from: Vec3,
+    towards: Vec3,
+    (mut low, mut high): (f32, f32),
+    rounds: usize,
+) -> Vec3 {
+    for _ in 0..rounds {
         let middle = (low + high) * 0.5;
         if field(from + towards * middle) < 0.0 {
             low = middle;
