@@ -1,6 +1,9 @@
 //! The same handshapes, palms and places are read from a capture however its skeleton is written.
 
-#![allow(dead_code)]
+#![allow(
+    dead_code,
+    reason = "the program `dialects` uses the rest of the shared modules"
+)]
 
 use std::error::Error;
 use std::path::Path;

@@ -50,7 +50,7 @@ pub enum RecipeError {
     /// There are too many operators, or they are nested too deep.
     #[error("a recipe has at most {most} {what}; split it and store the parts as signs")]
     Size {
-        /// The thing of which there is too much.
+        /// The thing that there is too much of.
         what: &'static str,
         /// How much is allowed.
         most: usize,

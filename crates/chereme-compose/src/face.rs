@@ -7,14 +7,14 @@ use chereme_sign::hamnosys::face::Expression;
 
 use crate::made::Curve;
 
-/// What the names of curves that are numbers of a face begin with.
+/// The prefix of names of curves that are numbers of a face.
 pub const NUMBER: &str = "face.";
 
 /// Returns the face of each frame, as many as the longest curve has; none where no curve is of a face.
 ///
-/// A curve `face.jaw_open` is a number of the face itself, by [`Face::NAMES`]. Any other tells how much there is of its
-/// non-manual. What goes on in it, such as the sounds of a mouth picture, is
-/// spread evenly over the time in which there is at least half of it.
+/// A curve `face.jaw_open` is a number of the face itself, by [`Face::NAMES`]. Any other curve gives the amount of
+/// its non-manual. A course within it, such as the sounds of a mouth picture, is spread evenly over the time with
+/// at least half the full amount.
 #[must_use]
 pub fn faces(curves: &[Curve]) -> Vec<Face> {
     let mut faces = Vec::new();

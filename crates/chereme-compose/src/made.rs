@@ -66,7 +66,7 @@ pub enum About {
     Cue(CueTier),
 }
 
-/// What a note of cued speech is about.
+/// The subject of a note of cued speech.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CueTier {

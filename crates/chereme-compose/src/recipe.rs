@@ -580,7 +580,7 @@ impl Nonmanual {
         }
     }
 
-    /// Tells whether an expression with milestones is carried over, and not all of another sign.
+    /// Returns whether an expression with milestones is carried over, and not all of another sign.
     #[must_use]
     pub fn is_expression(&self) -> bool {
         self.by_phases || self.over.is_some() || self.function.is_some()

@@ -93,7 +93,7 @@ pub enum Input {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpressionInput {
-    /// What it does for the signs that it spans.
+    /// Its function in the signs that it spans.
     pub function: Function,
     /// Its milestones, from the first frame of its movement on.
     pub milestones: Milestones,

@@ -219,7 +219,7 @@ pub struct Material {
 pub struct ExpressionSource {
     /// The movement, at least from M1 to M5 as far as it was recorded.
     pub material: Material,
-    /// What the expression does for the signs that it spans.
+    /// The function of the expression in the signs that it spans.
     pub function: Function,
     /// Its milestones, from the first frame of the movement on.
     pub milestones: Milestones,

@@ -106,8 +106,8 @@ impl MediaTrackRow {
     }
 }
 
-/// Looks for the file of a media track of the corpus at `corpus`: where it is said to lie, then by its name next to the
-/// corpus and in folders there; as an MP4 of the same name, too, since films that no player here knows are converted.
+/// Looks for the file of a media track of the corpus at `corpus`: at its path, then by its name next to the corpus
+/// and in folders there; also as an MP4 of the same name, since people convert films that no player here knows.
 #[must_use]
 pub fn find_media(track: MediaTrackRow, corpus: &Path) -> MediaPlace {
     let folder = corpus.parent().unwrap_or(Path::new(""));

@@ -41,7 +41,7 @@ const LONGEST: i64 = 120_000_000;
 
 /// The name of the symbols of HamNoSys among the inventories.
 const SYMBOLS: &str = "hamnosys";
-/// What the faces of SiGML's non-manuals are called beside the inventories.
+/// The name of the faces of SiGML's non-manuals among the inventories.
 const FACES: &str = "faces";
 /// The size in pixels up to which a handshape is drawn to be read at that size.
 const SMALL_HAND: usize = 160;

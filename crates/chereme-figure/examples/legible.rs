@@ -18,7 +18,7 @@ const CLEAR: [&str; 12] = [
 /// How often each shape is drawn with noise.
 const TRIES: usize = 3;
 
-#[allow(clippy::print_stdout)]
+#[allow(clippy::print_stdout, reason = "the table is the program's result")]
 fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args()
         .nth(1)

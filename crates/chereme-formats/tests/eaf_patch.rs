@@ -1,4 +1,4 @@
-//! Changed EAF files keep the layout in which they were found: what was not changed keeps its bytes.
+//! Changed EAF files keep the layout in which they were found: unchanged parts keep their bytes.
 
 #![allow(clippy::print_stderr, reason = "a test may say that it skips its work")]
 

@@ -106,7 +106,7 @@ impl Face {
         }
     }
 
-    /// Returns the face of these numbers, each kept between its ends; what is no number is 0.
+    /// Returns the face of these numbers, each kept between its ends; a NaN becomes 0.
     #[must_use]
     pub fn from_numbers(numbers: [f64; Self::LEN]) -> Self {
         let mut face = Self::default();

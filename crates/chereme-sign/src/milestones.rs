@@ -25,7 +25,7 @@ use crate::text::fold;
 /// The time between an expression and the edge of an utterance, in microseconds.
 pub const EDGE: i64 = 500_000;
 
-/// What an expression of the face does for the signs that it spans.
+/// The grammatical function of an expression of the face in the signs that it spans.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Function(String);

@@ -536,7 +536,7 @@ impl Studio {
         }
     }
 
-    /// Names the window after the open corpus, so that people can tell two of them apart.
+    /// Names the window after the open corpus, so that two windows can be distinguished.
     fn name_window(&mut self, ctx: &Context) {
         let title = self.title();
         if title != self.title {

@@ -23,7 +23,7 @@ pub(crate) struct Walk {
     came: Option<usize>,
     /// Whether it was opened in this frame: the same key may still move the keyboard at the frame's end.
     waits: bool,
-    /// Whether the pointer rests where it was when the keys opened a menu.
+    /// Whether the pointer has not moved since the keys opened a menu.
     rests: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What assistive technology is told: every widget that can be used has a name, in every pane, at every size.
+//! The names for assistive technology: every widget that can be used has a name, in every pane, at every size.
 
 mod common;
 
@@ -10,7 +10,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::NodeT;
 
-/// What a person can act on.
+/// The roles of widgets that a person can act on.
 const USED: [Role; 14] = [
     Role::Button,
     Role::DefaultButton,
@@ -40,7 +40,7 @@ fn nameless(window: &Window<'_>) -> (BTreeSet<String>, usize) {
         all += 1;
         let label = kit.label().unwrap_or_default();
         let value = kit.value().unwrap_or_default();
-        // What stands in a field is no name for it; what stands on a list says what is chosen.
+        // The text in a field is not its name; the text on a list is the choice.
         let typed = matches!(kit.role(), Role::TextInput | Role::MultilineTextInput);
         let said = if typed || !label.trim().is_empty() {
             label
@@ -59,7 +59,7 @@ fn nameless(window: &Window<'_>) -> (BTreeSet<String>, usize) {
 /// A button that is lower or narrower than this, in points, is missed by a hand in a hurry.
 const LEAST: f32 = 14.0;
 
-/// Returns the buttons that are smaller; what lies on a tier is as wide as its time.
+/// Returns the buttons that are smaller; an annotation on a tier is as wide as its time.
 fn tiny(window: &Window<'_>) -> BTreeSet<String> {
     let all = window.root().children_recursive();
     let small = all.filter(|node| {

@@ -91,7 +91,7 @@ fn cells_of_a_spreadsheet_are_pasted_and_what_is_odd_is_told() {
     window.event(Event::Paste("MAISON\n".into()));
     stored(&mut window, before + 1);
     assert_eq!(values(&window, "Gloss"), ["MAISON"]);
-    // What is typed has the clipboard to itself.
+    // Typed text has the clipboard to itself.
     press(&mut window, NONE, Key::Enter);
     window.event(Event::Paste("1\t2\tX".into()));
     window.run_steps(3);

@@ -1,4 +1,4 @@
-//! A window killed while somebody types: what was typed is back when the corpus is opened again.
+//! A window killed while somebody types: the typed text is back when the corpus is opened again.
 
 mod common;
 
@@ -104,7 +104,7 @@ fn what_was_typed_before_a_kill_is_back_in_its_place() {
         let tier = window.get_by_label("Tier Gloss");
         let chosen = format!("{:?}", tier.accesskit_node().toggled());
         assert!(chosen.contains("True"), "its tier is turned to");
-        // A letter may have been written that there was no time to tell of.
+        // A letter may have been written without time to report it.
         assert!(back.starts_with(&typed), "{back:?} is not {typed:?}");
         window.key_press(Key::Enter);
         window.run_steps(2);

@@ -90,7 +90,7 @@ fn in_a_small_window_a_notated_sign_that_was_opened_is_seen_and_used() {
     window.run_steps(3);
     window.key_press_modifiers(Modifiers::COMMAND, Key::F);
     window.run_steps(3);
-    // What is typed into goes on being typed into, however much stands below it.
+    // A field keeps the keyboard, however much stands below it.
     for word in ["gloss", "=", "HOCHER"] {
         window.event(Event::Text(word.to_owned()));
         window.run_steps(40);

@@ -39,7 +39,7 @@ fn shows(window: &Window<'_>, part: &str) -> bool {
     window.query_all_by_label_contains(part).next().is_some()
 }
 
-/// Clicks where the pointer could miss: cards grow when what was made of them arrives.
+/// Clicks where the pointer could miss: cards grow when their results arrive.
 fn press(window: &mut Window<'_>, label: &str) {
     window.get_by_label(label).click_accesskit();
     window.step();
@@ -160,7 +160,7 @@ fn limace_is_made_from_escargot_stored_undone_and_changed() {
     key(&mut window, Modifiers::COMMAND, Key::Z);
     idle(&mut window);
     assert!(!recordings(&window).contains(&"LIMACE".to_owned()));
-    // What was taken back is not said to be stored.
+    // The status never says that an undone sign is stored.
     until(&mut window, "the snapshot", |window| {
         !has(window, "Show it")
     });
@@ -258,7 +258,7 @@ fn a_changed_recipe_takes_the_place_of_the_sign_it_was_and_undo_brings_that_back
     key(&mut window, Modifiers::COMMAND, Key::Z);
     idle(&mut window);
     assert_eq!(length(&window), before);
-    // What was done to the recipe before that is taken back next.
+    // The next undo takes back the earlier change of the recipe.
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(recipe_of_stored(&window), "ESCARGOT | configure right U");
 }

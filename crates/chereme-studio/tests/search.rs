@@ -294,7 +294,7 @@ fn a_facet_and_a_value_of_a_picker_are_told_of_in_the_inspector() {
         window.event_modifiers(event, Modifiers::COMMAND);
         window.step();
     }
-    // It is told of, and the query stays.
+    // The answer reports it, and the query stays.
     until(&mut window, "the value", |window| {
         has(window, "← What is selected")
     });

@@ -178,7 +178,7 @@ fn a_corpus_that_is_deleted_while_it_is_open_is_noticed_and_saved() {
     let mut window = open_small(folder.path());
     let path = window.state().corpus().expect("open").clone();
     for end in ["", "-wal", "-shm"] {
-        // What is not there need not go.
+        // A missing file needs no removal.
         drop(std::fs::remove_file(format!("{}{end}", path.display())));
     }
     until(&mut window, "the notice", |it| has(it, "Put it back"));

@@ -74,7 +74,7 @@ fn trails_ghosts_grid_and_places_are_shown_and_put_away() {
     // Zones lie close together from the front: the pointer would be over its neighbour as well.
     window.get_by_label("chin").click_accesskit();
     window.run_steps(3);
-    // The inspector tells of it too.
+    // The inspector shows it too.
     let all = window.query_all_by_label("chin");
     assert_eq!(all.filter(is_chosen).count(), 1);
 }

@@ -1,11 +1,10 @@
 //! Signs from notation, drawn and measured.
 //!
-//! `cargo run --release -p chereme-tests --example notation -- table FOLDER BODY.bvh...` animates every
-//! `.sigml` file of a folder on each body and prints what came of it. `... -- draw FOLDER BODY.bvh OUT
-//! GLOSS...` draws contact sheets of some. `... -- list FOLDER BODY.bvh` prints a line for each sign:
-//! its worst values, and what is said of it. `... -- faults FOLDER BODY.bvh [FILE.md]` counts what makes
-//! movement look unlike a person's, and writes the table between the marks of a file; `sample N` after
-//! `faults` takes one sign out of N.
+//! `cargo run --release -p chereme-tests --example notation -- table FOLDER BODY.bvh...` animates every `.sigml`
+//! file of a folder on each body and prints the result. `... -- draw FOLDER BODY.bvh OUT GLOSS...` draws contact
+//! sheets of some. `... -- list FOLDER BODY.bvh` prints a line for each sign: its worst values, and its report.
+//! `... -- faults FOLDER BODY.bvh [FILE.md]` counts faults that make movement look unlike a person's, and writes
+//! the table between the marks of a file; `sample N` after `faults` takes one sign out of N.
 
 #![allow(clippy::print_stdout)]
 

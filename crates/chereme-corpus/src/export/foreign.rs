@@ -85,7 +85,7 @@ pub(super) enum Points {
 /// Writes the markers of a stretch as C3D or TRC, on the recording's clock.
 ///
 /// # Errors
-/// If the recording has no markers, or they are none of a room, or writing fails.
+/// Fails if the recording has no markers, if they are not places in a room, or if the file cannot be written.
 pub(super) fn points(
     connection: &Connection,
     stretch: &Stretch,

@@ -313,7 +313,7 @@ fn copies_are_merged_again_and_again_in_both_directions() {
     set(&mut theirs, "CHAT", Some("T1"), None);
     add(&mut theirs, 600, 700, "T2");
     desk.merge(&mut mine);
-    // What came from there is changed here; a second merge does not take that back.
+    // A row from the other copy is changed here; a second merge keeps the change.
     set(&mut mine, "T1", Some("M1"), None);
     set(&mut mine, "T2", Some("M2"), None);
     set(&mut theirs, "LION", Some("T3"), None);

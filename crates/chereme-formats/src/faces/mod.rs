@@ -1,4 +1,4 @@
-//! Face systems: what the channels of a face capture are called, and what they mean for the house's [`Face`].
+//! Face systems: the names of the channels of a face capture, and their meaning for the house's [`Face`].
 //!
 //! Each system is a file of `schema/faces`: its channels, a formula over them for each number of a face and for the turns of
 //! the head, and what the mapping loses. Captured channels stay as they are; a [`View`] is derived from them.
@@ -51,7 +51,7 @@ pub struct System {
     pub version: u32,
     /// The name for people.
     pub name: String,
-    /// What its numbers are, and where that is written.
+    /// Its numbers, and their source.
     pub description: String,
     /// Channels by which a capture shows that it is of this system: all of them,
     needs: Vec<String>,
@@ -79,7 +79,7 @@ pub struct System {
     pub expressions: bool,
     /// Numbers of a face that the system says nothing about.
     pub unknown: Vec<String>,
-    /// What the mapping loses.
+    /// The losses of the mapping.
     pub loses: Vec<Loss>,
     /// Pairs of channels that move together; a capture in which they do not has its sides exchanged.
     #[serde(default)]
@@ -113,7 +113,7 @@ pub struct View {
     pub place: Option<Vec<[f64; 3]>>,
     /// How many frames had a gap, which was bridged from its neighbours.
     pub bridged: usize,
-    /// What the mapping loses and what is odd in the capture.
+    /// The losses of the mapping, and oddities of the capture.
     pub findings: Vec<Finding>,
 }
 

@@ -195,7 +195,7 @@ pub enum What {
     Curve(CurveTest),
 }
 
-/// What a curve of the face or head does while the token lasts, or over a part of it.
+/// A condition on a curve of the face or head while the token lasts, or over a part of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveTest {
     /// The part or number after `nonmanual.`, such as `brows`, `jaw_open` or `head_yaw`.

@@ -198,7 +198,7 @@ pub(crate) enum Outcome {
     Paths(String, Vec<String>),
     /// Files were written.
     Exported(ExportReport),
-    /// What is on the stage was drawn.
+    /// The stage was drawn to a file.
     Shared(Picture),
     /// A piece of movement.
     Moved {
@@ -224,12 +224,12 @@ pub(crate) enum Outcome {
     },
 }
 
-/// What is drawn to be shared.
+/// The thing that is shared.
 #[derive(Debug, Clone)]
 pub(crate) enum Shared {
-    /// What lies in the corpus.
+    /// Something stored in the corpus.
     Stored(Address),
-    /// What was made and is not stored.
+    /// Generated movement that is not stored.
     Made(Arc<Made>),
 }
 
@@ -368,7 +368,7 @@ impl Work {
 /// How far a piece of work is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Far {
-    /// What is being done, such as a file's name.
+    /// The current task, such as a file's name.
     pub(crate) task: String,
     pub(crate) done: u64,
     pub(crate) total: Option<u64>,
@@ -391,5 +391,5 @@ impl Far {
     }
 }
 
-/// What a piece of work ended with.
+/// The end of a piece of work.
 pub(crate) type Ended = Result<Outcome, Error>;

@@ -1,4 +1,4 @@
-//! What the tests that drive the window share.
+//! Shared parts of the tests that drive the window.
 #![allow(dead_code, unreachable_pub, reason = "each test uses some of it")]
 
 pub mod tiers;

@@ -1,4 +1,4 @@
-//! What the tests that drive the timeline share.
+//! Shared parts of the tests that drive the timeline.
 
 use std::collections::BTreeMap;
 

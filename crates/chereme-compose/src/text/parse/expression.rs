@@ -44,7 +44,7 @@ impl Parser<'_> {
         self.cut().map(Over::Part)
     }
 
-    /// Reads two times with two dots between, one of which may be left out.
+    /// Reads two times with two dots between; one of them may be missing.
     pub(super) fn cut(&mut self) -> Parsed<Cut> {
         const WANTED: &str = "two times with two dots between, such as 0.4s..1.9s";
         let start = self.at;

@@ -300,7 +300,7 @@ impl Aside {
 /// Shows the findings of an answer: conditions that count more than they name, or match nothing; returns the query
 /// with a name that could match if a person chose one.
 pub(super) fn findings(ui: &mut Ui, seen: &Seen<'_>, found: &Found, query: &str) -> Option<String> {
-    /// What could match instead, at most.
+    /// The most names that are offered instead.
     const NAMES: usize = 6;
     let mut chosen = None;
     let told = |it: &&Finding| !matches!(it.kind, FindingKind::NotCoded { .. });

@@ -84,8 +84,8 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
     }
 }
 
-/// Shows films on the stage where they have no pane of their own in sight: all over it if nothing moves, else next to
-/// the signer. Returns what is left of the stage.
+/// Shows films on the stage if no pane of their own is in sight: all over it if nothing moves, else next to the
+/// signer. Returns the rest of the stage.
 fn films(
     stage: &Stage,
     ui: &mut Ui,

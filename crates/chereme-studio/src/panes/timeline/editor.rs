@@ -348,7 +348,8 @@ fn pictures(
 
 /// Returns where the field lies: below the annotation, or above where there is more room.
 ///
-/// What opens upwards and would reach into the stage stands beside its middle, so that the signer stays in sight.
+/// An area that opens upwards and would reach into the stage stands next to its middle, so that the signer stays in
+/// sight.
 fn area(ui: &Ui, below: Rect, size: Vec2) -> (Area, f32) {
     let width = size.x;
     let screen = ui.ctx().content_rect();
