@@ -95,7 +95,7 @@ impl Corpus {
                 kind: "index",
                 place: "search index".into(),
                 message: "the rows were changed without it".into(),
-                remedy: "the next search makes it anew; so does `chereme check CORPUS --mend`"
+                remedy: "the next search builds it again; so does `chereme check CORPUS --mend`"
                     .into(),
             });
             return Ok(());
@@ -124,17 +124,17 @@ impl Corpus {
                     for recording in recordings::recordings(connection)? {
                         tokens::derive_told(connection, recording.id, &inventories, progress)?;
                     }
-                    Ok(((), "tokens derived anew".to_owned()))
+                    Ok(((), "tokens derived again".to_owned()))
                 })?;
             report
                 .mended
-                .push("the tokens were derived anew from the tiers".to_owned());
+                .push("the tokens were derived again from the tiers".to_owned());
         }
         if index || tokens {
             self.store.reindex(progress)?;
             report
                 .mended
-                .push("the search index was made anew".to_owned());
+                .push("the search index was built again".to_owned());
         }
         report
             .faults

@@ -196,7 +196,9 @@ mod tests {
             assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() <= 0.5e-6));
         }
         let plain = "hamnosys \"hamflathand hamextfingeru hampalml hamchest\"";
-        corpus.recombine_again(&sign, plain).expect("made anew");
+        corpus
+            .recombine_again(&sign, plain)
+            .expect("generated again");
         assert_eq!(corpus.curves_of(&sign).expect("read"), []);
         corpus.undo().expect("undone");
         assert_eq!(corpus.curves_of(&sign).expect("read"), stored);

@@ -64,7 +64,7 @@ impl Corpus {
                 query: old.query.clone(),
             };
             if found(connection, &new.name)?.is_some_and(|(other, _)| other != id) {
-                let text = format!("another search is kept as {:?}", new.name);
+                let text = format!("another search is saved as {:?}", new.name);
                 let error = Error::wrong(text).at(new.name);
                 return Err(error.advise("give it another name"));
             }
@@ -108,7 +108,7 @@ pub(crate) fn parsed(connection: &Connection, query: &str) -> Result<Query> {
 
 fn parsed_inside(connection: &Connection, query: &str, inside: usize) -> Result<Query> {
     if inside > MOST_INSIDE {
-        let text = format!("more than {MOST_INSIDE} kept searches stand inside each other");
+        let text = format!("more than {MOST_INSIDE} saved searches use each other");
         return Err(Error::wrong(text)
             .at(query)
             .advise("keep searches that do not name each other in a circle"));
@@ -145,7 +145,7 @@ fn named(name: &str) -> Result<String> {
     let name = name.trim();
     if name.is_empty() || name.contains(char::is_control) {
         return Err(
-            Error::wrong("a search is kept under a name of one line").advise("give it a name")
+            Error::wrong("a saved search needs a name of one line").advise("give it a name")
         );
     }
     Ok(name.strip_prefix('@').unwrap_or(name).to_owned())
@@ -167,12 +167,13 @@ fn there(connection: &Connection, name: &str) -> Result<(i64, KeptSearch)> {
     let meant = did_you_mean(kept_like(name, &all).map(|it| it.name.as_str()));
     let names: Vec<String> = all.iter().map(|it| format!("@{}", it.name)).collect();
     let remedy = match names.len() {
-        0 => "none is kept yet: `chereme search CORPUS --keep NAME QUERY` keeps one".to_owned(),
+        0 => "there is no saved search yet: `chereme search CORPUS --keep NAME QUERY` saves one"
+            .to_owned(),
         count if count <= TOLD => format!("there are: {}", names.join(", ")),
         count => format!("`chereme list CORPUS searches` lists all {count}"),
     };
     Err(
-        Error::wrong(format!("no search is kept as {name:?}{meant}"))
+        Error::wrong(format!("no search is saved as {name:?}{meant}"))
             .at(format!("@{name}"))
             .advise(remedy),
     )

@@ -205,7 +205,7 @@ fn read(text: &str) -> Result<Recipe> {
         Error::wrong(format!("the recipe cannot be read: {error}{pointed}"))
             .at(text)
             .advise(
-                "a recipe is a sign and what is done to it, such as: ESCARGOT | configure right U",
+                "a recipe is a sign and the changes to it, such as: ESCARGOT | configure right U",
             )
     })
 }

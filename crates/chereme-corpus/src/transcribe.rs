@@ -273,7 +273,7 @@ fn span_end(span: Span, least: i64) -> i64 {
 }
 
 fn names(text: &str) -> Result<Vec<&'static str>> {
-    to_names(text).map_err(|error| Error::wrong(format!("what was written is odd: {error}")))
+    to_names(text).map_err(|error| Error::wrong(format!("the notation is odd: {error}")))
 }
 
 fn staged(stage: Stage, at: &impl Fn(usize) -> i64) -> Result<TranscribedStage> {

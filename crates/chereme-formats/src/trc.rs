@@ -147,7 +147,7 @@ fn names(line: &str, findings: &mut Findings) -> Vec<String> {
         findings.add("repeated labels", || {
             Finding::note(
                 4,
-                format!("the label {name:?} stands there again; it is {unique:?} here"),
+                format!("the label {name:?} occurs again; it is {unique:?} here"),
             )
         });
     }

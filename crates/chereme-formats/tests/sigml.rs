@@ -114,7 +114,7 @@ fn deviations_are_read_and_told_with_their_line() {
         ),
         (
             r#"<handconfig palmor="il"/>"#,
-            r#"4: palmor="il" is none of the eight directions; it was read as "l""#,
+            r#"4: palmor="il" is not one of the eight directions; it was read as "l""#,
         ),
         (
             r#"<handconfig palmor="o"/>"#,
@@ -170,7 +170,7 @@ fn deviations_are_read_and_told_with_their_line() {
         ),
         (
             "<split_location><location_bodyarm/></split_location>",
-            "4: <split_location> holds fewer than two halves; what is there is the dominant hand's",
+            "4: <split_location> holds fewer than two halves; they belong to the dominant hand",
         ),
         ("<no_motion/>", "4: <no_motion> was read as <nomotion>"),
         (

@@ -111,7 +111,7 @@ fn what_is_shown_is_exported_to_a_place_that_is_typed() {
         shows(&window, "there already"),
         "what is there is not replaced unasked"
     );
-    click(&mut window, "Replace what is there");
+    click(&mut window, "Replace the existing file");
     click(&mut window, "Write");
     idle(&mut window);
     assert!(!shows(&window, "there already"));

@@ -79,7 +79,7 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
         .filter_map(|&n| Some((n, sight.scene.hands[n].as_ref()?)));
     found.findings.extend(tracks.map(|(n, track)| {
         format!(
-            "performed as told, the {} hand begins {:.1} cm from where it is",
+            "re-synthesised, the {} hand begins {:.1} cm from its observed place",
             track.side.name(),
             100.0 * off[n]
         )

@@ -253,7 +253,7 @@ impl<'a> Writer<'a> {
             let side = track.side.name();
             if !track.faces {
                 self.findings.push(format!(
-                    "the {side} hand has too few fingers to tell where its palm faces"
+                    "the {side} hand has too few fingers to define its palm"
                 ));
             }
             let names = |parts: &[Part]| {
@@ -266,12 +266,12 @@ impl<'a> Writer<'a> {
                 .collect();
             if there.len() < missing.len() && !there.is_empty() {
                 self.findings.push(format!(
-                    "the {side} handshape is told by {} alone, and may be any other",
+                    "the {side} handshape is inferred from {} alone, and may be another",
                     names(&there)
                 ));
             } else if !missing.is_empty() {
                 self.findings.push(format!(
-                    "the {side} handshape is told without {}",
+                    "the {side} handshape is inferred without {}",
                     names(missing)
                 ));
             }

@@ -262,7 +262,7 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
     }
     if quiet > 0 {
         output.line(format!(
-            "{quiet} more files were taken in without a warning; --json tells what was noted"
+            "{quiet} more files were imported without a warning; --json lists their notes"
         ))?;
     }
     for kind in report.unread() {

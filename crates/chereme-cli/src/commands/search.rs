@@ -102,7 +102,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     if let Some(name) = &args.forget {
         let forgotten = corpus.forget_search(name)?;
         output.line(format!(
-            "@{} is kept no longer: {}",
+            "saved search @{} deleted: {}",
             forgotten.name, forgotten.query
         ))?;
         return output.document(forgotten);

@@ -413,7 +413,7 @@ impl Planner<'_> {
 
     /// Reports an action of the body in place of a hand; the animator does not move the body for it.
     pub(crate) fn body(&mut self, action: &BodyAction, time: f64) -> f64 {
-        self.remark("movements of the body in place of a hand are told, not moved");
+        self.remark("movements of the body in place of a hand are annotated, not animated");
         let end = time + self.language.time_body;
         self.phase(
             0,

@@ -160,7 +160,7 @@ impl Anchor {
         let touch = self.touch?;
         let at = work.rate.instant(touch.frame);
         Some(format!(
-            "what counts is the contact at {at}, where the {} was at the {}",
+            "the place is that of the contact at {at}: the {} at the {}",
             self.point.name(),
             touch.place
         ))

@@ -32,7 +32,7 @@ pub(crate) fn reverse(work: &mut Work) -> Vec<String> {
             Some(other) => note.value = Reading::Value(other),
             None => {
                 did.push(format!(
-                    "{component} {value:?} is no longer told: it runs the other way"
+                    "{component} {value:?} is no longer written: it runs the other way"
                 ));
                 note.value = Reading::Unset;
             }

@@ -166,7 +166,7 @@ pub(super) fn undo(
     progress: &mut Progress<'_>,
 ) -> Result<OperationRow> {
     let target = stacks(connection)?.0.pop().ok_or_else(|| {
-        Error::wrong("there is nothing to undo").advise("`chereme log CORPUS` lists what was done")
+        Error::wrong("there is nothing to undo").advise("`chereme log CORPUS` lists all operations")
     })?;
     let (kind, pair) = (OperationKind::Undo, (target, target));
     invert(connection, author, kind, pair, progress)
@@ -502,7 +502,7 @@ fn expect_row(
     Err(Error::wrong(format!(
         "the {row} was changed by something else since, so this cannot be taken back"
     ))
-    .advise("`chereme log CORPUS` shows what was done; `chereme check CORPUS` looks for damage"))
+    .advise("`chereme log CORPUS` lists all operations; `chereme check CORPUS` looks for damage"))
 }
 
 /// Returns the number of the newest operation; nothing where there was none.

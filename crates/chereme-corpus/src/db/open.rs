@@ -237,7 +237,7 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
     if version < 1 {
         return Err(refuse(
             "its making was cut short".into(),
-            "delete it and make it anew",
+            "delete it and create it again",
         ));
     }
     let foreign: i64 = connection.query_row(
@@ -250,7 +250,7 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
     if foreign > 0 {
         return Err(refuse(
             format!(
-                "it holds {foreign} views, triggers or virtual tables that are none of Chereme's"
+                "it holds {foreign} views, triggers or virtual tables that Chereme did not create"
             ),
             "take the file as untrusted: somebody has put code into it",
         ));

@@ -263,7 +263,7 @@ fn understand(
     if guess.unit_name == "unknown" && options.metres_per_unit.is_none() {
         report.findings.push(ReportFinding::warning(
             format!(
-                "the file's unit of length cannot be told from its skeleton; one unit is taken for {:.4} m",
+                "the file's unit of length cannot be inferred from its skeleton; one unit is taken for {:.4} m",
                 convention.metres_per_unit
             ),
             "say the unit with --unit, such as --unit cm",
@@ -378,7 +378,7 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
     let missing: Vec<String> = anatomy.missing().iter().map(ToString::to_string).collect();
     if guessed > 0 {
         report.findings.push(ReportFinding::note(format!(
-            "{guessed} joints were told by their place in the skeleton, not by their names"
+            "{guessed} joints were identified by their position in the skeleton, not by name"
         )));
     }
     if !missing.is_empty() {

@@ -58,7 +58,7 @@ fn store_again(
     let former = recipes::of_recording(connection, target.id)?.ok_or_else(|| {
         Error::wrong(format!("{:?} was not made by a recipe", target.name))
             .at(target.name.clone())
-            .advise("store what was made as a new sign, with a gloss of its own")
+            .advise("store the result as a new sign, with a gloss of its own")
     })?;
     refuse_circle(connection, target, resolved)?;
     if made.clip.frames() == 0 {

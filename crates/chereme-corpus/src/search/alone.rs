@@ -66,7 +66,7 @@ fn leaves(ask: &Ask<'_>, term: &Expr) -> Asked<()> {
             drop(known);
             if !said && count(ask, term)? == 0 {
                 let why = match term {
-                    Expr::Relation(_) => "no token stands so to such an annotation",
+                    Expr::Relation(_) => "no token has this relation to such an annotation",
                     _ => "no token of the corpus has it",
                 };
                 let kind = FindingKind::CannotMatch {

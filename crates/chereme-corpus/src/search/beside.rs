@@ -199,7 +199,7 @@ fn check_tier(ask: &Ask<'_>, name: &Pattern, test: &Test) -> Asked<()> {
     }
     let near = findings::like(&name.segments().concat(), &names);
     let kind = FindingKind::CannotMatch {
-        why: "no tier is called so".to_owned(),
+        why: "no tier has this name".to_owned(),
         names: if near.is_empty() { names } else { near },
     };
     ask.find(test.to_string(), test.at, kind);

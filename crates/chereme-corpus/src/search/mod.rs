@@ -230,7 +230,7 @@ fn answer(ask: &Ask<'_>, query: &Query, options: &SearchOptions) -> Asked<Answer
         Default::default()
     };
     if ask.index.take_rebuilt() {
-        ask.note("the search index did not follow the rows and was made anew".to_owned());
+        ask.note("the search index did not follow the rows and was built again".to_owned());
     }
     Ok(Answer {
         query: query.to_string(),

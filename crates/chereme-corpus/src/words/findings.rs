@@ -27,7 +27,7 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "dites ce qu’est chaque acteur dans un fichier de correspondances (--map), ou avec `chereme annotate`",
     ),
     (
-        "the file's unit of length cannot be told from its skeleton; one unit is taken for {n} m",
+        "the file's unit of length cannot be inferred from its skeleton; one unit is taken for {n} m",
         "l’unité de longueur du fichier ne se déduit pas de son squelette ; une unité est prise pour {n} m",
     ),
     (
@@ -132,7 +132,7 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "{symbol} : la flexion y est deux fois",
     ),
     (
-        "{attribute} is none of the eight directions; it was read as {value}",
+        "{attribute} is not one of the eight directions; it was read as {value}",
         "{attribute} n’est aucune des huit directions ; lu comme {value}",
     ),
     (

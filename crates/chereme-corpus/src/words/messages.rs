@@ -136,7 +136,7 @@ const MESSAGES: &[(&str, &str)] = &[
         "{command} donne la liste des gloses",
     ),
     (
-        "{command} lists what was done",
+        "{command} lists all operations",
         "{command} dit ce qui a été fait",
     ),
     ("there is nothing to undo", "il n’y a rien à annuler"),
@@ -225,13 +225,13 @@ const MESSAGES: &[(&str, &str)] = &[
         "no sign has such a gloss",
         "aucun signe n’a une telle glose",
     ),
-    ("no tier is called so", "aucun acteur ne s’appelle ainsi"),
+    ("no tier has this name", "aucun acteur ne s’appelle ainsi"),
     (
         "no token of the corpus has it",
         "aucune occurrence du corpus ne l’a",
     ),
     (
-        "no token stands so to such an annotation",
+        "no token has this relation to such an annotation",
         "aucune occurrence n’est ainsi placée par rapport à une telle annotation",
     ),
     (

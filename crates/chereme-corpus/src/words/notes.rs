@@ -61,7 +61,7 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{n} images jouées à l’envers",
     ),
     (
-        "{component} {value} is no longer told: it runs the other way",
+        "{component} {value} is no longer written: it runs the other way",
         "{component} {value} n’est plus dit : il va dans l’autre sens",
     ),
     (

@@ -21,12 +21,12 @@ texts! {
     DAMAGED: "Something in the corpus is damaged.", "Quelque chose est abîmé dans le corpus.";
     INDEX: "The search index has a fault.", "L’index de recherche a un défaut.";
     OTHER_CORPUS: "choose a file that Chereme made; the start page makes a new one, empty or of a folder’s files", "choisissez un fichier créé par Chereme ; la page de départ en crée un, vide ou à partir d’un dossier";
-    CHECK_HERE: "“Check the corpus” of the File menu tells where, and makes anew what can be", "« Vérifier le corpus » du menu Fichier dit où, et refait ce qui peut l’être";
+    CHECK_HERE: "“Check the corpus” of the File menu shows where, and builds derived data again", "« Vérifier le corpus » du menu Fichier dit où, et refait ce qui peut l’être";
     CHECK_PATH: "check the spelling of the path", "vérifiez l’orthographe du chemin";
     OTHER_NAME: "choose another name, or move the existing one away", "choisissez un autre nom, ou déplacez ce qui existe";
     ASK_RIGHTS: "the file or its folder needs rights that you do not have", "le fichier ou son dossier demande des droits que vous n’avez pas";
     TRY_AGAIN: "try again when it is done", "réessayez quand il aura fini";
     MAKE_ROOM: "make room and try again; nothing was lost", "faites de la place et réessayez ; rien n’est perdu";
-    CHECK: "`chereme check` tells where, and how to mend it", "`chereme check` dit où, et comment réparer";
+    CHECK: "`chereme check` shows where, and how to mend it", "`chereme check` dit où, et comment réparer";
     QUERY_WRONG: "The query is not understood:", "La requête ne se comprend pas :";
 }

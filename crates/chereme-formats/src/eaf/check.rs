@@ -330,7 +330,7 @@ fn stereotypes(doc: &Document<'_>, resolved: &mut Resolved, findings: &mut Findi
         let stereotype = named.and_then(Stereotype::from_elan_name);
         if let (Some(name), None) = (named, stereotype) {
             findings.add("unknown stereotypes", || {
-                Finding::warning(doc.line(tier.at), format!("the type of tier {:?} has the stereotype {name:?}, which is none of ELAN's four", tier.id))
+                Finding::warning(doc.line(tier.at), format!("the type of tier {:?} has the stereotype {name:?}, which is not one of ELAN's four", tier.id))
             });
         }
         let child = resolved.parents[at].is_some();

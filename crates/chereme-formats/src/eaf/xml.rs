@@ -313,7 +313,7 @@ impl<'a> Cursor<'a> {
             self.find("unknown references", |line| {
                 Finding::warning(
                     line,
-                    format!("{told} stands for nothing known; it was kept as it is written"),
+                    format!("{told} is unknown; it was kept as it is written"),
                 )
                 .with_remedy("write &amp; for an ampersand")
             });

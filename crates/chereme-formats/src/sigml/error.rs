@@ -34,7 +34,7 @@ pub enum Error {
         found: String,
     },
     /// The text ends inside an element.
-    #[error("line {line}: the file ends inside <{open}>; it was cut short: copy it anew")]
+    #[error("line {line}: the file ends inside <{open}>; it was cut short: copy it again")]
     Truncated {
         /// The last line, counted from 1.
         line: u64,

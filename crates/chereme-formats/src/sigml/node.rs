@@ -152,7 +152,7 @@ impl<'e, 'f> Node<'e, 'f> {
                 .add("palms and curves with letters out of place", || {
                     let (line, text) = (self.element.line.0, shown(text));
                     let message = format!(
-                        "{name}={text:?} is none of the eight directions; it was read as \"{compass}\""
+                        "{name}={text:?} is not one of the eight directions; it was read as \"{compass}\""
                     );
                     Finding::warning(line, message).with_remedy(format!("write {RIGHT}"))
                 });

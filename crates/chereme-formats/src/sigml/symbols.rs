@@ -92,7 +92,7 @@ fn read_symbols(element: &Element<'_>, findings: &mut Findings) -> Vec<(Symbol, 
             }
             None => findings.add("symbols that are not known", || {
                 let message = format!(
-                    "<{}> is none of HamNoSys's symbols; it was left out",
+                    "<{}> is not a symbol of HamNoSys; it was left out",
                     shown(&child.name)
                 );
                 let near = nearest(&child.name, Symbol::all().map(Symbol::name));

@@ -147,7 +147,7 @@ fn unit(
     let Some(measures) = measures else {
         let (metres, kept) = fallback_scale(skeleton, rest);
         reasons.push(format!(
-            "no arm, leg or hand to tell the unit by: {kept}; say the unit if that is wrong"
+            "no arm, leg or hand to infer the unit from: {kept}; say the unit if that is wrong"
         ));
         return ("unknown", metres, 0.0);
     };

@@ -278,7 +278,7 @@ impl FromStr for Compass {
 
 /// A text that names none of the eight directions.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{0:?} is none of the eight directions; write u, ur, r, dr, d, dl, l or ul")]
+#[error("{0:?} is not one of the eight directions; write u, ur, r, dr, d, dl, l or ul")]
 pub struct CompassError(pub String);
 
 #[cfg(test)]

@@ -368,7 +368,7 @@ fn unknown(index: usize, character: char, word: Option<String>) -> Finding {
 fn kept(index: usize, symbol: Symbol) -> Finding {
     Finding {
         index,
-        message: format!("{symbol} is kept in the text but is no part of what the hands do"),
+        message: format!("{symbol} is kept in the text but is not part of the hands' movement"),
         remedy: "nothing is lost; leave it out to be rid of this finding",
         dropped: true,
     }

@@ -119,7 +119,7 @@ pub(super) fn check_term(pattern: &Pattern, at: At) -> Result<(), QueryError> {
     let (remedy, suggestion) = match pattern.as_literal().unwrap_or_default() {
         "|" | "||" => ("one or the other is written with `or`", "or"),
         "&" | "&&" | "+" => ("terms side by side must all hold already", "and"),
-        "!" | "-" => ("what must not hold is written with `not`", "not"),
+        "!" | "-" => ("write a condition that must not hold with `not`", "not"),
         _ => return check_searchable(pattern, at),
     };
     let error = QueryError::new(at, "this sign joins nothing here", remedy);

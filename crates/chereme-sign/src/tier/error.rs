@@ -73,7 +73,7 @@ pub enum EditError {
     },
     /// A new annotation of a Time_Subdivision must be the head or tail of one sibling.
     #[error(
-        "on the Time_Subdivision {tier} a new annotation takes the head or the tail of one that is there; split {sibling} instead"
+        "on the Time_Subdivision {tier} a new annotation takes the head or the tail of an existing one; split {sibling} instead"
     )]
     HeadOrTail {
         /// The tier.

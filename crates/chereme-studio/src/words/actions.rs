@@ -164,10 +164,10 @@ texts! {
     SEARCH_LIKE: "Search for signs like this", "Rechercher des signes comme celui-ci";
     SEARCH_VIEW: "Hits as figures or as a table", "Résultats en figures ou en tableau";
     SHOW_RECOMBINE: "Recombine", "Recombiner";
-    STORE_SIGN: "Store what was made: its gloss", "Enregistrer le signe produit : sa glose";
+    STORE_SIGN: "Store the result: its gloss", "Enregistrer le signe produit : sa glose";
     USE_IN_RECIPE: "Use in the recipe", "Utiliser dans la recette";
     OPEN_RECIPE: "Open its recipe again", "Rouvrir sa recette";
-    NO_RECIPE: "What is shown was not made of a recipe. Choose a synthesised sign in the library first.", "Ce qui est montré n’a pas été composé par une recette. Choisissez d’abord un signe composé dans le fonds.";
+    NO_RECIPE: "The stage does not show a generated sign. Choose one in the library first.", "Ce qui est montré n’a pas été composé par une recette. Choisissez d’abord un signe composé dans le fonds.";
     RECOMBINE_SELECTED: "Recombine what is selected", "Recombiner la sélection";
     CARD_UP: "Card up", "Monter la carte";
     CARD_DOWN: "Card down", "Descendre la carte";

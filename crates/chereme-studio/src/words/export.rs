@@ -5,7 +5,7 @@ texts! {
     WHAT: "What", "Quoi";
     FORMAT: "Format", "Format";
     WHERE: "Where to", "Vers où";
-    REPLACE: "Replace what is there", "Remplacer ce qui s’y trouve";
+    REPLACE: "Replace the existing file", "Remplacer ce qui s’y trouve";
     WRITE: "Write", "Écrire";
     WRITTEN: "Written: {n} files", "Écrit : {n} fichiers";
     WRITTEN_ONE: "Written: {n} file", "Écrit : {n} fichier";

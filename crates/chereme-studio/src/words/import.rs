@@ -65,7 +65,7 @@ texts! {
     JOINTS: "Joints", "Articulations";
     BODY_MAP: "Body: {n} of {all} parts found", "Corps : {n} parties sur {all} trouvées";
     PART_MISSING: "{part}: no joint", "{part} : aucune articulation";
-    TIERS_ARE: "What the tiers are taken for", "Pour quoi les acteurs sont pris";
+    TIERS_ARE: "The roles of the tiers", "Pour quoi les acteurs sont pris";
     TIER_IS: "Tier {tier} is", "L’acteur {tier} est";
     NOT_KNOWN: "not known", "inconnu";
     BECOMES: "Recording", "Enregistrement";

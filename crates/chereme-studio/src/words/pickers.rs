@@ -5,7 +5,7 @@ texts! {
     FILTER: "Type to find a value", "Taper pour trouver une valeur";
     NONE: "No value fits “{text}”.", "Aucune valeur ne correspond à « {text} ».";
     ENTER: "Enter picks {value}", "Entrée choisit {value}";
-    TIP: "{value}\nArrow keys walk, Enter picks, Ctrl and a click tells of it", "{value}\nFlèches pour aller, Entrée pour choisir, Ctrl et un clic pour en savoir tout";
+    TIP: "{value}\nArrow keys walk, Enter picks, Ctrl and a click shows its details", "{value}\nFlèches pour aller, Entrée pour choisir, Ctrl et un clic pour en savoir tout";
     ON_BODY: "On the body", "Sur le corps";
     IN_SPACE: "In space", "Dans l’espace";
     FROM_FRONT: "From the front", "De face";

@@ -13,7 +13,7 @@ texts! {
     REPLACE_SAME: "The recipe is the one that it has.", "La recette est celle qu’il a déjà.";
     NEEDS_GLOSS: "A new sign needs a gloss.", "Un nouveau signe a besoin d’une glose.";
     NEEDS_RECIPE: "There is nothing to store yet.", "Il n’y a encore rien à enregistrer.";
-    EMPTY: "A new sign begins with one that is there.", "Un nouveau signe part d’un signe existant.";
+    EMPTY: "A new sign begins with an existing one.", "Un nouveau signe part d’un signe existant.";
     EMPTY_MORE: "Choose a sign, change its parts, and see at once what comes of it.", "Choisissez un signe, changez ses composants, et voyez aussitôt le résultat.";
     BEGIN_SELECTED: "Begin with {gloss}", "Partir de {gloss}";
     OPENED: "The recipe of {name}", "La recette de {name}";
@@ -36,7 +36,7 @@ texts! {
     JOINS: "Joins ({n})", "Raccords ({n})";
     CONTACTS: "Contacts undone ({n})", "Contacts défaits ({n})";
     OTHER_SIGN: "Take another sign", "Prendre un autre signe";
-    SUGGEST: "What could be made from {sign}", "Ce qu’on peut faire de {sign}";
+    SUGGEST: "New signs from {sign}", "Ce qu’on peut faire de {sign}";
     NO_PARTNERS: "No sign differs from it in one component only.", "Aucun signe n’en diffère par un seul composant.";
     UNUSED: "{field}: values that no sign has with the rest", "{field} : valeurs qu’aucun signe n’a avec le reste";
     SIGN: "Sign", "Signe";

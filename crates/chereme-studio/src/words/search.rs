@@ -4,10 +4,10 @@ texts! {
     TITLE: "Search", "Recherche";
     QUERY: "Query", "Requête";
     HINT: "handshape U placement chin", "configuration U emplacement menton";
-    OFFERS: "What could be written", "Ce qui peut s’écrire";
+    OFFERS: "Completions", "Ce qui peut s’écrire";
     OFFER: "Write {text}", "Écrire {text}";
     OFFER_KEYS: "Tab or arrow keys and Enter", "Tab ou flèches et Entrée";
-    NOT_KEPT: "No search is kept as {name}.", "Aucune recherche n’est gardée sous {name}.";
+    NOT_KEPT: "No search is saved as {name}.", "Aucune recherche n’est gardée sous {name}.";
     MEANT: "Search for {query}", "Chercher {query}";
     MEND: "Write {text}", "Écrire {text}";
     NOTATION_CLEAR: "Take the symbols away", "Retirer les symboles";

@@ -6,7 +6,7 @@ texts! {
     SELECT: "Select a span", "Sélectionner un intervalle";
     SELECT_HOW: "Drag on the timeline in the row of a tier; or {annotation.begin-end} at the begin and again at the end. {play.selection} plays only that.", "Glissez sur la ligne de temps dans la ligne d’un acteur ; ou {annotation.begin-end} au début et de nouveau à la fin. {play.selection} ne lit que cela.";
     ANNOTATE: "Annotate", "Annoter";
-    ANNOTATE_HOW: "Double-click in the selection, or {annotation.new}; type the gloss, and Enter keeps it. Alt and a drag where nothing is yet do both at once.", "Double-cliquez dans la sélection, ou {annotation.new} ; écrivez la glose, Entrée la garde. Alt et un glissement là où il n’y a rien font les deux à la fois.";
+    ANNOTATE_HOW: "Double-click in the selection, or {annotation.new}; type the gloss, and Enter keeps it. Alt and a drag over free time do both at once.", "Double-cliquez dans la sélection, ou {annotation.new} ; écrivez la glose, Entrée la garde. Alt et un glissement là où il n’y a rien font les deux à la fois.";
     VALUE: "Choose a value by its picture", "Choisir une valeur par son image";
     VALUE_HOW: "On a tier of handshapes or places, {value.picture} shows all of them as pictures. Digits choose what is used most.", "Sur un acteur de configurations ou d’emplacements, {value.picture} les montre toutes en images. Les chiffres choisissent les plus utilisées.";
     BOUNDS: "Move boundaries", "Déplacer les limites";

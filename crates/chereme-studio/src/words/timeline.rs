@@ -54,8 +54,8 @@ texts! {
     NO_DIGIT: "No value of this tier has that digit yet.", "Aucune valeur de cet acteur n’a encore ce chiffre.";
     NO_NEXT: "There is no next annotation on this tier to merge with.", "Il n’y a pas d’annotation suivante à fusionner sur cet acteur.";
     SPLIT_INSIDE: "Put the playhead inside the annotation first.", "Placez d’abord le curseur dans l’annotation.";
-    DRAFT_BACK: "What you were typing is back: Enter keeps it, Escape drops it.", "Ce que vous écriviez est revenu : Entrée le garde, Échap l’abandonne.";
-    DRAFT_LOST: "What you were typing has no place any more: “{text}”", "Ce que vous écriviez n’a plus de place : « {text} »";
+    DRAFT_BACK: "Your unfinished text is back: Enter keeps it, Escape drops it.", "Ce que vous écriviez est revenu : Entrée le garde, Échap l’abandonne.";
+    DRAFT_LOST: "Your unfinished text has no place any more: “{text}”", "Ce que vous écriviez n’a plus de place : « {text} »";
     DRAFT_LOST_REMEDY: "Its annotation or tier is gone. Type it elsewhere, or undo what removed it.", "Son annotation ou son acteur n’existe plus. Écrivez-le ailleurs, ou annulez ce qui l’a supprimé.";
     TO_LEFT: "left", "gauche";
     TO_RIGHT: "right", "droite";

@@ -91,7 +91,7 @@ impl Writer<'_> {
         let hand = Some(track);
         if (which[1] || which[2]) && seen.beyond > 1.0 {
             self.findings.push(format!(
-                "the {} wrist or forearm is at its end in frame {frame}: what is told is {:.0}° beyond it",
+                "the {} wrist or forearm is at its limit in frame {frame}: the reading is {:.0}° beyond it",
                 track.side.name(),
                 seen.beyond
             ));

@@ -113,7 +113,7 @@ fn words(kind: Oddity) -> (Severity, &'static str, &'static str) {
             "the line HIERARCHY is missing; the file begins with ROOT",
             "",
         ),
-        O::KeywordCase => (Note, "the keyword {} is spelt otherwise than usual", ""),
+        O::KeywordCase => (Note, "the keyword {} has an unusual spelling", ""),
         O::BraceOnNameLine => (
             Note,
             "the brace of joint {} stands on the line of the name",
@@ -131,7 +131,7 @@ fn words(kind: Oddity) -> (Severity, &'static str, &'static str) {
         ),
         O::DuplicateName => (
             Warning,
-            "two joints are called {}; they are told apart by place only",
+            "two joints are called {}; only their positions distinguish them",
             "rename one of them",
         ),
         O::OffsetOverLines => (Note, "the OFFSET of joint {} goes over several lines", ""),
@@ -194,11 +194,7 @@ fn words(kind: Oddity) -> (Severity, &'static str, &'static str) {
             "there are no frames: a skeleton without movement",
             "",
         ),
-        O::HeaderSpelling => (
-            Note,
-            "the header line {} is spaced otherwise than usual",
-            "",
-        ),
+        O::HeaderSpelling => (Note, "the header line {} has unusual blanks", ""),
         O::NoFrameTime => (
             Warning,
             "there is no frame time above 0 ({}); with one frame at most, none is needed",

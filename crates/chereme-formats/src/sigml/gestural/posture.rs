@@ -255,7 +255,7 @@ fn split<T>(dominant: Option<T>, other: Option<T>) -> Each<T> {
 pub(super) fn one_half(element: &Element<'_>, findings: &mut Findings) {
     findings.add("splits with one half", || {
         let message = format!(
-            "<{}> holds fewer than two halves; what is there is the dominant hand's",
+            "<{}> holds fewer than two halves; they belong to the dominant hand",
             element.name
         );
         Finding::warning(element.line.0, message)

@@ -41,7 +41,7 @@ impl<'i> Shapes<'i> {
             return Some(Value::exact(id));
         }
         if shape.between.is_none() {
-            lost.add(format!("configuration: what tells it from {id}"));
+            lost.add(format!("configuration: the difference from {id}"));
         }
         Some(Value::near(id))
     }

@@ -89,7 +89,7 @@ impl Write {
                 None => self.one_hand_site(second),
             }
             if second.contact.is_some() || second.second.is_some() || second.define.is_some() {
-                self.lose("what else is said of the second of two sites has no place in text");
+                self.lose("further marks of the second of two sites cannot be written in text");
             }
         }
         self.contact(site.contact, site.by.as_deref());
