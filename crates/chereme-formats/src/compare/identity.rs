@@ -38,19 +38,7 @@ pub(super) fn matched(a: &Transcript, b: &Transcript) -> Matching {
         ..Matching::default()
     };
     if trusted {
-        for place in places(a) {
-            let own = get(a, place);
-            let Some(other) = ids.get(own.id.as_str()) else {
-                continue;
-            };
-            let same_tier = matching.tiers[place.tier] == Some(other.tier);
-            let same_value = own.value == get(b, *other).value;
-            let near = overlap(own, get(b, *other)) > 0.0 || alike(own, get(b, *other));
-            let symbolic = is_symbolic(a, place.tier) && is_symbolic(b, other.tier);
-            if (same_tier && (near || same_value || symbolic)) || (near && same_value) {
-                matching.pair(place, *other);
-            }
-        }
+        by_id(a, b, &ids, &mut matching);
     }
     for at in parents_first(a) {
         if let Some(other) = matching.tiers[at] {
@@ -62,6 +50,58 @@ pub(super) fn matched(a: &Transcript, b: &Transcript) -> Matching {
         }
     }
     matching
+}
+
+/// Matches annotations by id. One that an equal one stands in for, at the same time on the same tier, is matched with
+/// that: two annotations that exchanged their ids have not moved.
+fn by_id(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>, matching: &mut Matching) {
+    let mut moved = Vec::new();
+    for place in places(a) {
+        let own = get(a, place);
+        let Some(other) = ids.get(own.id.as_str()) else {
+            continue;
+        };
+        let same_tier = matching.tiers[place.tier] == Some(other.tier);
+        let same_value = own.value == get(b, *other).value;
+        let near = overlap(own, get(b, *other)) > 0.0 || alike(own, get(b, *other));
+        let symbolic = is_symbolic(a, place.tier) && is_symbolic(b, other.tier);
+        if (same_tier && (near || symbolic)) || (near && same_value) {
+            matching.pair(place, *other);
+        } else if same_tier && same_value {
+            moved.push((place, *other));
+        }
+    }
+    if moved.is_empty() {
+        return;
+    }
+    let mut equals: HashMap<(usize, &str), Vec<Place>> = HashMap::new();
+    for place in places(b) {
+        let key = (place.tier, get(b, place).value.as_str());
+        equals.entry(key).or_default().push(place);
+    }
+    for all in equals.values_mut() {
+        all.sort_by_key(|place| get(b, *place).span);
+    }
+    for (place, other) in &moved {
+        let own = get(a, *place);
+        let Some(all) = equals.get(&(other.tier, own.value.as_str())) else {
+            continue;
+        };
+        let earliest = own.span.start().micros().saturating_sub(TOLERANCE);
+        let first = all.partition_point(|it| get(b, *it).span.start().micros() < earliest);
+        let twin = all[first..]
+            .iter()
+            .take_while(|it| {
+                get(b, **it).span.start().micros() <= earliest.saturating_add(2 * TOLERANCE)
+            })
+            .find(|it| alike(own, get(b, **it)) && !matching.back.contains_key(*it));
+        if let Some(twin) = twin {
+            matching.pair(*place, *twin);
+        }
+    }
+    for (place, other) in moved {
+        matching.pair(place, other);
+    }
 }
 
 /// Reports whether ids mean the same in both: they have one URN, or nine in ten ids agree.

@@ -241,6 +241,13 @@ fn tiers_come_and_go() {
     );
 }
 
+#[test]
+fn annotations_that_exchanged_their_ids_have_not_moved() {
+    let a = document("G: a1 0-100 x, a2 500-600 x, a3 700-800 y");
+    let b = document("G: a2 0-100 x, a1 500-600 x, a3 700-800 y");
+    assert!(diff(&a, &b).is_empty(), "{:?}", diff(&a, &b));
+}
+
 /// A change of a document: which annotation, what, and how far.
 type Deed = (usize, u8, i64);
 
