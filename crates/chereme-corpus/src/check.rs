@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use chereme_formats::bvh::raw::Hierarchy;
 use chereme_motion::{Column, Instant, Span};
-use chereme_sign::tier::{self, AnnotationId, Stereotype, TierId, TierSet, Violation};
-use chereme_sign::{HandRef, Reading};
+use chereme_sign::Reading;
+use chereme_sign::tier::{self, AnnotationId, Hands, TierId, TierSet, Violation};
 use rusqlite::Connection;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -372,20 +372,15 @@ pub(crate) fn tier_set(connection: &Connection, recording: i64) -> Result<TierSe
                 value: Reading::from(annotation.value.as_str()),
             });
         }
-        let stereotype = row
-            .stereotype
-            .as_deref()
-            .and_then(Stereotype::from_elan_name);
-        let role = row.role();
         all.push(tier::Tier {
             id: TierId(row.id as u64),
             name: row.name,
-            role,
-            hand: row
-                .hand
-                .as_deref()
-                .and_then(|hand| hand.parse::<HandRef>().ok()),
-            parent: row.parent_id.map(|id| TierId(id as u64)).zip(stereotype),
+            role: row.role,
+            hand: row.hand.and_then(Hands::one),
+            parent: row
+                .parent_id
+                .map(|id| TierId(id as u64))
+                .zip(row.stereotype),
             vocabulary: None,
         });
     }

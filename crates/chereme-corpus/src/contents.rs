@@ -4,6 +4,7 @@
 use chereme_motion::{Instant, Rate, Span};
 
 use crate::Corpus;
+use crate::db::columns::ValueState;
 use crate::db::contents as rows;
 use crate::db::inventories::inventories as inventory_rows;
 use crate::db::recordings::{self, MediaTrackRow, RecordingRow, SignerRow};
@@ -113,7 +114,7 @@ pub struct AnnotationColumns {
     pub starts: Vec<i64>,
     /// The first microseconds after them.
     pub ends: Vec<i64>,
-    /// `value`, `unset`, `not-applicable` or `unclear`.
+    /// Whether they have values.
     pub states: Vec<ValueState>,
     /// What they say.
     pub values: Vec<Box<str>>,
@@ -121,20 +122,6 @@ pub struct AnnotationColumns {
     pub parents: Vec<Option<i64>>,
     /// How sure their origin is, from 0 to 1, where it says so.
     pub confidences: Vec<Option<f64>>,
-}
-
-/// Whether an annotation has a value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ValueState {
-    /// It has.
-    Value,
-    /// Nobody has said.
-    #[default]
-    Unset,
-    /// The field does not apply.
-    NotApplicable,
-    /// It cannot be told.
-    Unclear,
 }
 
 impl AnnotationColumns {
@@ -219,6 +206,7 @@ impl Corpus {
 mod tests {
     use super::*;
     use crate::{ImportOptions, Progress, unheard, unpack_starter};
+    use chereme_sign::TierRole;
 
     #[test]
     fn a_recording_is_read_as_its_rows_are_and_every_change_is_noticed() {
@@ -259,7 +247,7 @@ mod tests {
         let gloss = contents
             .tiers
             .iter()
-            .find(|tier| tier.row.role == "gloss")
+            .find(|tier| tier.row.role == TierRole::Gloss)
             .expect("a gloss tier");
         assert_eq!(&*gloss.annotations.values[0], "BOL");
         assert_eq!(gloss.annotations.states[0], ValueState::Value);

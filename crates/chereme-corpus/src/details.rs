@@ -1,10 +1,12 @@
 //! All that is known of one token, sign, signer or recording, read at one moment.
 
 use chereme_motion::anatomy::Measures;
+use chereme_sign::Component;
 use rusqlite::Connection;
 
 use crate::Corpus;
 use crate::address::{self, Address, Name};
+use crate::db::columns::{ValueState, phase_name};
 use crate::db::recordings::{self, RecordingRow};
 use crate::db::search::begin_reading;
 use crate::db::signs::{self, TokenRow};
@@ -53,9 +55,9 @@ pub struct TokenValue {
     /// The field, such as `initial.right.placement`.
     pub field: String,
     /// The component.
-    pub component: String,
-    /// `value`, `not-applicable` or `unclear`.
-    pub state: String,
+    pub component: Component,
+    /// Whether it has a value.
+    pub state: ValueState,
     /// The value.
     pub value: Option<String>,
     /// The inventory that it comes from.
@@ -140,8 +142,8 @@ impl Corpus {
         let reading = begin_reading(self.store.read())?;
         let row = address::token(&reading, address)?;
         let value = |it: signs::TokenValueRow| {
-            let hand = it.hand.as_deref().map(|hand| format!("{hand}."));
-            let phase = it.phase.as_deref().map(|phase| format!("{phase}."));
+            let hand = it.hand.map(|hand| format!("{hand}."));
+            let phase = it.phase.map(|phase| format!("{}.", phase_name(phase)));
             let feature = it.feature.as_deref().map(|feature| format!(".{feature}"));
             let [hand, phase, feature] = [hand, phase, feature].map(Option::unwrap_or_default);
             TokenValue {
@@ -314,7 +316,7 @@ mod tests {
         let value = source
             .values
             .iter()
-            .find(|it| it.component == "configuration" && it.inventory.is_some())
+            .find(|it| it.component == Component::Configuration && it.inventory.is_some())
             .expect("a handshape");
         let (inventory, id) = (value.inventory.expect("one"), value.value.clone());
         let uses = corpus.value_uses(inventory, &id.expect("one"));

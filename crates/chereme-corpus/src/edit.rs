@@ -5,6 +5,7 @@ use rusqlite::Connection;
 
 use crate::Corpus;
 use crate::address::{self, Address, Name};
+use crate::db::columns::Origin;
 use crate::db::edits;
 use crate::db::recordings::{self, RecordingRow, SignerRow};
 use crate::db::signs::{self, TokenRow};
@@ -20,8 +21,8 @@ pub struct RecordingChange {
     pub name: Option<String>,
     /// The signer's name, or nobody; a signer that is not there is made.
     pub signer: Option<Option<String>>,
-    /// `captured`, `made` or `generated`.
-    pub origin: Option<String>,
+    /// How it came about.
+    pub origin: Option<Origin>,
     /// The terms under which it may be used, or none.
     pub licence: Option<Option<String>>,
     /// Remarks, or none.
@@ -81,9 +82,7 @@ impl Corpus {
                     None => None,
                 };
             }
-            if let Some(origin) = &change.origin {
-                row.origin = checked_origin(origin)?;
-            }
+            row.origin = change.origin.unwrap_or(row.origin);
             set(&mut row.licence, change.licence.as_ref());
             set(&mut row.notes, change.notes.as_ref());
             if row != old {
@@ -235,15 +234,4 @@ fn taken(what: &str, name: &str) -> Error {
     Error::wrong(format!("there is another {what} called {name:?}"))
         .at(name)
         .advise("give it another name")
-}
-
-fn checked_origin(origin: &str) -> Result<String> {
-    match origin {
-        "captured" | "made" | "generated" => Ok(origin.to_owned()),
-        _ => Err(
-            Error::wrong(format!("{origin:?} is no origin of a recording"))
-                .at(origin)
-                .advise("write captured, made or generated"),
-        ),
-    }
 }

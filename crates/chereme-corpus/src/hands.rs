@@ -8,6 +8,7 @@ use rusqlite::Connection;
 
 use crate::Corpus;
 use crate::address::{self, Name};
+use crate::db::columns::Origin;
 use crate::db::contents::generation;
 use crate::db::recordings::{self, RecordingRow};
 use crate::error::Result;
@@ -48,7 +49,7 @@ pub(crate) fn corrections(
     kept: &RefCell<Kept>,
     row: &RecordingRow,
 ) -> Result<[HandCorrection; 2]> {
-    if row.origin == "made" {
+    if row.origin == Origin::Made {
         return Ok([HandCorrection::default(); 2]);
     }
     let now = generation(connection)?;
@@ -68,7 +69,7 @@ pub(crate) fn corrections(
     let mut takes = 1;
     if row.signer_id.is_some() {
         for other in recordings::recordings(connection)? {
-            let same = other.signer_id == row.signer_id && other.origin != "made";
+            let same = other.signer_id == row.signer_id && other.origin != Origin::Made;
             if takes == TAKES || other.id == row.id || !same {
                 continue;
             }

@@ -71,9 +71,9 @@ pub use address::{Address, Name, Stretch};
 pub use animate::Staging;
 pub use annotate::hold;
 pub use annotate::{
-    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
-    AnnotationOrigin, Copied, Find, NewTier, RemovedTiers, Replaced, ReplacedValue, Scheme,
-    TierChange, TierName, Values, Within,
+    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, Copied,
+    Find, NewTier, RemovedTiers, Replaced, ReplacedValue, Scheme, TierChange, TierName, Values,
+    Within,
 };
 pub use around::Around;
 pub use check::{CheckReport, Fault};
@@ -88,12 +88,13 @@ pub use chereme_formats::compare::{
 pub use chereme_sign::query::{facet_condition, narrow, wants, without};
 pub use compare::{CompareSide, FileMerge, merge_files};
 pub use contents::{
-    AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents, ValueState,
+    AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents,
 };
 pub use cue::{
     CueKey, CueKeys, CueOptions, KeysOptions, SpokenWord, cue_keys, cue_keys_of_file,
     cue_phones_of_file,
 };
+pub use db::columns::{AnnotationOrigin, Origin, ValueState};
 pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
 pub use db::tiers::TierRow;

@@ -7,6 +7,7 @@ use std::str::FromStr;
 use chereme_sign::Field;
 use chereme_sign::hamnosys::to_names;
 use chereme_sign::text::{did_you_mean, nearest};
+use chereme_sign::tier::Hands;
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -327,22 +328,16 @@ fn between(pattern: &str) -> Option<Test> {
 fn components(values: &[TokenValueRow]) -> Value {
     let mut map = Map::new();
     for row in values {
-        let phase = match (row.phase.as_deref(), row.position) {
-            (Some("middle"), place) if place > 1 => Some(format!("middle{place}")),
-            (phase, _) => phase.map(str::to_owned),
-        };
+        let phase = row.phase.map(|phase| phase.to_string());
         let parts = [
-            phase.as_ref(),
-            row.hand.as_ref(),
-            Some(&row.component),
-            row.feature.as_ref(),
+            phase.as_deref(),
+            row.hand.map(Hands::name),
+            Some(row.component.name()),
+            row.feature.as_deref(),
         ];
-        let field: Vec<&str> = parts.into_iter().flatten().map(String::as_str).collect();
-        let value = match (row.state.as_str(), &row.value) {
-            ("value", Some(value)) => Value::from(value.as_str()),
-            ("not-applicable", _) => Value::from("n/a"),
-            (state, _) => Value::from(state),
-        };
+        let field: Vec<&str> = parts.into_iter().flatten().collect();
+        let value = row.state.missing_text().or(row.value.as_deref());
+        let value = Value::from(value.unwrap_or_default());
         match map.get_mut(&field.join(".")) {
             Some(Value::Array(several)) => several.push(value),
             Some(one) => *one = Value::Array(vec![one.take(), value]),
@@ -435,9 +430,11 @@ pub fn components_text<'v>(fields: impl IntoIterator<Item = (&'v String, &'v Val
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
     use crate::db::tiers::{AnnotationRow, TierRow};
     use crate::db::{recordings, signs as sign_rows};
     use crate::{inventories, tokens};
+    use chereme_sign::TierRole;
     use serde_json::json;
 
     fn corpus() -> (tempfile::TempDir, Corpus) {
@@ -453,7 +450,7 @@ mod tests {
                         name: name.into(),
                         signer_id: (name == "One").then_some(signer),
                         signer: None,
-                        origin: "captured".into(),
+                        origin: Origin::Captured,
                         duration_us: 1_000_000,
                         licence: None,
                         notes: None,
@@ -462,7 +459,7 @@ mod tests {
                     let tier = TierRow {
                         recording_id,
                         name: "Gloss".into(),
-                        role: "gloss".into(),
+                        role: TierRole::Gloss,
                         ..TierRow::default()
                     };
                     let tier_id = tiers::insert_tier(connection, &tier)?;
@@ -470,9 +467,9 @@ mod tests {
                         tier_id,
                         start_us,
                         end_us: start_us + 100_000,
-                        state: "value".into(),
+                        state: ValueState::Value,
                         value: value.into(),
-                        origin: "file".into(),
+                        origin: AnnotationOrigin::File,
                         ..AnnotationRow::default()
                     };
                     tiers::insert_annotation(connection, &row(0, gloss))?;

@@ -10,6 +10,7 @@ use chereme_sign::{Component, Field};
 use serde::Serialize;
 
 use crate::Corpus;
+use crate::db::columns::Origin;
 use crate::db::signs::{self, TokenRow};
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
@@ -44,8 +45,8 @@ pub struct MapPoint {
     pub token: i64,
     /// Its gloss.
     pub gloss: String,
-    /// `captured`, `made`, `generated` or `lexicon`.
-    pub origin: String,
+    /// How it came about.
+    pub origin: Origin,
     /// The place from the left edge, 0 to 1.
     pub x: f32,
     /// The place from the top edge, 0 to 1.
@@ -195,10 +196,10 @@ impl SignMap {
         let mut taken: BTreeSet<(i32, i32)> = BTreeSet::new();
         for point in &self.signs {
             let [x, y] = [point.x, point.y].map(|it| margin + side * it);
-            let colour = match point.origin.as_str() {
-                "captured" => "#2b6cb0",
-                "lexicon" => "#718096",
-                _ => "#b7791f",
+            let colour = match point.origin {
+                Origin::Captured => "#2b6cb0",
+                Origin::Lexicon => "#718096",
+                Origin::Made | Origin::Generated => "#b7791f",
             };
             let gloss = escaped(&point.gloss);
             // Formatting into a string never fails.

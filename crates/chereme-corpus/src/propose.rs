@@ -12,9 +12,8 @@ use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{Address, Name};
-use crate::annotate::{
-    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationOrigin, NewTier, TierName,
-};
+use crate::annotate::{AnnotateOptions, AnnotationAction, AnnotationChange, NewTier, TierName};
+use crate::db::columns::AnnotationOrigin;
 use crate::db::tiers;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};

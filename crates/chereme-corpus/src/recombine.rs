@@ -14,7 +14,8 @@ use chereme_formats::bvh::raw::{Column, Hierarchy};
 use chereme_motion::anatomy::Anatomy;
 use chereme_motion::{Clip, Convention, Face, Side};
 use chereme_sign::inventory;
-use chereme_sign::{Component, Field, Handedness, Reading};
+use chereme_sign::tier::Hands;
+use chereme_sign::{Component, Field, Handedness, Reading, TierRole};
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::json;
@@ -23,6 +24,7 @@ use sha2::{Digest, Sha256};
 use crate::Corpus;
 use crate::address::{self, Address, Name};
 use crate::curves;
+use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
 use crate::db::motion::hex;
 use crate::db::recipes::{self, RecipeRow};
 use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
@@ -285,7 +287,7 @@ fn store(
             name: name.clone(),
             signer_id,
             signer: None,
-            origin: "made".to_owned(),
+            origin: Origin::Made,
             duration_us: made.clip.span().micros(),
             licence: None,
             notes: None,
@@ -421,7 +423,7 @@ fn store_tiers(
 ) -> Result<()> {
     let whole = made.clip.span();
     let root = TierRow {
-        role: "gloss".to_owned(),
+        role: TierRole::Gloss,
         ..new_tier(recording, "Gloss", 0)
     };
     let root = tiers::insert_tier(connection, &root)?;
@@ -429,9 +431,9 @@ fn store_tiers(
         tier_id: root,
         start_us: whole.start().micros(),
         end_us: whole.end().micros(),
-        state: "value".to_owned(),
+        state: ValueState::Value,
         value: gloss.to_owned(),
-        origin: "made".to_owned(),
+        origin: AnnotationOrigin::Made,
         ..AnnotationRow::default()
     };
     tiers::insert_annotation(connection, &row)?;
@@ -478,9 +480,9 @@ fn store_notes(
                 tier_id: tier,
                 start_us: start.micros(),
                 end_us: end.micros(),
-                state: tokens::state_name(&note.value).to_owned(),
+                state: ValueState::of(&note.value),
                 value: note.value.value().unwrap_or_default().to_owned(),
-                origin: "made".to_owned(),
+                origin: AnnotationOrigin::Made,
                 source: Some(json!({ "from": note.origin }).to_string()),
                 ..AnnotationRow::default()
             };
@@ -532,7 +534,10 @@ fn note_tier(
     let mut tier = new_tier(recording, name, position);
     let About::Component(component, feature) = &note.about else {
         let is_key = note.about == About::Cue(CueTier::Keys);
-        tier.role = if is_key { "gloss" } else { "free" }.to_owned();
+        tier.role = match is_key {
+            true => TierRole::Gloss,
+            false => TierRole::Free,
+        };
         return tier;
     };
     let mut field = Field::new(*component);
@@ -540,13 +545,12 @@ fn note_tier(
     let manual = *component != Component::NonManual;
     let builtin = inventory::builtin_for(&field).map(|it| it.id.as_str());
     let known = matches!(&note.value, Reading::Value(_));
-    tier.role = "component".to_owned();
-    tier.component = Some(component.name().to_owned());
-    tier.feature.clone_from(feature);
-    tier.hand = note
-        .hand
-        .filter(|_| manual)
-        .map(|side| side.name().to_owned());
+    tier.role = TierRole::Component {
+        component: *component,
+        feature: feature.clone(),
+    };
+    let hand = note.hand.filter(|_| manual);
+    tier.hand = hand.map(|side| Hands::One(side.into()));
     tier.inventory_id = inventories
         .iter()
         .find(|it| known && Some(it.inventory.id.as_str()) == builtin)

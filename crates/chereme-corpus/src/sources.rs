@@ -12,13 +12,15 @@ use chereme_sign::Inventory;
 use chereme_sign::hamnosys::Notated;
 use chereme_sign::milestones::Function;
 use chereme_sign::text::nearest;
-use chereme_sign::{Component, HandRef, Handedness, Reading};
+use chereme_sign::tier::Hands;
+use chereme_sign::{Component, Handedness, Reading};
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
 use crate::address::{self, Address, Name, Stretch};
 use crate::curves;
 use crate::db::Store;
+use crate::db::columns::Origin;
 use crate::db::history;
 use crate::db::motion;
 use crate::db::recordings::{self, RecordingRow};
@@ -105,8 +107,7 @@ impl<'a> CorpusSources<'a> {
         let mut held = Vec::new();
         let (start, end) = (stretch.span.start().micros(), stretch.span.end().micros());
         for tier in tiers::tiers(self.connection, stretch.recording.id)? {
-            let Some(component) = tier.component.as_deref().and_then(|name| name.parse().ok())
-            else {
+            let Some((component, feature)) = tier.role.component() else {
                 continue;
             };
             let inventory = self
@@ -121,16 +122,16 @@ impl<'a> CorpusSources<'a> {
                 let Some(span) = own.intersection(stretch.span) else {
                     continue;
                 };
-                if row.state != "value" || row.value.trim().is_empty() {
+                if !row.is_filled() {
                     continue;
                 }
                 let known = inventory.and_then(|it| it.inventory.find(row.value.trim()));
                 let value = known.map_or(row.value.trim(), |value| value.id.as_str());
-                for hand in sides(tier.hand.as_deref(), handedness) {
+                for hand in sides(tier.hand, handedness) {
                     held.push(Held {
                         hand,
                         component,
-                        feature: tier.feature.clone(),
+                        feature: feature.map(str::to_owned),
                         value: Reading::from(value),
                         span: span.shifted(-start),
                     });
@@ -273,14 +274,14 @@ impl Sources for CorpusSources<'_> {
             // Generated movement has a body from elsewhere, and may be generated again on another.
             recordings.retain(|row| match wanted {
                 Some(signer) => row.signer_id == Some(signer),
-                None => row.origin != "made",
+                None => row.origin != Origin::Made,
             });
-            let rank = |origin: &str| {
-                ["captured", "generated", "made"]
+            let rank = |origin: Origin| {
+                [Origin::Captured, Origin::Generated, Origin::Made]
                     .iter()
                     .position(|it| *it == origin)
             };
-            recordings.sort_by_key(|row| (rank(&row.origin), row.id));
+            recordings.sort_by_key(|row| (rank(row.origin), row.id));
             let mut spare = None;
             for recording in recordings {
                 if recordings::body_track(self.connection, recording.id)?.is_none() {
@@ -330,10 +331,7 @@ impl Sources for CorpusSources<'_> {
                 let span = found.span_us.map(|(start, end)| {
                     Span::between(Instant::from_micros(start), Instant::from_micros(end))
                 });
-                let hand = found
-                    .hand
-                    .as_deref()
-                    .and_then(|hand| hand.parse::<HandRef>().ok());
+                let hand = found.hand.and_then(Hands::one);
                 let handedness = if found.left_handed {
                     Handedness::Left
                 } else {
@@ -435,13 +433,10 @@ impl Sources for CorpusSources<'_> {
     }
 }
 
-fn sides(hand: Option<&str>, handedness: Handedness) -> Vec<Option<Side>> {
+fn sides(hand: Option<Hands>, handedness: Handedness) -> Vec<Option<Side>> {
     match hand {
-        Some("both") => vec![Some(Side::Right), Some(Side::Left)],
-        Some(hand) => {
-            let hand: Option<HandRef> = hand.parse().ok();
-            vec![hand.map(|hand| hand.resolve(handedness))]
-        }
+        Some(Hands::Both) => vec![Some(Side::Right), Some(Side::Left)],
+        Some(Hands::One(hand)) => vec![Some(hand.resolve(handedness))],
         None => vec![None],
     }
 }

@@ -2,11 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::{Component, Field, HandRef, Handedness};
+use chereme_sign::tier::Hands;
+use chereme_sign::{Component, Field, HandRef, Handedness, Phase};
 use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, Address};
+use crate::db::columns::{Origin, ValueState, phase_place};
 use crate::db::recordings;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::error::{Error, Result};
@@ -37,8 +39,8 @@ pub struct Partner {
     pub token: i64,
     /// Its gloss.
     pub gloss: String,
-    /// `captured`, `made`, `generated` or `lexicon`.
-    pub origin: String,
+    /// How it came about.
+    pub origin: Origin,
     /// The field in which they differ.
     pub field: String,
     /// The value of the first sign.
@@ -201,39 +203,38 @@ pub(crate) fn coding_name(field: &Field) -> String {
 fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
     let mut values: BTreeMap<String, Vec<(u8, i64, &str)>> = BTreeMap::new();
     for row in rows {
-        let Some(value) = row.value.as_deref().filter(|_| row.state == "value") else {
+        let Some(value) = row
+            .value
+            .as_deref()
+            .filter(|_| row.state == ValueState::Value)
+        else {
             continue;
         };
-        if row.component == "nonmanual" || row.feature.as_deref() == Some("phase") {
+        if row.component == Component::NonManual || row.feature.as_deref() == Some("phase") {
             continue;
         }
-        let hand = row
-            .hand
-            .as_deref()
-            .and_then(|hand| hand.parse::<HandRef>().ok());
+        let hand = row.hand.and_then(Hands::one);
         let weak = hand.is_some_and(|hand| hand.resolve(handedness) != handedness.dominant());
-        let both = row.hand.as_deref() == Some("both");
+        let both = row.hand == Some(Hands::Both);
         let feature = row
             .feature
             .as_ref()
             .map_or(String::new(), |it| format!(".{it}"));
-        let manner = if row.component == "configuration" {
+        let manner = if row.component == Component::Configuration {
             "dominant."
         } else {
             ""
         };
-        let phase = match row.phase.as_deref() {
-            Some("initial") => 0,
-            Some("middle") => 1,
-            Some("final") => 3,
-            _ => 2,
+        let phase = match row.phase {
+            Some(Phase::Initial) => 0,
+            Some(Phase::Middle(_)) => 1,
+            None => 2,
+            Some(Phase::Final) => 3,
         };
+        let place = phase_place(row.phase);
         let mut add = |prefix: &str| {
             let field = format!("{prefix}{}{feature}", row.component);
-            values
-                .entry(field)
-                .or_default()
-                .push((phase, row.position, value));
+            values.entry(field).or_default().push((phase, place, value));
         };
         if weak {
             add("weak.");

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use chereme_motion::{Instant, Span};
+use chereme_sign::tier::Hands;
 use chereme_sign::token::{ComponentSpan, owner, readings};
-use chereme_sign::{Component, Field, HandRef, Handedness, Phase, Reading};
+use chereme_sign::{Component, Field, HandRef, Handedness, Reading, TierRole};
 use rusqlite::Connection;
 
 use crate::db::recordings::{self, RecordingRow, SignerRow};
@@ -98,13 +99,13 @@ fn write_token(
     let mut token = old.clone().unwrap_or_else(|| TokenRow {
         recording_id: Some(recording.id),
         annotation_id: Some(gloss.row.id),
-        origin: recording.origin.clone(),
+        origin: recording.origin,
         ..TokenRow::default()
     });
     token.sign_id = sign_id;
     token.start_us = Some(gloss.row.start_us);
     token.end_us = Some(gloss.row.end_us);
-    token.hand.clone_from(&gloss.hand);
+    token.hand = gloss.hand;
     match old {
         Some(old) => {
             if old != token {
@@ -124,7 +125,7 @@ fn write_token(
 
 struct Gloss {
     row: AnnotationRow,
-    hand: Option<String>,
+    hand: Option<Hands>,
     participant: Option<String>,
 }
 
@@ -157,9 +158,11 @@ impl Said {
         progress: &mut Progress<'_>,
     ) -> Result<Self> {
         let all = tiers::tiers(connection, recording.id)?;
-        let of = |role: &'static str| {
-            let said = move |tier: &&TierRow| tier.role == role && !tier.is_of_phases();
-            all.iter().filter(said)
+        let said = |tier: &&TierRow| !tier.is_of_phases();
+        let of_glosses = || all.iter().filter(|it| it.role == TierRole::Gloss);
+        let of_components = || {
+            let coded = |it: &&TierRow| it.role.component().is_some();
+            all.iter().filter(coded).filter(said)
         };
         let mut said = Self {
             handedness: handedness(connection, recording)?,
@@ -171,19 +174,19 @@ impl Said {
         };
         if let Some(window) = window {
             let mut within = window;
-            for tier in of("component") {
+            for tier in of_components() {
                 for row in annotations(connection, tier, Some(window))? {
                     within = hull(within, span(&row));
                 }
             }
             said.within = Some(within);
         }
-        said.glosses = glosses(connection, of("gloss"), said.within)?;
+        said.glosses = glosses(connection, of_glosses(), said.within)?;
         let Some(reach) = said.glosses.iter().map(|it| span(&it.row)).reduce(hull) else {
             return Ok(said);
         };
         let mut context = reach;
-        for tier in of("component") {
+        for tier in of_components() {
             let inventory = inventories
                 .iter()
                 .find(|it| Some(it.id) == tier.inventory_id);
@@ -195,7 +198,7 @@ impl Said {
             }
         }
         if said.within.is_some() {
-            said.glosses = glosses(connection, of("gloss"), Some(context))?;
+            said.glosses = glosses(connection, of_glosses(), Some(context))?;
         }
         said.components
             .sort_by_key(|coded| (coded.span.span.start(), coded.annotation));
@@ -214,30 +217,28 @@ impl Said {
         row: &AnnotationRow,
         inventory: Option<&StoredInventory>,
     ) {
-        let Some(component) = tier.component.as_deref().and_then(|name| name.parse().ok()) else {
+        let Some((component, feature)) = tier.role.component() else {
             return;
         };
-        let reading = match row.state.as_str() {
-            "value" => {
-                let known = inventory.and_then(|it| it.inventory.find(row.value.trim()));
-                Reading::from(known.map_or(row.value.trim(), |value| value.id.as_str()))
+        let reading = match row.reading() {
+            Reading::Value(value) => {
+                let known = inventory.and_then(|it| it.inventory.find(value.trim()));
+                Reading::from(known.map_or(value.trim(), |value| value.id.as_str()))
             }
-            "not-applicable" => Reading::NotApplicable,
-            "unclear" => Reading::Unclear,
-            _ => Reading::Unset,
+            missing => missing,
         };
         if reading == Reading::Unset {
             return;
         }
-        let hands: Vec<Option<HandRef>> = match tier.hand.as_deref() {
-            Some("both") => vec![Some(HandRef::Right), Some(HandRef::Left)],
-            hand => vec![hand.and_then(|hand| hand.parse().ok())],
+        let hands: Vec<Option<HandRef>> = match tier.hand {
+            Some(Hands::Both) => vec![Some(HandRef::Right), Some(HandRef::Left)],
+            hand => vec![hand.and_then(Hands::one)],
         };
         for hand in hands {
             let field = Field {
                 hand,
                 component,
-                feature: tier.feature.clone(),
+                feature: feature.map(str::to_owned),
                 phase: None,
             };
             self.components.push(Coded {
@@ -260,7 +261,7 @@ impl Said {
 
     fn values(&self, gloss: &Gloss) -> Vec<TokenValueRow> {
         let own = span(&gloss.row);
-        let hand: Option<HandRef> = gloss.hand.as_deref().and_then(|hand| hand.parse().ok());
+        let hand = gloss.hand.and_then(Hands::one);
         let handedness = self.handedness_of(gloss.participant.as_deref());
         let hand = hand.map(|hand| HandRef::from(hand.resolve(handedness)));
         let owned: Vec<&Coded> = self
@@ -280,10 +281,10 @@ impl Said {
     /// Gives each component to the gloss that it belongs to, among those of each hand of each participant; the
     /// components of one participant never belong to a gloss of another.
     fn give(&mut self, progress: &mut Progress<'_>) -> Result<()> {
-        type Whose<'g> = (Option<&'g str>, Option<&'g str>);
+        type Whose<'g> = (Option<&'g str>, Option<&'static str>);
         let mut hands: BTreeMap<Whose<'_>, Vec<&Gloss>> = BTreeMap::new();
         for gloss in &self.glosses {
-            let whose = (gloss.participant.as_deref(), gloss.hand.as_deref());
+            let whose = (gloss.participant.as_deref(), gloss.hand.map(Hands::name));
             hands.entry(whose).or_default().push(gloss);
         }
         let mut owned: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
@@ -314,32 +315,10 @@ impl Said {
 
 fn row_of(field: &Field, source: &Coded) -> TokenValueRow {
     let reading = &source.span.reading;
-    let (phase, position) = match field.phase {
-        None => (None, 0),
-        Some(Phase::Initial) => (Some("initial"), 0),
-        Some(Phase::Middle(place)) => (Some("middle"), i64::from(place)),
-        Some(Phase::Final) => (Some("final"), 0),
-    };
     TokenValueRow {
-        hand: field.hand.map(|hand| hand.name().to_owned()),
-        component: field.component.name().to_owned(),
-        feature: field.feature.clone(),
-        phase: phase.map(str::to_owned),
-        position,
-        state: state_name(reading).to_owned(),
-        value: reading.value().map(str::to_owned),
         inventory_id: source.inventory,
         annotation_id: Some(source.annotation),
-    }
-}
-
-/// Returns the name under which a reading's kind is stored.
-pub(crate) fn state_name(reading: &Reading) -> &'static str {
-    match reading {
-        Reading::Value(_) => "value",
-        Reading::Unset => "unset",
-        Reading::NotApplicable => "not-applicable",
-        Reading::Unclear => "unclear",
+        ..TokenValueRow::of(field, reading)
     }
 }
 
@@ -412,8 +391,8 @@ fn glosses<'t>(
     let mut glosses = Vec::new();
     for tier in tiers {
         for row in annotations(connection, tier, within)? {
-            if row.state == "value" && !row.value.trim().is_empty() {
-                let hand = tier.hand.clone();
+            if row.is_filled() {
+                let hand = tier.hand;
                 let participant = tier.participant.clone();
                 glosses.push(Gloss {
                     row,

@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{Address, Stretch};
+use crate::db::columns::Origin;
 use crate::db::notations::{self, NotationRow};
 use crate::db::recordings;
 use crate::error::{Error, Result};
@@ -134,8 +135,8 @@ impl Corpus {
         let frames = frames.unwrap_or_else(|| track.frames_in(stretch.span));
         let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
         let anatomy = track.anatomy(connection)?;
-        let usual = match stretch.recording.origin.as_str() {
-            "made" => Options::made(),
+        let usual = match stretch.recording.origin {
+            Origin::Made => Options::made(),
             _ => Options::default(),
         };
         let dominant = self.dominant(&stretch)?;

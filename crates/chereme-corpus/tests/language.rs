@@ -64,7 +64,7 @@ fn captured(folder: &Path, origin: &str) -> Corpus {
     let mut corpus = Corpus::create(&folder.join("corpus.chereme"), "A").expect("made");
     import(&mut corpus, &signs, &ImportOptions::default());
     let options = ImportOptions {
-        origin: Some(origin.to_owned()),
+        origin: chereme_corpus::Origin::of_name(origin),
         signer: Some("Anna".to_owned()),
         ..ImportOptions::default()
     };

@@ -2,6 +2,7 @@
 //!
 //! Hues are those of Okabe and Ito, which people with any colour vision can tell apart.
 
+use chereme_corpus::TierRole;
 use eframe::egui::{
     Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Style,
     TextStyle, Theme, ThemePreference, Vec2, epaint::Hsva,
@@ -78,12 +79,12 @@ impl Colours {
     }
 
     /// Returns the colour of annotations of a tier with that role.
-    pub(crate) fn role(&self, role: &str) -> Color32 {
+    pub(crate) fn role(&self, role: &TierRole) -> Color32 {
         match role {
-            "gloss" => self.gloss,
-            "component" => self.component,
-            "translation" | "comment" => self.words,
-            _ => self.free,
+            TierRole::Gloss => self.gloss,
+            TierRole::Component { .. } => self.component,
+            TierRole::Translation | TierRole::Comment => self.words,
+            TierRole::Free => self.free,
         }
     }
 }
@@ -233,9 +234,10 @@ mod tests {
     fn what_is_selected_stands_out_from_every_tier_by_lightness() {
         for dark in [false, true] {
             let colours = Colours::of(dark);
-            for role in ["gloss", "component", "translation", "free"] {
-                let apart = contrast(colours.chosen, colours.role(role));
-                assert!(apart >= 1.8, "{dark} {role}: {apart}");
+            for role in ["gloss", "configuration", "translation", "free"] {
+                let role: TierRole = role.parse().expect("a role");
+                let apart = contrast(colours.chosen, colours.role(&role));
+                assert!(apart >= 1.8, "{dark} {role:?}: {apart}");
             }
             assert!(contrast(colours.chosen, colours.on_chosen) >= 4.5);
         }

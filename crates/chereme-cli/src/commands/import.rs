@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use chereme_corpus::words::{fill, trouble};
 use chereme_corpus::{
-    Corpus, Error, FileReport, FileStatus, ImportOptions, ImportReport, Mapping, OwnEdits,
+    Corpus, Error, FileReport, FileStatus, ImportOptions, ImportReport, Mapping, Origin, OwnEdits,
     Progress, ReportFinding,
 };
 use chereme_motion::anatomy::RolesError;
@@ -217,9 +217,9 @@ fn options(args: &Args) -> Result<ImportOptions> {
         Ok(Mapping::from_json(&text).map_err(|error| wrong_text(path, error, advice))?)
     });
     let origin = |origin: OriginWord| match origin {
-        OriginWord::Captured => "captured",
-        OriginWord::Made => "made",
-        OriginWord::Generated => "generated",
+        OriginWord::Captured => Origin::Captured,
+        OriginWord::Made => Origin::Made,
+        OriginWord::Generated => Origin::Generated,
     };
     Ok(ImportOptions {
         signer: args.signer.clone(),
@@ -229,7 +229,7 @@ fn options(args: &Args) -> Result<ImportOptions> {
         roles: roles.transpose()?,
         mend_root: args.mend_root,
         mapping: mapping.transpose()?.unwrap_or_default(),
-        origin: args.origin.map(|it| origin(it).to_owned()),
+        origin: args.origin.map(origin),
         licence: args.licence.clone(),
         own_edits: match (args.merge, args.theirs, args.mine) {
             (true, _, _) => OwnEdits::Merge,

@@ -267,7 +267,7 @@ fn cells(hit: &Hit) -> Vec<String> {
         hit.recording.clone().unwrap_or_default(),
         hit.start_us.map(seconds).unwrap_or_default(),
         length.unwrap_or_default(),
-        hit.origin.clone(),
+        hit.origin.name().to_owned(),
         components_text(&hit.components),
     ]
 }

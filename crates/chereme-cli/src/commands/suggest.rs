@@ -43,7 +43,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             let recipe = it.recipe.clone().unwrap_or_default();
             vec![
                 it.gloss.clone(),
-                it.origin.clone(),
+                it.origin.name().to_owned(),
                 change,
                 it.equal.to_string(),
                 recipe,

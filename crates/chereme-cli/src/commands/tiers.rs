@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use chereme_corpus::{
-    Address, Copied, Corpus, Hands, Name, NewTier, RecordingChange, Scheme, SignChange,
+    Address, Copied, Corpus, Hands, Name, NewTier, Origin, RecordingChange, Scheme, SignChange,
     SignerChange, Stereotype, TierChange, TierName, TierTopic, Values,
 };
 use clap::{Subcommand, ValueEnum};
@@ -314,7 +314,7 @@ pub(super) fn run(
             let change = RecordingChange {
                 name: name.clone(),
                 signer: signer.clone().map(Some),
-                origin: origin.clone(),
+                origin: origin.as_deref().map(Origin::of_recording).transpose()?,
                 licence: licence.clone().map(Some),
                 notes: notes.clone().map(Some),
             };

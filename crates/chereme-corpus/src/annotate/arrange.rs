@@ -45,7 +45,7 @@ pub(super) fn hang(
     };
     let row = TierRow {
         parent_id: above.as_ref().map(|(above, _)| above.id),
-        stereotype: above.as_ref().map(|(_, it)| it.elan_name().to_owned()),
+        stereotype: above.as_ref().map(|(_, it)| *it),
         ..tier.clone()
     };
     if (&row.parent_id, &row.stereotype) == (&tier.parent_id, &tier.stereotype) {

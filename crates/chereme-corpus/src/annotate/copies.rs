@@ -8,6 +8,7 @@ use super::names::{self, TierName};
 use super::tiers::check_name;
 use crate::Corpus;
 use crate::address::{self, Name};
+use crate::db::columns::{AnnotationOrigin, ValueState};
 use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 use crate::inventories;
@@ -97,12 +98,8 @@ impl Corpus {
 
 /// Returns an annotation as it goes along to a copy of its tier.
 fn copy(row: AnnotationRow, tier: &TierRow, copied: &Copied) -> Option<AnnotationRow> {
-    let stereotype = tier
-        .stereotype
-        .as_deref()
-        .and_then(Stereotype::from_elan_name);
     let without_gaps = matches!(
-        stereotype,
+        tier.stereotype,
         Some(Stereotype::TimeSubdivision | Stereotype::SymbolicSubdivision)
     );
     let blank = match copied {
@@ -110,7 +107,8 @@ fn copy(row: AnnotationRow, tier: &TierRow, copied: &Copied) -> Option<Annotatio
         Copied::Times => true,
         Copied::Nothing => return None,
         Copied::Holding(text) => {
-            let holds = row.state == "value" && fold(&row.value).contains(&fold(text.trim()));
+            let holds =
+                row.state == ValueState::Value && fold(&row.value).contains(&fold(text.trim()));
             if !holds && !without_gaps {
                 return None;
             }
@@ -119,7 +117,7 @@ fn copy(row: AnnotationRow, tier: &TierRow, copied: &Copied) -> Option<Annotatio
     };
     let row = AnnotationRow {
         id: 0,
-        origin: "human".to_owned(),
+        origin: AnnotationOrigin::Human,
         external_id: None,
         file_start_ms: None,
         file_end_ms: None,
@@ -128,7 +126,7 @@ fn copy(row: AnnotationRow, tier: &TierRow, copied: &Copied) -> Option<Annotatio
     };
     Some(if blank {
         AnnotationRow {
-            state: "unset".to_owned(),
+            state: ValueState::Unset,
             value: String::new(),
             confidence: None,
             ..row

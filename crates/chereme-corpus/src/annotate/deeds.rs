@@ -33,7 +33,7 @@ impl Deeds {
 
     /// An annotation of a tier was given a value.
     pub(super) fn says(&mut self, tier: &TierRow, annotation: i64, value: &str) {
-        let [one, several] = words::valued(&tier.role, tier.component.as_deref());
+        let [one, several] = words::valued(&tier.role);
         let key = (several.en, value.to_owned());
         let known = self.valued.entry(key);
         let known = known.or_insert_with(|| (one, several, BTreeSet::new()));

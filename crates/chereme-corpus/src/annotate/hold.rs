@@ -33,11 +33,7 @@ impl Kind {
         if row.parent_id.is_none() {
             return Self::Root;
         }
-        let stereotype = row
-            .stereotype
-            .as_deref()
-            .and_then(Stereotype::from_elan_name);
-        match stereotype {
+        match row.stereotype {
             Some(Stereotype::TimeSubdivision) => Self::Tiled,
             Some(Stereotype::IncludedIn) | None => Self::Inside,
             Some(_) => Self::Listed,

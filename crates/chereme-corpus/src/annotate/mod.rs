@@ -25,7 +25,7 @@ use chereme_formats::table::annotations::{Moment, TimeUnit};
 use chereme_motion::{Instant, Span};
 use chereme_sign::tier::spans::Mode;
 use chereme_sign::tier::{AnnotationId, Change, Seam, TierId, plan};
-use chereme_sign::{Reading, Stereotype};
+use chereme_sign::{Reading, TierRole};
 use rusqlite::Connection;
 use serde::Serialize;
 
@@ -36,6 +36,7 @@ pub use scheme::Scheme;
 pub use tiers::{NewTier, RemovedTiers, TierChange, Values};
 
 use crate::Corpus;
+use crate::db::columns::AnnotationOrigin;
 use crate::db::edits;
 use crate::db::tiers::{self as tier_rows, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
@@ -129,31 +130,6 @@ impl From<AnnotationAction> for AnnotationChange {
             place: None,
             label: None,
             action,
-        }
-    }
-}
-
-/// Who says what changes say.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum AnnotationOrigin {
-    /// A person.
-    #[default]
-    Human,
-    /// A detector.
-    Detector,
-    /// The maker of a sign.
-    Made,
-}
-
-impl AnnotationOrigin {
-    /// Returns the name under which it is stored.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Human => "human",
-            Self::Detector => "detector",
-            Self::Made => "made",
         }
     }
 }
@@ -514,7 +490,7 @@ impl<'a> Work<'a> {
             _ => named,
         };
         let says = write::Says {
-            origin: self.options.origin.name(),
+            origin: self.options.origin,
             confidence,
             named: &named,
         };
@@ -586,14 +562,12 @@ fn span_of(row: &AnnotationRow) -> Span {
 
 fn is_symbolic(tier: &TierRow) -> bool {
     tier.stereotype
-        .as_deref()
-        .and_then(Stereotype::from_elan_name)
         .is_some_and(|stereotype| !stereotype.is_alignable())
 }
 
 /// Returns the value of `text` on a tier with that inventory, as the inventory's own id if it has one.
 fn reading(tier: &TierRow, inventory: Option<&StoredInventory>, text: &str) -> Result<Reading> {
-    let coded = inventory.is_some() || tier.role == "component" || tier.role == "gloss";
+    let coded = inventory.is_some() || tier.role.is_coded();
     if !coded || text.trim().is_empty() {
         return Ok(Reading::from(text));
     }
@@ -603,7 +577,10 @@ fn reading(tier: &TierRow, inventory: Option<&StoredInventory>, text: &str) -> R
         return Ok(Reading::Value(value.id.clone()));
     }
     let lower = text.to_lowercase();
-    let word = if tier.role == "gloss" { text } else { &lower };
+    let word = match tier.role {
+        TierRole::Gloss => text,
+        _ => &lower,
+    };
     match (word, inventory) {
         ("unset", _) => Ok(Reading::Unset),
         ("n/a" | "not applicable" | "not-applicable", _) => Ok(Reading::NotApplicable),

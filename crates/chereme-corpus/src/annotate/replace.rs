@@ -14,6 +14,7 @@ use super::{
 };
 use crate::Corpus;
 use crate::address::{self, Name};
+use crate::db::columns::ValueState;
 use crate::db::recordings::{self, RecordingRow};
 use crate::db::tiers::{self as rows, TierRow};
 use crate::error::{Error, Result};
@@ -118,7 +119,7 @@ impl Corpus {
         for (recording, tier) in tiers_within(self.store.read(), within)? {
             for row in rows::annotations(self.store.read(), tier.id)? {
                 let to = find.replaced(&row.value, with);
-                if row.state == "value" && to != row.value {
+                if row.state == ValueState::Value && to != row.value {
                     values.push(ReplacedValue {
                         annotation: row.id,
                         recording: recording.name.clone(),

@@ -91,15 +91,13 @@ fn add(
         let mut row = new_row(connection, recording.id, &tier)?;
         // Below one gloss tier stands what stands below another too.
         let same =
-            |it: &TierRow| says(it) == says(&row) && (!below || it.parent_id == row.parent_id);
+            |it: &TierRow| it.topic() == row.topic() && (!below || it.parent_id == row.parent_id);
         if like.is_none() && there.iter().any(same) {
             continue;
         }
         if let Some(like) = like {
             row.position = free + like.position;
             row.role = like.role;
-            row.component = like.component;
-            row.feature = like.feature;
             row.hand = like.hand;
             row.inventory_id = like.inventory_id;
         }
@@ -116,20 +114,10 @@ fn add(
     Ok(added)
 }
 
-/// Returns the subject of a tier, and its hand.
-fn says(row: &TierRow) -> (&str, Option<&str>, Option<&str>, Option<&str>) {
-    (
-        &row.role,
-        row.component.as_deref(),
-        row.feature.as_deref(),
-        row.hand.as_deref(),
-    )
-}
-
 fn usual(connection: &Connection, recording: &RecordingRow) -> Result<Vec<Wanted>> {
     let participant = signer(connection, recording)?;
     let there = rows::tiers(connection, recording.id)?;
-    let gloss = there.into_iter().find(|row| row.role == "gloss");
+    let gloss = there.into_iter().find(|row| row.role == TierRole::Gloss);
     let gloss = gloss.map_or_else(|| "Gloss".to_owned(), |row| row.name);
     let make = |name: String, role, hand, parent: Option<Stereotype>| {
         let tier = NewTier {
@@ -174,13 +162,12 @@ fn usual(connection: &Connection, recording: &RecordingRow) -> Result<Vec<Wanted
 }
 
 fn below(connection: &Connection, gloss: &TierRow) -> Result<Vec<Wanted>> {
-    if gloss.role != "gloss" {
+    if gloss.role != TierRole::Gloss {
         let wrong = format!("the tier {:?} holds no glosses", gloss.name);
         return Err(Error::wrong(wrong).advise("name a gloss tier"));
     }
     let there = rows::tiers(connection, gloss.recording_id)?;
-    let side = gloss.hand.as_deref().and_then(Hands::of);
-    let hands = match side {
+    let hands = match gloss.hand {
         Some(Hands::One(hand)) => vec![hand],
         _ => vec![HandRef::Right, HandRef::Left],
     };
@@ -233,19 +220,19 @@ fn like(
     let parents_first = roots.flat_map(|row| family(&tiers, row));
     let wanted = parents_first.map(|row| {
         let above = tiers.iter().find(|it| Some(it.id) == row.parent_id);
-        let stereotype = row
-            .stereotype
-            .as_deref()
-            .and_then(Stereotype::from_elan_name);
         let tier = NewTier {
-            parent: above.map(|it| it.name.clone()).zip(stereotype),
+            parent: above.map(|it| it.name.clone()).zip(row.stereotype),
             participant: if row.participant == from {
                 to.clone()
             } else {
                 row.participant.clone()
             },
             language: row.language.clone(),
-            ..NewTier::new(Name::Number(recording.id), row.name.clone(), row.role())
+            ..NewTier::new(
+                Name::Number(recording.id),
+                row.name.clone(),
+                row.role.clone(),
+            )
         };
         (tier, Some(row.clone()))
     });

@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use chereme_formats::table::annotations::Moment;
 use chereme_motion::{Instant, Rate, Span};
-use chereme_sign::tier::{Annotation, AnnotationId, Change, Tier, TierId, TierSet};
-use chereme_sign::{Reading, Stereotype};
+use chereme_sign::tier::{Annotation, AnnotationId, Change, Hands, Tier, TierId, TierSet};
 use rusqlite::Connection;
 
 use super::{handle, signed, span_of, unsigned};
@@ -211,16 +210,15 @@ pub(super) fn hull(a: Span, b: Span) -> Span {
 
 /// Returns a stored tier as the tier rules know it; values are checked against inventories elsewhere.
 pub(super) fn sign_tier(row: &TierRow) -> Tier {
-    let stereotype = row
-        .stereotype
-        .as_deref()
-        .and_then(Stereotype::from_elan_name);
     Tier {
         id: TierId(unsigned(row.id)),
         name: row.name.clone(),
-        role: row.role(),
-        hand: row.hand.as_deref().and_then(|hand| hand.parse().ok()),
-        parent: row.parent_id.map(|id| TierId(unsigned(id))).zip(stereotype),
+        role: row.role.clone(),
+        hand: row.hand.and_then(Hands::one),
+        parent: row
+            .parent_id
+            .map(|id| TierId(unsigned(id)))
+            .zip(row.stereotype),
         vocabulary: None,
     }
 }
@@ -233,11 +231,6 @@ pub(super) fn annotation(row: &AnnotationRow) -> Annotation {
         parent: row.parent_id.map(|id| AnnotationId(unsigned(id))),
         order: u32::try_from(row.position).unwrap_or(u32::MAX),
         span: span_of(row),
-        value: match row.state.as_str() {
-            "value" => Reading::Value(row.value.clone()),
-            "not-applicable" => Reading::NotApplicable,
-            "unclear" => Reading::Unclear,
-            _ => Reading::Unset,
-        },
+        value: row.reading(),
     }
 }

@@ -96,7 +96,7 @@ fn fill(connection: &Connection) -> Result<()> {
         name: RECORDING.into(),
         signer_id: Some(signer),
         signer: None,
-        origin: "captured".into(),
+        origin: crate::Origin::Captured,
         duration_us: 10_000_000,
         licence: None,
         notes: None,

@@ -3,7 +3,7 @@
 use chereme_formats::roles::Hands;
 use chereme_sign::text::{did_you_mean, nearest};
 use chereme_sign::tier::{TierSet, check_tiers};
-use chereme_sign::{Component, Stereotype, TierRole};
+use chereme_sign::{Stereotype, TierRole};
 use rusqlite::Connection;
 use serde::Serialize;
 
@@ -231,8 +231,8 @@ pub(super) fn new_row(connection: &Connection, recording: i64, tier: &NewTier) -
         name: tier.name.trim().to_owned(),
         position: all.iter().map(|row| row.position + 1).max().unwrap_or(0),
         parent_id: parent.as_ref().map(|(parent, _)| parent.id),
-        stereotype: parent.as_ref().map(|(_, it)| it.elan_name().to_owned()),
-        hand: tier.hand.map(|hand| hand.name().to_owned()),
+        stereotype: parent.as_ref().map(|(_, it)| *it),
+        hand: tier.hand,
         participant: tier.participant.clone(),
         annotator: tier.annotator.clone(),
         language: tier.language.clone(),
@@ -249,7 +249,7 @@ pub(super) fn new_row(connection: &Connection, recording: i64, tier: &NewTier) -
         .advise("make it Symbolic_Subdivision or Symbolic_Association"));
     }
     check_name(&all, &row)?;
-    row.set_role(&tier.role);
+    row.role.clone_from(&tier.role);
     let inventories = inventories::load(connection)?;
     row.inventory_id = inventory(&inventories, &row, &tier.values)?.map(|stored| stored.id);
     let set = TierSet::new(all.iter().chain([&row]).map(sign_tier), []);
@@ -271,7 +271,7 @@ fn changed_row(
         check_name(&rows::tiers(connection, old.recording_id)?, &row)?;
     }
     if let Some(hand) = change.hand {
-        row.hand = hand.map(|hand| hand.name().to_owned());
+        row.hand = hand;
     }
     for (said, change) in [
         (&mut row.participant, &change.participant),
@@ -284,9 +284,9 @@ fn changed_row(
         }
     }
     if let Some(role) = &change.role {
-        row.set_role(role);
+        row.role.clone_from(role);
     }
-    let other = (&row.component, &row.feature) != (&old.component, &old.feature);
+    let other = row.role.component() != old.role.component();
     match &change.values {
         Some(values) => {
             let stored = inventory(inventories, &row, values)?;
@@ -322,9 +322,10 @@ fn inventory<'i>(
     row: &TierRow,
     values: &Values,
 ) -> Result<Option<&'i StoredInventory>> {
-    let component: Option<Component> = row.component.as_deref().and_then(|name| name.parse().ok());
+    let component = row.role.component();
     let fits = |stored: &&StoredInventory| {
-        Some(stored.inventory.component) == component && stored.inventory.feature == row.feature
+        let own = &stored.inventory;
+        Some((own.component, own.feature.as_deref())) == component
     };
     let wanted = match values {
         Values::Free => return Ok(None),

@@ -7,6 +7,7 @@ use chereme_sign::tier::{EditError, Named, Violation};
 use rusqlite::Connection;
 
 use super::{signed, span_of};
+use crate::db::columns::ValueState;
 use crate::db::recordings;
 use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
@@ -72,8 +73,8 @@ pub(super) fn candidate(connection: &Connection, id: i64) -> String {
 
 /// Returns what an annotation says, in quotes, or how it says nothing.
 pub(crate) fn said(row: &AnnotationRow) -> String {
-    if row.state != "value" {
-        return format!("an annotation without a value ({})", row.state);
+    if row.state != ValueState::Value {
+        return format!("an annotation without a value ({})", row.state.name());
     }
     match row.value.char_indices().nth(SHOWN) {
         Some((at, _)) => format!("{:?}", format!("{}…", &row.value[..at])),

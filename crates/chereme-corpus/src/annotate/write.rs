@@ -9,13 +9,13 @@ use serde_json::Value;
 
 use super::scope::hull;
 use super::{FRESH, signed, span_of};
+use crate::db::columns::{AnnotationOrigin, ValueState};
 use crate::db::tiers::{self as tier_rows, AnnotationRow};
 use crate::error::Result;
-use crate::tokens::state_name;
 
 /// Who says what a change says.
 pub(super) struct Says<'a> {
-    pub(super) origin: &'static str,
+    pub(super) origin: AnnotationOrigin,
     pub(super) confidence: Option<f64>,
     /// The annotations that the change is about, not those that merely follow.
     pub(super) named: &'a [i64],
@@ -89,7 +89,7 @@ fn row_id(id: AnnotationId, fresh: &BTreeMap<AnnotationId, i64>) -> i64 {
 
 fn added(new: &Annotation, parent_id: Option<i64>, says: &Says<'_>) -> AnnotationRow {
     let row = AnnotationRow {
-        origin: says.origin.to_owned(),
+        origin: says.origin,
         confidence: says.confidence,
         ..AnnotationRow::default()
     };
@@ -110,7 +110,7 @@ fn changed(
         row.file_end_ms = None;
     }
     if (moved || renamed) && says.named.contains(&old.id) {
-        says.origin.clone_into(&mut row.origin);
+        row.origin = says.origin;
         row.confidence = says.confidence;
     }
     if moved || renamed {
@@ -124,7 +124,7 @@ fn placed(row: AnnotationRow, new: &Annotation, parent_id: Option<i64>) -> Annot
         tier_id: i64::try_from(new.tier.0).unwrap_or_default(),
         start_us: new.span.start().micros(),
         end_us: new.span.end().micros(),
-        state: state_name(&new.value).to_owned(),
+        state: ValueState::of(&new.value),
         value: new.value.value().unwrap_or_default().to_owned(),
         parent_id,
         position: i64::from(new.order),

@@ -3,11 +3,11 @@
 use chereme_motion::{Instant, Rate, Span};
 use rusqlite::{Connection, OptionalExtension};
 
-use super::damaged;
+use super::columns::{ValueState, word};
 use super::recordings::RecordingRow;
 use super::tracks::TrackKind;
 use crate::around::Around;
-use crate::contents::{AnnotationColumns, RecordingGlance, SignGlance, ValueState};
+use crate::contents::{AnnotationColumns, RecordingGlance, SignGlance};
 use crate::error::Result;
 
 /// Returns the number of the newest operation; 0 if there is no operation.
@@ -47,7 +47,7 @@ pub(crate) fn recordings(connection: &Connection) -> Result<Vec<RecordingGlance>
                 name: row.get(1)?,
                 signer_id: row.get(2)?,
                 signer: row.get(3)?,
-                origin: row.get(4)?,
+                origin: word(row, 4)?,
                 duration_us: row.get(5)?,
                 licence: row.get(6)?,
                 notes: row.get(7)?,
@@ -113,14 +113,10 @@ pub(crate) fn annotations(connection: &Connection, tier: i64) -> Result<Annotati
     let mut rows = statement.query([tier])?;
     let mut columns = AnnotationColumns::default();
     while let Some(row) = rows.next()? {
-        let id: i64 = row.get(0)?;
-        columns.ids.push(id);
+        columns.ids.push(row.get(0)?);
         columns.starts.push(row.get(1)?);
         columns.ends.push(row.get(2)?);
-        columns.states.push(state(
-            id,
-            row.get_ref(3)?.as_str().map_err(rusqlite::Error::from)?,
-        )?);
+        columns.states.push(word::<ValueState>(row, 3)?);
         columns.values.push(row.get::<_, Box<str>>(4)?);
         columns.parents.push(row.get(5)?);
         columns.confidences.push(row.get(6)?);
@@ -164,19 +160,6 @@ pub(crate) fn around(connection: &Connection, token: i64, most: usize) -> Result
          ORDER BY start_us, id LIMIT ?4",
     )?;
     Ok(around)
-}
-
-fn state(annotation: i64, name: &str) -> Result<ValueState> {
-    match name {
-        "value" => Ok(ValueState::Value),
-        "unset" => Ok(ValueState::Unset),
-        "not-applicable" => Ok(ValueState::NotApplicable),
-        "unclear" => Ok(ValueState::Unclear),
-        _ => Err(damaged(
-            format!("annotation {annotation}"),
-            format!("its state is {name:?}"),
-        )),
-    }
 }
 
 fn count(number: i64) -> u64 {

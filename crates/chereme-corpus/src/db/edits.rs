@@ -3,6 +3,7 @@
 use rusqlite::{Connection, params};
 
 use super::recordings::{RecordingRow, SignerRow};
+use crate::db::columns::Col;
 use crate::error::Result;
 
 /// Lets rows refer to missing ones until the transaction ends, so that they can go in any order.
@@ -71,13 +72,13 @@ pub(crate) fn update_recording(connection: &Connection, row: &RecordingRow) -> R
             row.id,
             row.name,
             row.signer_id,
-            row.origin,
+            Col(row.origin),
             row.licence,
             row.notes
         ])?;
     connection
         .prepare_cached("UPDATE token SET origin = ?2 WHERE recording_id = ?1 AND origin <> ?2")?
-        .execute(params![row.id, row.origin])?;
+        .execute(params![row.id, Col(row.origin)])?;
     Ok(())
 }
 

@@ -5,6 +5,7 @@
 
 pub(crate) mod attributes;
 pub(crate) mod check;
+pub(crate) mod columns;
 pub(crate) mod contents;
 pub(crate) mod dump;
 pub(crate) mod edits;
@@ -230,7 +231,7 @@ mod tests {
             .operation("add", |connection| {
                 let sign = signs::sign_glossed(connection, gloss)?;
                 signs::add_text(connection, sign, "en", "a word")?;
-                let origin = "lexicon".to_owned();
+                let origin = columns::Origin::Lexicon;
                 let row = signs::TokenRow {
                     sign_id: sign,
                     origin,

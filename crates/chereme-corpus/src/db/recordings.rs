@@ -5,6 +5,7 @@ use std::io::Read;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 
+use super::columns::{Col, Origin, word};
 use super::damaged;
 use crate::error::{Error, Result};
 
@@ -34,8 +35,8 @@ pub struct RecordingRow {
     pub signer_id: Option<i64>,
     /// The signer's name.
     pub signer: Option<String>,
-    /// `captured`, `made` or `generated`.
-    pub origin: String,
+    /// How it came about.
+    pub origin: Origin,
     /// The length in microseconds.
     pub duration_us: i64,
     /// The terms under which it may be used.
@@ -205,7 +206,7 @@ pub(crate) fn insert_recording(connection: &Connection, row: &RecordingRow) -> R
         .execute(params![
             row.name,
             row.signer_id,
-            row.origin,
+            Col(row.origin),
             row.duration_us,
             row.licence,
             row.notes
@@ -224,7 +225,7 @@ fn recording_row(row: &Row<'_>) -> rusqlite::Result<RecordingRow> {
         name: row.get(1)?,
         signer_id: row.get(2)?,
         signer: row.get(3)?,
-        origin: row.get(4)?,
+        origin: word(row, 4)?,
         duration_us: row.get(5)?,
         licence: row.get(6)?,
         notes: row.get(7)?,
@@ -542,7 +543,7 @@ pub(crate) fn describe(
     connection: &Connection,
     recording: i64,
     signer: Option<i64>,
-    origin: Option<&str>,
+    origin: Option<Origin>,
     licence: Option<&str>,
 ) -> Result<()> {
     connection
@@ -552,7 +553,7 @@ pub(crate) fn describe(
              WHERE id = ?1 AND (signer_id IS NOT coalesce(?2, signer_id)
                  OR origin <> coalesce(?3, origin) OR licence IS NOT coalesce(?4, licence))",
         )?
-        .execute(params![recording, signer, origin, licence])?;
+        .execute(params![recording, signer, origin.map(Col), licence])?;
     Ok(())
 }
 

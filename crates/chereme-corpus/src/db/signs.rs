@@ -2,9 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use chereme_sign::tier::Hands;
+use chereme_sign::{Component, Field, Phase, Reading};
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 
+use super::columns::{Col, Origin, ValueState, phase, phase_name, phase_place, word, word_or_null};
 use crate::error::{Error, Result};
 
 /// A sign: a lexical entry.
@@ -42,10 +45,10 @@ pub struct TokenRow {
     pub start_us: Option<i64>,
     /// The first microsecond after it.
     pub end_us: Option<i64>,
-    /// The hand that makes it.
-    pub hand: Option<String>,
-    /// `captured`, `made`, `generated` or `lexicon`.
-    pub origin: String,
+    /// The hand or hands that make it.
+    pub hand: Option<Hands>,
+    /// How it came about.
+    pub origin: Origin,
     /// Whether it is the sign's citation form.
     pub citation: bool,
     /// Properties from its file that have no column, as JSON.
@@ -53,26 +56,40 @@ pub struct TokenRow {
 }
 
 /// The value of a token's component.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct TokenValueRow {
-    /// The hand, or nothing where the component belongs to none or the whole sign.
-    pub hand: Option<String>,
+    /// The hand or hands; nothing if the component belongs to no hand or to the whole sign.
+    pub hand: Option<Hands>,
     /// The component.
-    pub component: String,
+    pub component: Component,
     /// The feature of the component.
     pub feature: Option<String>,
-    /// `initial`, `middle` or `final` where the sign has more values than one.
-    pub phase: Option<String>,
-    /// Its place among several values of the same phase.
-    pub position: i64,
-    /// `value`, `not-applicable` or `unclear`.
-    pub state: String,
+    /// Which of several successive values it is, if the sign has more than one.
+    pub phase: Option<Phase>,
+    /// Whether it has a value.
+    pub state: ValueState,
     /// The value.
     pub value: Option<String>,
     /// The inventory it comes from.
     pub inventory_id: Option<i64>,
     /// The annotation that says so.
     pub annotation_id: Option<i64>,
+}
+
+impl TokenValueRow {
+    /// Returns the row of a reading of `field`, from no inventory and no annotation.
+    pub(crate) fn of(field: &Field, reading: &Reading) -> Self {
+        Self {
+            hand: field.hand.map(Hands::One),
+            component: field.component,
+            feature: field.feature.clone(),
+            phase: field.phase,
+            state: ValueState::of(reading),
+            value: reading.value().map(str::to_owned),
+            inventory_id: None,
+            annotation_id: None,
+        }
+    }
 }
 
 /// Returns the row of the sign with this gloss, and inserts it if it is missing.
@@ -165,15 +182,15 @@ pub(crate) fn insert_token(connection: &Connection, row: &TokenRow) -> Result<i6
             row.annotation_id,
             row.start_us,
             row.end_us,
-            row.hand,
-            row.origin,
+            row.hand.map(Col),
+            Col(row.origin),
             row.citation,
             row.source
         ])?;
     Ok(connection.last_insert_rowid())
 }
 
-/// Writes a token anew.
+/// Writes a token's row again.
 pub(crate) fn update_token(connection: &Connection, row: &TokenRow) -> Result<()> {
     connection
         .prepare_cached(
@@ -185,8 +202,8 @@ pub(crate) fn update_token(connection: &Connection, row: &TokenRow) -> Result<()
             row.sign_id,
             row.start_us,
             row.end_us,
-            row.hand,
-            row.origin,
+            row.hand.map(Col),
+            Col(row.origin),
             row.citation,
             row.source
         ])?;
@@ -237,12 +254,12 @@ pub(crate) fn set_values(
     for row in rows {
         statement.execute(params![
             token,
-            row.hand,
-            row.component,
+            row.hand.map(Col),
+            Col(row.component),
             row.feature,
-            row.phase,
-            row.position,
-            row.state,
+            row.phase.map(phase_name),
+            phase_place(row.phase),
+            Col(row.state),
             row.value,
             row.inventory_id,
             row.annotation_id
@@ -283,12 +300,11 @@ const VALUE: &str = "SELECT hand, component, feature, phase, position, state, va
 
 fn value_row(row: &Row<'_>) -> rusqlite::Result<TokenValueRow> {
     Ok(TokenValueRow {
-        hand: row.get(0)?,
-        component: row.get(1)?,
+        hand: word_or_null(row, 0)?,
+        component: word(row, 1)?,
         feature: row.get(2)?,
-        phase: row.get(3)?,
-        position: row.get(4)?,
-        state: row.get(5)?,
+        phase: phase(row, 3)?,
+        state: word(row, 5)?,
         value: row.get(6)?,
         inventory_id: row.get(7)?,
         annotation_id: row.get(8)?,
@@ -310,8 +326,8 @@ fn token_row(row: &Row<'_>) -> rusqlite::Result<TokenRow> {
         annotation_id: row.get(5)?,
         start_us: row.get(6)?,
         end_us: row.get(7)?,
-        hand: row.get(8)?,
-        origin: row.get(9)?,
+        hand: word_or_null(row, 8)?,
+        origin: word(row, 9)?,
         citation: row.get(10)?,
         source: row.get(11)?,
     })
@@ -405,7 +421,7 @@ pub(crate) fn is_cited(connection: &Connection, sign: i64) -> Result<bool> {
 /// A token of a recording that holds a value.
 pub(crate) struct HoldingRow {
     pub(crate) token: i64,
-    pub(crate) hand: Option<String>,
+    pub(crate) hand: Option<Hands>,
     pub(crate) left_handed: bool,
     /// The annotation that says so, within the token.
     pub(crate) span_us: Option<(i64, i64)>,
@@ -435,7 +451,7 @@ pub(crate) fn tokens_holding(
             let end: Option<i64> = row.get(4)?;
             Ok(HoldingRow {
                 token: row.get(0)?,
-                hand: row.get(1)?,
+                hand: word_or_null(row, 1)?,
                 left_handed: row.get(2)?,
                 span_us: start.zip(end).filter(|(start, end)| start < end),
             })

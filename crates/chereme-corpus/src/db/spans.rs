@@ -1,14 +1,16 @@
 //! The annotations of captured movement, by time, for those who measure it.
 
+use chereme_sign::tier::Hands;
 use rusqlite::{Connection, params};
 
+use super::columns::word_or_null;
 use crate::error::Result;
 
 /// An annotation about the movement of a hand in a captured recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct MovementSpan {
     pub(crate) recording_id: i64,
-    pub(crate) hand: Option<String>,
+    pub(crate) hand: Option<Hands>,
     pub(crate) feature: Option<String>,
     pub(crate) start_us: i64,
     pub(crate) end_us: i64,
@@ -46,7 +48,7 @@ pub(crate) fn movement_spans(connection: &Connection, most: usize) -> Result<Vec
         .query_map([i64::try_from(most).unwrap_or(i64::MAX)], |row| {
             Ok(MovementSpan {
                 recording_id: row.get(0)?,
-                hand: row.get(1)?,
+                hand: word_or_null(row, 1)?,
                 feature: row.get(2)?,
                 start_us: row.get(3)?,
                 end_us: row.get(4)?,

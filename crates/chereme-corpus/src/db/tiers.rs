@@ -1,9 +1,13 @@
 //! Rows of tiers and annotations.
 
-use chereme_sign::TierRole;
+use chereme_sign::tier::Hands;
+use chereme_sign::{Component, Reading, Stereotype, TierRole, TierTopic};
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 
+use super::columns::{
+    AnnotationOrigin, Col, ValueState, role, role_parts, serialize_role, word, word_or_null,
+};
 use crate::error::{Error, Result};
 
 /// A tier of a recording.
@@ -19,16 +23,13 @@ pub struct TierRow {
     pub position: i64,
     /// The tier above.
     pub parent_id: Option<i64>,
-    /// How it hangs below it, in ELAN's words.
-    pub stereotype: Option<String>,
-    /// `gloss`, `component`, `translation`, `comment` or `free`.
-    pub role: String,
-    /// The component, if that is the role.
-    pub component: Option<String>,
-    /// The feature of the component, such as `brows`.
-    pub feature: Option<String>,
-    /// The hand it is about.
-    pub hand: Option<String>,
+    /// How it hangs below it.
+    pub stereotype: Option<Stereotype>,
+    /// The subject of its annotations; in JSON the keys `role`, `component` and `feature`.
+    #[serde(flatten, serialize_with = "serialize_role")]
+    pub role: TierRole,
+    /// The hand or hands it is about.
+    pub hand: Option<Hands>,
     /// Who is annotated.
     pub participant: Option<String>,
     /// Who annotates.
@@ -42,26 +43,17 @@ pub struct TierRow {
 }
 
 impl TierRow {
-    /// Returns what its annotations say.
-    pub(crate) fn role(&self) -> TierRole {
-        TierRole::of_parts(
-            &self.role,
-            self.component.as_deref(),
-            self.feature.as_deref(),
-        )
-    }
-
-    /// Writes what its annotations say into its columns.
-    pub(crate) fn set_role(&mut self, role: &TierRole) {
-        role.kind().clone_into(&mut self.role);
-        let (component, feature) = role.component().unzip();
-        self.component = component.map(|component| component.name().to_owned());
-        self.feature = feature.flatten().map(str::to_owned);
+    /// Returns the role with the hands: `right.configuration`.
+    pub(crate) fn topic(&self) -> TierTopic {
+        TierTopic {
+            role: self.role.clone(),
+            hand: self.hand,
+        }
     }
 
     /// Returns whether it divides movement into phases; these belong to a stretch of signing, not to a sign.
     pub(crate) fn is_of_phases(&self) -> bool {
-        self.component.as_deref() == Some("movement") && self.feature.as_deref() == Some("phase")
+        self.role.component() == Some((Component::Movement, Some("phase")))
     }
 }
 
@@ -76,16 +68,16 @@ pub(crate) struct AnnotationRow {
     pub start_us: i64,
     /// The first microsecond after it.
     pub end_us: i64,
-    /// `value`, `unset`, `not-applicable` or `unclear`.
-    pub state: String,
-    /// What it says.
+    /// Whether it has a value.
+    pub state: ValueState,
+    /// The value.
     pub value: String,
     /// The annotation above.
     pub parent_id: Option<i64>,
     /// Its place in a symbolic subdivision, from 0; 0 elsewhere.
     pub position: i64,
-    /// `file`, `human`, `detector` or `made`.
-    pub origin: String,
+    /// Who it comes from.
+    pub origin: AnnotationOrigin,
     /// How sure its origin is, from 0 to 1.
     pub confidence: Option<f64>,
     /// Its name in the file it came from.
@@ -96,6 +88,23 @@ pub(crate) struct AnnotationRow {
     pub file_end_ms: Option<i64>,
     /// Properties from its file that have no column, as JSON.
     pub source: Option<String>,
+}
+
+impl AnnotationRow {
+    /// Returns the state with the value.
+    pub(crate) fn reading(&self) -> Reading {
+        self.state.reading(&self.value)
+    }
+
+    /// Returns whether it has a value that is more than blanks.
+    pub(crate) fn is_filled(&self) -> bool {
+        self.state == ValueState::Value && !self.value.trim().is_empty()
+    }
+
+    /// Returns the text that an annotation file has for it.
+    pub(crate) fn file_text(&self) -> &str {
+        self.state.file_text(&self.value)
+    }
 }
 
 const TIER: &str =
@@ -109,11 +118,9 @@ fn tier_row(row: &Row<'_>) -> rusqlite::Result<TierRow> {
         name: row.get(2)?,
         position: row.get(3)?,
         parent_id: row.get(4)?,
-        stereotype: row.get(5)?,
-        role: row.get(6)?,
-        component: row.get(7)?,
-        feature: row.get(8)?,
-        hand: row.get(9)?,
+        stereotype: word_or_null(row, 5)?,
+        role: role(row, 6)?,
+        hand: word_or_null(row, 9)?,
         participant: row.get(10)?,
         annotator: row.get(11)?,
         language: row.get(12)?,
@@ -131,11 +138,11 @@ fn annotation_row(row: &Row<'_>) -> rusqlite::Result<AnnotationRow> {
         tier_id: row.get(1)?,
         start_us: row.get(2)?,
         end_us: row.get(3)?,
-        state: row.get(4)?,
+        state: word(row, 4)?,
         value: row.get(5)?,
         parent_id: row.get(6)?,
         position: row.get(7)?,
-        origin: row.get(8)?,
+        origin: word(row, 8)?,
         confidence: row.get(9)?,
         external_id: row.get(10)?,
         file_start_ms: row.get(11)?,
@@ -146,6 +153,7 @@ fn annotation_row(row: &Row<'_>) -> rusqlite::Result<AnnotationRow> {
 
 /// Writes a tier and returns its row; its `id` is not looked at.
 pub(crate) fn insert_tier(connection: &Connection, row: &TierRow) -> Result<i64> {
+    let (role, component, feature) = role_parts(&row.role);
     connection
         .prepare_cached(
             "INSERT INTO tier (recording_id, name, position, parent_id, stereotype, role, component,
@@ -157,11 +165,11 @@ pub(crate) fn insert_tier(connection: &Connection, row: &TierRow) -> Result<i64>
             row.name,
             row.position,
             row.parent_id,
-            row.stereotype,
-            row.role,
-            row.component,
-            row.feature,
-            row.hand,
+            row.stereotype.map(Col),
+            role,
+            component,
+            feature,
+            row.hand.map(Col),
             row.participant,
             row.annotator,
             row.language,
@@ -173,6 +181,7 @@ pub(crate) fn insert_tier(connection: &Connection, row: &TierRow) -> Result<i64>
 
 /// Writes a tier's row again.
 pub(crate) fn update_tier(connection: &Connection, row: &TierRow) -> Result<()> {
+    let (role, component, feature) = role_parts(&row.role);
     connection
         .prepare_cached(
             "UPDATE tier SET name = ?2, position = ?3, parent_id = ?4, stereotype = ?5, role = ?6,
@@ -184,11 +193,11 @@ pub(crate) fn update_tier(connection: &Connection, row: &TierRow) -> Result<()> 
             row.name,
             row.position,
             row.parent_id,
-            row.stereotype,
-            row.role,
-            row.component,
-            row.feature,
-            row.hand,
+            row.stereotype.map(Col),
+            role,
+            component,
+            feature,
+            row.hand.map(Col),
             row.participant,
             row.annotator,
             row.language,
@@ -253,11 +262,11 @@ pub(crate) fn insert_annotation(connection: &Connection, row: &AnnotationRow) ->
             row.tier_id,
             row.start_us,
             row.end_us,
-            row.state,
+            Col(row.state),
             row.value,
             row.parent_id,
             row.position,
-            row.origin,
+            Col(row.origin),
             row.confidence,
             row.external_id,
             row.file_start_ms,
@@ -280,11 +289,11 @@ pub(crate) fn update_annotation(connection: &Connection, row: &AnnotationRow) ->
             row.tier_id,
             row.start_us,
             row.end_us,
-            row.state,
+            Col(row.state),
             row.value,
             row.parent_id,
             row.position,
-            row.origin,
+            Col(row.origin),
             row.confidence,
             row.external_id,
             row.file_start_ms,
@@ -415,8 +424,8 @@ mod tests {
                 tier_id: 1,
                 start_us,
                 end_us,
-                state: "value".into(),
-                origin: "file".into(),
+                state: ValueState::Value,
+                origin: AnnotationOrigin::File,
                 ..AnnotationRow::default()
             };
             insert_annotation(&connection, &row).expect("written");

@@ -4,6 +4,8 @@
 //! stand in one cell as lexicons write them (`chin > chest`, `S + W`), so that importing the table
 //! gives the same codings.
 
+use chereme_sign::Phase;
+use chereme_sign::tier::Hands;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 
@@ -11,6 +13,7 @@ use ::csv::{Writer, WriterBuilder};
 use rusqlite::Connection;
 
 use crate::db::attributes;
+use crate::db::columns::ValueState;
 use crate::db::notations;
 use crate::db::recordings;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
@@ -21,15 +24,12 @@ use crate::progress::{Progress, Step, Unit};
 use crate::words::counted;
 
 /// A column of values: component, feature, hand, and the phase if it has a column of its own.
-type Column = (String, Option<String>, Option<String>, Option<Place>);
-
-/// A phase in the order of time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Place {
-    Initial,
-    Middle(i64),
-    Final,
-}
+type Column = (
+    &'static str,
+    Option<String>,
+    Option<&'static str>,
+    Option<Phase>,
+);
 
 const FIXED: [&str; 9] = [
     "token",
@@ -169,10 +169,7 @@ pub(super) fn annotations(
         "parent",
     ];
     table.write_record(titles).map_err(fault)?;
-    let symbolic = tier
-        .stereotype
-        .as_deref()
-        .is_some_and(|name| name.starts_with("Symbolic"));
+    let symbolic = tier.stereotype.is_some_and(|it| !it.is_alignable());
     for row in tiers::annotations(connection, tier.id)? {
         let time = |micros| {
             if symbolic {
@@ -181,11 +178,7 @@ pub(super) fn annotations(
                 seconds(Some(micros))
             }
         };
-        let value = match row.state.as_str() {
-            "value" => row.value.as_str(),
-            "not-applicable" => "n/a",
-            state => state,
-        };
+        let value = row.state.missing_text().unwrap_or(&row.value);
         let parent = row
             .parent_id
             .map(|id| format!("annotation:{id}"))
@@ -253,9 +246,9 @@ fn fixed(token: &TokenRow, signers: &BTreeMap<i64, String>) -> Vec<String> {
         token.recording.clone().unwrap_or_default(),
         seconds(token.start_us),
         seconds(token.end_us),
-        token.origin.clone(),
+        token.origin.name().to_owned(),
         signer.cloned().unwrap_or_default(),
-        token.hand.clone().unwrap_or_default(),
+        token.hand.map_or("", Hands::name).to_owned(),
         if token.citation { "yes" } else { "no" }.to_owned(),
     ]
 }
@@ -271,13 +264,7 @@ fn seconds(micros: Option<i64>) -> String {
 }
 
 fn title((component, feature, hand, phase): &Column) -> String {
-    let phase = match phase {
-        None => String::new(),
-        Some(Place::Initial) => "initial.".to_owned(),
-        Some(Place::Middle(1)) => "middle.".to_owned(),
-        Some(Place::Middle(place)) => format!("middle{place}."),
-        Some(Place::Final) => "final.".to_owned(),
-    };
+    let phase = phase.map_or_else(String::new, |phase| format!("{phase}."));
     let hand = hand
         .as_ref()
         .map(|hand| format!("{hand}."))
@@ -292,12 +279,12 @@ fn title((component, feature, hand, phase): &Column) -> String {
 
 /// Returns the cells of a token; counts values that would not be read back as one.
 fn cells(values: &[TokenValueRow], unclear: &mut usize) -> BTreeMap<Column, String> {
-    let mut fields: BTreeMap<Column, BTreeMap<Option<Place>, Vec<&str>>> = BTreeMap::new();
+    let mut fields: BTreeMap<Column, BTreeMap<Option<Phase>, Vec<&str>>> = BTreeMap::new();
     for row in values {
         let field = (
-            row.component.clone(),
+            row.component.name(),
             row.feature.clone(),
-            row.hand.clone(),
+            row.hand.map(Hands::name),
             None,
         );
         let text = text(row);
@@ -305,7 +292,7 @@ fn cells(values: &[TokenValueRow], unclear: &mut usize) -> BTreeMap<Column, Stri
         fields
             .entry(field)
             .or_default()
-            .entry(place(row))
+            .entry(row.phase)
             .or_default()
             .push(text);
     }
@@ -326,36 +313,28 @@ fn cells(values: &[TokenValueRow], unclear: &mut usize) -> BTreeMap<Column, Stri
 }
 
 fn text(row: &TokenValueRow) -> &str {
-    match (row.state.as_str(), &row.value) {
-        ("value", Some(value)) => value,
-        ("not-applicable", _) => "n/a",
-        ("unclear", _) => "?",
-        _ => "",
-    }
-}
-
-fn place(row: &TokenValueRow) -> Option<Place> {
-    match row.phase.as_deref()? {
-        "initial" => Some(Place::Initial),
-        "final" => Some(Place::Final),
-        _ => Some(Place::Middle(row.position.max(1))),
+    match row.state {
+        ValueState::Value => row.value.as_deref().unwrap_or_default(),
+        ValueState::NotApplicable => "n/a",
+        ValueState::Unclear => "?",
+        ValueState::Unset => "",
     }
 }
 
 /// Successive values parted by `>`, an empty part for each phase that says nothing.
-fn compound(phases: &BTreeMap<Option<Place>, Vec<&str>>) -> String {
+fn compound(phases: &BTreeMap<Option<Phase>, Vec<&str>>) -> String {
     if let Some(texts) = phases.get(&None) {
         return texts.join(" + ");
     }
-    let middle = |place: &Option<Place>| match place {
-        Some(Place::Middle(place)) => Some(*place),
+    let middle = |phase: &Option<Phase>| match phase {
+        Some(Phase::Middle(place)) => Some(*place),
         _ => None,
     };
-    let last = phases.keys().filter_map(middle).max().unwrap_or(0).min(255);
-    let middles = (1..=last).map(Place::Middle);
-    let order = std::iter::once(Place::Initial)
+    let last = phases.keys().filter_map(middle).max().unwrap_or(0);
+    let middles = (1..=last).map(Phase::Middle);
+    let order = std::iter::once(Phase::Initial)
         .chain(middles)
-        .chain([Place::Final]);
+        .chain([Phase::Final]);
     let parts: Vec<String> = order
         .map(|place| {
             phases

@@ -12,12 +12,13 @@ use chereme_formats::eaf::convert::{
     Annotation, Entry, EntryValue, Media, Place, Tier, Timing, Transcript, Vocabulary,
 };
 use chereme_formats::eaf::{from_raw, patched, raw, to_raw};
-use chereme_formats::roles::{self, Hands, Mapping};
+use chereme_formats::roles::{self, Mapping};
 use chereme_motion::{Instant, Span};
 use chereme_sign::Stereotype;
 use rusqlite::Connection;
 use serde_json::{Map, Value};
 
+use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
 use crate::db::recordings::{self, RecordingRow};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::db::{damaged, list};
@@ -200,8 +201,8 @@ fn describe(
     };
     say(
         properties::ORIGIN,
-        Some(recording.origin.clone()),
-        recording.origin == "captured",
+        Some(recording.origin.name().to_owned()),
+        recording.origin == Origin::Captured,
     );
     say(properties::LICENCE, recording.licence.clone(), false);
     say(properties::SIGNER, name, guessed);
@@ -228,13 +229,8 @@ fn roles_of_tiers(
     let guesses = roles::guess_tiers(transcript, &Mapping::default());
     let mut roles = Map::new();
     for (row, guess) in tiers::tiers(connection, recording.id)?.iter().zip(guesses) {
-        let (role, hand) = (row.role(), row.hand.as_deref());
-        if guess.role.unwrap_or_default() != role || guess.hand.map(Hands::name) != hand {
-            let hand = hand.map(|hand| format!("{hand}.")).unwrap_or_default();
-            roles.insert(
-                row.name.clone(),
-                Value::from(format!("{hand}{}", role.name())),
-            );
+        if guess.role.unwrap_or_default() != row.role || guess.hand != row.hand {
+            roles.insert(row.name.clone(), Value::from(row.topic().to_string()));
         }
     }
     Ok(roles)
@@ -260,7 +256,10 @@ impl Writing<'_> {
         for row in &rows {
             said.push(in_order(tiers::annotations(self.connection, row.id)?));
         }
-        let changed = said.iter().flatten().any(|row| row.origin != "file");
+        let changed = said
+            .iter()
+            .flatten()
+            .any(|row| row.origin != AnnotationOrigin::File);
         if changed || self.transcript.date.is_empty() {
             self.transcript.date = list::last_change(self.connection)?.unwrap_or_default();
         }
@@ -318,15 +317,10 @@ impl Writing<'_> {
 
     fn annotation(&self, tier: &Tier, row: &AnnotationRow, ids: &mut Ids) -> Annotation {
         let source = source(row.source.as_deref());
-        let value = match row.state.as_str() {
-            "value" => row.value.clone(),
-            "not-applicable" => "n/a".to_owned(),
-            "unclear" => "unclear".to_owned(),
-            _ => String::new(),
-        };
+        let value = row.file_text().to_owned();
         // A value that its file left without an entry stays so.
         let entry = match text(&source, "entry") {
-            None if row.origin != "file" => tier
+            None if row.origin != AnnotationOrigin::File => tier
                 .vocabulary
                 .as_deref()
                 .and_then(|vocabulary| self.entry(vocabulary, &value)),
@@ -363,18 +357,11 @@ impl Writing<'_> {
 
 fn tier(row: &TierRow, parent: Option<usize>) -> Tier {
     let source = source(row.source.as_deref());
-    let kind = text(&source, "type").unwrap_or_else(|| match (&row.component, &row.feature) {
-        (Some(component), Some(feature)) => format!("{component}.{feature}"),
-        (Some(component), None) => component.clone(),
-        _ => row.role.clone(),
-    });
+    let kind = text(&source, "type").unwrap_or_else(|| row.role.name());
     Tier {
         name: row.name.clone(),
         parent,
-        stereotype: row
-            .stereotype
-            .as_deref()
-            .and_then(Stereotype::from_elan_name),
+        stereotype: row.stereotype,
         kind,
         participant: row.participant.clone(),
         annotator: row.annotator.clone(),
@@ -473,7 +460,7 @@ fn complete(vocabulary: &mut Vocabulary, said: &[AnnotationRow]) {
         .unwrap_or_default();
     for row in said
         .iter()
-        .filter(|row| row.origin != "file" && row.state == "value")
+        .filter(|row| row.origin != AnnotationOrigin::File && row.state == ValueState::Value)
     {
         let mut all = vocabulary.entries.iter().flat_map(|entry| &entry.values);
         if all.any(|known| known.value == row.value) {

@@ -267,7 +267,7 @@ pub(super) fn subtitles(
     let of = |role: TierRole| {
         let names: Vec<&str> = rows
             .iter()
-            .filter(|row| row.role() == role)
+            .filter(|row| row.role == role)
             .map(|row| row.name.as_str())
             .collect();
         let tiers = transcript.tiers.iter();

@@ -225,7 +225,7 @@ fn made_recordings_say_so_in_their_file() {
     let mut corpus = place.corpus(&[file]);
     let change = crate::RecordingChange {
         signer: Some(Some("Berta".into())),
-        origin: Some("made".into()),
+        origin: Some(crate::Origin::Made),
         licence: Some(Some("CC BY 4.0".into())),
         ..Default::default()
     };

@@ -2,12 +2,14 @@
 //! from the glosses.
 
 use chereme_motion::{Instant, Span};
-use chereme_sign::TierRole;
 use chereme_sign::milestones::{EDGE, Function, Milestones, Phase, milestones};
 use chereme_sign::text::fold;
+use chereme_sign::tier::Hands;
+use chereme_sign::{HandRef, TierRole};
 use rusqlite::Connection;
 
 use crate::address::Address;
+use crate::db::columns::AnnotationOrigin;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 
@@ -93,7 +95,7 @@ pub(crate) fn of_recording(
         for annotation in tiers::annotations(connection, row.id)? {
             let own = Function::of(&annotation.value);
             let wanted = function.is_none_or(|function| *function == own);
-            if annotation.state != "value" || annotation.value.trim().is_empty() || !wanted {
+            if !annotation.is_filled() || !wanted {
                 continue;
             }
             let span = span_of(&annotation);
@@ -126,14 +128,12 @@ impl Signing {
         let mut best = ((false, false, 0), Vec::new());
         let mut utterances = Vec::new();
         for row in all {
-            let rows = match row.role() {
+            let rows = match row.role {
                 TierRole::Gloss | TierRole::Translation => tiers::annotations(connection, row.id)?,
                 _ => continue,
             };
-            let said = rows
-                .iter()
-                .filter(|it| it.state == "value" && !it.value.trim().is_empty());
-            if row.role() == TierRole::Translation {
+            let said = rows.iter().filter(|it| it.is_filled());
+            if row.role == TierRole::Translation {
                 utterances.extend(said.map(span_of));
                 continue;
             }
@@ -142,7 +142,7 @@ impl Signing {
                 .collect();
             signs.sort_by_key(|(span, _)| (span.start(), span.end()));
             let same = participant.is_none() || row.participant.as_deref() == participant;
-            let other_hand = matches!(row.hand.as_deref(), Some("left" | "weak"));
+            let other_hand = matches!(row.hand, Some(Hands::One(HandRef::Left | HandRef::Weak)));
             let rank = (same, !other_hand, signs.len());
             if best.1.is_empty() || rank > best.0 {
                 best = (rank, signs);
@@ -318,7 +318,7 @@ fn joined(
         stored: phases.iter().map(|(_, row)| row.id).collect(),
         corrected: phases
             .iter()
-            .any(|(_, row)| row.origin == "human" || row.origin == "file"),
+            .any(|(_, row)| matches!(row.origin, AnnotationOrigin::Human | AnnotationOrigin::File)),
         odd: Vec::new(),
     })
 }

@@ -13,9 +13,9 @@ use super::recording_of;
 use crate::Corpus;
 use crate::address::{Address, Name};
 use crate::annotate::{
-    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, AnnotationOrigin, NewTier,
-    TierName,
+    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, NewTier, TierName,
 };
+use crate::db::columns::AnnotationOrigin;
 use crate::db::recordings;
 use crate::db::tiers;
 use crate::error::Result;

@@ -11,9 +11,9 @@ use super::{no_face, recording_of};
 use crate::Corpus;
 use crate::address::{self, Address, Name};
 use crate::annotate::{
-    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, AnnotationOrigin, NewTier,
-    TierName,
+    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, NewTier, TierName,
 };
+use crate::db::columns::AnnotationOrigin;
 use crate::db::tiers;
 use crate::error::Result;
 use crate::progress::Progress;
@@ -128,8 +128,8 @@ impl Corpus {
             match all.iter().find(|row| row.name == name) {
                 Some(row) => {
                     for old in tiers::annotations(self.store.read(), row.id)? {
-                        match old.origin.as_str() {
-                            "detector" => changes.push(
+                        match old.origin {
+                            AnnotationOrigin::Detector => changes.push(
                                 AnnotationAction::Remove {
                                     annotation: AnnotationName::Number(old.id),
                                 }

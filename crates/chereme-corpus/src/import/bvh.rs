@@ -466,7 +466,7 @@ pub(super) fn insert_recording(job: &mut Job<'_>, report: &mut FileReport) -> Re
     };
     let id = match without_movement(job, report)? {
         Some(id) => {
-            let (origin, licence) = (options.origin.as_deref(), options.licence.as_deref());
+            let (origin, licence) = (options.origin, options.licence.as_deref());
             recordings::describe(job.connection, id, signer_id, origin, licence)?;
             id
         }
@@ -479,10 +479,7 @@ pub(super) fn insert_recording(job: &mut Job<'_>, report: &mut FileReport) -> Re
                 name,
                 signer_id,
                 signer: None,
-                origin: options
-                    .origin
-                    .clone()
-                    .unwrap_or_else(|| "captured".to_owned()),
+                origin: options.origin.unwrap_or_default(),
                 duration_us: 0,
                 licence: options.licence.clone(),
                 notes: None,

@@ -10,13 +10,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use chereme_formats::Finding;
 use chereme_formats::eaf;
 use chereme_formats::eaf::convert::{Annotation, Place, Timing, Transcript};
-use chereme_formats::roles::{self, Hands, Mapping, TierGuess};
+use chereme_formats::roles::{self, Mapping, TierGuess};
 use chereme_motion::Instant;
 use chereme_sign::TierRole;
 use serde_json::json;
 
 use super::report::{Outcome, ReportFinding};
 use super::{FileReport, FileStatus, Job, OwnEdits};
+use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
 use crate::db::recordings::{self, MediaTrackRow, RecordingRow};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
@@ -266,8 +267,8 @@ fn guess(
     for guess in guesses.iter_mut().filter(|guess| guess.role.is_none()) {
         let known = tiers::roles_named(job.connection, &guess.tier)?;
         let [one] = known.as_slice() else { continue };
-        guess.role = Some(one.role());
-        guess.hand = one.hand.as_deref().and_then(Hands::of);
+        guess.role = Some(one.role.clone());
+        guess.hand = one.hand;
         guess.confidence = 0.5;
         guess.why = "tiers of this name in the corpus are".to_owned();
     }
@@ -333,22 +334,15 @@ fn recording(
         }
         None => None,
     };
-    let origin = property(ORIGIN)
-        .filter(|origin| ["captured", "made", "generated"].contains(&origin.as_str()));
-    let origin = options.origin.clone().or(origin);
+    let origin = property(ORIGIN).and_then(|origin| Origin::of_recording(&origin).ok());
+    let origin = options.origin.or(origin);
     let licence = options.licence.clone().or_else(|| property(LICENCE));
     let paired = match &options.into {
         Some(into) => Some(crate::address::recording(job.connection, into)?.id),
         None => paired,
     };
     if let Some(id) = paired {
-        recordings::describe(
-            job.connection,
-            id,
-            signer,
-            origin.as_deref(),
-            licence.as_deref(),
-        )?;
+        recordings::describe(job.connection, id, signer, origin, licence.as_deref())?;
         media(job, id, transcript)?;
         return Ok(id);
     }
@@ -361,7 +355,7 @@ fn recording(
             name,
             signer_id: signer,
             signer: None,
-            origin: origin.unwrap_or_else(|| "captured".to_owned()),
+            origin: origin.unwrap_or_default(),
             duration_us: 0,
             licence,
             notes: None,
@@ -475,7 +469,7 @@ fn write_tiers(
             name: tier.name.clone(),
             position: (first + place) as i64,
             parent_id: tier.parent.map(|parent| rows[parent]),
-            stereotype: tier.stereotype.map(|it| it.elan_name().to_owned()),
+            stereotype: tier.stereotype,
             participant: tier.participant.clone(),
             annotator: tier.annotator.clone(),
             language: tier.language.clone(),
@@ -536,23 +530,20 @@ fn write_annotations(
 
 /// Sets a row's state if its value is missing, on tiers of glosses and components.
 fn coded(mut row: AnnotationRow, guess: &TierGuess) -> AnnotationRow {
-    let coded = matches!(
-        guess.role,
-        Some(TierRole::Gloss | TierRole::Component { .. })
-    );
-    if let Some(state) = missing(&row.value).filter(|_| coded) {
-        state.clone_into(&mut row.state);
+    let coded = guess.role.as_ref().is_some_and(TierRole::is_coded);
+    let state = ValueState::of_file_text(&row.value);
+    if coded && matches!(state, ValueState::NotApplicable | ValueState::Unclear) {
+        row.state = state;
         row.value.clear();
     }
     row
 }
 
-/// How a value is missing, in the words that exported files say it with.
-fn missing(value: &str) -> Option<&'static str> {
-    match value {
-        "n/a" => Some("not-applicable"),
-        "unclear" => Some("unclear"),
-        _ => None,
+/// Returns whether a text is a value or nothing at all.
+fn plain_state(text: &str) -> ValueState {
+    match text {
+        "" => ValueState::Unset,
+        _ => ValueState::Value,
     }
 }
 
@@ -575,16 +566,11 @@ fn annotation_row(annotation: &Annotation, tier_id: i64, parent_id: Option<i64>)
         tier_id,
         start_us: annotation.span.start().micros(),
         end_us: annotation.span.end().micros(),
-        state: if annotation.value.is_empty() {
-            "unset"
-        } else {
-            "value"
-        }
-        .to_owned(),
+        state: plain_state(&annotation.value),
         value: annotation.value.clone(),
         parent_id,
         position: i64::from(annotation.order),
-        origin: "file".to_owned(),
+        origin: AnnotationOrigin::File,
         confidence: None,
         external_id: Some(annotation.id.clone()),
         file_start_ms: annotation.millis.map(|[start, _]| start),

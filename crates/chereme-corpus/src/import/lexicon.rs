@@ -5,19 +5,19 @@ use std::collections::BTreeMap;
 use chereme_formats::lexicon::{self, Coding, Entry, Lexicon, Meaning};
 use chereme_formats::table::TableError;
 use chereme_sign::query::number;
-use chereme_sign::{Component, Inventory, InventoryValue, Phase, Reading};
+use chereme_sign::{Component, Inventory, InventoryValue, Reading};
 use serde_json::{Map, Value, json};
 
 use super::notation::{Text, Words};
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
 use crate::db::attributes::{self, AttributeRow};
+use crate::db::columns::{Origin, ValueState};
 use crate::db::notations;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
-use crate::tokens::state_name;
 
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     let known = job.unchanged();
@@ -123,7 +123,10 @@ impl Earlier {
             return Ok(known.pop());
         }
         let mut own = Vec::new();
-        for token in tokens.iter().filter(|token| token.origin == "lexicon") {
+        for token in tokens
+            .iter()
+            .filter(|token| token.origin == Origin::Lexicon)
+        {
             let source: Value = token
                 .source
                 .as_deref()
@@ -236,7 +239,7 @@ fn import_entry(
         None => {
             let row = TokenRow {
                 sign_id: sign,
-                origin: "lexicon".to_owned(),
+                origin: Origin::Lexicon,
                 citation: !tokens.iter().any(|token| token.citation),
                 source,
                 ..TokenRow::default()
@@ -268,24 +271,17 @@ fn import_entry(
 
 fn value_row(coding: &Coding, inventories: &BTreeMap<Part, Known>) -> TokenValueRow {
     let known = inventories.get(&(coding.component, coding.feature.clone()));
-    let (phase, position) = match coding.phase {
-        None => (None, 0),
-        Some(Phase::Initial) => (Some("initial"), 0),
-        Some(Phase::Middle(place)) => (Some("middle"), i64::from(place)),
-        Some(Phase::Final) => (Some("final"), 0),
-    };
     let value = coding.reading.value().map(|value| {
         let same = known.and_then(|known| known.values.get(value));
         same.cloned().unwrap_or_else(|| value.to_owned())
     });
     let is_value = matches!(coding.reading, Reading::Value(_));
     TokenValueRow {
-        hand: coding.hand.map(|hand| hand.name().to_owned()),
-        component: coding.component.name().to_owned(),
+        hand: coding.hand,
+        component: coding.component,
         feature: coding.feature.clone(),
-        phase: phase.map(str::to_owned),
-        position,
-        state: state_name(&coding.reading).to_owned(),
+        phase: coding.phase,
+        state: ValueState::of(&coding.reading),
         value,
         inventory_id: known.filter(|_| is_value).map(|known| known.row),
         annotation_id: None,

@@ -30,6 +30,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Corpus;
 use crate::address::Name;
+use crate::db::columns::Origin;
 use crate::db::motion::hex;
 use crate::db::recordings::{self, SourceFileRow};
 use crate::error::{Error, Result};
@@ -64,8 +65,8 @@ pub struct ImportOptions {
     pub mend_root: bool,
     /// The meaning of tiers and columns; it goes before what an annotation file says of its tiers itself.
     pub mapping: Mapping,
-    /// `captured`, `made` or `generated`.
-    pub origin: Option<String>,
+    /// How the recordings came about.
+    pub origin: Option<Origin>,
     /// The terms under which the recordings may be used.
     pub licence: Option<String>,
     /// The fate of edits of the corpus that an annotation file, imported again, would take back.

@@ -10,6 +10,7 @@ use serde_json::json;
 use super::notation::{Words, document, lost, uncoded};
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
+use crate::db::columns::Origin;
 use crate::db::notations::{self, NotationRow};
 use crate::db::signs::{self, TokenRow};
 use crate::error::Result;
@@ -199,7 +200,7 @@ fn insert_token(job: &mut Job<'_>, gloss: &str, line: Option<i64>) -> Result<i64
     let tokens = signs::tokens_of_sign(job.connection, sign)?;
     let row = TokenRow {
         sign_id: sign,
-        origin: "lexicon".to_owned(),
+        origin: Origin::Lexicon,
         citation: !tokens.iter().any(|token| token.citation),
         source: Some(json!({ "file": job.file_name, "line": line }).to_string()),
         ..TokenRow::default()

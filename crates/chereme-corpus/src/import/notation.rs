@@ -6,7 +6,7 @@ use chereme_formats::Finding;
 use chereme_formats::hns::holds_some;
 use chereme_sign::hamnosys::components::{Mapped, MappedValue, Mapper};
 use chereme_sign::hamnosys::{Notated, is_garbled, parse_lenient};
-use chereme_sign::{Component, Phase};
+use chereme_sign::{Component, Reading};
 
 use super::report::ReportFinding;
 use super::{FileReport, Job};
@@ -59,11 +59,10 @@ impl Text<'_> {
         let mut values = signs::values(job.connection, self.token)?;
         let own: Vec<_> = values
             .iter()
-            .map(|row| (row.component.clone(), row.feature.clone()))
+            .map(|row| (row.component, row.feature.clone()))
             .collect();
         let new = words.rows(&mapped).into_iter();
-        values
-            .extend(new.filter(|row| !own.contains(&(row.component.clone(), row.feature.clone()))));
+        values.extend(new.filter(|row| !own.contains(&(row.component, row.feature.clone()))));
         signs::set_values(job.connection, self.token, &values)?;
         let is_new = notations::of_token(job.connection, self.token)?.is_none();
         let row = NotationRow {
@@ -158,25 +157,13 @@ impl<'i> Words<'i> {
 
     fn row(&self, mapped: &MappedValue) -> TokenValueRow {
         let field = &mapped.field;
-        let (phase, position) = match field.phase {
-            None => (None, 0),
-            Some(Phase::Initial) => (Some("initial"), 0),
-            Some(Phase::Middle(place)) => (Some("middle"), i64::from(place)),
-            Some(Phase::Final) => (Some("final"), 0),
-        };
+        let reading = Reading::Value(mapped.value.clone());
         TokenValueRow {
-            hand: field.hand.map(|hand| hand.name().to_owned()),
-            component: field.component.name().to_owned(),
-            feature: field.feature.clone(),
-            phase: phase.map(str::to_owned),
-            position,
-            state: "value".to_owned(),
-            value: Some(mapped.value.clone()),
             inventory_id: self
                 .rows
                 .get(&(field.component, field.feature.as_deref()))
                 .copied(),
-            annotation_id: None,
+            ..TokenValueRow::of(field, &reading)
         }
     }
 }

@@ -82,8 +82,8 @@ fn roles(corpus: &Corpus) -> Vec<String> {
         .flat_map(|id| crate::db::tiers::tiers(corpus.store.read(), id).expect("tiers"));
     tiers
         .map(|row| {
-            let hand = row.hand.clone().unwrap_or_default();
-            format!("{}: {hand} {}", row.name, row.role().name())
+            let hand = row.hand.map_or("", crate::Hands::name);
+            format!("{}: {hand} {}", row.name, row.role.name())
         })
         .collect()
 }
@@ -310,9 +310,9 @@ fn what_the_corpus_added_is_kept_and_the_file_of_another_take_is_refused() {
         tier_id: tier,
         start_us: 700_000,
         end_us: 900_000,
-        state: "value".to_owned(),
+        state: crate::ValueState::Value,
         value: "CHAT".to_owned(),
-        origin: "human".to_owned(),
+        origin: crate::AnnotationOrigin::Human,
         ..Default::default()
     };
     corpus

@@ -419,10 +419,7 @@ fn both(connection: &Connection, open: &Open) -> Result<()> {
     let (start, end) = (number(&image, "start_us"), number(&image, "end_us"));
     let near = tiers::annotations_near(connection, tier.id, start, end)?;
     let meets = near.iter().any(|it| it.start_us < end && start < it.end_us);
-    let symbolic = tier
-        .stereotype
-        .as_deref()
-        .is_some_and(|it| it.starts_with("Symbolic"));
+    let symbolic = tier.stereotype.is_some_and(|it| !it.is_alignable());
     if meets || symbolic {
         let next = next_to(connection, &tier)?;
         image.insert("tier_id".into(), Value::from(next));
@@ -449,7 +446,6 @@ fn next_to(connection: &Connection, tier: &TierRow) -> Result<i64> {
             recording_id: tier.recording_id,
             name,
             position: last + 1,
-            role: "free".to_owned(),
             participant: tier.participant.clone(),
             annotator: tier.annotator.clone(),
             language: tier.language.clone(),

@@ -448,7 +448,7 @@ impl Work<'_> {
         let number = |column: &str| row.get(column).and_then(Value::as_i64).unwrap_or_default();
         let (tier, start, end) = (number("tier_id"), number("start_us"), number("end_us"));
         let symbolic = tiers::tier(self.connection, tier)?.stereotype;
-        if symbolic.is_some_and(|it| it.starts_with("Symbolic")) {
+        if symbolic.is_some_and(|it| !it.is_alignable()) {
             return Ok(None);
         }
         for near in tiers::annotations_near(self.connection, tier, start, end)? {

@@ -109,7 +109,7 @@ pub(super) fn twin(connection: &Connection, row: &Image) -> Result<Option<i64>> 
         it.start_us == start
             && it.end_us == end
             && Some(it.value.as_str()) == row["value"].as_str()
-            && Some(it.state.as_str()) == row["state"].as_str()
+            && Some(it.state.name()) == row["state"].as_str()
             && it.parent_id == number("parent_id")
             && Some(it.position) == number("position")
     });

@@ -1,5 +1,6 @@
 //! Rebuilding a generated sign: the movement of another recipe takes the place of its own.
 
+use chereme_sign::TierRole;
 use std::collections::BTreeSet;
 
 use chereme_compose::{Input, Made, Recipe, Resolved};
@@ -11,6 +12,7 @@ use super::{
 };
 use crate::Corpus;
 use crate::address::{self, Address};
+use crate::db::columns::AnnotationOrigin;
 use crate::db::edits;
 use crate::db::recipes::{self, RecipeRow};
 use crate::db::recordings::{self, RecordingRow};
@@ -153,13 +155,13 @@ fn clear_tiers(connection: &Connection, target: &RecordingRow, end: i64) -> Resu
     let mut cleared = Cleared::default();
     for tier in tiers::tiers(connection, target.id)? {
         for row in tiers::annotations(connection, tier.id)? {
-            let came = row.origin == "made" && tier.role != "gloss";
+            let came = row.origin == AnnotationOrigin::Made && tier.role != TierRole::Gloss;
             if came && tiers::children(connection, row.id)?.is_empty() {
                 remove(connection, &row)?;
                 cleared.tiers.insert(tier.id);
                 continue;
             }
-            let whole = row.origin == "made" && row.end_us == target.duration_us;
+            let whole = row.origin == AnnotationOrigin::Made && row.end_us == target.duration_us;
             if !whole && row.end_us > end {
                 cleared.shortened += 1;
             }

@@ -5,6 +5,7 @@ use chereme_sign::cue;
 use rusqlite::Connection;
 
 use crate::db::attributes::{self, AttributeRow};
+use crate::db::columns::Origin;
 use crate::db::tiers::{self, AnnotationRow};
 use crate::db::{recordings, signs};
 use crate::error::Result;
@@ -61,7 +62,7 @@ fn named(connection: &Connection, recording: i64, name: &str) -> Result<Vec<Anno
 pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {
     let mut found: [Vec<f64>; 3] = Default::default();
     for row in recordings::recordings(connection)? {
-        if row.origin == "made" {
+        if row.origin == Origin::Made {
             continue;
         }
         let keys = named(connection, row.id, CueTier::Keys.name())?;

@@ -1,5 +1,6 @@
 //! Answers: the tokens found, in order, with what is coded of them and how often each value occurs.
 
+use chereme_sign::Component;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
@@ -12,6 +13,7 @@ use super::finding::Finding;
 use super::known::Labels;
 use super::like::Scores;
 use super::plan::{self, Plan};
+use crate::db::columns::{Origin, ValueState};
 use crate::db::search::answers::{self, CodedRow, Named};
 use crate::error::Result;
 
@@ -66,8 +68,8 @@ pub struct Hit {
     pub start_us: Option<i64>,
     /// The first microsecond after it.
     pub end_us: Option<i64>,
-    /// `captured`, `made`, `generated` or `lexicon`.
-    pub origin: String,
+    /// How it came about.
+    pub origin: Origin,
     /// How alike it is to the example, from 0 to 1, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub score: Option<f64>,
@@ -260,26 +262,21 @@ pub(crate) fn hits(ask: &Ask<'_>, docs: &[DocAddress], scores: Option<&Scores>) 
 }
 
 fn add_value(components: &mut BTreeMap<String, Value>, row: &CodedRow<'_>) {
-    let text = match (row.state, row.value) {
-        ("value", Some(value)) => value,
-        ("not-applicable", _) => "n/a",
-        ("unclear", _) => "unclear",
-        _ => return,
+    if row.state == ValueState::Unset {
+        return;
+    }
+    let Some(text) = row.state.missing_text().or(row.value) else {
+        return;
     };
     let mut field = String::new();
-    match (row.phase, row.position) {
-        (None, _) => {}
-        (Some("middle"), place @ 2..) => field.push_str(&format!("middle{place}.")),
-        (Some(phase), _) => {
-            field.push_str(phase);
-            field.push('.');
-        }
+    if let Some(phase) = row.phase {
+        field.push_str(&format!("{phase}."));
     }
     if let Some(hand) = row.hand {
-        field.push_str(hand);
+        field.push_str(hand.name());
         field.push('.');
     }
-    field.push_str(row.component);
+    field.push_str(row.component.map_or("", Component::name));
     if let Some(part) = row.part {
         field.push('.');
         field.push_str(part);

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use chereme_motion::{Instant, Span};
 use chereme_sign::query::{Comparison, Pattern, Test, TextField, What};
 use chereme_sign::text::fold;
-use chereme_sign::{Reading, Relation};
+use chereme_sign::{Reading, Relation, TierRole};
 
 use super::compile::{self, Ask, Asked};
 use super::component::ComponentTest;
@@ -34,7 +34,7 @@ enum Other {
     Gloss(Plan),
     Component(Box<ComponentTest>),
     /// An annotation of tiers with this role.
-    Role(&'static str, Test),
+    Role(TierRole, Test),
     /// An annotation of tiers of such a name.
     Tier(Pattern, Comparison),
 }
@@ -219,8 +219,8 @@ fn texts_beside(ask: &Ask<'_>, test: &Test, field: TextField) -> Asked<Vec<Other
         other.push(Other::Gloss(compile::test(ask, &own)?));
     }
     let roles = [
-        (TextField::Translation, "translation"),
-        (TextField::Comment, "comment"),
+        (TextField::Translation, TierRole::Translation),
+        (TextField::Comment, TierRole::Comment),
     ];
     for (own, role) in roles {
         if field == TextField::Any || field == own {
@@ -240,7 +240,7 @@ fn reading_of(row: &CodedRow<'_>) -> Reading {
 fn component_passes(test: &ComponentTest, row: &CodedRow<'_>, left_handed: bool) -> bool {
     let hands = hands_of(test.field.hand);
     let own = hand_codes(row.hand, left_handed);
-    let phase = phase_code(row.phase, row.position);
+    let phase = phase_code(row.phase);
     if !own.iter().any(|hand| hands.contains(hand)) || !phase_counts(test.field.phase, &phase) {
         return false;
     }

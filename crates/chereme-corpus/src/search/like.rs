@@ -9,7 +9,7 @@ use tantivy::{DocAddress, Term};
 
 use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked};
-use super::terms::{self, hand_codes, hands_of, phase_code, phase_counts};
+use super::terms::{self, hand_codes, hands_of, phase_counts};
 use crate::address::{self, Address, Name};
 use crate::db::search::answers;
 use crate::db::signs::TokenRow;
@@ -141,15 +141,11 @@ fn slots(ask: &Ask<'_>, token: &TokenRow) -> Asked<Vec<Slot>> {
     let mut slots = Vec::new();
     answers::coded_of_token(ask.connection, token.id, |row| {
         let reading = terms::reading(row.state, row.value);
-        let (Reading::Value(value), Ok(component)) = (reading, row.component.parse::<Component>())
-        else {
+        let (Reading::Value(value), Some(component)) = (reading, row.component) else {
             return;
         };
-        let code = phase_code(row.phase, row.position);
-        let phases: Vec<Phase> = match code.strip_prefix('m') {
-            Some(place) => vec![Phase::Middle(place.parse().unwrap_or(u8::MAX))],
-            None if code == "i" => vec![Phase::Initial],
-            None if code == "f" => vec![Phase::Final],
+        let phases: Vec<Phase> = match row.phase {
+            Some(phase) => vec![phase],
             None => vec![Phase::Initial, Phase::Final],
         };
         for &hand in hand_codes(row.hand, left_handed) {

@@ -4,7 +4,10 @@
 //! `r`, `l` (by side), `d`, `w` (by part in signing) or `n` (none); the phase `o` (the only value),
 //! `i`, `m1`, `m2` … or `f`. A mark is `@kind|value`, such as `@origin|made`.
 
+use chereme_sign::tier::Hands;
 use chereme_sign::{HandRef, Phase, Reading};
+
+use crate::db::columns::ValueState;
 
 /// The content of a reading's term without a value.
 mod special {
@@ -64,17 +67,17 @@ pub(crate) fn reading_term(
 }
 
 /// Returns how a term writes the reading that a row gives as state and value.
-pub(crate) fn reading_text<'a>(state: &str, value: Option<&'a str>) -> &'a str {
-    match (state, value) {
-        ("value", Some(value)) => value,
-        ("not-applicable", _) => special::NOT_APPLICABLE,
-        ("unclear", _) => special::UNCLEAR,
-        _ => special::UNSET,
+pub(crate) fn reading_text(state: ValueState, value: Option<&str>) -> &str {
+    match state {
+        ValueState::Value => value.unwrap_or(special::UNSET),
+        ValueState::NotApplicable => special::NOT_APPLICABLE,
+        ValueState::Unclear => special::UNCLEAR,
+        ValueState::Unset => special::UNSET,
     }
 }
 
 /// Returns the reading that a row gives as state and value.
-pub(crate) fn reading(state: &str, value: Option<&str>) -> Reading {
+pub(crate) fn reading(state: ValueState, value: Option<&str>) -> Reading {
     from_text(reading_text(state, value))
 }
 
@@ -119,24 +122,27 @@ pub(crate) fn parse(term: &str) -> Option<Parsed<'_>> {
 }
 
 /// Returns the code of a row's phase.
-pub(crate) fn phase_code(phase: Option<&str>, position: i64) -> String {
+pub(crate) fn phase_code(phase: Option<Phase>) -> String {
     match phase {
-        Some("initial") => "i".to_owned(),
-        Some("middle") => format!("m{}", position.max(1)),
-        Some("final") => "f".to_owned(),
-        _ => "o".to_owned(),
+        Some(Phase::Initial) => "i".to_owned(),
+        Some(Phase::Middle(place)) => format!("m{place}"),
+        Some(Phase::Final) => "f".to_owned(),
+        None => "o".to_owned(),
     }
 }
 
 /// A side and a part in signing for every hand; of both hands all four, and of no hand its own.
-pub(crate) fn hand_codes(hand: Option<&str>, left_handed: bool) -> &'static [char] {
+pub(crate) fn hand_codes(hand: Option<Hands>, left_handed: bool) -> &'static [char] {
+    let hand = match hand {
+        Some(Hands::One(hand)) => hand,
+        Some(Hands::Both) => return &['r', 'l', 'd', 'w'],
+        None => return &['n'],
+    };
     match (hand, left_handed) {
-        (Some("right" | "dominant"), false) => &['r', 'd'],
-        (Some("left" | "weak"), false) => &['l', 'w'],
-        (Some("right" | "weak"), true) => &['r', 'w'],
-        (Some("left" | "dominant"), true) => &['l', 'd'],
-        (Some("both"), _) => &['r', 'l', 'd', 'w'],
-        _ => &['n'],
+        (HandRef::Right | HandRef::Dominant, false) => &['r', 'd'],
+        (HandRef::Left | HandRef::Weak, false) => &['l', 'w'],
+        (HandRef::Right | HandRef::Weak, true) => &['r', 'w'],
+        (HandRef::Left | HandRef::Dominant, true) => &['l', 'd'],
     }
 }
 

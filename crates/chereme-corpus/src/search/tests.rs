@@ -3,10 +3,12 @@
 mod lexicon;
 mod table;
 
-use chereme_sign::{Field, Phase};
+use chereme_sign::tier::Hands;
+use chereme_sign::{Field, Reading, TierRole};
 
 use super::{Answer, SearchOptions};
 use crate::Corpus;
+use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
 use crate::db::recordings::signer_named;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::tiers::{AnnotationRow, TierRow, insert_annotation, insert_tier};
@@ -57,11 +59,10 @@ impl Sample {
             start_us: place.map(|place| place.1 * 1000),
             end_us: place.map(|place| place.2 * 1000),
             origin: if place.is_some() {
-                "captured"
+                Origin::Captured
             } else {
-                "lexicon"
-            }
-            .to_owned(),
+                Origin::Lexicon
+            },
             ..TokenRow::default()
         };
         self.token_of(gloss, &row, values)
@@ -90,9 +91,9 @@ impl Sample {
                     tier_id,
                     start_us: start * 1000,
                     end_us: end * 1000,
-                    state: if value.is_empty() { "unset" } else { "value" }.to_owned(),
+                    state: ValueState::of(&Reading::from(*value)),
                     value: (*value).to_owned(),
-                    origin: "human".to_owned(),
+                    origin: AnnotationOrigin::Human,
                     ..AnnotationRow::default()
                 };
                 insert_annotation(connection, &row)?;
@@ -117,7 +118,7 @@ fn tier(recording: i64, name: &str, role: &str) -> TierRow {
     TierRow {
         recording_id: recording,
         name: name.to_owned(),
-        role: role.to_owned(),
+        role: TierRole::of_parts(role, None, None),
         ..TierRow::default()
     }
 }
@@ -126,10 +127,12 @@ fn tier(recording: i64, name: &str, role: &str) -> TierRow {
 fn component_tier(recording: i64, field: &str) -> TierRow {
     let parsed: Field = field.parse().expect("a field");
     TierRow {
-        component: Some(parsed.component.name().to_owned()),
-        feature: parsed.feature.clone(),
-        hand: parsed.hand.map(|hand| hand.name().to_owned()),
-        ..tier(recording, field, "component")
+        role: TierRole::Component {
+            component: parsed.component,
+            feature: parsed.feature.clone(),
+        },
+        hand: parsed.hand.map(Hands::One),
+        ..tier(recording, field, "free")
     }
 }
 
@@ -138,29 +141,16 @@ fn value_row(text: &str) -> TokenValueRow {
     let (field, value) = text.split_once('=').expect("field=value");
     let both = field.contains("both.");
     let field: Field = field.replace("both.", "").parse().expect("a field");
-    let (state, value) = match value {
-        "n/a" => ("not-applicable", None),
-        "unclear" => ("unclear", None),
-        "unset" => ("unset", None),
-        value => ("value", Some(value.to_owned())),
+    let reading = match value {
+        "n/a" => Reading::NotApplicable,
+        "unclear" => Reading::Unclear,
+        "unset" => Reading::Unset,
+        value => Reading::Value(value.to_owned()),
     };
-    let hand = field.hand.map(|hand| hand.name().to_owned());
+    let row = TokenValueRow::of(&field, &reading);
     TokenValueRow {
-        hand: if both { Some("both".to_owned()) } else { hand },
-        component: field.component.name().to_owned(),
-        feature: field.feature,
-        phase: field.phase.map(|phase| match phase {
-            Phase::Initial => "initial".to_owned(),
-            Phase::Middle(_) => "middle".to_owned(),
-            Phase::Final => "final".to_owned(),
-        }),
-        position: match field.phase {
-            Some(Phase::Middle(place)) => i64::from(place),
-            _ => 0,
-        },
-        state: state.to_owned(),
-        value,
-        ..TokenValueRow::default()
+        hand: if both { Some(Hands::Both) } else { row.hand },
+        ..row
     }
 }
 
@@ -174,7 +164,7 @@ fn a_search_stops_where_it_is_told_to() {
         for n in 0..200 {
             let row = TokenRow {
                 sign_id: signs::sign_glossed(connection, &format!("S{n}"))?,
-                origin: "lexicon".to_owned(),
+                origin: Origin::Lexicon,
                 ..TokenRow::default()
             };
             let token = signs::insert_token(connection, &row)?;

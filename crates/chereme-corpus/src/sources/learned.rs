@@ -8,8 +8,10 @@ use chereme_compose::{
     CourseLearner, LearnedCourse, LearnedProfile, MedianTime, SpellingTimes, Stretch,
 };
 use chereme_motion::Side;
+use chereme_sign::TierRole;
 use rusqlite::Connection;
 
+use crate::db::columns::Origin;
 use crate::db::{recordings, tiers};
 use crate::error::Result;
 use crate::inventories::StoredInventory;
@@ -83,9 +85,9 @@ pub(super) fn profile(connection: &Connection) -> Result<Option<LearnedProfile>>
 fn pieces(connection: &Connection) -> Result<Vec<(i64, usize)>> {
     let all = recordings::recordings(connection)?;
     for (origin, signing) in [
-        ("captured", true),
-        ("captured", false),
-        ("generated", false),
+        (Origin::Captured, true),
+        (Origin::Captured, false),
+        (Origin::Generated, false),
     ] {
         let mut pieces = Vec::new();
         for recording in all.iter().filter(|it| it.origin == origin) {
@@ -110,7 +112,7 @@ fn pieces(connection: &Connection) -> Result<Vec<(i64, usize)>> {
 /// Returns whether a recording has a tier of glosses, as recordings of signing have.
 fn has_glosses(connection: &Connection, recording: i64) -> Result<bool> {
     let tiers = tiers::tiers(connection, recording)?;
-    Ok(tiers.iter().any(|tier| tier.role == "gloss"))
+    Ok(tiers.iter().any(|tier| tier.role == TierRole::Gloss))
 }
 
 /// Returns how long hands hold a handshape that follows or precedes another within a second on the

@@ -16,6 +16,7 @@ use rusqlite::Connection;
 use serde::Deserialize;
 
 use crate::address::{self, Address, Stretch};
+use crate::db::columns::{AnnotationOrigin, Origin};
 use crate::db::{recipes, tiers};
 use crate::error::Result;
 use crate::movement::Track;
@@ -176,7 +177,7 @@ pub(super) fn signed(
     track: &Track,
     stretch: &Stretch,
 ) -> Result<Option<Range<usize>>> {
-    if stretch.recording.origin != "made" {
+    if stretch.recording.origin != Origin::Made {
         return Ok(None);
     }
     let tiers = tiers::tiers(connection, stretch.recording.id)?;
@@ -185,7 +186,7 @@ pub(super) fn signed(
     };
     let [from, to] = [stretch.span.start(), stretch.span.end()].map(Instant::micros);
     let mut said = tiers::annotations_near(connection, tier.id, from, to)?;
-    said.retain(|it| it.origin == "made" && it.start_us >= from && it.end_us <= to);
+    said.retain(|it| it.origin == AnnotationOrigin::Made && it.start_us >= from && it.end_us <= to);
     let [sign] = said.as_slice() else {
         return Ok(None);
     };

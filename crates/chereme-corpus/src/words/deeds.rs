@@ -2,6 +2,8 @@
 
 use std::fmt::Display;
 
+use chereme_sign::{Component, TierRole};
+
 use super::{Language, Text, fill};
 
 texts! {
@@ -26,16 +28,20 @@ texts! {
     SPLIT: "{n} annotations split", "{n} annotations coupées";
 }
 
-/// Returns the sentences for annotations of a role and component that were given a value: for one, and for several.
+/// Returns the sentences for annotations of a role that were given a value: for one, and for several.
 #[must_use]
-pub fn valued(role: &str, component: Option<&str>) -> [Text; 2] {
-    match (role, component) {
-        ("gloss", _) => [ONE_GLOSS, GLOSSES],
-        (_, Some("configuration")) => [ONE_HANDSHAPE, HANDSHAPES],
-        (_, Some("placement")) => [ONE_PLACEMENT, PLACEMENTS],
-        (_, Some("movement")) => [ONE_MOVEMENT, MOVEMENTS],
-        (_, Some("orientation")) => [ONE_ORIENTATION, ORIENTATIONS],
-        _ => [ONE_VALUE, VALUES],
+pub fn valued(role: &TierRole) -> [Text; 2] {
+    let component = match role {
+        TierRole::Gloss => return [ONE_GLOSS, GLOSSES],
+        TierRole::Component { component, .. } => component,
+        TierRole::Translation | TierRole::Comment | TierRole::Free => return [ONE_VALUE, VALUES],
+    };
+    match component {
+        Component::Configuration => [ONE_HANDSHAPE, HANDSHAPES],
+        Component::Placement => [ONE_PLACEMENT, PLACEMENTS],
+        Component::Movement => [ONE_MOVEMENT, MOVEMENTS],
+        Component::Orientation => [ONE_ORIENTATION, ORIENTATIONS],
+        Component::NonManual => [ONE_VALUE, VALUES],
     }
 }
 

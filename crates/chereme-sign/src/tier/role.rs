@@ -42,6 +42,12 @@ impl TierRole {
         }
     }
 
+    /// Returns whether its annotations code signs: glosses and components, whose values may be missing in three ways.
+    #[must_use]
+    pub fn is_coded(&self) -> bool {
+        matches!(self, Self::Gloss | Self::Component { .. })
+    }
+
     /// Returns the component that is coded, and the feature of it.
     #[must_use]
     pub fn component(&self) -> Option<(Component, Option<&str>)> {
@@ -120,6 +126,15 @@ pub enum Hands {
 }
 
 impl Hands {
+    /// Every choice: each hand alone, and both.
+    pub const ALL: [Self; 5] = [
+        Self::One(HandRef::Right),
+        Self::One(HandRef::Left),
+        Self::One(HandRef::Dominant),
+        Self::One(HandRef::Weak),
+        Self::Both,
+    ];
+
     /// Returns `right`, `left`, `dominant`, `weak` or `both`.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -161,7 +161,7 @@ mod tests {
             name: "r".into(),
             signer_id: None,
             signer: None,
-            origin: "captured".into(),
+            origin: chereme_corpus::Origin::Captured,
             duration_us: 1,
             licence: None,
             notes: None,

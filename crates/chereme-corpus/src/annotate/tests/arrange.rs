@@ -53,7 +53,7 @@ fn a_tier_hangs_below_another_only_where_its_annotations_lie_inside() {
     .expect("added");
     let below = |it| hang(Some(("G", it)));
     let row = change(&mut corpus, "C", &below(Stereotype::IncludedIn)).expect("hung");
-    assert_eq!(row.stereotype.as_deref(), Some("Included_In"));
+    assert_eq!(row.stereotype, Some(Stereotype::IncludedIn));
     let connection = corpus.store.read();
     let glosses =
         tier_rows::annotations(connection, row.parent_id.expect("a parent")).expect("read");

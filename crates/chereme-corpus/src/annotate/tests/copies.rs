@@ -44,7 +44,7 @@ fn a_copy_holds_what_is_asked_for_and_hangs_where_the_other_hangs() {
         let row = corpus
             .copy_tier(&named("G"), &name, &copied)
             .expect("copied");
-        assert_eq!(row.role, "gloss");
+        assert_eq!(row.role, crate::TierRole::Gloss);
         let values: Vec<String> = said(&corpus, &name).into_iter().map(|it| it.1).collect();
         assert_eq!(values, want, "{copied:?}");
         let now = names(&corpus);

@@ -28,12 +28,9 @@ fn a_recording_gets_the_usual_tiers_or_those_of_another_at_once() {
         let name = |id: Option<i64>| tiers.iter().find(|it| Some(it.id) == id).map(|it| &it.name);
         let line = |it: &TierRow| {
             format!(
-                "{} {} {:?} {:?} {:?} {:?} {:?}",
+                "{} {} {:?} {:?}",
                 it.name,
-                it.role,
-                it.component,
-                it.feature,
-                it.hand,
+                it.topic(),
                 it.inventory_id,
                 name(it.parent_id)
             )
@@ -90,7 +87,7 @@ fn each_gloss_tier_gets_the_components_of_its_hand() {
     assert_eq!(added.len(), 6);
     for row in &added {
         assert_eq!(row.parent_id, Some(gloss.id));
-        assert_eq!(row.hand.as_deref(), Some("right"), "{}", row.name);
+        assert_eq!(row.hand, crate::Hands::of("right"), "{}", row.name);
     }
     assert_eq!(added[0].name, "Configuration RH");
     let other = TierName::Of {

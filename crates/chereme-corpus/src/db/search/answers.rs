@@ -1,7 +1,10 @@
 //! The rows that an answer reads beyond the index.
 
+use chereme_sign::tier::Hands;
+use chereme_sign::{Component, Phase, TierRole};
 use rusqlite::{Connection, OptionalExtension, Row};
 
+use crate::db::columns::{Origin, ValueState, phase, role, word, word_or_null};
 use crate::error::Result;
 
 /// Returns two numbers that change whenever anybody has changed a row, this connection or another.
@@ -53,7 +56,7 @@ pub(crate) struct HitRow {
     pub(crate) recording: Option<String>,
     pub(crate) start_us: Option<i64>,
     pub(crate) end_us: Option<i64>,
-    pub(crate) origin: String,
+    pub(crate) origin: Origin,
 }
 
 /// Returns the token of that row.
@@ -70,7 +73,7 @@ pub(crate) fn hit(connection: &Connection, token: i64) -> Result<Option<HitRow>>
                 recording: row.get(1)?,
                 start_us: row.get(2)?,
                 end_us: row.get(3)?,
-                origin: row.get(4)?,
+                origin: word(row, 4)?,
             })
         })
         .optional()?)
@@ -80,12 +83,12 @@ pub(crate) fn hit(connection: &Connection, token: i64) -> Result<Option<HitRow>>
 pub(crate) struct CodedRow<'r> {
     /// Start and end; a lexicon entry has none.
     pub(crate) span: Option<(i64, i64)>,
-    pub(crate) hand: Option<&'r str>,
-    pub(crate) component: &'r str,
+    pub(crate) hand: Option<Hands>,
+    /// The component; an annotation of a tier that codes no component has none.
+    pub(crate) component: Option<Component>,
     pub(crate) part: Option<&'r str>,
-    pub(crate) phase: Option<&'r str>,
-    pub(crate) position: i64,
-    pub(crate) state: &'r str,
+    pub(crate) phase: Option<Phase>,
+    pub(crate) state: ValueState,
     pub(crate) value: Option<&'r str>,
 }
 
@@ -97,12 +100,11 @@ impl<'r> CodedRow<'r> {
         let start: Option<i64> = row.get(0)?;
         Ok(Self {
             span: start.zip(row.get(1)?),
-            hand: text(2)?,
-            component: text(3)?.unwrap_or_default(),
+            hand: word_or_null(row, 2)?,
+            component: word_or_null(row, 3)?,
             part: text(4)?,
-            phase: text(5)?,
-            position: row.get(6)?,
-            state: text(7)?.unwrap_or_default(),
+            phase: phase(row, 5)?,
+            state: word(row, 7)?,
             value: text(8)?,
         })
     }
@@ -175,13 +177,16 @@ pub(crate) fn left_handed(connection: &Connection, recording: i64) -> Result<boo
 }
 
 /// Returns the tiers of a recording, in their order, as row, name and role.
-pub(crate) fn tiers(connection: &Connection, recording: i64) -> Result<Vec<(i64, String, String)>> {
+pub(crate) fn tiers(
+    connection: &Connection,
+    recording: i64,
+) -> Result<Vec<(i64, String, TierRole)>> {
     let mut statement = connection.prepare_cached(
-        "SELECT id, name, role FROM tier WHERE recording_id = ?1 ORDER BY position, id",
+        "SELECT id, name, role, component, feature FROM tier WHERE recording_id = ?1 ORDER BY position, id",
     )?;
     let tiers = statement
         .query_map([recording], |row| {
-            Ok((row.get(0)?, row.get(1)?, row.get(2)?))
+            Ok((row.get(0)?, row.get(1)?, role(row, 2)?))
         })?
         .collect::<rusqlite::Result<_>>()?;
     Ok(tiers)
@@ -203,7 +208,7 @@ pub(crate) fn on_tier(
     tier: i64,
     take: impl FnMut(CodedRow<'_>),
 ) -> Result<()> {
-    let sql = "SELECT start_us, end_us, NULL, '', NULL, NULL, 0, state, value
+    let sql = "SELECT start_us, end_us, NULL, NULL, NULL, NULL, 0, state, value
         FROM annotation WHERE tier_id = ?1 ORDER BY start_us";
     each_coded(connection, sql, [tier], take)
 }

@@ -4,9 +4,11 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use chereme_sign::text::fold;
+use chereme_sign::tier as sign_tier;
 use rusqlite::fallible_streaming_iterator::FallibleStreamingIterator;
 use rusqlite::{Connection, OptionalExtension, Row, Rows};
 
+use crate::db::columns::{self, word, word_or_null};
 use crate::error::Result;
 use crate::search::terms::{Mark, hand_codes, phase_code, reading_term, reading_text};
 
@@ -85,7 +87,7 @@ struct TokenFields {
     recording: Option<i64>,
     time: Option<(i64, i64)>,
     origin: String,
-    hand: Option<String>,
+    hand: Option<sign_tier::Hands>,
     tier: Option<i64>,
     /// The participant of its tier, as a signer, and whether that one is left-handed.
     participant: Option<(i64, bool)>,
@@ -100,7 +102,7 @@ impl TokenFields {
             recording: row.get(2)?,
             time: start.zip(row.get(4)?),
             origin: row.get(5)?,
-            hand: row.get(6)?,
+            hand: word_or_null(row, 6)?,
             tier: row.get(7)?,
             participant: row
                 .get::<_, Option<i64>>(8)?
@@ -186,7 +188,7 @@ struct Hands {
 }
 
 impl Hands {
-    fn add(&mut self, hand: Option<&str>, left_handed: bool) {
+    fn add(&mut self, hand: Option<sign_tier::Hands>, left_handed: bool) {
         let codes = hand_codes(hand, left_handed);
         self.dominant |= codes.contains(&'d');
         self.weak |= codes.contains(&'w');
@@ -261,7 +263,7 @@ impl<'c> Reader<'c> {
         values.of(token.id, |row| {
             document.readings.push(self.terms_of(row, left_handed)?);
             if row.get_ref(6)?.as_str() == Ok("value") {
-                coded.add(row.get_ref(1)?.as_str().ok(), left_handed);
+                coded.add(word_or_null(row, 1)?, left_handed);
             }
             let inventory: Option<i64> = row.get(8)?;
             inventories.extend(inventory.filter(|id| !inventories.contains(id)));
@@ -271,7 +273,7 @@ impl<'c> Reader<'c> {
             let name = self.inventory(id)?;
             document.marks.push(self.mark(Mark::Inventory, &name));
         }
-        if let Some(hand) = token.hand.as_deref() {
+        if let Some(hand) = token.hand {
             coded = Hands::default();
             coded.add(Some(hand), left_handed);
         }
@@ -410,9 +412,9 @@ impl<'c> Reader<'c> {
             return Ok(known.clone());
         }
         let component = component.unwrap_or_default();
-        let reading = reading_text(state.unwrap_or_default(), value);
-        let phase = phase_code(phase, position);
-        let codes = hand_codes(hand, left_handed).iter();
+        let reading = reading_text(word(row, 6)?, value);
+        let phase = phase_code(columns::phase(row, 4)?);
+        let codes = hand_codes(word_or_null(row, 1)?, left_handed).iter();
         let made = Rc::new(ReadingTerms {
             terms: codes
                 .map(|&hand| reading_term(component, hand, &phase, part, reading))

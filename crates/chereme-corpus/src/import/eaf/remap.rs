@@ -6,7 +6,7 @@ use chereme_formats::eaf::convert::Transcript;
 use chereme_formats::roles::TierGuess;
 
 use super::vocabulary::tier_inventory;
-use super::{FileReport, Job, coded};
+use super::{FileReport, Job, coded, plain_state};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::Result;
 use crate::import::report::ReportFinding;
@@ -27,8 +27,7 @@ pub(super) fn remap(
         };
         let mut row = old.clone();
         set_role(&mut row, guess);
-        let field = |row: &TierRow| (row.role.clone(), row.component.clone(), row.feature.clone());
-        if field(&row) != field(old) {
+        if row.role != old.role {
             row.inventory_id = tier_inventory(job, transcript, tier, guess, report)?;
         }
         if row == *old {
@@ -39,8 +38,8 @@ pub(super) fn remap(
         report.findings.push(ReportFinding::note(format!(
             "tier {:?}: {} (before: {})",
             row.name,
-            role_text(&row),
-            role_text(old)
+            row.topic(),
+            old.topic()
         )));
         changed += 1;
     }
@@ -48,24 +47,12 @@ pub(super) fn remap(
     Ok(changed)
 }
 
-/// Returns what a tier is, in the words of a mapping: `right.configuration`.
-fn role_text(row: &TierRow) -> String {
-    let role = row.role().name();
-    let hand = row.hand.as_ref().map(|hand| format!("{hand}."));
-    format!("{}{role}", hand.unwrap_or_default())
-}
-
 /// Writes how values are missing as the new role of a tier has it.
 fn recode(job: &Job<'_>, tier: &TierRow, guess: &TierGuess) -> Result<()> {
     for old in tiers::annotations(job.connection, tier.id)? {
-        let value = match old.state.as_str() {
-            "not-applicable" => "n/a",
-            "unclear" => "unclear",
-            _ => &old.value,
-        };
-        let state = if value.is_empty() { "unset" } else { "value" };
+        let value = old.file_text();
         let row = AnnotationRow {
-            state: state.to_owned(),
+            state: plain_state(value),
             value: value.to_owned(),
             ..old.clone()
         };
@@ -79,6 +66,6 @@ fn recode(job: &Job<'_>, tier: &TierRow, guess: &TierGuess) -> Result<()> {
 
 /// Writes down what a tier is taken for.
 pub(super) fn set_role(row: &mut TierRow, guess: &TierGuess) {
-    row.set_role(&guess.role.clone().unwrap_or_default());
-    row.hand = guess.hand.map(|hand| hand.name().to_owned());
+    row.role = guess.role.clone().unwrap_or_default();
+    row.hand = guess.hand;
 }

@@ -13,6 +13,7 @@ use chereme_sign::Stereotype;
 use serde::Serialize;
 
 use super::{FileReport, Job, annotation_row, coded, parents_first};
+use crate::db::columns::AnnotationOrigin;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::Result;
 use crate::import::report::{Outcome, OwnEdit, ReportFinding, Saying};
@@ -154,14 +155,9 @@ impl Said {
 
     /// Returns what a row says, its missing values in the words of files.
     fn in_corpus(row: &AnnotationRow, names: &BTreeMap<i64, String>) -> Self {
-        let value = match row.state.as_str() {
-            "not-applicable" => "n/a",
-            "unclear" => "unclear",
-            _ => &row.value,
-        };
         Self {
             time: millis(row),
-            value: value.to_owned(),
+            value: row.file_text().to_owned(),
             above: row.parent_id.and_then(|id| names.get(&id).cloned()),
         }
     }
@@ -449,7 +445,7 @@ impl Update<'_> {
         let mine = Said::in_corpus(row, &self.names);
         let own = match &before {
             Some(before) => mine != *before,
-            None => row.external_id.is_none() || row.origin != "file",
+            None => row.external_id.is_none() || row.origin != AnnotationOrigin::File,
         };
         let below = tiers::children(job.connection, row.id)?;
         if self.sides.merge && (own || !below.is_empty()) {

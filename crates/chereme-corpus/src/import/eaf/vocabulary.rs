@@ -7,7 +7,8 @@ use chereme_formats::roles::TierGuess;
 use chereme_sign::text::fold;
 use chereme_sign::{Component, Inventory, InventoryValue, TierRole, inventory};
 
-use super::{FileReport, Job, missing};
+use super::{FileReport, Job};
+use crate::db::columns::ValueState;
 use crate::error::Result;
 use crate::import::report::ReportFinding;
 use crate::inventories::{self, StoredInventory};
@@ -27,7 +28,7 @@ pub(super) fn tier_inventory(
         .annotations
         .iter()
         .map(|annotation| annotation.value.trim())
-        .filter(|value| !value.is_empty() && missing(value).is_none())
+        .filter(|value| ValueState::of_file_text(value) == ValueState::Value)
         .collect();
     let fits = |stored: &&StoredInventory| {
         let it = &stored.inventory;

@@ -631,7 +631,7 @@ fn work_that_fails_leaves_no_trace_in_the_index() {
         let sign_id = signs::sign_glossed(connection, "CHIEN")?;
         let row = TokenRow {
             sign_id,
-            origin: "lexicon".to_owned(),
+            origin: crate::Origin::Lexicon,
             ..TokenRow::default()
         };
         signs::insert_token(connection, &row)?;

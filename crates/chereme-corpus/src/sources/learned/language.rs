@@ -13,6 +13,7 @@ use chereme_compose::{Language, LanguageValue};
 use chereme_motion::{Anatomy, Instant, Side, Span};
 use chereme_sign::Component;
 use chereme_sign::hamnosys::BodyLanguage;
+use chereme_sign::tier::Hands;
 use chereme_sign::{HandRef, Handedness};
 use rusqlite::Connection;
 
@@ -47,7 +48,7 @@ pub(crate) struct Samples(BTreeMap<&'static str, Vec<(Option<String>, f64)>>);
 struct Told {
     recording: i64,
     span: Span,
-    hand: Option<String>,
+    hand: Option<Hands>,
     kind: String,
     size: Option<String>,
     /// Whether its manner is the usual one, so that its time counts.
@@ -103,7 +104,7 @@ impl Samples {
             "preparation" => Kind::Transition,
             _ => return Ok(()),
         };
-        let side = body.side(told.hand.as_deref());
+        let side = body.side(told.hand);
         let groups = match (side, kind) {
             (Side::Right, Kind::Shape) => [ChannelGroup::RightHand, ChannelGroup::RightArm],
             (Side::Left, Kind::Shape) => [ChannelGroup::LeftHand, ChannelGroup::LeftArm],
@@ -296,7 +297,7 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told
         told.push(Told {
             recording: span.recording_id,
             span: between(span.start_us, span.end_us),
-            hand: span.hand.clone(),
+            hand: span.hand,
             size: beside("size"),
             plain: beside("manner").is_none_or(|manner| manner == "plain"),
             kind,
@@ -329,7 +330,7 @@ fn in_lexicon(rows: &[LexiconMovement]) -> Vec<Told> {
             told.push(Told {
                 recording: token[0].recording_id,
                 span: between(token[0].start_us, token[0].end_us),
-                hand: Some("dominant".to_owned()),
+                hand: Some(Hands::One(HandRef::Dominant)),
                 kind: (*kind).to_owned(),
                 size: sizes.first().map(|size| (*size).to_owned()),
                 plain: said(Some("manner")).iter().all(|it| *it == "plain"),
@@ -383,8 +384,8 @@ impl Body {
     }
 
     /// Returns the hand that is meant; of both the dominant one.
-    fn side(&self, hand: Option<&str>) -> Side {
-        let hand = hand.and_then(|hand| hand.parse::<HandRef>().ok());
+    fn side(&self, hand: Option<Hands>) -> Side {
+        let hand = hand.and_then(Hands::one);
         hand.unwrap_or(HandRef::Dominant).resolve(self.handedness)
     }
 }
@@ -443,7 +444,7 @@ mod tests {
     fn size_and_manner_go_with_the_movement_that_they_share_time_with() {
         let span = |feature: Option<&str>, start_us: i64, end_us: i64, value: &str| MovementSpan {
             recording_id: 1,
-            hand: Some("right".into()),
+            hand: Some(Hands::One(HandRef::Right)),
             feature: feature.map(str::to_owned),
             start_us,
             end_us,

@@ -16,7 +16,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::complete::fitting;
 use crate::panes::import::people;
-use crate::panes::library::origin_text;
+use crate::panes::library::data as library;
 use crate::panes::timeline::data::time_text;
 use crate::words::{fill, inspector as words};
 use crate::work::Work;
@@ -77,8 +77,7 @@ pub(super) fn recording(ui: &mut Ui, seen: &Seen<'_>, glance: &RecordingGlance, 
             );
         }
     });
-    let origin =
-        |name: &str| origin_text(name).map_or(name.to_owned(), |it| seen.say(it).to_owned());
+    let origin = |source: library::Source| seen.say(source.text()).to_owned();
     lines(
         ui,
         seen,

@@ -1,6 +1,6 @@
 //! The content of the inspector, as lines and texts, without a window.
 
-use chereme_corpus::{RecordingGlance, SignerDetails, TierContents, TierRow, TrackRow};
+use chereme_corpus::{RecordingGlance, SignerDetails, TierContents, TrackRow};
 use chereme_motion::Instant;
 
 use crate::panes::library::data as library;
@@ -11,13 +11,16 @@ use crate::words::{Text, fill, inspector as words};
 pub(crate) type Line = (Text, String);
 
 /// Returns the details of a recording's movement, without missing ones.
-pub(crate) fn recording_lines(it: &RecordingGlance, origin: impl Fn(&str) -> String) -> Vec<Line> {
+pub(crate) fn recording_lines(
+    it: &RecordingGlance,
+    origin: impl Fn(library::Source) -> String,
+) -> Vec<Line> {
     let frames = match it.rate {
         Some(rate) if it.frames > 0 => Some(format!("{} × {:.3} Hz", it.frames, rate.per_second())),
         _ => None,
     };
     [
-        (words::ORIGIN, Some(origin(library::origin(it)))),
+        (words::ORIGIN, Some(origin(library::source(it)))),
         (
             words::DURATION,
             Some(time_text(Instant::from_micros(it.row.duration_us))),
@@ -60,15 +63,6 @@ pub(crate) fn tier_counts(tier: &TierContents) -> (usize, usize) {
         .filter(|value| !value.is_empty())
         .collect();
     (tier.annotations.len(), values.len())
-}
-
-/// Returns what a tier's annotations say, such as `configuration` or `nonmanual.brows`.
-pub(crate) fn role(tier: &TierRow) -> String {
-    match (&tier.component, &tier.feature) {
-        (Some(component), Some(feature)) => format!("{component}.{feature}"),
-        (Some(component), None) => component.clone(),
-        (None, _) => tier.role.clone(),
-    }
 }
 
 /// Returns the measures of a body in centimetres.

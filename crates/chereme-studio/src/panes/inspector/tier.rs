@@ -1,6 +1,6 @@
 //! The details of a tier, which can be changed.
 
-use chereme_corpus::{Hands, StoredInventory, TierChange, TierName, TierRow, Values};
+use chereme_corpus::{Hands, Stereotype, StoredInventory, TierChange, TierName, TierRow, Values};
 use eframe::egui::{Id, Ui};
 
 use super::data;
@@ -31,9 +31,9 @@ pub(super) fn show(
                 },
             );
         }
-        said(ui, seen, words::ROLE, &data::role(row));
+        said(ui, seen, words::ROLE, &row.role.name());
         if let Some(hand) = choice(ui, seen, words::HAND, &row.hand, &hands(seen)) {
-            let hand = Some(hand.and_then(|name| Hands::of(&name)));
+            let hand = Some(hand);
             change(
                 out,
                 TierChange {
@@ -76,8 +76,7 @@ pub(super) fn show(
         if let Some(above) = above {
             let how = row
                 .stereotype
-                .as_deref()
-                .unwrap_or_default()
+                .map_or("", Stereotype::elan_name)
                 .replace('_', " ");
             said(
                 ui,
@@ -105,7 +104,7 @@ pub(super) fn show(
     });
 }
 
-fn hands(seen: &Seen<'_>) -> Vec<(Option<String>, String)> {
+fn hands(seen: &Seen<'_>) -> Vec<(Option<Hands>, String)> {
     [
         (None, words::NOBODY),
         (Some("right"), words::RIGHT),
@@ -114,16 +113,15 @@ fn hands(seen: &Seen<'_>) -> Vec<(Option<String>, String)> {
         (Some("dominant"), words::DOMINANT),
         (Some("weak"), words::WEAK),
     ]
-    .map(|(name, text)| (name.map(str::to_owned), seen.say(text).to_owned()))
+    .map(|(name, text)| (name.and_then(Hands::of), seen.say(text).to_owned()))
     .into()
 }
 
 /// The inventories that a tier could take its values from.
 fn inventories(seen: &Seen<'_>, row: &TierRow) -> Vec<(Option<i64>, String)> {
     let fits = |it: &&StoredInventory| {
-        row.component.as_deref() == Some(it.inventory.component.name())
-            && it.inventory.feature == row.feature
-            || row.inventory_id == Some(it.id)
+        let own = (it.inventory.component, it.inventory.feature.as_deref());
+        row.role.component() == Some(own) || row.inventory_id == Some(it.id)
     };
     let all = &seen.snapshot.overview.inventories;
     let named = all

@@ -9,7 +9,7 @@ use super::ui::{link, set, span_text, values_like};
 use super::{Inspector, Thing, data, notation};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
-use crate::panes::library::origin_text;
+use crate::panes::library::data::origin_text;
 use crate::panes::longest_word;
 use crate::panes::recombine::recipe_of;
 use crate::panes::search::feature_text;
@@ -29,7 +29,7 @@ pub(super) fn show(
         ui.weak(seen.say(words::SIGN));
         link(it, ui, &row.gloss, Thing::Sign(row.sign_id));
         ui.end_row();
-        let origin = origin_text(&row.origin).map_or(row.origin.as_str(), |text| seen.say(text));
+        let origin = seen.say(origin_text(row.origin));
         said(ui, seen, words::ORIGIN, origin);
         if let Some((start, end)) = row.start_us.zip(row.end_us) {
             let micros = Instant::from_micros;
@@ -160,11 +160,8 @@ fn coding(
         .collect();
     let names = names.max(longest_word(ui, called.iter().map(String::as_str)));
     for (value, name) in token.values.iter().zip(&called) {
-        let now = match value.state.as_str() {
-            "value" => value.value.clone().unwrap_or_default(),
-            "not-applicable" => "n/a".to_owned(),
-            other => other.to_owned(),
-        };
+        let now = value.state.missing_text().or(value.value.as_deref());
+        let now = now.unwrap_or_default().to_owned();
         let text = Label::new(RichText::new(name).weak()).wrap();
         let label = ui.scope(|ui| {
             ui.set_max_width(names);

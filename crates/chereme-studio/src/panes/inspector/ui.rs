@@ -1,7 +1,7 @@
 //! The inspector's widgets, part by part.
 
 use chereme_corpus::{
-    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, Details, Moment,
+    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, Details, Moment, TierRole,
     ValueState,
 };
 use chereme_motion::{Instant, Span};
@@ -201,8 +201,8 @@ fn annotation(ui: &mut Ui, seen: &Seen<'_>, found: Found<'_>, out: &mut Outbox) 
             .signs
             .iter()
             .map(|it| it.gloss.as_str());
-        let candidates = |typed: &str| match row.role.as_str() {
-            "gloss" => fitting(glosses.clone(), typed),
+        let candidates = |typed: &str| match row.role {
+            TierRole::Gloss => fitting(glosses.clone(), typed),
             _ => values_like(seen, row.inventory_id, typed),
         };
         let key = Id::unique(("annotation value", id));

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::{RecordingGlance, SignGlance, TrackKind};
+use chereme_corpus::{Origin, RecordingGlance, SignGlance, TrackKind};
 use chereme_motion::{Instant, Span};
 use chereme_sign::text::fold;
 
@@ -25,7 +25,7 @@ pub(crate) struct Row {
 pub(crate) fn rows(
     recordings: &[RecordingGlance],
     filter: &str,
-    origin: impl Fn(&str) -> String,
+    origin: impl Fn(Source) -> String,
     kind: impl Fn(TrackKind) -> String,
 ) -> Vec<Row> {
     let wanted = fold(filter.trim());
@@ -41,7 +41,7 @@ pub(crate) fn rows(
     let row = |it: &RecordingGlance| {
         let parts = [
             it.row.signer.clone(),
-            Some(origin(self::origin(it))),
+            Some(origin(source(it))),
             Some(time_text(Instant::from_micros(it.row.duration_us))),
             others(it, &kind),
         ];
@@ -73,25 +73,47 @@ fn others(glance: &RecordingGlance, kind: impl Fn(TrackKind) -> String) -> Optio
     (!names.is_empty()).then(|| names.join(", "))
 }
 
-/// Returns the origin of a recording; one without any track of numbers was not captured, but annotated.
-pub(crate) fn origin(it: &RecordingGlance) -> &str {
-    let measured = it.frames > 0 || it.kinds.iter().any(|kind| *kind != TrackKind::Media);
-    match it.row.origin.as_str() {
-        "captured" if !measured => "annotated",
-        origin => origin,
+/// How a recording came about, as the window shows it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// As the corpus says.
+    Stored(Origin),
+    /// It has no track of numbers: it was not captured, but annotated.
+    Annotated,
+}
+
+impl Source {
+    /// Returns what the window calls it.
+    pub(crate) fn text(self) -> Text {
+        match self {
+            Self::Stored(origin) => origin_text(origin),
+            Self::Annotated => words::ANNOTATED,
+        }
     }
 }
 
-/// Returns what an origin is called; an unknown one is called by its name.
-pub(crate) fn origin_text(origin: &str) -> Option<Text> {
-    match origin {
-        "captured" => Some(words::CAPTURED),
-        "annotated" => Some(words::ANNOTATED),
-        "made" => Some(words::MADE),
-        "generated" => Some(words::GENERATED),
-        "lexicon" => Some(words::IN_LEXICON),
-        _ => None,
+/// Returns how a recording came about.
+pub(crate) fn source(it: &RecordingGlance) -> Source {
+    let measured = it.frames > 0 || it.kinds.iter().any(|kind| *kind != TrackKind::Media);
+    match it.row.origin {
+        Origin::Captured if !measured => Source::Annotated,
+        origin => Source::Stored(origin),
     }
+}
+
+/// Returns what an origin is called.
+pub(crate) fn origin_text(origin: Origin) -> Text {
+    match origin {
+        Origin::Captured => words::CAPTURED,
+        Origin::Made => words::MADE,
+        Origin::Generated => words::GENERATED,
+        Origin::Lexicon => words::IN_LEXICON,
+    }
+}
+
+/// Returns what the window calls the origin of this name, as queries write it.
+pub(crate) fn origin_named(name: &str) -> Option<Text> {
+    Origin::of_name(name).map(origin_text)
 }
 
 /// The visible form of a sign.
@@ -123,9 +145,9 @@ pub(crate) fn signs(
     filter: &str,
     language: Language,
 ) -> Vec<SignRow> {
-    let origins: BTreeMap<i64, &str> = recordings
+    let origins: BTreeMap<i64, Origin> = recordings
         .iter()
-        .map(|it| (it.row.id, it.row.origin.as_str()))
+        .map(|it| (it.row.id, it.row.origin))
         .collect();
     let origin = |it: &SignGlance| origins.get(&it.place?.0).copied();
     let wanted = fold(filter.trim());
@@ -148,13 +170,12 @@ fn moves(sign: &SignGlance) -> Moves {
 }
 
 /// Returns where a sign comes from, and how many tokens it has.
-pub(crate) fn about(sign: &SignGlance, origin: Option<&str>, language: Language) -> String {
+pub(crate) fn about(sign: &SignGlance, origin: Option<Origin>, language: Language) -> String {
     let what = match moves(sign) {
         // A generated recording was not captured.
         Moves::Recorded(..) => origin
-            .filter(|it| *it != "captured")
-            .and_then(origin_text)
-            .unwrap_or(words::RECORDED),
+            .filter(|it| *it != Origin::Captured)
+            .map_or(words::RECORDED, origin_text),
         Moves::Notated => words::NOTATED,
         Moves::Not => words::IN_LEXICON,
     };
@@ -177,7 +198,7 @@ mod tests {
             name: name.into(),
             signer_id: None,
             signer: signer.map(str::to_owned),
-            origin: "made".into(),
+            origin: Origin::Made,
             duration_us: 1_500_000,
             licence: None,
             notes: None,
@@ -202,8 +223,9 @@ mod tests {
             glance(3, "chat", None),
         ];
         let name = |kind: TrackKind| kind.name().to_owned();
+        let said = |source: Source| format!("{source:?}");
         let ids = |filter: &str| -> Vec<i64> {
-            rows(&all, filter, str::to_owned, name)
+            rows(&all, filter, said, name)
                 .iter()
                 .map(|row| row.id)
                 .collect()
@@ -212,8 +234,8 @@ mod tests {
         assert_eq!(ids("ecu"), [1]);
         assert_eq!(ids(" ZOE "), [2]);
         assert_eq!(
-            rows(&all, "bol", str::to_owned, name)[0].about,
-            "Zoé · made · 0:01.500 · markers"
+            rows(&all, "bol", said, name)[0].about,
+            "Zoé · Stored(Made) · 0:01.500 · markers"
         );
     }
 
@@ -228,11 +250,11 @@ mod tests {
         };
         let mut recording = glance(1, "LIMACE", None);
         for (origin, english, french) in [
-            ("made", "synthesised", "composé"),
-            ("generated", "generated", "produit"),
-            ("captured", "recorded", "enregistré"),
+            (Origin::Made, "synthesised", "composé"),
+            (Origin::Generated, "generated", "produit"),
+            (Origin::Captured, "recorded", "enregistré"),
         ] {
-            recording.row.origin = origin.into();
+            recording.row.origin = origin;
             let about = |language| {
                 let rows = signs(
                     std::slice::from_ref(&sign),

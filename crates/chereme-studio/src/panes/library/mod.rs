@@ -20,7 +20,6 @@ use crate::little::{self, Cell, Motion};
 use crate::script::edit;
 use crate::words::{Language, fill, library as words};
 use crate::work::{Ended, WorkId};
-pub(crate) use data::origin_text;
 use data::{Moves, Row, SignRow};
 
 /// How high a row is, in heights of a button.
@@ -71,8 +70,7 @@ impl Rows {
         if self.of.as_ref() == Some(&now) {
             return;
         }
-        let origin =
-            |name: &str| origin_text(name).map_or(name.to_owned(), |it| seen.say(it).to_owned());
+        let origin = |source: data::Source| seen.say(source.text()).to_owned();
         let kind = |kind| seen.say(data::kind_text(kind)).to_owned();
         self.recordings = data::rows(&overview.recordings, filter, origin, kind);
         self.signs = data::signs(&overview.signs, &overview.recordings, filter, seen.language);

@@ -158,7 +158,7 @@ mod tests {
         let point = |token: i64, near: &[i64]| MapPoint {
             token,
             gloss: String::new(),
-            origin: String::new(),
+            origin: chereme_corpus::Origin::default(),
             x: 0.0,
             y: 0.0,
             near: near.to_vec(),

@@ -500,7 +500,7 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
             let at = signs.binary_search_by(|it| it.gloss.as_str().cmp(gloss));
             let sign = &signs[at.ok()?];
             let recording = sign.place.and_then(|it| seen.snapshot.recording(it.0));
-            let origin = recording.map(|it| it.row.origin.as_str());
+            let origin = recording.map(|it| it.row.origin);
             Some(data::about(sign, origin, seen.language))
         };
         let line = Line {

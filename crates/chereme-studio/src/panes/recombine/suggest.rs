@@ -1,6 +1,6 @@
 //! Suggestions from a sign: partners that differ in one component, and values that no sign has.
 
-use chereme_corpus::{Address, Suggestions};
+use chereme_corpus::{Address, Origin, Suggestions};
 use eframe::egui::{RichText, Ui};
 
 use crate::context::{Outbox, Seen};
@@ -37,7 +37,7 @@ pub(super) fn partners(found: &Suggestions, field: impl Fn(&str) -> String) -> V
         let Some(recipe) = &partner.recipe else {
             continue;
         };
-        let still = partner.origin == "lexicon";
+        let still = partner.origin == Origin::Lexicon;
         let about = format!(
             "{}: {} → {}",
             field(&partner.field),
@@ -180,10 +180,10 @@ mod tests {
 
     #[test]
     fn partners_without_movement_come_first_and_lend_their_gloss() {
-        let partner = |gloss: &str, origin: &str, recipe: Option<&str>| Partner {
+        let partner = |gloss: &str, origin: Origin, recipe: Option<&str>| Partner {
             token: 1,
             gloss: gloss.into(),
-            origin: origin.into(),
+            origin,
             field: "dominant.configuration".into(),
             from: "beak".into(),
             to: "U".into(),
@@ -196,9 +196,17 @@ mod tests {
             gloss: "ESCARGOT".into(),
             coding: Default::default(),
             partners: vec![
-                partner("LIVRE", "captured", Some("token:7 | configure dominant 5")),
-                partner("LIMACE", "lexicon", Some("token:7 | configure dominant U")),
-                partner("X", "lexicon", None),
+                partner(
+                    "LIVRE",
+                    Origin::Captured,
+                    Some("token:7 | configure dominant 5"),
+                ),
+                partner(
+                    "LIMACE",
+                    Origin::Lexicon,
+                    Some("token:7 | configure dominant U"),
+                ),
+                partner("X", Origin::Lexicon, None),
             ],
             possible: Vec::new(),
             unused: [("placement".to_owned(), vec!["neutral space".to_owned()])].into(),

@@ -13,7 +13,7 @@ use super::rows::{component_text, feature_text};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::inspector::Thing;
-use crate::panes::library::data::origin_text;
+use crate::panes::library::data::origin_named;
 use crate::pickers;
 use crate::words::{Text, fill, library, recombine, search as words};
 
@@ -185,7 +185,7 @@ fn facet(
         let text = visuals.text_color();
         let at = pos2(left, rect.center().y);
         let hand = HANDS.iter().find(|it| field == "hand" && it.0 == value);
-        let origin = origin_text(value).filter(|_| field == "origin");
+        let origin = origin_named(value).filter(|_| field == "origin");
         let said = hand.map(|(_, text)| *text).or(origin);
         let said = said.map_or(value, |text| seen.say(text));
         painter.text(at, Align2::LEFT_CENTER, said, font.clone(), text);

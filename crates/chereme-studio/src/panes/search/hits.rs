@@ -229,7 +229,7 @@ mod tests {
             recording: Some("Un".into()),
             start_us: Some(1_250_000),
             end_us: Some(2_000_000),
-            origin: "captured".into(),
+            origin: chereme_corpus::Origin::Captured,
             score: None,
             components: BTreeMap::new(),
         }

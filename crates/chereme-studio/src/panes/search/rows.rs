@@ -13,7 +13,7 @@ use super::examples::Examples;
 use crate::context::{Outbox, Seen};
 use crate::little::{self, Cell, Motion};
 use crate::model::Known;
-use crate::panes::library::data::origin_text;
+use crate::panes::library::data::origin_named;
 use crate::pickers::{self, Picker};
 use crate::script::edit;
 use crate::words::{Text, fill, search as words};
@@ -428,7 +428,7 @@ fn values_ui(
 /// Draws a choice among a few values.
 fn choice_ui(ui: &mut Ui, seen: &Seen<'_>, offered: &[&str], values: &mut Vec<Pattern>) {
     let now: Vec<String> = values.iter().map(written).collect();
-    let called = |id: &str| match origin_text(id) {
+    let called = |id: &str| match origin_named(id) {
         Some(text) => seen.say(text).to_owned(),
         None => id.to_owned(),
     };

@@ -6,7 +6,7 @@ use chereme_sign::text::fold;
 use chereme_sign::{Component, Field};
 
 use crate::model::Snapshot;
-use crate::panes::library::data::origin_text;
+use crate::panes::library::data::origin_named;
 use crate::words::{Language, Text, library};
 
 /// How many are offered at most.
@@ -119,7 +119,7 @@ pub(super) fn with_origins(query: &str) -> Option<String> {
             .any(|(it, _)| fold(text.of(*it)) == word)
     };
     let ids = Property::Origin.fixed_values()?;
-    let id = ids.iter().find(|id| origin_text(id).is_some_and(called));
+    let id = ids.iter().find(|id| origin_named(id).is_some_and(called));
     let id = id
         .copied()
         .or_else(|| called(library::NOTATED).then_some("lexicon"))?;
@@ -202,7 +202,7 @@ fn names(completion: &Completion, snapshot: &Snapshot, language: Language) -> Ve
         }
         Expected::Property(Property::Origin) => {
             for id in Property::Origin.fixed_values().unwrap_or_default() {
-                let Some(text) = origin_text(id) else {
+                let Some(text) = origin_named(id) else {
                     continue;
                 };
                 let name = text.of(language);

@@ -1,5 +1,6 @@
 //! The transport: a bar with the annotations in small, and the buttons below it.
 
+use chereme_corpus::TierRole;
 use chereme_motion::{Instant, Rate, Span};
 use eframe::egui::{
     self, Button, Color32, ComboBox, CornerRadius, Key, Painter, Rect, Response, RichText, Role,
@@ -223,7 +224,7 @@ fn annotations(painter: &Painter, seen: &Seen<'_>, track: Rect, whole: Span) {
         return;
     };
     let chosen = tiers.iter().find(|it| Some(it.row.id) == seen.shown.tier);
-    let tier = chosen.or_else(|| tiers.iter().find(|it| it.row.role == "gloss"));
+    let tier = chosen.or_else(|| tiers.iter().find(|it| it.row.role == TierRole::Gloss));
     let Some(tier) = tier else { return };
     let colour = seen.colours().role(&tier.row.role);
     let columns = &tier.annotations;

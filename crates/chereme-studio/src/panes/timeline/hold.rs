@@ -11,7 +11,7 @@ use super::spans;
 pub(super) mod tests {
     use super::spans::{Grip, Mode};
     use super::*;
-    use chereme_corpus::{AnnotationColumns, RecordingRow, ValueState};
+    use chereme_corpus::{AnnotationColumns, RecordingRow, Stereotype, ValueState};
     use std::collections::BTreeSet;
 
     /// `(id, start, end, parent)`.
@@ -27,9 +27,8 @@ pub(super) mod tests {
                 row: TierRow {
                     id: *id,
                     parent_id: *parent,
-                    stereotype: parent.map(|_| (*stereotype).to_owned()),
+                    stereotype: parent.and_then(|_| Stereotype::from_elan_name(stereotype)),
                     name: format!("tier {id}"),
-                    role: "free".into(),
                     ..TierRow::default()
                 },
                 annotations: AnnotationColumns {
@@ -49,7 +48,7 @@ pub(super) mod tests {
                 name: "r".into(),
                 signer_id: None,
                 signer: None,
-                origin: "captured".into(),
+                origin: chereme_corpus::Origin::Captured,
                 duration_us: 1_000_000,
                 licence: None,
                 notes: None,

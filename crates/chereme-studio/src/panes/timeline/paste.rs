@@ -414,8 +414,7 @@ fn fit(
 
 /// Returns whether a tier has one annotation for each of the tier above.
 pub(super) fn is_association(tier: &TierContents) -> bool {
-    let named = tier.row.stereotype.as_deref();
-    named.and_then(Stereotype::from_elan_name) == Some(Stereotype::SymbolicAssociation)
+    tier.row.stereotype == Some(Stereotype::SymbolicAssociation)
 }
 
 #[cfg(test)]

@@ -84,27 +84,16 @@ impl TierBox {
     /// Returns one that describes a tier as it is.
     pub(super) fn of(contents: &Contents, tier: &TierContents, what: What) -> Self {
         let row = &tier.row;
-        let mut role = row.role.clone();
-        if let Some(component) = &row.component {
-            role.clone_from(component);
-            if let Some(feature) = &row.feature {
-                role = format!("{role}.{feature}");
-            }
-        }
         let above = contents
             .tiers
             .iter()
             .find(|it| Some(it.row.id) == row.parent_id);
-        let how = row
-            .stereotype
-            .as_deref()
-            .and_then(Stereotype::from_elan_name);
         Self {
             what,
             name: row.name.clone(),
-            role,
-            hand: row.hand.as_deref().and_then(Hands::of),
-            parent: above.map(|it| it.row.name.clone()).zip(how),
+            role: row.role.name(),
+            hand: row.hand,
+            parent: above.map(|it| it.row.name.clone()).zip(row.stereotype),
             fresh: true,
             proposed: String::new(),
             copied: Copied::All,
@@ -113,13 +102,13 @@ impl TierBox {
 
     /// Proposes what follows from the role: a component stands below the chosen glosses and is of their hand.
     fn fit(&mut self, scene: &Scene<'_>) {
-        let gloss = scene.tier().filter(|it| it.row.role == "gloss");
+        let gloss = scene.tier().filter(|it| it.row.role == TierRole::Gloss);
         let component = !PLAIN.iter().any(|(role, _)| *role == self.role);
         if let Some(gloss) = gloss.filter(|_| component) {
             let below = (gloss.row.name.clone(), Stereotype::IncludedIn);
             self.parent.get_or_insert(below);
             if !self.role.starts_with("nonmanual") {
-                self.hand = self.hand.or(gloss.row.hand.as_deref().and_then(Hands::of));
+                self.hand = self.hand.or(gloss.row.hand);
             }
         }
         if !self.name.trim().is_empty() && self.name != self.proposed {

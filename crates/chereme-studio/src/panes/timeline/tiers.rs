@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use chereme_corpus::{Name, Scheme, TierChange, TierContents, TierName, TierRow};
+use chereme_corpus::{Hands, Name, Scheme, TierChange, TierContents, TierName, TierRole, TierRow};
 use chereme_sign::text::fold;
+use chereme_sign::{Component, HandRef};
 
 use super::edit::Scene;
 use super::tier_box::{TierBox, What};
@@ -50,8 +51,10 @@ pub(super) fn act(
         let recording = Name::Number(scene.contents.recording.id);
         // Where hands have glosses of their own, each has its components.
         let glosses = scene.contents.tiers.iter();
-        let several = glosses.filter(|it| it.row.role == "gloss").count() > 1;
-        let chosen = scene.tier().filter(|it| it.row.role == "gloss" && several);
+        let several = glosses.filter(|it| it.row.role == TierRole::Gloss).count() > 1;
+        let chosen = scene
+            .tier()
+            .filter(|it| it.row.role == TierRole::Gloss && several);
         let scheme = chosen.map_or(Scheme::Usual, |it| {
             Scheme::Below(TierName::Number(it.row.id))
         });
@@ -143,26 +146,24 @@ fn natural(name: &str) -> Vec<(String, u64)> {
 
 /// Returns where a tier stands by what it says: glosses, translations, components hand by hand, the rest.
 fn rank(row: &TierRow) -> (usize, usize, usize) {
-    const ROLES: [&str; 4] = ["gloss", "translation", "component", "comment"];
-    const COMPONENTS: [&str; 5] = [
-        "configuration",
-        "placement",
-        "movement",
-        "orientation",
-        "nonmanual",
-    ];
-    const HANDS: [&str; 5] = ["both", "right", "dominant", "left", "weak"];
-    let place = |all: &[&str], it: &str| all.iter().position(|known| *known == it);
-    let component = row
-        .component
-        .as_deref()
-        .and_then(|it| place(&COMPONENTS, it));
-    let hand = row.hand.as_deref().and_then(|it| place(&HANDS, it));
-    (
-        place(&ROLES, &row.role).unwrap_or(ROLES.len()),
-        hand.unwrap_or(if row.hand.is_none() { HANDS.len() } else { 0 }),
-        component.unwrap_or(COMPONENTS.len()),
-    )
+    let role = match row.role {
+        TierRole::Gloss => 0,
+        TierRole::Translation => 1,
+        TierRole::Component { .. } => 2,
+        TierRole::Comment => 3,
+        TierRole::Free => 4,
+    };
+    let hand = match row.hand {
+        Some(Hands::Both) => 0,
+        Some(Hands::One(HandRef::Right)) => 1,
+        Some(Hands::One(HandRef::Dominant)) => 2,
+        Some(Hands::One(HandRef::Left)) => 3,
+        Some(Hands::One(HandRef::Weak)) => 4,
+        None => 5,
+    };
+    let component = row.role.component().map(|(component, _)| component);
+    let place = |wanted| Component::ALL.iter().position(|it| Some(*it) == wanted);
+    (role, hand, place(component).unwrap_or(Component::ALL.len()))
 }
 
 /// Hides every tier that says nothing and has nothing below it that does.
@@ -258,9 +259,8 @@ mod tests {
         names.sort_by_key(|it| natural(it));
         assert_eq!(names, ["Eau", "école", "Mo", "Mo2", "Mo10"]);
         let row = |role: &str, component: Option<&str>, hand: Option<&str>| TierRow {
-            role: role.into(),
-            component: component.map(str::to_owned),
-            hand: hand.map(str::to_owned),
+            role: TierRole::of_parts(role, component, None),
+            hand: hand.and_then(Hands::of),
             ..TierRow::default()
         };
         let sorted = [

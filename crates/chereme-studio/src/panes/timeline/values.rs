@@ -63,7 +63,7 @@ pub(crate) fn choices(
         known: vec![fold(value)],
     }));
     all.sort_by_key(|choice| std::cmp::Reverse(choice.used));
-    let coded = inventory.is_some() || matches!(tier.row.role.as_str(), "component" | "gloss");
+    let coded = inventory.is_some() || tier.row.role.is_coded();
     all.extend(MISSING.iter().filter(|_| coded).map(|value| Choice {
         value: (*value).to_owned(),
         name: None,
@@ -161,7 +161,7 @@ mod tests {
         TierContents {
             row: TierRow {
                 id: 7,
-                role: role.into(),
+                role: role.parse().expect("a role"),
                 ..TierRow::default()
             },
             annotations: AnnotationColumns {
