@@ -94,6 +94,8 @@ pub struct Contents {
     pub tokens: Vec<TokenRow>,
     /// Its media files.
     pub media: Vec<MediaTrackRow>,
+    /// Its tracks of every kind.
+    pub tracks: Vec<crate::TrackRow>,
 }
 
 /// A tier with its annotations.
@@ -198,6 +200,7 @@ impl Corpus {
             tiers: tiers.collect::<Result<_>>()?,
             tokens: signs::tokens_of_recording(&reading, recording)?,
             media: recordings::media_tracks(&reading, recording)?,
+            tracks: crate::db::tracks::tracks(&reading, recording)?,
         })
     }
 }

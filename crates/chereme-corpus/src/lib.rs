@@ -97,7 +97,7 @@ pub use cue::{
 pub use db::columns::{AnnotationOrigin, Origin, ValueState};
 pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
-pub use db::tiers::TierRow;
+pub use db::tiers::{TierRow, TierShown};
 pub use db::{OperationKind, OperationRow, on_waiting};
 pub use details::{
     Details, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue,
@@ -113,7 +113,7 @@ pub use face::{
 pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};
 pub use import::{
     FileReport, FileStatus, ImportOptions, ImportReport, Outcome, OwnEdit, OwnEdits, ReportFinding,
-    Saying, Unread,
+    Saying, Unread, time_of_day,
 };
 pub use info::{AttributeInfo, Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;
@@ -140,8 +140,8 @@ pub use search::{
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};
 pub use track::{
-    Alignment, FitReport, FitResidual, MediaFile, NewTrack, Signal, SkeletonTrack, Track,
-    TrackChange, TrackKind, TrackRow,
+    Alignment, FitReport, FitResidual, MediaFile, NewTrack, PointsPiece, Signal, SkeletonTrack,
+    Track, TrackChange, TrackKind, TrackRow,
 };
 pub use transcribe::{Transcribed, TranscribedFeature, TranscribedStage, TranscribedValue};
 pub use values::MergedValues;

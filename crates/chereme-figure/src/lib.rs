@@ -60,6 +60,7 @@ pub mod letters;
 pub mod mesh;
 pub mod palette;
 pub mod points;
+mod points_film;
 mod quantize;
 pub mod raster;
 pub mod sheet;
@@ -76,6 +77,7 @@ pub use handshape::{HandView, HandshapeOptions, handshape_picture, handshape_she
 pub use image::Image;
 pub use palette::{Colour, Palette, Theme};
 pub use points::{PointCloud, points_sheet};
+pub use points_film::{PointsAnimation, PointsOptions};
 pub use sheet::{Frames, Progress, SheetOptions, contact_sheet, thumbnail};
 pub use strip::{Caption, Strip};
 pub use view::{Framing, View, stroke};

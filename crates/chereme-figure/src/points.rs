@@ -1,5 +1,7 @@
 //! Named points as dots and limbs: optical markers, and points estimated from film.
 
+use std::borrow::Borrow;
+
 use chereme_motion::{Capture, Markers, Quality, Space};
 use glam::Vec3;
 
@@ -30,10 +32,10 @@ const DISTANCE: f32 = 7.0;
 const LABEL: usize = 18;
 const GAP: usize = 6;
 
-/// The dots and limbs of a track of points, with the space they take.
+/// The dots and limbs of a track of points, with the space they take; it holds the points or a reference to them.
 #[derive(Debug, Clone)]
-pub struct PointCloud<'a> {
-    markers: &'a Markers,
+pub struct PointCloud<M> {
+    markers: M,
     low: Vec3,
     high: Vec3,
     colours: Vec<Colour>,
@@ -41,10 +43,11 @@ pub struct PointCloud<'a> {
     theme: Theme,
 }
 
-impl<'a> PointCloud<'a> {
+impl<M: Borrow<Markers>> PointCloud<M> {
     /// Looks at the points of a track; `None` if no frame has any.
     #[must_use]
-    pub fn of(markers: &'a Markers, theme: Theme) -> Option<Self> {
+    pub fn of(held: M, theme: Theme) -> Option<Self> {
+        let markers = held.borrow();
         let frames = markers.frames();
         let step = frames.div_ceil(LOOKS).max(1);
         let mut axes: [Vec<f32>; 3] = Default::default();
@@ -70,15 +73,12 @@ impl<'a> PointCloud<'a> {
         let palette = Palette::default();
         let points = markers.points();
         let groups = |group: &str| points.iter().filter(|it| it.group == group).count();
-        Some(Self {
-            markers,
-            low: low - Vec3::splat(height * 0.04),
-            high: high + Vec3::splat(height * 0.04),
-            colours: points
+        let (colours, radii) = (
+            points
                 .iter()
                 .map(|point| colour(&palette, theme, &point.group, &point.name))
                 .collect(),
-            radii: points
+            points
                 .iter()
                 .map(
                     |point| match groups(&point.group) > MANY && !point.group.is_empty() {
@@ -87,27 +87,41 @@ impl<'a> PointCloud<'a> {
                     },
                 )
                 .collect(),
+        );
+        Some(Self {
+            low: low - Vec3::splat(height * 0.04),
+            high: high + Vec3::splat(height * 0.04),
+            colours,
+            radii,
+            markers: held,
             theme,
         })
+    }
+
+    /// Returns the points.
+    #[must_use]
+    pub fn markers(&self) -> &Markers {
+        self.markers.borrow()
     }
 
     /// Returns whether the points have no place in depth, so that only the view from the front shows them.
     #[must_use]
     pub fn is_flat(&self) -> bool {
-        !matches!(self.markers.space(), Space::World(_))
+        !matches!(self.markers.borrow().space(), Space::World(_))
     }
 
     /// Returns the dots and limbs of a frame; points without a place there are left out.
     #[must_use]
     pub fn mesh(&self, frame: usize) -> Mesh {
         let mut mesh = Mesh::default();
-        let points = self.markers.points();
+        let markers = self.markers.borrow();
+        let points = markers.points();
         let places: Vec<Option<Vec3>> = (0..points.len())
-            .map(|point| place(self.markers, point, frame))
+            .map(|point| place(markers, point, frame))
             .collect();
         let shade = |point: usize| {
             let quality = points[point].quality.as_ref();
-            let unsure = self.markers.quality() == Some(Quality::Confidence)
+            let unsure = markers.quality() == Some(Quality::Confidence)
                 && quality
                     .and_then(|column| column.value(frame))
                     .is_some_and(|value| value < UNSURE);
@@ -117,7 +131,7 @@ impl<'a> PointCloud<'a> {
                 self.colours[point]
             }
         };
-        for &[from, to] in self.markers.limbs() {
+        for &[from, to] in markers.limbs() {
             if let (Some(a), Some(b)) = (places[from], places[to]) {
                 let radius = self.radii[from].min(self.radii[to]) * 0.35;
                 mesh.append(&trail(&[a, b], radius, [shade(from), shade(to)], FLAT));
@@ -158,17 +172,21 @@ impl<'a> PointCloud<'a> {
     }
 
     /// Returns the ratio of width to height of a view's visible area.
-    fn aspect(&self, view: View) -> f32 {
+    pub(crate) fn aspect(&self, view: View) -> f32 {
         let size = self.high - self.low;
-        let wide = if view == View::Right { size.z } else { size.x };
+        let wide = if matches!(view, View::Left | View::Right) {
+            size.z
+        } else {
+            size.x
+        };
         (wide / size.y.max(1e-6)).clamp(0.45, 1.6)
     }
 
     /// Returns a note for points that cameras did not measure in a room.
     #[must_use]
     pub fn note(&self) -> Option<&'static str> {
-        let estimated = self.markers.capture() == Capture::Estimated;
-        match (estimated, self.markers.space()) {
+        let estimated = self.markers.borrow().capture() == Capture::Estimated;
+        match (estimated, self.markers.borrow().space()) {
             (true, Space::World(_)) => Some("estimated from film"),
             (true, Space::Depth(_)) => Some("estimated from film, depth is a guess"),
             (true, Space::Image(_)) => Some("estimated from film, no depth"),

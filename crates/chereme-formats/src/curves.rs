@@ -8,7 +8,6 @@ mod mediapipe;
 mod table;
 #[cfg(test)]
 mod tests;
-mod timecode;
 
 use std::fmt::Write as _;
 
@@ -181,6 +180,10 @@ impl Channels {
         if rows == 0 {
             return Err(Error::Empty);
         }
+        let day = match (&self.clock, kind) {
+            (Clock::Seconds(seconds), Kind::LiveLink) => seconds.first().copied(),
+            _ => None,
+        };
         let (times, offset) = times(self.clock, kind, findings)?;
         let names = unique(self.names.iter().map(String::as_str), "column");
         let curves = names.into_iter().zip(self.columns).zip(self.units);
@@ -198,6 +201,7 @@ impl Channels {
         };
         let mut track = Track::new(name, Content::Curves(curves));
         track.offset = offset;
+        track.clock = day.map(Instant::from_seconds);
         Ok(Tracks {
             tracks: vec![track],
             events: None,

@@ -11,6 +11,7 @@ pub mod fbx;
 mod finding;
 pub mod gltf;
 pub mod hns;
+pub mod keypoints;
 pub mod lexicon;
 pub mod mp4;
 pub mod pose;
@@ -21,6 +22,7 @@ pub mod subtitles;
 pub mod table;
 mod tally;
 pub mod textgrid;
+pub mod timecode;
 pub mod tracks;
 pub mod trc;
 

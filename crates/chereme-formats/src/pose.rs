@@ -42,6 +42,9 @@ pub enum Error {
     Track(String),
 }
 
+/// The most numbers of the first person.
+const NUMBERS: usize = 400_000_000;
+
 /// Landmarks in metres are within this distance of the hips; greater numbers were multiplied by the
 /// picture's size.
 const FARTHEST_METRES: f32 = 10.0;
@@ -259,6 +262,10 @@ fn interleaved(bytes: &mut Bytes<'_>, header: &Header, points: usize) -> Result<
         confidence: Vec::new(),
         people: 0,
     };
+    // Frames without people take two bytes and become gaps of every point.
+    if frames.saturating_mul(points) > NUMBERS / 4 {
+        return Err(Error::Short(part));
+    }
     for _ in 0..frames {
         let people = bytes.u16(part)?;
         body.people = body.people.max(people);

@@ -1,7 +1,7 @@
 //! The moving body that files of scenes hold, and what such files have in common.
 
 use chereme_motion::glam::DVec3;
-use chereme_motion::{Channel, Clip, Convention, Curves, Joint};
+use chereme_motion::{Channel, Clip, Convention, Curves, Instant, Joint};
 
 /// The moving body in a document.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +14,8 @@ pub struct Scene {
     pub morphs: Option<Curves>,
     /// The name of the animation that was read.
     pub take: Option<String>,
+    /// The time of day of the first frame, if the file's times are timecodes.
+    pub clock: Option<Instant>,
 }
 
 /// The most frames from which a median is taken.

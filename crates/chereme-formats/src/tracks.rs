@@ -27,6 +27,8 @@ pub struct Track {
     pub name: String,
     /// When its first frame is, from the start of the file.
     pub offset: Instant,
+    /// The time of day of its own time 0, if the file has timecodes.
+    pub clock: Option<Instant>,
     /// Its frames.
     pub content: Content,
 }
@@ -47,6 +49,7 @@ impl Track {
         Self {
             name: name.into(),
             offset: Instant::ZERO,
+            clock: None,
             content,
         }
     }

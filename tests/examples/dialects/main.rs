@@ -11,6 +11,7 @@
 #![allow(clippy::print_stdout)]
 
 mod dialect;
+mod others;
 mod read;
 mod rig;
 
@@ -29,6 +30,10 @@ fn main() -> Result<()> {
             let mut text = HEAD.to_owned();
             for capture in captures(own.path())? {
                 text += &table(&capture, own.path())?;
+            }
+            if let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") {
+                text += others::HEAD;
+                text += &others::rows(Path::new(&data))?;
             }
             print!("{text}");
             let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/dialects/RESULTS.md");

@@ -87,7 +87,11 @@ fn distance(a: &HandAngles, b: &HandAngles) -> f64 {
 }
 
 /// Returns how far two postures are apart as far as a skeleton shows it.
-fn known_distance(a: &HandAngles, b: &HandAngles, known: &[bool; HandAngles::LEN]) -> f64 {
+pub(crate) fn known_distance(
+    a: &HandAngles,
+    b: &HandAngles,
+    known: &[bool; HandAngles::LEN],
+) -> f64 {
     let pairs = a.to_array().into_iter().zip(b.to_array());
     let known = pairs.zip(known).filter(|(_, known)| **known);
     let squares: Vec<f64> = known.map(|((a, b), _)| (a - b).powi(2)).collect();
@@ -95,14 +99,14 @@ fn known_distance(a: &HandAngles, b: &HandAngles, known: &[bool; HandAngles::LEN
 }
 
 /// Returns which angles the joints of a skeleton show.
-fn known(anatomy: &Anatomy) -> [bool; HandAngles::LEN] {
+pub(crate) fn known(anatomy: &Anatomy, side: Side) -> [bool; HandAngles::LEN] {
     let has = |part| anatomy.joint(part).is_some();
     std::array::from_fn(|n| match n {
-        0..=2 => has(Part::Thumb(SIDE, 0)),
-        3 | 4 => has(Part::Thumb(SIDE, n as u8 - 2)),
+        0..=2 => has(Part::Thumb(side, 0)),
+        3 | 4 => has(Part::Thumb(side, n as u8 - 2)),
         _ => {
             let finger = Finger::ALL[(n - 5) / 4];
-            has(Part::Finger(SIDE, finger, ((n - 5) % 4).max(1) as u8))
+            has(Part::Finger(side, finger, ((n - 5) % 4).max(1) as u8))
         }
     })
 }
@@ -116,7 +120,7 @@ pub(crate) fn readings(
 ) -> Result<Vec<Reading>> {
     let shapes = shapes();
     let anatomy = &from.moving.anatomy;
-    let known = known(anatomy);
+    let known = known(anatomy, SIDE);
     let read = |frame: usize| {
         let pose = clip.pose(frame);
         let model = clip.model_pose(frame);

@@ -20,11 +20,12 @@ use crate::streams::{self, Stand};
 
 /// Import recordings, annotations, lexicons and inventories into a corpus
 ///
-/// Files: .bvh (movement), .eaf (ELAN annotations), .csv or .tsv (a lexicon of codings, of HamNoSys, or
-/// both; .json where it holds signs), .sigml or .hsigml (signs as notation; .xml if it is SiGML), .hns
-/// (HamNoSys, a sign a line: the gloss, a tab, the text; .txt if it has such lines), .json (an inventory),
-/// or folders of them. A movement and an annotation file of the same name in one folder become one
-/// recording; files of the same name in two folders become two. The report shows how each file was understood,
+/// Files: .bvh, .fbx, .glb, .gltf, .vrm (movement), .c3d, .trc (markers), .pose, .json of OpenPose or MediaPipe (points
+/// from film), .csv of faces, .fap, .eaf, .textgrid, .srt, .vtt (annotations), .ecv, .pfsx, .etf (ELAN's vocabularies,
+/// settings, templates), .csv or .tsv (a lexicon of codings, of HamNoSys, or both; .json where it holds signs), .sigml or
+/// .hsigml (signs as notation; .xml if it is SiGML), .hns (HamNoSys, a sign a line: the gloss, a tab, the text; .txt if it
+/// has such lines), .json (an inventory), or folders of them. Files of the same name in one folder become one recording, as
+/// do files whose timecodes meet; files of the same name in two folders become two. The report shows how each file was understood,
 /// which options override, also later: with --map, a file that is in already gets other tiers or columns. The
 /// corpus is made if it does not exist yet. A file that cannot be read does not keep the others out.
 ///
@@ -40,7 +41,8 @@ Examples:
   chereme import ngt.chereme sigml/
   chereme import mine.chereme take.eaf --merge
   chereme import mine.chereme take.eaf --map tiers.json
-  chereme import mine.chereme face.bvh --into recording:3 --offset 0.48s")]
+  chereme import mine.chereme face.csv --into recording:3 --offset 0.48s
+  chereme import mine.chereme take.bvh --timecode 10:22:31:12@25")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
@@ -99,6 +101,29 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME", value_parser = super::track::micros, allow_hyphen_values = true,
           default_value = "0s")]
     offset: i64,
+    /// The time of day at which the files' tracks start, if they do not state it: 12:34:56:07, or 12:34:56:07@25 for 25
+    /// frames a second. Tracks of a recording whose times of day are known are put where these say
+    #[arg(long, value_name = "TIMECODE", value_parser = timecode)]
+    timecode: Option<chereme_motion::Instant>,
+    /// Frames a second of films whose points do not state it, such as 50 or 30000/1001
+    #[arg(long, value_name = "RATE", value_parser = rate)]
+    rate: Option<chereme_motion::Rate>,
+}
+
+fn timecode(text: &str) -> Result<chereme_motion::Instant, String> {
+    let at = chereme_corpus::time_of_day(text);
+    at.ok_or_else(|| "write hours, minutes, seconds and frames: 12:34:56:07@25".to_owned())
+}
+
+fn rate(text: &str) -> Result<chereme_motion::Rate, String> {
+    let parts = text.split_once('/').unwrap_or((text, "1"));
+    let [frames, seconds] = [parts.0, parts.1].map(|part| part.trim().parse::<u32>().ok());
+    let rate = frames
+        .zip(seconds)
+        .and_then(|(frames, seconds)| chereme_motion::Rate::new(frames, seconds).ok());
+    rate.ok_or_else(|| {
+        "write a whole number such as 50, or a fraction such as 30000/1001".to_owned()
+    })
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -239,6 +264,8 @@ fn options(args: &Args) -> Result<ImportOptions> {
         },
         into: args.into.clone(),
         offset_us: args.offset,
+        clock: args.timecode,
+        rate: args.rate,
         dry_run: args.dry_run,
     })
 }

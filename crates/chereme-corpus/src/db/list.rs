@@ -130,6 +130,7 @@ pub(crate) const TRACKS: Table = Table {
         ),
         text("space", "t.layout ->> '$.space'"),
         text("media", "t.media_url"),
+        number("clock_us", "t.clock_us"),
     ],
     from: "track t JOIN recording r ON r.id = t.recording_id",
     order: "t.recording_id, t.id",

@@ -18,7 +18,7 @@ use crate::error::{Error, Result};
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The schema's steps; a file's `user_version` is how many of them it has taken.
-const STEPS: [&str; 7] = [
+const STEPS: [&str; 8] = [
     include_str!("../../../../schema/sql/0001_corpus.sql"),
     include_str!("../../../../schema/sql/0002_notation.sql"),
     include_str!("../../../../schema/sql/0003_kept_search.sql"),
@@ -26,6 +26,7 @@ const STEPS: [&str; 7] = [
     include_str!("../../../../schema/sql/0005_files.sql"),
     include_str!("../../../../schema/sql/0006_attributes.sql"),
     include_str!("../../../../schema/sql/0007_tracks.sql"),
+    include_str!("../../../../schema/sql/0008_clock.sql"),
 ];
 
 /// The schema version that this code writes.

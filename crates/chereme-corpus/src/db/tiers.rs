@@ -42,7 +42,33 @@ pub struct TierRow {
     pub source: Option<String>,
 }
 
+/// How a tier is shown, as the settings of ELAN next to its file say.
+#[derive(Debug, Clone, PartialEq, Eq, Default, serde::Deserialize)]
+#[serde(default)]
+pub struct TierShown {
+    /// Its place among the tiers, from 0.
+    pub order: Option<usize>,
+    /// Its colour, such as `#00a0ff`.
+    pub colour: Option<String>,
+    /// Whether it is hidden.
+    pub hidden: bool,
+}
+
 impl TierRow {
+    /// Returns how the settings of ELAN show the tier.
+    #[must_use]
+    pub fn shown(&self) -> TierShown {
+        let source = self
+            .source
+            .as_deref()
+            .filter(|text| text.contains("\"shown\""));
+        let source = source.and_then(|text| serde_json::from_str::<serde_json::Value>(text).ok());
+        let shown = source.and_then(|mut it| it.get_mut("shown").map(serde_json::Value::take));
+        shown
+            .and_then(|shown| serde_json::from_value(shown).ok())
+            .unwrap_or_default()
+    }
+
     /// Returns the role with the hands: `right.configuration`.
     pub(crate) fn topic(&self) -> TierTopic {
         TierTopic {

@@ -73,6 +73,9 @@ pub struct TrackRow {
     pub rate: Option<Rate>,
     /// How many joints, points or scalar channels it has; 0 for media.
     pub channels: u64,
+    /// The time of day of the track's own time 0, in microseconds after midnight, if it is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clock_us: Option<i64>,
 }
 
 impl TrackRow {
@@ -114,7 +117,7 @@ const TRACK: &str = "
                CAST(round(t.frames * 1000000.0 * t.rate_seconds / t.rate_frames) AS INTEGER)),
            t.frames, t.rate_frames, t.rate_seconds,
            CASE t.kind WHEN 'skeleton' THEN (SELECT joints FROM skeleton s WHERE s.id = t.skeleton_id)
-               ELSE (SELECT count(*) FROM channel c WHERE c.track_id = t.id) END
+               ELSE (SELECT count(*) FROM channel c WHERE c.track_id = t.id) END, t.clock_us
     FROM track t";
 
 fn track_row(row: &Row<'_>) -> rusqlite::Result<Result<TrackRow>> {
@@ -137,6 +140,7 @@ fn track_row(row: &Row<'_>) -> rusqlite::Result<Result<TrackRow>> {
             .get::<_, Option<i64>>(9)?
             .unwrap_or_default()
             .unsigned_abs(),
+        clock_us: row.get(10)?,
     }))
 }
 
@@ -297,6 +301,14 @@ pub(crate) fn set_offset(connection: &Connection, track: i64, offset_us: i64) ->
     connection
         .prepare_cached("UPDATE track SET offset_us = ?2 WHERE id = ?1 AND offset_us <> ?2")?
         .execute([track, offset_us])?;
+    Ok(())
+}
+
+/// Writes down the time of day of a track's own time 0.
+pub(crate) fn set_clock(connection: &Connection, track: i64, clock_us: i64) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE track SET clock_us = ?2 WHERE id = ?1 AND clock_us IS NOT ?2")?
+        .execute([track, clock_us])?;
     Ok(())
 }
 

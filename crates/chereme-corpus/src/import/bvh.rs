@@ -86,6 +86,10 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let summary = reader.finish();
     place_joints(job, track, &bones, &mut hierarchy, &mut report)?;
     finish(job, recording, track, summary.frames, rate)?;
+    if let Some(clock) = job.options.clock {
+        tracks::set_clock(job.connection, track, clock.micros())?;
+        super::clock::place(job, recording, &[track], &mut report)?;
+    }
     report
         .findings
         .extend(summary.findings.into_iter().map(ReportFinding::from));

@@ -6,11 +6,13 @@ use std::path::Path;
 
 use chereme_formats::eaf::Transcript;
 use chereme_formats::tracks::{Content, Tracks};
-use chereme_formats::{Finding, Scene, c3d, curves, gltf, pose, subtitles, textgrid, trc};
+use chereme_formats::{
+    Finding, Scene, c3d, curves, gltf, keypoints, pose, subtitles, textgrid, trc,
+};
 use chereme_motion::{Anatomy, Convention};
 
 use super::report::ReportFinding;
-use super::{FileReport, FileStatus, Job, bvh, eaf, inventory, lexicon, tracks};
+use super::{FileReport, FileStatus, Job, bvh, eaf, inventory, lexicon, notated, points, tracks};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 use crate::track::{NewTrack, SkeletonTrack, Track};
@@ -55,22 +57,49 @@ pub(super) fn import_table(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Re
     }
 }
 
-/// Reads JSON: scores of a face, else an inventory or signs.
+/// Reads JSON: scores of a face, points from film, else an inventory or signs.
 pub(super) fn import_json(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    match holds_curves(job.path)? {
-        true => import_curves(job, progress),
+    let head = head(job.path)?;
+    if curves::Kind::of(&head).is_some() {
+        return import_curves(job, progress);
+    }
+    match keypoints::is_keypoints(&head) {
+        true => points::import(job, progress),
         false => inventory::import(job, progress),
     }
 }
 
+/// Reads a text: signs that another program exported as JSON, else lines of HamNoSys.
+pub(super) fn import_text(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    match is_export_of_signs(job.path) {
+        true => lexicon::import(job, progress),
+        false => notated::import_lines(job, progress),
+    }
+}
+
+/// Returns whether a file of text is an export of signs as JSON, which SLP-AA calls `.txt`.
+pub(super) fn is_export_of_signs(path: &Path) -> bool {
+    let head = head(path).unwrap_or_default();
+    let text = String::from_utf8_lossy(&head);
+    text.trim_start_matches('\u{feff}')
+        .trim_start()
+        .starts_with(['{', '['])
+        && text.contains("\"signlevel\"")
+}
+
 fn holds_curves(path: &Path) -> Result<bool> {
+    Ok(curves::Kind::of(&head(path)?).is_some())
+}
+
+/// Returns the first bytes of a file.
+fn head(path: &Path) -> Result<Vec<u8>> {
     let fault = |error| Error::file(path, error);
     let mut head = Vec::new();
     let file = File::open(path).map_err(fault)?;
     file.take(HEAD as u64)
         .read_to_end(&mut head)
         .map_err(fault)?;
-    Ok(curves::Kind::of(&head).is_some())
+    Ok(head)
 }
 
 /// Reads a skeleton of glTF with its movement, and the weights of morph targets.
@@ -120,6 +149,7 @@ fn scene(
     let mut markers = tracks::Beside::of(&skeleton, &anatomy);
     markers.push(&scene.clip);
     let markers = markers.track(rate, convention).filter(|_| moves);
+    let clock_us = scene.clock.map(chereme_motion::Instant::micros);
     let mut new = vec![NewTrack::new(
         "body",
         Track::Skeleton(SkeletonTrack {
@@ -134,6 +164,9 @@ fn scene(
             .map(|morphs| NewTrack::new("face", Track::Curves(morphs))),
     );
     new.extend(markers.map(|markers| NewTrack::new("markers", Track::Markers(markers))));
+    for track in &mut new {
+        track.clock_us = clock_us;
+    }
     let recording = tracks::store(job, new, &mut report)?;
     job.keep(Some(recording), None)?;
     if moves {
@@ -202,8 +235,19 @@ fn take(
     job.tell(progress)?;
     let (document, findings) = read(&bytes).map_err(Error::wrong)?;
     job.tell(progress)?;
+    keep_take(job, document, findings, progress)
+}
+
+/// Stores the tracks and events of a document.
+pub(super) fn keep_take(
+    job: &mut Job<'_>,
+    document: Tracks,
+    findings: Vec<Finding>,
+    progress: &mut Progress<'_>,
+) -> Result<FileReport> {
     let new = document.tracks.into_iter().map(|track| NewTrack {
         offset_us: track.offset.micros(),
+        clock_us: track.clock.map(chereme_motion::Instant::micros),
         ..NewTrack::new(
             track.name,
             match track.content {

@@ -24,7 +24,7 @@ use crate::error::{Error, Result};
 use crate::progress::Progress;
 use crate::tokens;
 use remap::{remap, set_role};
-use vocabulary::tier_inventory;
+pub(super) use vocabulary::tier_inventory;
 
 /// The properties by which a file says what its recording is.
 pub(crate) const ORIGIN: &str = "chereme.origin";
@@ -78,7 +78,8 @@ pub(super) fn import_as(
     }
     let bytes = job.bytes()?;
     job.tell(progress)?;
-    let (transcript, findings) = read(&bytes).map_err(Error::wrong)?;
+    let (mut transcript, findings) = read(&bytes).map_err(Error::wrong)?;
+    super::elan::fill(job, &mut transcript)?;
     job.tell(progress)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
     report

@@ -5,26 +5,29 @@
 
 mod bvh;
 mod captured;
+mod clock;
 pub(crate) mod eaf;
+mod elan;
 mod inventory;
 mod lexicon;
 mod notated;
 mod notation;
 mod places;
+mod points;
 mod readers;
 mod report;
 #[cfg(test)]
 mod tests;
 mod tracks;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use chereme_formats::roles::Mapping;
-use chereme_motion::Axes;
 use chereme_motion::anatomy::Roles;
+use chereme_motion::{Axes, Instant, Rate};
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
@@ -43,6 +46,13 @@ use report::Counts;
 pub use report::{
     FileReport, FileStatus, ImportReport, Outcome, OwnEdit, ReportFinding, Saying, Unread,
 };
+
+/// Returns the moment that a timecode such as `12:34:56:07` or `12:34:56:07@25` names; 30 frames make a second if no other
+/// number stands behind the `@`.
+#[must_use]
+pub fn time_of_day(timecode: &str) -> Option<Instant> {
+    chereme_formats::timecode::time_of_day(timecode, 30.0)
+}
 
 /// A text file larger than this is no annotation file, lexicon or inventory.
 const LARGEST_TEXT: u64 = 512 << 20;
@@ -75,6 +85,11 @@ pub struct ImportOptions {
     pub into: Option<Name>,
     /// Where the tracks of the files start on the recording's clock, in microseconds; may be negative.
     pub offset_us: i64,
+    /// The time of day at which the tracks start, where files do not state it; tracks of one recording whose times of day
+    /// are known are put where these say.
+    pub clock: Option<Instant>,
+    /// Frames a second of films whose files do not state it.
+    pub rate: Option<Rate>,
     /// Report what would be done, and write nothing.
     pub dry_run: bool,
 }
@@ -120,6 +135,8 @@ struct Job<'a> {
     named: bool,
     /// The number of steps that progress heard of.
     told: u64,
+    /// The recording of the one file of movement in this file's folder, if the folder holds one take.
+    folder_take: Option<i64>,
 }
 
 impl Job<'_> {
@@ -215,6 +232,7 @@ impl Corpus {
                 places: Places::load(connection)?,
                 inventories: None,
                 used: BTreeSet::new(),
+                one_take: one_take(&files),
             };
             import.files(&files, &mut report, progress)?;
             import.warn_of_mapping(&mut report);
@@ -253,6 +271,44 @@ struct Import<'a> {
     inventories: Option<Rc<Vec<StoredInventory>>>,
     /// Names and patterns of the mapping that a tier or column has.
     used: BTreeSet<String>,
+    /// Files that stand alone of their kind and name next to the one file of movement in their folder.
+    one_take: BTreeSet<PathBuf>,
+}
+
+/// Returns the files of folders that hold one take: next to one file of movement, the only one of its kind, with a name
+/// that no other file there has.
+fn one_take(files: &[Candidate]) -> BTreeSet<PathBuf> {
+    let readable = |it: &&Candidate| it.reader.is_ok() && !it.named;
+    let mut kinds: BTreeMap<(&Path, &str), usize> = BTreeMap::new();
+    let mut stems: BTreeMap<(&Path, String), usize> = BTreeMap::new();
+    let kind = |it: &Candidate| match it.reader {
+        Ok(reader) if READERS[reader].holds == "movement" => "movement",
+        Ok(reader) => READERS[reader].kind,
+        Err(_) => "",
+    };
+    let folder = |it: &'_ Candidate| it.path.parent().map(Path::to_owned).unwrap_or_default();
+    let folders: Vec<PathBuf> = files.iter().map(folder).collect();
+    let stem = |path: &Path| {
+        path.file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_lowercase()
+    };
+    for (it, folder) in files.iter().zip(&folders).filter(|it| readable(&it.0)) {
+        *kinds.entry((folder, kind(it))).or_default() += 1;
+        *stems.entry((folder, stem(&it.path))).or_default() += 1;
+    }
+    let alone = |(it, folder): &(&Candidate, &PathBuf)| {
+        let one = |kind: &str| kinds.get(&(folder.as_path(), kind)) == Some(&1);
+        let own = kind(it);
+        readable(it)
+            && own != "movement"
+            && one("movement")
+            && one(own)
+            && stems.get(&(folder.as_path(), stem(&it.path))) == Some(&1)
+    };
+    let found = files.iter().zip(&folders).filter(alone);
+    found.map(|(it, _)| it.path.clone()).collect()
 }
 
 impl Import<'_> {
@@ -356,7 +412,11 @@ impl Import<'_> {
             used: &mut self.used,
             named,
             told: 0,
+            folder_take: None,
         };
+        if !named && self.one_take.contains(path) {
+            job.folder_take = job.places.movement_beside(&job.place);
+        }
         let done = (READERS[reader].read)(&mut job, progress)?;
         // Files that add inventories make the next one load them again.
         let same = Rc::ptr_eq(&job.inventories, &inventories) && READERS[reader].keeps_inventories;
@@ -447,6 +507,12 @@ fn gather(paths: &[PathBuf]) -> Vec<Candidate> {
     }
     files.sort_by(|a, b| (&a.path, b.named).cmp(&(&b.path, a.named)));
     files.dedup_by(|a, b| a.path == b.path);
+    // Of a film with a file for each frame the first stands for all.
+    let mut films = BTreeSet::new();
+    files.retain(|it| match points::series(&it.path) {
+        Some(film) if it.reader.is_ok() => films.insert(film),
+        _ => true,
+    });
     files.sort_by_key(|it| it.reader.as_ref().ok().copied());
     files
 }

@@ -101,6 +101,64 @@ impl Places {
         near().all(|(_, id)| id == first).then_some(first)
     }
 
+    /// Returns the recording of the newest file of movement in the folder of this one.
+    pub(super) fn movement_beside(&self, place: &str) -> Option<i64> {
+        let is = |row: &&SourceFileRow| {
+            let near = row
+                .path
+                .as_deref()
+                .is_some_and(|it| folder(it) == folder(place));
+            near && ["bvh", "gltf", "fbx"].contains(&row.kind.as_str())
+        };
+        self.rows.iter().rev().find(is)?.recording_id
+    }
+
+    /// Returns the recordings of files in the folder of this one, in the order of their files.
+    pub(super) fn in_folder(&self, place: &str) -> Vec<i64> {
+        let near = |row: &&SourceFileRow| {
+            let path = row.path.as_deref();
+            path.is_some_and(|it| folder(it) == folder(place))
+        };
+        let mut found: Vec<i64> = Vec::new();
+        for id in self
+            .rows
+            .iter()
+            .filter(near)
+            .filter_map(|row| row.recording_id)
+        {
+            if !found.contains(&id) {
+                found.push(id);
+            }
+        }
+        found
+    }
+
+    /// Returns the recordings of files in folders next to each other: this one's, the one above, those below that.
+    pub(super) fn near(&self, place: &str) -> Vec<i64> {
+        let above = |it: &str| {
+            folder(it)
+                .rsplit_once('/')
+                .map_or("", |(above, _)| above)
+                .to_owned()
+        };
+        let (own, upper) = (folder(place), above(place));
+        let near = |row: &&SourceFileRow| {
+            row.path.as_deref().is_some_and(|it| {
+                let folder = folder(it);
+                folder == own || folder == upper || above(it) == own || above(it) == upper
+            })
+        };
+        let mut found: Vec<i64> = self
+            .rows
+            .iter()
+            .filter(near)
+            .filter_map(|row| row.recording_id)
+            .collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
     /// Returns the recordings of files of this name elsewhere, those in folders of alike names first.
     pub(super) fn recordings_named(&self, place: &str) -> Vec<i64> {
         let mut found: Vec<(usize, i64)> = Vec::new();

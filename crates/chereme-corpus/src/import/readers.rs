@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::{FileReport, Job, bvh, captured, eaf, notated};
+use super::{FileReport, Job, bvh, captured, eaf, elan, notated};
 use crate::error::{Error, Result};
 use crate::notation::Form;
 use crate::progress::Progress;
@@ -25,13 +25,13 @@ pub(super) struct Reader {
     pub(super) read: fn(&mut Job<'_>, &mut Progress<'_>) -> Result<FileReport>,
 }
 
-/// The kinds in the order in which an import reads them: annotations come last, so that they find
-/// their recordings and the values that they use.
+/// The kinds in the order in which an import reads them: annotations come after movement, so that they find
+/// their recordings and the values that they use; templates come last, for the recordings that still lack tiers.
 pub(super) static READERS: &[Reader] = &[
     Reader {
         endings: &["json"],
         kind: "inventory",
-        holds: "inventories, signs or scores of a face",
+        holds: "inventories, signs, scores of a face or points from film",
         looks: always,
         keeps_inventories: false,
         read: captured::import_json,
@@ -113,9 +113,9 @@ pub(super) static READERS: &[Reader] = &[
         endings: &["hns", "txt"],
         kind: "lexicon",
         holds: "notation",
-        looks: |path| Form::of(path) == Some(Form::Lines),
-        keeps_inventories: true,
-        read: notated::import_lines,
+        looks: |path| Form::of(path) == Some(Form::Lines) || captured::is_export_of_signs(path),
+        keeps_inventories: false,
+        read: captured::import_text,
     },
     Reader {
         endings: &["textgrid"],
@@ -134,12 +134,36 @@ pub(super) static READERS: &[Reader] = &[
         read: captured::import_subtitles,
     },
     Reader {
+        endings: &["ecv"],
+        kind: "ecv",
+        holds: "vocabularies of ELAN",
+        looks: always,
+        keeps_inventories: false,
+        read: elan::import_vocabularies,
+    },
+    Reader {
         endings: &["eaf"],
         kind: "eaf",
         holds: "annotations",
         looks: always,
         keeps_inventories: false,
         read: eaf::import,
+    },
+    Reader {
+        endings: &["pfsx", "psfx"],
+        kind: "pfsx",
+        holds: "settings of ELAN",
+        looks: always,
+        keeps_inventories: true,
+        read: elan::import_settings,
+    },
+    Reader {
+        endings: &["etf"],
+        kind: "etf",
+        holds: "templates of ELAN",
+        looks: always,
+        keeps_inventories: false,
+        read: elan::import_template,
     },
 ];
 
@@ -168,16 +192,6 @@ static UNREAD: &[Unread] = &[
         endings: &["xml"],
         what: "XML without SiGML",
         remedy: "an .xml holds SiGML: its root is <sigml>",
-    },
-    Unread {
-        endings: &["etf"],
-        what: "a template of ELAN, without annotations",
-        remedy: "save it in ELAN as .eaf, then: annotate add-tiers --like",
-    },
-    Unread {
-        endings: &["pfsx", "ecv"],
-        what: "settings or vocabularies of ELAN",
-        remedy: "import the .eaf next to it; this file goes with it",
     },
     #[cfg(not(feature = "fbx"))]
     Unread {
@@ -257,21 +271,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_ending_is_of_one_kind_and_annotations_are_read_last() {
+    fn every_ending_is_of_one_kind_and_annotations_are_read_after_movement() {
         let mut all: Vec<&str> = READERS.iter().flat_map(|it| it.endings).copied().collect();
         let many = all.len();
         all.sort_unstable();
         all.dedup();
         assert_eq!(all.len(), many);
-        assert_eq!(READERS.last().map(|it| it.kind), Some("eaf"));
-        assert_eq!(reader(Path::new("A/TAKE.EAF")), Some(READERS.len() - 1));
+        let place = |kind: &str| READERS.iter().position(|it| it.kind == kind);
+        let order = ["bvh", "pose", "ecv", "eaf", "pfsx", "etf"].map(place);
+        assert!(order.is_sorted() && order[0].is_some(), "{order:?}");
+        assert_eq!(reader(Path::new("A/TAKE.EAF")), place("eaf"));
         assert_eq!(reader(Path::new("a.docx")), None);
     }
 
     #[test]
     fn what_is_not_read_is_named_with_a_remedy() {
         for (name, said) in [
-            ("a.etf", "template"),
+            ("a.mp4", "film"),
             ("a.docx", "not known"),
             ("noending", "not known"),
         ] {

@@ -1,12 +1,12 @@
 //! Tracks that a file holds into the recording that they belong to.
 
 use chereme_motion::{
-    Anatomy, Clip, Column, Convention, Marker, Markers, Rate, Skeleton, Space, Times,
+    Anatomy, Clip, Column, Convention, Instant, Marker, Markers, Rate, Skeleton, Space, Times,
 };
 use serde_json::json;
 
 use super::report::ReportFinding;
-use super::{FileReport, Job, bvh};
+use super::{FileReport, Job, bvh, clock};
 use crate::db::recordings;
 use crate::db::tracks::{self, TrackRow};
 use crate::error::Result;
@@ -22,14 +22,34 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
         .places
         .beside(&job.place)
         .filter(|_| job.options.into.is_none());
+    let given = job.options.clock.map(Instant::micros);
+    let day = |track: &NewTrack| {
+        let start = track.clock_us.or(given)?;
+        Some(start..start.saturating_add(length_us(&track.track)))
+    };
+    let days: Vec<_> = new.iter().filter_map(day).collect();
     let recording = match same_take {
         Some(recording) => recording,
-        None => bvh::insert_recording(job, report)?,
+        None => match clock::take_of(job, &days, report)? {
+            Some(recording) => recording,
+            None => match job.folder_take.filter(|_| job.options.into.is_none()) {
+                Some(recording) => {
+                    tell_folder(job, recording, report)?;
+                    recording
+                }
+                None => bvh::insert_recording(job, report)?,
+            },
+        },
     };
-    let mut rows: Vec<TrackRow> = Vec::with_capacity(new.len());
+    let mut ids = Vec::with_capacity(new.len());
     for mut track in new {
         track.offset_us = track.offset_us.saturating_add(job.options.offset_us);
-        let id = store::store(job.connection, recording, &track)?;
+        track.clock_us = track.clock_us.or(given);
+        ids.push(store::store(job.connection, recording, &track)?);
+    }
+    clock::place(job, recording, &ids, report)?;
+    let mut rows: Vec<TrackRow> = Vec::with_capacity(ids.len());
+    for id in ids {
         rows.push(tracks::track(job.connection, id)?);
     }
     job.count("tracks", rows.len());
@@ -47,6 +67,34 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     report.understand("tracks", rows.iter().map(shown).collect::<Vec<_>>());
     Ok(recording)
+}
+
+/// Reports that a file is taken for the take of its folder.
+fn tell_folder(job: &Job<'_>, recording: i64, report: &mut FileReport) -> Result<()> {
+    let name = recordings::recording(job.connection, recording)?.name;
+    report.findings.push(ReportFinding {
+        remedy: Some(
+            "if they are of two takes: `chereme undo`, and import each file by its name".to_owned(),
+        ),
+        ..ReportFinding::note(format!(
+            "it is the only file of its kind next to one of movement: it is taken for the take {name:?}"
+        ))
+    });
+    Ok(())
+}
+
+/// Returns how long a track lasts.
+fn length_us(track: &Track) -> i64 {
+    match track {
+        Track::Skeleton(skeleton) => skeleton
+            .clip
+            .rate()
+            .instant(skeleton.clip.frames())
+            .micros(),
+        Track::Markers(markers) => markers.span().end().micros(),
+        Track::Curves(curves) => curves.times().span(curves.frames()).end().micros(),
+        Track::Media(_) => 0,
+    }
 }
 
 /// Keeps the optical markers that are leaves beside the skeleton as a track of points.

@@ -7,11 +7,13 @@
 //! | [`change`] | tracks of a recording as operations: added, moved on the clock, renamed, removed |
 //! | [`align`] | where one track lies on another's clock, found from their movement |
 //! | [`fit`] | a skeleton fitted to markers |
+//! | [`piece`] | points of a span, to look at |
 //! | [`table`] | a track as a table of its exact numbers |
 
 pub(crate) mod align;
 mod change;
 mod fit;
+pub(crate) mod piece;
 pub(crate) mod read;
 pub(crate) mod store;
 pub(crate) mod table;
@@ -25,6 +27,7 @@ pub use crate::db::tracks::{TrackKind, TrackRow};
 pub use align::{Alignment, Signal};
 pub use change::TrackChange;
 pub use fit::{FitReport, FitResidual};
+pub use piece::PointsPiece;
 
 /// What a track holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,6 +82,8 @@ pub struct NewTrack {
     pub name: String,
     /// Where the track's own time 0 lies on the recording's clock, in microseconds; may be negative.
     pub offset_us: i64,
+    /// The time of day of the track's own time 0, in microseconds after midnight, if it is known.
+    pub clock_us: Option<i64>,
     /// What it holds.
     pub track: Track,
 }
@@ -90,6 +95,7 @@ impl NewTrack {
         Self {
             name: name.into(),
             offset_us: 0,
+            clock_us: None,
             track,
         }
     }

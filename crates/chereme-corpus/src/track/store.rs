@@ -56,6 +56,9 @@ pub(crate) fn store(connection: &Connection, recording: i64, new: &NewTrack) -> 
         Track::Curves(curves) => curves_track(connection, recording, &name, new, curves)?,
         Track::Media(file) => media_track(connection, recording, &name, new, file)?,
     };
+    if let Some(clock) = new.clock_us {
+        tracks::set_clock(connection, track, clock)?;
+    }
     let end = tracks::track(connection, track)?.span().end();
     recordings::lengthen(connection, recording, end.micros())?;
     Ok(track)
@@ -206,6 +209,7 @@ fn row(
         frames: Some(frames as u64),
         rate: times.rate(),
         channels: 0,
+        clock_us: None,
     }
 }
 

@@ -3,6 +3,62 @@
 /// Findings and remedies as English and French; a form that another contains stands after it.
 pub(super) const FINDINGS: &[(&str, &str)] = &[
     (
+        "the file does not state the rate of the film; {n} frames a second are taken",
+        "le fichier ne dit pas la cadence du film ; {n} images par seconde sont prises",
+    ),
+    (
+        "import it with --rate, such as --rate 50 or --rate 30000/1001",
+        "importez-le avec --rate, comme --rate 50 ou --rate 30000/1001",
+    ),
+    (
+        "the points are estimated from film",
+        "les points sont estimés d’après un film",
+    ),
+    (
+        "the size of the pictures is not stated; points reach {x} by {y} pixels",
+        "la taille des images n’est pas dite ; les points vont jusqu’à {x} sur {y} pixels",
+    ),
+    (
+        "by timecode it starts {time} from the start of the recording",
+        "d’après le timecode, il commence à {time} du début de l’enregistrement",
+    ),
+    (
+        "its timecodes are those of the recording {name}: it is taken for the same take",
+        "ses timecodes sont ceux de l’enregistrement {name} : il est pris pour la même prise",
+    ),
+    (
+        "its timecodes are those of several recordings: {names}",
+        "ses timecodes sont ceux de plusieurs enregistrements : {names}",
+    ),
+    (
+        "say which one it belongs to: import CORPUS FILE --into RECORDING",
+        "dites auquel il appartient : import CORPUS FILE --into RECORDING",
+    ),
+    (
+        "the recording {name} has its tiers now",
+        "l’enregistrement {name} a maintenant ses acteurs",
+    ),
+    (
+        "{n} recordings without tiers have its tiers now",
+        "{n} enregistrements sans acteur ont maintenant les siens",
+    ),
+    (
+        "a template of tiers, and no recording next to it is without tiers",
+        "un modèle d’acteurs, et aucun enregistrement à côté n’est sans acteur",
+    ),
+    (
+        "name the recording: import CORPUS FILE --into RECORDING",
+        "nommez l’enregistrement : import CORPUS FILE --into RECORDING",
+    ),
+    (
+        "settings of ELAN for an annotation file that is not there",
+        "des réglages d’ELAN pour un fichier d’annotations absent",
+    ),
+    (
+        "import the .eaf of the same name with it",
+        "importez avec lui le .eaf du même nom",
+    ),
+    (
         "not found in the skeleton: {parts} and {n} more",
         "introuvables dans le squelette : {parts} et {n} autres",
     ),

@@ -19,6 +19,7 @@ use glam::DVec3;
 
 use crate::finding::Finding;
 use crate::tally::Findings;
+use crate::timecode;
 use crate::tracks::{Content, Track, Tracks, axes_with_up, events, rate_of, unique};
 use raw::Document;
 
@@ -75,6 +76,11 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     }
     if tracks.tracks.is_empty() {
         return Err(Error::Empty);
+    }
+    let code = document.parameters.timecode();
+    let clock = code.and_then(|code| timecode::time_of_day(code, document.rate));
+    for track in &mut tracks.tracks {
+        track.clock = clock;
     }
     let moments = reader.moments(&mut findings);
     tracks.events = events("events", &moments, rate);

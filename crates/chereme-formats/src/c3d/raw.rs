@@ -101,6 +101,17 @@ impl Parameters {
         self.texts(name).into_iter().find(|text| !text.is_empty())
     }
 
+    /// Returns the timecode of the first frame, `12:34:56:07`, that some programs write under names of their own.
+    #[must_use]
+    pub fn timecode(&self) -> Option<&str> {
+        let named = self.0.iter().filter(|(name, _)| name.contains("TIMECODE"));
+        let mut texts = named.filter_map(|(_, value)| match value {
+            Value::Texts(texts) => texts.first().map(String::as_str),
+            _ => None,
+        });
+        texts.find(|text| text.matches([':', ';']).count() >= 2)
+    }
+
     /// Returns the numbers of a parameter; integers are unsigned.
     #[must_use]
     pub fn numbers(&self, name: &str) -> Vec<f64> {
@@ -355,7 +366,7 @@ fn header_events(header: &[u8], processor: Processor) -> Vec<(f32, String)> {
 
 /// Reads the chain of groups and parameters; it ends at an end mark, or at a record that makes no sense.
 fn parameters(section: &[u8], processor: Processor) -> Parameters {
-    let mut groups: BTreeMap<i8, String> = BTreeMap::new();
+    let mut groups: BTreeMap<u8, String> = BTreeMap::new();
     let mut found = Vec::new();
     let mut at = 4;
     while found.len() < MOST_PARAMETERS {
@@ -363,9 +374,9 @@ fn parameters(section: &[u8], processor: Processor) -> Parameters {
             break;
         };
         if record.group < 0 {
-            groups.insert(-record.group, record.name);
+            groups.insert(record.group.unsigned_abs(), record.name);
         } else if record.group > 0 {
-            found.push((record.group, record.name, record.body));
+            found.push((record.group.unsigned_abs(), record.name, record.body));
         }
         match record.next {
             Some(next) => at = next,

@@ -11,6 +11,11 @@ use crate::tracks::rate_of;
 /// Frames per second if the file gives no times, as MediaPipe's results.
 const USUAL_RATE: f64 = 30.0;
 
+/// The most names of scores; faces have some 52.
+const MOST_NAMES: usize = 1024;
+/// The most scores, gaps counted too.
+const MOST_SCORES: usize = 30_000_000;
+
 /// Returns whether a line opens a score of the text form of `ClassificationList`.
 pub(super) fn opens_score(line: &str) -> bool {
     line.strip_prefix("classification")
@@ -75,6 +80,12 @@ pub(super) fn read(text: &str, findings: &mut Findings) -> Result<Channels, Erro
             let at = match channels.names.iter().position(|known| known == name) {
                 Some(at) => at,
                 None => {
+                    let names = channels.names.len() + 1;
+                    if names > MOST_NAMES || names.saturating_mul(frames.len()) > MOST_SCORES {
+                        return Err(Error::Json(format!(
+                            "it has more than {MOST_NAMES} names of scores, or {MOST_SCORES} scores"
+                        )));
+                    }
                     channels.names.push(name.to_owned());
                     channels.units.push("");
                     channels.columns.push(vec![None; row + 1]);

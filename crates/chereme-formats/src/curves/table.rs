@@ -2,9 +2,10 @@
 
 use chereme_motion::column::Number;
 
-use super::{Channels, Clock, Error, timecode};
+use super::{Channels, Clock, Error};
 use crate::finding::Finding;
 use crate::tally::Findings;
+use crate::timecode;
 use crate::tracks::rate_of;
 
 /// Radians beyond this are degrees: no head turns so far.

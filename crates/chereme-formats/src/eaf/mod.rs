@@ -1,6 +1,7 @@
-//! ELAN's annotation files: `.eaf`, templates `.etf`, external vocabularies `.ecv`.
+//! ELAN's annotation files: `.eaf`, templates `.etf`, external vocabularies `.ecv`, preferences `.pfsx`.
 //!
-//! [`raw`] mirrors the file, [`convert`] interprets it: tiers, annotations with spans, and vocabularies.
+//! [`raw`] mirrors the file, [`convert`] interprets it: tiers, annotations with spans, and vocabularies. [`settings`]
+//! reads how tiers are shown.
 //!
 //! ```
 //! let text = br#"<ANNOTATION_DOCUMENT AUTHOR="" DATE="2024-01-01T00:00:00Z" VERSION="3.0">
@@ -31,12 +32,22 @@ mod xml;
 
 pub mod convert;
 pub mod raw;
+pub mod settings;
 
 pub use convert::{Transcript, from_raw, to_raw};
 pub use error::Error;
 pub use patch::{patched, same_meaning};
 
 use crate::finding::Finding;
+
+/// Reads the vocabularies of an `.ecv` file.
+///
+/// # Errors
+/// The same as [`raw::read_ecv`]'s.
+pub fn read_vocabularies(bytes: &[u8]) -> Result<(Vec<convert::Vocabulary>, Vec<Finding>), Error> {
+    let (document, findings) = raw::read_ecv(bytes)?;
+    Ok((convert::vocabularies(&document), findings))
+}
 
 /// Reads an EAF document as a transcript: [`raw::read`], then [`from_raw`].
 ///

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use chereme_motion::{
-    Axes, Axis, Channel, Clip, Column, Convention, Curve, Curves, Direction, Rate, Skeleton, Times,
+    Axes, Axis, Channel, Clip, Column, Convention, Curve, Curves, Direction, Instant, Rate,
+    Skeleton, Times,
 };
 use ufbx::{AllocatorOpts, AnimStack, CoordinateAxis, ErrorType, LoadOpts};
 
@@ -11,6 +12,7 @@ use super::joints::{Animated, Rig};
 use crate::finding::Finding;
 use crate::scene::{Scene, near_usual, settle};
 use crate::tally::Findings;
+use crate::timecode;
 use crate::tracks::{rate_of, unique};
 
 /// A reason why a file could not be read as FBX.
@@ -56,6 +58,8 @@ const DEEPEST: u32 = 512;
 const MOST_NODES: usize = 20_000;
 /// The most joints times frames.
 const MOST_POSITIONS: usize = 60_000_000;
+/// A take that begins later than this, in seconds, has timecodes for times.
+const DAYTIME: f64 = 60.0;
 /// Frames a second where the file says none.
 const USUAL_RATE: f64 = 30.0;
 /// Curves are looked at for their rate up to this many keys.
@@ -210,6 +214,7 @@ fn still(rig: Rig<'_>, convention: Convention, findings: &mut Findings) -> Resul
         convention,
         morphs: None,
         take: None,
+        clock: None,
     })
 }
 
@@ -273,6 +278,8 @@ fn moving(
         convention,
         morphs: morphs(scene, stack, &grid),
         take: Some(stack.element.name.to_string()),
+        clock: (grid.first >= DAYTIME && grid.first < 2.0 * timecode::DAY)
+            .then(|| Instant::from_seconds(grid.first)),
     })
 }
 

@@ -1,18 +1,39 @@
 //! Reads the numbers of accessors, and checks every index and every range of bytes.
 
+use std::cell::Cell;
+
 use super::error::Error;
 use super::model::{Accessor, Document, Sparse};
 
-/// More numbers than this in one accessor are not movement.
-const MOST_NUMBERS: usize = 1 << 28;
+/// So many numbers are read from any file, and two more for each byte of its buffers: accessors may share their bytes.
+const NUMBERS: usize = 1 << 25;
 
 /// The document with the bytes of its buffers.
 pub(super) struct Data<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: Vec<Vec<u8>>,
+    /// How many more numbers may be read.
+    left: Cell<usize>,
 }
 
-impl Data<'_> {
+impl<'a> Data<'a> {
+    /// Returns the data of a document, with what its size allows to be read.
+    pub(super) fn new(document: &'a Document, buffers: Vec<Vec<u8>>) -> Self {
+        let data = Self {
+            document,
+            buffers,
+            left: Cell::new(0),
+        };
+        data.left
+            .set(NUMBERS.saturating_add(data.bytes().saturating_mul(2)));
+        data
+    }
+
+    /// Returns how many bytes all buffers have.
+    pub(super) fn bytes(&self) -> usize {
+        self.buffers.iter().map(Vec::len).sum()
+    }
+
     /// Returns the numbers of an accessor that has `width` numbers in each element.
     pub(super) fn floats(&self, index: usize, width: usize) -> Result<Vec<f32>, Error> {
         let fault = |problem: &str| Error::element("accessors", index, problem);
@@ -38,8 +59,9 @@ impl Data<'_> {
         let numbers = accessor
             .count
             .checked_mul(width)
-            .filter(|count| *count <= MOST_NUMBERS);
+            .filter(|count| *count <= self.left.get());
         let numbers = numbers.ok_or_else(|| fault("has too many elements"))?;
+        self.left.set(self.left.get() - numbers);
         let mut values = match accessor.buffer_view {
             Some(view) => self.dense(index, accessor, (view, width))?,
             // Without a view all numbers are zero.
@@ -91,6 +113,9 @@ impl Data<'_> {
         let size =
             size(accessor.component_type).ok_or_else(|| fault("has an unknown component type"))?;
         let stride = stride.unwrap_or(size * width);
+        if stride < size * width {
+            return Err(fault("has elements that lie in each other"));
+        }
         let mut values = Vec::new();
         for element in 0..accessor.count {
             let begin = element

@@ -25,6 +25,10 @@ const NEAR_FRAME: f64 = 0.05;
 /// A deeper joint, or a file with more nodes, is not a skeleton.
 const MOST_NODES: usize = 20_000;
 const MOST_FRAMES: usize = 5_000_000;
+/// The most joints times frames of any file, and one more for each byte of its buffers.
+const MOST_POSITIONS: usize = 8_000_000;
+/// The most bytes of all buffers.
+const MOST_BYTES: usize = 1 << 31;
 
 /// Reads a GLB or `.gltf`; `beside` returns the bytes of a file in the same folder, by its name.
 ///
@@ -43,10 +47,7 @@ pub fn read(
     if !document.asset.version.starts_with("2.") {
         return Err(Error::NoGltf);
     }
-    let data = Data {
-        buffers: buffers(&document, binary, beside)?,
-        document: &document,
-    };
+    let data = Data::new(&document, buffers(&document, binary, beside)?);
     let mut findings = Findings::default();
     for extension in &document.extensions_required {
         if extension == "EXT_meshopt_compression" {
@@ -95,6 +96,7 @@ fn buffers(
     binary: Option<&[u8]>,
     beside: &dyn Fn(&str) -> Option<Vec<u8>>,
 ) -> Result<Vec<Vec<u8>>, Error> {
+    let mut total = 0_usize;
     let bytes = |(at, buffer): (usize, &super::model::Buffer)| {
         let bytes = match &buffer.uri {
             None => binary
@@ -114,6 +116,14 @@ fn buffers(
         };
         if bytes.len() < buffer.byte_length {
             return Err(Error::Short("a buffer"));
+        }
+        total = total.saturating_add(bytes.len());
+        if total > MOST_BYTES {
+            return Err(Error::element(
+                "buffers",
+                at,
+                "makes more bytes than can be held",
+            ));
         }
         Ok(bytes)
     };
@@ -378,6 +388,7 @@ fn scene(data: &Data<'_>, rig: Rig, findings: &mut Findings) -> Result<Scene, Er
             convention,
             morphs: None,
             take: None,
+            clock: None,
         });
     };
     if document.animations.len() > 1 {
@@ -405,12 +416,20 @@ fn scene(data: &Data<'_>, rig: Rig, findings: &mut Findings) -> Result<Scene, Er
             .chain(weights.iter().map(|it| &it.keys)),
         findings,
     );
-    let Some(grid) = grid else {
+    let most = MOST_POSITIONS.saturating_add(data.bytes());
+    let wide = weights.iter().map(|it| it.keys.width).sum::<usize>();
+    let fits = |grid: &Grid| grid.frames.saturating_mul(rig.joints.len() + wide) <= most;
+    let Some(grid) = grid.filter(fits) else {
+        findings.push(Finding::warning(
+            None,
+            "its key times make more frames than can be held; one frame at rest was made",
+        ));
         return Ok(Scene {
             clip: Clip::still(skeleton, still, 1),
             convention,
             morphs: None,
             take: animation.name.clone(),
+            clock: None,
         });
     };
     let channels = rig.joints.iter().zip(&moved).zip(&rig.scales);
@@ -446,6 +465,7 @@ fn scene(data: &Data<'_>, rig: Rig, findings: &mut Findings) -> Result<Scene, Er
         convention,
         morphs,
         take: animation.name.clone(),
+        clock: None,
     })
 }
 
@@ -588,7 +608,7 @@ impl Grid {
             });
         };
         let guess = rate_of(near_usual(1.0 / step)).or_else(|| Rate::new(STILL_RATE, 1).ok())?;
-        let frames = ((last - first) * guess.per_second()).round() as usize + 1;
+        let frames = (((last - first) * guess.per_second()).round() as usize).saturating_add(1);
         if frames > MOST_FRAMES {
             return None;
         }

@@ -79,7 +79,7 @@ fn object(value: Value) -> Option<Map<String, Value>> {
     }
 }
 
-fn cell(value: Option<&Value>) -> String {
+pub(super) fn cell(value: Option<&Value>) -> String {
     match value {
         None | Some(Value::Null) => String::new(),
         Some(Value::String(text)) => text.clone(),

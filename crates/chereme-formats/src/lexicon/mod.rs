@@ -4,7 +4,7 @@
 //! Compound cells are kept apart: `neutral space > head` is two successive values, `S + W` two at once,
 //! `>S` a final value alone; `-` and `N/A` are not applicable, `?` is unclear. A column of HamNoSys,
 //! recognised by its title or by its symbols, is the sign's notation. A table may also come as JSON: an
-//! array of objects, or an object whose keys are the glosses. The original cells are kept together with
+//! array of objects, an object whose keys are the glosses, or an export of SLP-AA. The original cells are kept together with
 //! their meanings, so that [`write()`] reproduces the table.
 //!
 //! ```
@@ -20,6 +20,7 @@
 
 mod columns;
 mod json;
+mod slpaa;
 mod values;
 
 pub use columns::{Column, Meaning};
@@ -129,7 +130,7 @@ pub struct Inventory {
 /// [`TableError`] if the bytes are not a table or no column is a gloss.
 pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), TableError> {
     let mut findings = Findings::default();
-    let mut table = match json::read(bytes) {
+    let mut table = match slpaa::read(bytes).or_else(|| json::read(bytes)) {
         Some(table) => table,
         None => Cells::read(bytes, &mut findings)?,
     };

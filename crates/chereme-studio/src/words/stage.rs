@@ -24,6 +24,11 @@ texts! {
     PLACES_HINT: "Landmarks and zones of placement; click one to choose it", "Repères et zones d’emplacement ; cliquez pour en choisir une";
     GRID: "Grid", "Grille";
     GRID_HINT: "Signing space in squares of 10 cm", "Espace de signation en carrés de 10 cm";
+    POINTS: "Markers", "Marqueurs";
+    POINTS_HINT: "Optical markers and points from film, next to the signer", "Marqueurs optiques et points tirés du film, à côté de la personne";
+    ESTIMATED: "Points estimated from film", "Points estimés d’après un film";
+    ESTIMATED_FLAT: "Points estimated from film, without depth", "Points estimés d’après un film, sans profondeur";
+    NO_DEPTH: "Points without depth", "Points sans profondeur";
     BESIDE: "Beside", "À côté";
     OVER: "Over", "Dessus";
     ALONE: "Alone", "Seul";

@@ -125,6 +125,7 @@ pub(super) fn carry(
             let parts = corpus.made_parts(recording)?;
             originals(corpus, parts)
         }
+        Work::Points(recording, span) => Outcome::Points(corpus.points_in(recording, span)?),
         Work::Stretch(recording, span) => {
             let address = Address::Recording(Name::Number(recording));
             let moving = corpus.movement_in(&address, Some(span), &ChannelGroup::ALL);

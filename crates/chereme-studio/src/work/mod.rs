@@ -15,8 +15,8 @@ use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
     Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat,
     ImportOptions, ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier,
-    OperationRow, Picture, PictureOptions, Proposed, Recombination, RecordingChange, Scheme,
-    SearchOptions, SignChange, SignMap, SignerChange, Suggestions, TierChange, TierName,
+    OperationRow, Picture, PictureOptions, PointsPiece, Proposed, Recombination, RecordingChange,
+    Scheme, SearchOptions, SignChange, SignMap, SignerChange, Suggestions, TierChange, TierName,
     TrackChange, Unit,
 };
 use chereme_motion::Span;
@@ -138,6 +138,8 @@ pub(crate) enum Work {
         /// Its span.
         span: Span,
     },
+    /// Loads the points of a span of a recording, such as optical markers.
+    Points(i64, Span),
     /// Loads a span of a recording's movement by itself; none is no error.
     Stretch(i64, Span),
     /// Loads the originals of what a sign is made of.
@@ -209,6 +211,8 @@ pub(crate) enum Outcome {
         /// The movement.
         moving: Arc<Moving>,
     },
+    /// The points of a span of a recording.
+    Points(Vec<PointsPiece>),
     /// The movement of a span, where there is some.
     Stretch(Option<Arc<Moving>>),
     /// Pieces of a generated sign, each with its original if it has one.
@@ -304,7 +308,9 @@ impl Work {
             Self::Preview(_) => Lane::Make,
             Self::Draft { .. } => Lane::Draft,
             Self::Movement { .. } => Lane::Movement,
-            Self::Stretch(..) | Self::Originals(_) | Self::OriginalsOf(_) => Lane::Little,
+            Self::Points(..) | Self::Stretch(..) | Self::Originals(_) | Self::OriginalsOf(_) => {
+                Lane::Little
+            }
             Self::Measure { .. } => Lane::Measure,
             Self::Export(..) | Self::ExportFound(..) | Self::Share(..) => Lane::Export,
         }
@@ -329,6 +335,7 @@ impl Work {
             | Self::Draft { .. } => shell::TASK_RECOMBINE,
             Self::Export(..) | Self::ExportFound(..) | Self::Share(..) => shell::TASK_EXPORT,
             Self::Movement { .. }
+            | Self::Points(..)
             | Self::Stretch(..)
             | Self::Originals(_)
             | Self::OriginalsOf(_)

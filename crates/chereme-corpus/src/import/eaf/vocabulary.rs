@@ -14,7 +14,7 @@ use crate::import::report::ReportFinding;
 use crate::inventories::{self, StoredInventory};
 
 /// The inventory of a component tier: its vocabulary, or one of the corpus that has all its values.
-pub(super) fn tier_inventory(
+pub(in crate::import) fn tier_inventory(
     job: &mut Job<'_>,
     transcript: &Transcript,
     tier: &Tier,

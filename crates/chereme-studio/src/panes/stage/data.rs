@@ -219,6 +219,8 @@ pub(crate) struct Shows {
     pub(crate) trails: Option<f64>,
     pub(crate) ghosts: bool,
     pub(crate) grid: bool,
+    /// Whether markers stand next to the signer.
+    pub(crate) points: bool,
 }
 
 /// All that the pictures of the stage depend on.

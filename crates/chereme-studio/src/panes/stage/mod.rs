@@ -8,6 +8,7 @@
 //! | `handle` | its widget: dragged, moved by keys |
 //! | `marks` | landmarks and placement zones over the body |
 //! | `original` | what made movement was made from |
+//! | `points` | optical markers, and points from film |
 //! | `artist` | the thread that draws |
 //! | `ways` | what is remembered of it |
 //! | `tools` | the line above |
@@ -19,6 +20,7 @@ mod gizmo;
 mod handle;
 mod marks;
 mod original;
+mod points;
 mod scene;
 mod tools;
 mod transport;
@@ -43,6 +45,7 @@ use artist::Artist;
 use data::{Compare, Eye, Look, Shows};
 use marks::Zone;
 use original::Original;
+use points::Points;
 use scene::{Movement, Subject};
 pub(crate) use ways::StageWays;
 
@@ -57,6 +60,7 @@ pub(crate) struct Stage {
     artist: Option<Artist>,
     signer: Option<(Of, Subject)>,
     original: Original,
+    points: Points,
     /// Where each pane is looked at from.
     eyes: Vec<Eye>,
     /// The pane that keys are about.
@@ -97,6 +101,7 @@ impl Default for Stage {
             artist: None,
             signer: None,
             original: Original::default(),
+            points: Points::default(),
             eyes: vec![Eye::default()],
             active: 0,
             compare: Compare::default(),
@@ -104,6 +109,7 @@ impl Default for Stage {
                 trails: None,
                 ghosts: false,
                 grid: false,
+                points: true,
             },
             reach: REACH,
             places: false,
@@ -157,6 +163,9 @@ impl Stage {
             self.asked = None;
         }
         if self.original.follow(seen, out) {
+            self.asked = None;
+        }
+        if self.points.follow(seen, out) {
             self.asked = None;
         }
     }
@@ -281,7 +290,7 @@ impl Pane for Stage {
     }
 
     fn hear(&mut self, id: WorkId, ended: &Ended) {
-        if self.original.hear(id, ended) {
+        if self.original.hear(id, ended) || self.points.hear(id, ended) {
             self.asked = None;
         }
     }

@@ -61,6 +61,14 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
                 out.send(Command::Do(action));
             }
         }
+        if stage.points.are_there() && stage.signer.is_some() {
+            let button = Button::selectable(stage.shows.points, seen.say(words::POINTS));
+            let button = ui.add(button).on_hover_text(seen.say(words::POINTS_HINT));
+            if button.clicked() {
+                stage.shows.points = !stage.shows.points;
+                stage.asked = None;
+            }
+        }
         // After them all: a button keeps its place when another is pressed.
         if stage.shows.trails.is_some() {
             reach(stage, ui, seen);

@@ -2,6 +2,7 @@
 
 use chereme_figure::Theme;
 use chereme_figure::camera::{Camera, Projection};
+use chereme_figure::mesh::Mesh;
 use chereme_figure::raster::Style;
 use chereme_motion::ModelPose;
 use eframe::egui::emath::GuiRounding;
@@ -136,7 +137,7 @@ fn why_nothing(stage: &Stage, seen: &Seen<'_>) -> Option<Text> {
             words::NO_RECORDING
         })
     } else if !seen.reel.has_movement() {
-        Some(words::NO_MOVEMENT)
+        (!stage.points.are_there()).then_some(words::NO_MOVEMENT)
     } else if stage.signer.is_none() {
         Some(words::LOADING)
     } else {
@@ -281,10 +282,20 @@ fn pictures(
             data::samples(moving, [(area * shrink * shrink * weight) as usize, 1])
         },
     };
-    let (_, signer) = stage.signer.as_ref()?;
-    let pose = movement(seen).pose(&signer.skeleton, at);
+    let pose = match &stage.signer {
+        Some((_, signer)) => movement(seen).pose(&signer.skeleton, at),
+        None => None,
+    };
     stage.coming = pose.is_none();
-    if let Some(pose) = &pose
+    if stage.signer.is_none() {
+        let mesh = stage.points.mesh(at, false);
+        stage.coming = mesh.is_none();
+        if let Some(mesh) = mesh
+            && stage.asked.as_ref() != Some(&look)
+        {
+            wish_points(stage, look, mesh);
+        }
+    } else if let Some(pose) = &pose
         && stage.asked.as_ref() != Some(&look)
     {
         wish(stage, seen, look, pose);
@@ -361,6 +372,9 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
             figures.push(Figure::at_rest(body, pose));
         }
     }
+    let points = look.shows.points.then(|| stage.points.mesh(look.at, true));
+    let points = points.flatten().filter(|mesh| !mesh.triangles.is_empty());
+    let points = points.map(std::sync::Arc::new);
     let trails = look.shows.trails.map(|reach| {
         let paper = theme.background();
         let mesh = signer.trails(movement(seen), (look.at, end), reach, paper);
@@ -396,6 +410,11 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
             layers.extend(original.as_ref().map(|_| sheet(Some(at), None, 1.0)));
         } else {
             layers.push(sheet(Some(0), trails.clone(), 1.0));
+            let veiled = false;
+            layers.extend(points.clone().map(|points| Sheet {
+                veiled,
+                ..sheet(None, Some(points), 1.0)
+            }));
             layers.extend(ghosts.iter().map(|it| sheet(Some(it.0), None, it.1)));
         }
         if let (Who::Both, Some((figure, _))) = (who, &original) {
@@ -415,6 +434,46 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
     artist.wish(Wish {
         number: stage.wished,
         figures,
+        panes,
+        style: Style {
+            theme,
+            samples: look.samples,
+            threads: threads(),
+            ..Style::default()
+        },
+    });
+    stage.asked = Some(look);
+}
+
+/// Wishes for pictures of points alone.
+fn wish_points(stage: &mut Stage, look: Look, mesh: Mesh) {
+    let theme = if look.dark { Theme::Dark } else { Theme::Light };
+    let Some(artist) = &stage.artist else { return };
+    let mesh = std::sync::Arc::new(mesh);
+    let mut panes = Vec::new();
+    for (eye, _, size) in &look.parts {
+        let eye = look.eyes[*eye];
+        let aspect = size[0] as f32 / size[1] as f32;
+        let Some(preset) = stage.points.camera(eye.view, aspect) else {
+            return;
+        };
+        let layer = |mesh| Sheet {
+            figure: None,
+            marks: Some(mesh),
+            opacity: 1.0,
+            veiled: false,
+        };
+        panes.push(Pane {
+            camera: eye.camera(preset),
+            size: *size,
+            // The lowest sheet is kept from picture to picture: it is empty paper.
+            layers: vec![layer(std::sync::Arc::default()), layer(mesh.clone())],
+        });
+    }
+    stage.wished += 1;
+    artist.wish(Wish {
+        number: stage.wished,
+        figures: Vec::new(),
         panes,
         style: Style {
             theme,
@@ -561,8 +620,17 @@ fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
         .signer
         .as_ref()
         .is_some_and(|it| it.1.is_without_fingers());
+    let points = match stage.points.note() {
+        _ if stage.signer.is_some() && !stage.points.are_in_room() => None,
+        Some("estimated from film, no depth") => Some(words::ESTIMATED_FLAT),
+        Some("no depth") => Some(words::NO_DEPTH),
+        Some(_) => Some(words::ESTIMATED),
+        None => None,
+    };
     if stage.coming {
         chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::COMING));
+    } else if let Some(points) = points.filter(|_| stage.signer.is_none() || stage.shows.points) {
+        chip(ui, at, Align2::CENTER_BOTTOM, seen.say(points));
     } else if mittens {
         chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::NO_FINGERS));
     } else if let Some(made_by) = stage.original.made_by() {

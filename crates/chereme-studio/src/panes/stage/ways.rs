@@ -16,6 +16,7 @@ pub(crate) struct StageWays {
     reach: f64,
     ghosts: bool,
     grid: bool,
+    points: bool,
     places: bool,
     compare: Compare,
 }
@@ -28,6 +29,7 @@ impl Default for StageWays {
             reach: REACH,
             ghosts: false,
             grid: false,
+            points: true,
             places: false,
             compare: Compare::default(),
         }
@@ -47,6 +49,7 @@ impl StageWays {
             reach: stage.reach,
             ghosts: stage.shows.ghosts,
             grid: stage.shows.grid,
+            points: stage.shows.points,
             places: stage.places,
             compare: stage.compare,
         }
@@ -77,6 +80,7 @@ impl StageWays {
             trails: self.trails.then_some(stage.reach),
             ghosts: self.ghosts,
             grid: self.grid,
+            points: self.points,
         };
         (stage.places, stage.compare) = (self.places, self.compare);
     }

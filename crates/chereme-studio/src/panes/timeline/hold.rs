@@ -56,6 +56,7 @@ pub(super) mod tests {
             tiers: tiers.collect(),
             tokens: Vec::new(),
             media: Vec::new(),
+            tracks: Vec::new(),
         }
     }
 

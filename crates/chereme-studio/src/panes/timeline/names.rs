@@ -2,8 +2,8 @@
 
 use chereme_corpus::Contents;
 use eframe::egui::{
-    CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Response, RichText, Role, Sense, Stroke,
-    StrokeKind, TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetText, pos2, vec2,
+    Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Response, RichText, Role, Sense,
+    Stroke, StrokeKind, TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
 
 use super::edit::Scene;
@@ -42,6 +42,11 @@ impl Drawing<'_, '_> {
         if chosen {
             let mark = name.with_max_x(name.left() + 3.0);
             ui.painter().rect_filled(mark, 0.0, colours.accent);
+        }
+        let own = tier.row.shown().colour;
+        if let Some(colour) = own.and_then(|text| Color32::from_hex(&text).ok()) {
+            let mark = name.with_min_x(name.right() - 4.0).shrink2(vec2(0.5, 2.0));
+            ui.painter().rect_filled(mark, 1.0, colour);
         }
         if response.has_focus() {
             let stroke = Stroke::new(1.5, colours.accent);

@@ -25,7 +25,11 @@ pub(crate) fn rows(
 ) -> Vec<Row> {
     let known: BTreeSet<i64> = tiers.iter().map(|tier| tier.row.id).collect();
     let mut below: BTreeMap<Option<i64>, Vec<usize>> = BTreeMap::new();
-    for (at, tier) in tiers.iter().enumerate() {
+    // ELAN's settings may show tiers in another order than their file has.
+    let mut order: Vec<usize> = (0..tiers.len()).collect();
+    order.sort_by_key(|at| tiers[*at].row.shown().order.unwrap_or(usize::MAX));
+    for at in order {
+        let tier = &tiers[at];
         let parent = tier.row.parent_id;
         let parent = parent.filter(|id| known.contains(id) && *id != tier.row.id);
         below.entry(parent).or_default().push(at);

@@ -1,0 +1,230 @@
+//! Reading captures beside the libraries that others use, in one run: `gltf`, `ufbx` alone, and, if `CHEREME_PYTHON` names a
+//! Python that has them, `ezc3d`, `c3d` and `pose-format`. Prints a table of medians and ratios.
+//!
+//! `CHEREME_SHARED_DATA=... CHEREME_PYTHON=... cargo bench -p chereme-formats --bench captures`; without other people's
+//! captures only a GLB of the program's own is read.
+
+#![allow(clippy::print_stdout)]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+use chereme_formats::{c3d, gltf as own_gltf, pose};
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Channel, Clip, Joint, Rate, Skeleton};
+
+/// How often each is read.
+const ROUNDS: usize = 21;
+
+fn main() {
+    println!("| file | this program | peer | its time | ratio |\n|---|--:|---|--:|--:|");
+    let bytes = own_gltf::write(&body(), &own_gltf::About::default());
+    let own = median(|| assert!(own_gltf::read(&bytes, &|_| None).is_ok()));
+    let peer = median(|| assert!(numbers_of(&bytes) > 100_000));
+    row(
+        "65 joints, 3,600 frames, .glb",
+        own,
+        "`gltf` 1.4, numbers as stored",
+        peer,
+    );
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA").map(PathBuf::from) else {
+        println!("\nCHEREME_SHARED_DATA is not set: other people's captures are left out.");
+        return;
+    };
+    fbx(&data.join("motion/fbx"));
+    let c3d_file = find(&data.join("motion/c3d"), "walking2.c3d");
+    let pose_file = find(&data.join("motion/pose"), "sample-data-example.pose");
+    for (file, peers) in [
+        (
+            c3d_file,
+            [
+                ("ezc3d", "import ezc3d", "ezc3d.c3d(F)"),
+                (
+                    "c3d",
+                    "import c3d",
+                    "list(c3d.Reader(open(F,'rb')).read_frames())",
+                ),
+            ],
+        ),
+        (
+            pose_file,
+            [
+                (
+                    "pose-format",
+                    "from pose_format import Pose",
+                    "Pose.read(open(F,'rb'))",
+                ),
+                (
+                    "pose-format, bytes in memory",
+                    "from pose_format import Pose; B=open(F,'rb').read()",
+                    "Pose.read(B)",
+                ),
+            ],
+        ),
+    ] {
+        let Some(file) = file else { continue };
+        let bytes = std::fs::read(&file).expect("read");
+        let is_pose = file.extension().is_some_and(|it| it == "pose");
+        let own = median(|| match is_pose {
+            true => assert!(pose::read(&bytes).is_ok()),
+            false => assert!(c3d::read(&bytes).is_ok()),
+        });
+        let name = file
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        for (peer, before, call) in peers {
+            if let Some(time) = python(&file, before, call) {
+                row(&name, own, peer, time);
+            }
+        }
+    }
+}
+
+fn row(file: &str, own: f64, peer: &str, time: f64) {
+    println!(
+        "| {file} | {:.2} ms | {peer} | {:.2} ms | {:.2} |",
+        own * 1e3,
+        time * 1e3,
+        time / own
+    );
+}
+
+fn median(mut work: impl FnMut()) -> f64 {
+    let mut times: Vec<f64> = (0..ROUNDS)
+        .map(|_| {
+            let begun = Instant::now();
+            work();
+            begun.elapsed().as_secs_f64()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[ROUNDS / 2]
+}
+
+/// Returns the median of a call in Python, in seconds; nothing if there is no Python or it lacks the library.
+fn python(file: &Path, before: &str, call: &str) -> Option<f64> {
+    let program = std::env::var_os("CHEREME_PYTHON")?;
+    let script = format!(
+        "import sys,time,warnings\nwarnings.simplefilter('ignore')\nF=sys.argv[1]\n{before}\nt=[]\nfor _ in range({ROUNDS}):\n b=time.perf_counter()\n {call}\n \
+         t.append(time.perf_counter()-b)\nprint(sorted(t)[{}])",
+        ROUNDS / 2
+    );
+    let output = Command::new(program)
+        .arg("-c")
+        .arg(script)
+        .arg(file)
+        .output()
+        .ok()?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let last = text.lines().last()?.trim().parse().ok();
+    if last.is_none() {
+        println!(
+            "<!-- {call}: {} -->",
+            String::from_utf8_lossy(&output.stderr)
+                .lines()
+                .last()
+                .unwrap_or_default()
+        );
+    }
+    last
+}
+
+/// Returns a file of that name somewhere below a folder.
+fn find(folder: &Path, name: &str) -> Option<PathBuf> {
+    let entries = std::fs::read_dir(folder).ok()?.flatten();
+    entries
+        .map(|it| it.path())
+        .find_map(|path| match path.is_dir() {
+            true => find(&path, name),
+            false => path
+                .file_name()
+                .is_some_and(|it| it == name)
+                .then_some(path),
+        })
+}
+
+/// A body of 65 joints that all turn, two minutes at 30 frames a second.
+fn body() -> Clip {
+    let mut joints = vec![Joint::new("Hips", None, DVec3::Y)];
+    joints.extend(
+        (1..65).map(|at| Joint::new(format!("joint{at}"), Some((at - 1) / 2), DVec3::X * 0.1)),
+    );
+    let skeleton = Skeleton::new(joints).expect("a skeleton");
+    let channels = (0..65).map(|joint| Channel {
+        rotations: (0..3600)
+            .map(|frame| DQuat::from_rotation_x((f64::from(frame) * 0.01 + f64::from(joint)).sin()))
+            .collect(),
+        translations: None,
+    });
+    Clip::new(
+        skeleton.into(),
+        Rate::new(30, 1).expect("a rate"),
+        channels.collect(),
+    )
+    .expect("a clip")
+}
+
+/// Reads every number of every sampler with the crate `gltf`, and returns how many there are.
+fn numbers_of(bytes: &[u8]) -> usize {
+    let file = gltf::Gltf::from_slice_without_validation(bytes).expect("a document");
+    let blob = file.blob.as_deref().unwrap_or_default();
+    let mut count = 0;
+    for channel in file
+        .animations()
+        .flat_map(|it| it.channels().collect::<Vec<_>>())
+    {
+        let reader = channel.reader(|_| Some(blob));
+        count += reader.read_inputs().map_or(0, Iterator::count);
+        count += match reader.read_outputs() {
+            Some(gltf::animation::util::ReadOutputs::Rotations(all)) => all.into_f32().count() * 4,
+            Some(gltf::animation::util::ReadOutputs::Translations(all)) => all.count() * 3,
+            _ => 0,
+        };
+    }
+    count
+}
+
+#[cfg(feature = "fbx")]
+fn fbx(folder: &Path) {
+    let Some(file) = find(folder, "simple_anim.fbx") else {
+        return;
+    };
+    let bytes = std::fs::read(&file).expect("read");
+    let own = median(|| assert!(chereme_formats::fbx::read(&bytes).is_ok()));
+    let options = || ufbx::LoadOpts {
+        ignore_geometry: true,
+        ..ufbx::LoadOpts::default()
+    };
+    let loaded = median(|| {
+        ufbx::load_memory(&bytes, options()).expect("a scene");
+    });
+    row(
+        "simple_anim.fbx, 161 nodes, 6 frames",
+        own,
+        "`ufbx` 0.11, loaded",
+        loaded,
+    );
+    let played = median(|| {
+        let scene = ufbx::load_memory(&bytes, options()).expect("a scene");
+        let mut sum = 0.0;
+        for frame in 0..6 {
+            for node in &scene.nodes {
+                let time = f64::from(frame) / 30.0;
+                sum += ufbx::evaluate_transform(&scene.anim, node, time).rotation.w;
+            }
+        }
+        assert!(sum.is_finite());
+    });
+    row(
+        "simple_anim.fbx, 161 nodes, 6 frames",
+        own,
+        "`ufbx` 0.11, every node at every frame",
+        played,
+    );
+}
+
+#[cfg(not(feature = "fbx"))]
+fn fbx(_: &Path) {}

@@ -1,0 +1,381 @@
+//! JSON of points that were estimated from film: OpenPose, one file a frame or one for a film, and MediaPipe's landmarks.
+//!
+//! Every person of OpenPose becomes a track of its own, followed by the nearest mean place. OpenPose says neither the
+//! rate of the film nor, in files of one frame, the size of its pictures.
+//!
+//! ```
+//! use chereme_formats::keypoints::{self, Reader};
+//! use chereme_motion::Rate;
+//!
+//! let frame = br#"{"version":1.3,"people":[{"pose_keypoints_2d":[10.5,20,0.9, 0,0,0]}]}"#;
+//! assert!(keypoints::is_keypoints(frame));
+//! let mut reader = Reader::default();
+//! reader.push(Some(0), frame)?;
+//! let (tracks, _) = reader.finish(Rate::new(25, 1).ok())?;
+//! assert_eq!(tracks.tracks.len(), 1);
+//! # Ok::<(), keypoints::Error>(())
+//! ```
+
+mod cloud;
+mod names;
+#[cfg(test)]
+mod tests;
+
+use chereme_motion::{Rate, Times};
+use serde_json::{Map, Value};
+
+use crate::finding::Finding;
+use crate::tally::Findings;
+use crate::tracks::{Content, Track, Tracks};
+use cloud::{Cloud, Kind, Point};
+
+/// Frames a second if neither the file nor the caller has a rate.
+pub const USUAL_RATE: u32 = 25;
+/// The most people that are followed.
+const PEOPLE: usize = 16;
+/// The greatest number of a frame.
+const FRAMES: u64 = 5_184_000;
+
+/// Why bytes could not be read as points from film.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// The bytes are not JSON.
+    #[error("{0}")]
+    Json(String),
+    /// No frame has a point.
+    #[error("the file holds no points")]
+    Empty,
+    /// There are more points than any film has.
+    #[error("it has more than {0} places of points")]
+    Large(usize),
+    /// The number of a frame is out of range.
+    #[error("frame {0} is beyond the last possible one")]
+    Frame(u64),
+    /// The points cannot be a track.
+    #[error("{0}")]
+    Track(String),
+}
+
+/// Returns whether a file that begins with these bytes holds points of OpenPose or MediaPipe.
+#[must_use]
+pub fn is_keypoints(head: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(&head[..head.len().min(1 << 14)]);
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let lower = text.to_ascii_lowercase();
+    text.starts_with(['{', '['])
+        && (lower.contains("\"people\"")
+            || lower.contains("_keypoints_")
+            || lower.contains("landmarks\""))
+        && !lower.contains("\"categoryname\"")
+}
+
+/// Returns the prefix and the number of the name of an OpenPose file of one frame:
+/// `take_000000000012_keypoints.json`.
+#[must_use]
+pub fn frame_of_name(name: &str) -> Option<(&str, u64)> {
+    let stem = name.strip_suffix(".json")?.strip_suffix("_keypoints")?;
+    let (prefix, number) = stem.rsplit_once('_')?;
+    let digits = !number.is_empty() && number.bytes().all(|it| it.is_ascii_digit());
+    (digits && !prefix.is_empty()).then_some((prefix, number.parse().ok()?))
+}
+
+/// Collects frames of points.
+#[derive(Debug, Default)]
+pub struct Reader {
+    films: Vec<Film>,
+    /// The number of the first frame, which counts as 0.
+    first: Option<u64>,
+    /// Milliseconds of frames that state them.
+    millis: Vec<(u64, f64)>,
+    findings: Findings,
+}
+
+/// The people of one camera, and the landmarks that belong to nobody in particular.
+#[derive(Debug, Default)]
+struct Film {
+    camera: String,
+    size: Option<[f64; 2]>,
+    people: Vec<Cloud>,
+    marks: Vec<Cloud>,
+}
+
+impl Reader {
+    /// Adds a document: the frame of that number, or a film whole if its frames have numbers of their own.
+    ///
+    /// # Errors
+    /// [`Error`] if the bytes are not JSON of points, or there are too many of them.
+    pub fn push(&mut self, frame: Option<u64>, bytes: &[u8]) -> Result<(), Error> {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let document: Value = serde_json::from_slice(bytes)
+            .map_err(|error| Error::Json(format!("line {}: {error}", error.line())))?;
+        match &document {
+            Value::Array(all) if all.iter().any(|it| it.get("frames").is_some()) => {
+                for camera in all {
+                    self.camera(camera)?;
+                }
+            }
+            Value::Array(all) => {
+                for (at, one) in (0..).zip(all) {
+                    self.frame(0, frame.unwrap_or(0) + at, one)?;
+                }
+            }
+            other if other.get("frames").is_some() => self.camera(other)?,
+            other => self.frame(0, frame.unwrap_or(0), other)?,
+        }
+        Ok(())
+    }
+
+    /// Adds the frames of one camera: an object by number, or an array.
+    fn camera(&mut self, document: &Value) -> Result<(), Error> {
+        let name = document.get("camera").map(|it| match it {
+            Value::String(name) => name.clone(),
+            other => other.to_string(),
+        });
+        let number = |key: &str| document.get(key).and_then(Value::as_f64);
+        let film = self.films.len();
+        self.films.push(Film {
+            camera: name.unwrap_or_default(),
+            size: number("width")
+                .zip(number("height"))
+                .map(|(width, height)| [width, height]),
+            ..Film::default()
+        });
+        match document.get("frames") {
+            Some(Value::Object(frames)) => {
+                let mut numbered: Vec<(u64, &Value)> = Vec::with_capacity(frames.len());
+                for (key, value) in frames {
+                    let number = key.trim().parse();
+                    let number = number
+                        .map_err(|_| Error::Json(format!("{key:?} is no number of a frame")))?;
+                    numbered.push((number, value));
+                }
+                numbered.sort_by_key(|(number, _)| *number);
+                for (number, value) in numbered {
+                    self.frame(film, number, value)?;
+                }
+            }
+            Some(Value::Array(frames)) => {
+                for (number, value) in (0..).zip(frames) {
+                    self.frame(film, number, value)?;
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn frame(&mut self, film: usize, number: u64, document: &Value) -> Result<(), Error> {
+        let first = *self.first.get_or_insert(number);
+        let row = number.checked_sub(first).unwrap_or(number);
+        if row > FRAMES {
+            return Err(Error::Frame(number));
+        }
+        while self.films.len() <= film {
+            self.films.push(Film::default());
+        }
+        if let Some(millis) = millis(document) {
+            self.millis.push((row, millis));
+        }
+        let film = &mut self.films[film];
+        let row = row as usize;
+        match document.get("people") {
+            Some(Value::Array(people)) => {
+                film.people(row, people, &mut self.findings)?;
+            }
+            _ => {
+                if let Value::Object(object) = document {
+                    film.landmarks(row, object)?;
+                }
+            }
+        }
+        film.reach(row + 1)
+    }
+
+    /// Returns the tracks, one for each person, camera and space; `rate` is that of the film if the caller knows it.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] if there is no point at all.
+    pub fn finish(mut self, rate: Option<Rate>) -> Result<(Tracks, Vec<Finding>), Error> {
+        let rate = self.rate(rate)?;
+        let mut tracks = Tracks::default();
+        let several = self.films.len() > 1;
+        for film in self.films {
+            let prefix = match (several, film.camera.as_str()) {
+                (true, camera) if !camera.is_empty() => format!("{camera} "),
+                _ => String::new(),
+            };
+            let people = film.people.into_iter().enumerate();
+            let people = people.map(|(at, cloud)| {
+                let name = match at {
+                    0 => "landmarks".to_owned(),
+                    at => format!("landmarks {}", at + 1),
+                };
+                (name, cloud)
+            });
+            let marks = film.marks.into_iter().map(|cloud| {
+                let name = match cloud.kind() {
+                    Kind::World => "world landmarks",
+                    Kind::Pixels | Kind::Share => "landmarks",
+                };
+                (name.to_owned(), cloud)
+            });
+            for (name, cloud) in people.chain(marks).collect::<Vec<_>>() {
+                let markers = cloud.markers(Times::Even(rate), film.size, &mut self.findings)?;
+                let Some(markers) = markers else { continue };
+                tracks.tracks.push(Track::new(
+                    format!("{prefix}{name}"),
+                    Content::Markers(markers),
+                ));
+            }
+        }
+        if tracks.tracks.is_empty() {
+            return Err(Error::Empty);
+        }
+        self.findings
+            .push(Finding::note(None, "the points are estimated from film"));
+        Ok((tracks, self.findings.finish()))
+    }
+
+    /// Returns the rate: what the caller says, what times of frames show, or the usual one.
+    fn rate(&mut self, known: Option<Rate>) -> Result<Rate, Error> {
+        if let Some(rate) = known.or_else(|| stated(&self.millis)) {
+            return Ok(rate);
+        }
+        self.findings.push(
+            Finding::warning(
+                None,
+                format!("the file does not state the rate of the film; {USUAL_RATE} frames a second are taken"),
+            )
+            .with_remedy("import it with --rate, such as --rate 50 or --rate 30000/1001"),
+        );
+        Rate::new(USUAL_RATE, 1).map_err(|error| Error::Track(error.to_string()))
+    }
+}
+
+/// Returns the rate that the milliseconds of frames show.
+fn stated(millis: &[(u64, f64)]) -> Option<Rate> {
+    let (first, last) = (millis.first()?, millis.last()?);
+    let frames = last.0.checked_sub(first.0).filter(|frames| *frames > 0)?;
+    let rate = frames as f64 * 1000.0 / (last.1 - first.1);
+    let close = |(row, at): &(u64, f64)| {
+        let want = first.1 + row.checked_sub(first.0).unwrap_or(0) as f64 * 1000.0 / rate;
+        (want - at).abs() < 500.0 / rate
+    };
+    let even = rate.is_finite() && rate > 0.0 && millis.iter().all(close);
+    crate::tracks::rate_of(crate::scene::near_usual(rate)).filter(|_| even)
+}
+
+fn millis(frame: &Value) -> Option<f64> {
+    let named = |key: &str| frame.get(key).and_then(Value::as_f64);
+    named("timestampMs")
+        .or_else(|| named("timestamp_ms"))
+        .or_else(|| named("time").map(|seconds| seconds * 1000.0))
+        .filter(|at| at.is_finite())
+}
+
+impl Film {
+    /// Adds the people of a frame, each to the track of the person who was nearest.
+    fn people(
+        &mut self,
+        row: usize,
+        people: &[Value],
+        findings: &mut Findings,
+    ) -> Result<(), Error> {
+        let mut bodies: Vec<Vec<Point>> = Vec::new();
+        for person in people {
+            let Value::Object(person) = person else {
+                continue;
+            };
+            let mut points = Vec::new();
+            for (group, values) in person {
+                let Value::Array(values) = values else {
+                    continue;
+                };
+                if group.ends_with("_3d") && !values.is_empty() {
+                    findings.add("points in three dimensions", || {
+                        Finding::warning(
+                            None,
+                            format!("the points {group:?} in three dimensions are left out: their unit is not stated"),
+                        )
+                    });
+                }
+                if group.ends_with("_keypoints_2d") || group.ends_with("_keypoints") {
+                    cloud::triples(group, values, &mut points);
+                }
+            }
+            if points.iter().any(Point::is_seen) {
+                bodies.push(points);
+            }
+        }
+        let mut free: Vec<usize> = (0..self.people.len()).collect();
+        // The nearest pair first, so that two who pass each other are not exchanged by their order in the file.
+        while !bodies.is_empty() {
+            let mut best: Option<(f64, usize, usize)> = None;
+            for (body, points) in bodies.iter().enumerate() {
+                let at = cloud::middle(points);
+                for &known in &free {
+                    let far = self.people[known].far(at);
+                    if best.is_none_or(|(least, _, _)| far < least) {
+                        best = Some((far, body, known));
+                    }
+                }
+            }
+            let (body, known) = match best {
+                Some((_, body, known)) => (body, known),
+                None if self.people.len() == PEOPLE => {
+                    let left = bodies.len();
+                    findings.add("people who are left out", || {
+                        Finding::warning(
+                            None,
+                            format!("frame {row} shows {left} more people than the {PEOPLE} who are followed"),
+                        )
+                    });
+                    return Ok(());
+                }
+                None => {
+                    self.people.push(Cloud::new(Kind::Pixels));
+                    free.push(self.people.len() - 1);
+                    (0, self.people.len() - 1)
+                }
+            };
+            free.retain(|it| *it != known);
+            let points = bodies.swap_remove(body);
+            self.people[known].push(row, points)?;
+        }
+        Ok(())
+    }
+
+    /// Adds MediaPipe's landmarks of a frame.
+    fn landmarks(&mut self, row: usize, frame: &Map<String, Value>) -> Result<(), Error> {
+        let mut found: [(Kind, Vec<Point>); 2] =
+            [(Kind::Share, Vec::new()), (Kind::World, Vec::new())];
+        for (key, value) in frame {
+            let lower = key.to_ascii_lowercase();
+            if !lower.ends_with("landmarks") {
+                continue;
+            }
+            let place = usize::from(lower.contains("world"));
+            cloud::landmarks(key, value, &mut found[place].1);
+        }
+        for (kind, points) in found {
+            if points.is_empty() {
+                continue;
+            }
+            let at = match self.marks.iter().position(|cloud| cloud.kind() == kind) {
+                Some(at) => at,
+                None => {
+                    self.marks.push(Cloud::new(kind));
+                    self.marks.len() - 1
+                }
+            };
+            self.marks[at].push(row, points)?;
+        }
+        Ok(())
+    }
+
+    /// Makes every track reach so many frames.
+    fn reach(&mut self, rows: usize) -> Result<(), Error> {
+        let mut all = self.people.iter_mut().chain(&mut self.marks);
+        all.try_for_each(|cloud| cloud.reach(rows))
+    }
+}

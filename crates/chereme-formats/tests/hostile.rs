@@ -1,0 +1,432 @@
+//! Every reader on damaged bytes: cut short, with wrong counts and sizes, with numbers and words that do not belong there,
+//! with endless nesting. A reader returns a document or an error; it does not panic, hang or fill the memory.
+
+use std::fmt::Write as _;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use chereme_formats::bvh::raw::{Block, Reader};
+use chereme_formats::roles::Mapping;
+use chereme_formats::{
+    c3d, curves, eaf, gltf, hns, keypoints, lexicon, pose, sigml, subtitles, table, textgrid, trc,
+};
+use chereme_motion::{
+    Clip, Column, Convention, Instant, Joint, Marker, Markers, Rate, Skeleton, Space, Times,
+    glam::DVec3,
+};
+
+/// A format: a small file of it, and its reader, which says whether it took the bytes.
+struct Format {
+    name: &'static str,
+    sample: Vec<u8>,
+    read: fn(&[u8]) -> bool,
+    /// Whether the file is text, whose words are exchanged too.
+    is_text: bool,
+}
+
+fn format(name: &'static str, sample: impl Into<Vec<u8>>, read: fn(&[u8]) -> bool) -> Format {
+    let sample = sample.into();
+    Format {
+        is_text: std::str::from_utf8(&sample).is_ok(),
+        name,
+        sample,
+        read,
+    }
+}
+
+const BVH: &str = "HIERARCHY\nROOT Hips\n{\n OFFSET 0 90 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation \
+Yrotation\n JOINT Head\n {\n  OFFSET 0 60 0\n  CHANNELS 3 Zrotation Xrotation Yrotation\n  End Site\n  {\n   OFFSET 0 20 0\n  }\n }\n}\n\
+MOTION\nFrames: 3\nFrame Time: 0.04\n0 90 0 1 2 3 4 5 6\n0 90 0 1 2 3 4 5 6\n0 91 0.5 1 2 3 4 5 1e1\n";
+
+const EAF: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<ANNOTATION_DOCUMENT AUTHOR="" DATE="2024-01-01T00:00:00Z" FORMAT="3.0" VERSION="3.0">
+    <HEADER MEDIA_FILE="" TIME_UNITS="milliseconds"><PROPERTY NAME="lastUsedAnnotationId">2</PROPERTY></HEADER>
+    <TIME_ORDER><TIME_SLOT TIME_SLOT_ID="ts1" TIME_VALUE="0"/><TIME_SLOT TIME_SLOT_ID="ts2" TIME_VALUE="500"/></TIME_ORDER>
+    <TIER LINGUISTIC_TYPE_REF="gloss" TIER_ID="Gloss RH">
+        <ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="a1" TIME_SLOT_REF1="ts1" TIME_SLOT_REF2="ts2">
+            <ANNOTATION_VALUE>CHIEN &amp; CHAT</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION>
+    </TIER>
+    <TIER LINGUISTIC_TYPE_REF="part" PARENT_REF="Gloss RH" TIER_ID="Place">
+        <ANNOTATION><REF_ANNOTATION ANNOTATION_ID="a2" ANNOTATION_REF="a1"><ANNOTATION_VALUE>chin</ANNOTATION_VALUE></REF_ANNOTATION></ANNOTATION>
+    </TIER>
+    <LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="gloss" TIME_ALIGNABLE="true"/>
+    <LINGUISTIC_TYPE CONSTRAINTS="Symbolic_Association" LINGUISTIC_TYPE_ID="part" TIME_ALIGNABLE="false"/>
+</ANNOTATION_DOCUMENT>
+"#;
+
+const ECV: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<CV_RESOURCE AUTHOR="" DATE="2021-05-11T16:48:01+08:00" VERSION="0.2"><CONTROLLED_VOCABULARY CV_ID="Handshape">
+<CV_ENTRY_ML CVE_ID="c1"><CVE_VALUE DESCRIPTION="" LANG_REF="und">B</CVE_VALUE></CV_ENTRY_ML></CONTROLLED_VOCABULARY></CV_RESOURCE>
+"#;
+
+const PFSX: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<preferences version="1.1"><prefGroup key="TierColors"><pref key="Gloss"><Object class="java.awt.Color">0,160,255</Object></pref></prefGroup>
+<prefList key="MultiTierViewer.TierOrder"><String>B</String><String>A</String></prefList></preferences>
+"#;
+
+const TEXT_GRID: &str = "File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\nxmin = 0\nxmax = 2\ntiers? <exists>\nsize = 2\nitem \
+[]:\n item [1]:\n class = \"IntervalTier\"\n name = \"gloss\"\n xmin = 0\n xmax = 2\n intervals: size = 2\n intervals [1]:\n xmin = 0\n \
+xmax = 1\n text = \"A \"\"b\"\"\"\n intervals [2]:\n xmin = 1\n xmax = 2\n text = \"\"\n item [2]:\n class = \"TextTier\"\n name = \
+\"events\"\n xmin = 0\n xmax = 2\n points: size = 1\n points [1]:\n number = 0.5\n mark = \"clap\"\n";
+
+const SRT: &str = "1\n00:00:01,000 --> 00:00:02,500\nthe <i>dog</i>\nsleeps\n\n2\n00:00:03,000 --> 00:00:04,000\nthe cat\n";
+const VTT: &str = "WEBVTT\n\nNOTE a note\n\nid\n00:01.000 --> 00:02.500 align:start\n<v Anna>the dog &amp; the cat\n";
+const TRC: &str = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\
+\tOrigNumFrames\n100\t100\t3\t2\tmm\t100\t1\t3\nFrame#\tTime\tLSHO\t\t\tRSHO\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n1\t0\t1\t2\t3\t-1\t2\t3\n\
+2\t0.01\t1\t2\t3\t-1\t2\t3\n3\t0.02\t1\t2\t3\t\t\t\n";
+const LIVE_LINK: &str = "Timecode,BlendShapeCount,EyeBlinkLeft,JawOpen,HeadYaw\n11:00:00:00.0,3,0.1,0.2,0.3\n11:00:00:01.0,3,0.1,0.25,0.3\n\
+11:00:00:02.0,3,0.1,0.3,0.3\n";
+const OPEN_FACE: &str = "frame, face_id, timestamp, confidence, success, AU01_r, AU45_c\n1, 0, 0.000, 0.98, 1, 0.5, 0\n2, 0, 0.033, 0.98, 1, \
+0.6, 1\n";
+const SCORES: &str = "{\"frames\":[{\"timestampMs\":0,\"faceBlendshapes\":[{\"categories\":[{\"categoryName\":\"jawOpen\",\"score\":0.5}]}]},\
+{\"timestampMs\":40,\"faceBlendshapes\":[{\"categories\":[{\"categoryName\":\"jawOpen\",\"score\":0.25}]}]}]}";
+const FAP: &str = "2.1 anna 25 2\n0 0 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 \
+0 0 0 0 0 0 0 0 0 0 0 0 0\n0 100\n0 0 1 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 \
+0 0 0 0 0 0 0 0 0\n1 120\n";
+const PEOPLE: &str = "{\"version\":1.3,\"people\":[{\"person_id\":[-1],\"pose_keypoints_2d\":[10.5,20,0.9,0,0,0],\
+\"hand_left_keypoints_2d\":[1,2,0.5]}]}";
+const FILM: &str = "[{\"camera\":\"a\",\"width\":640,\"height\":360,\"frames\":{\"0\":{\"people\":[{\"pose_keypoints_2d\":[1,2,0.5]}]},\
+\"3\":{\"people\":[]}}}]";
+const MARKS: &str = "[{\"timestampMs\":0,\"poseLandmarks\":[{\"x\":0.5,\"y\":0.5,\"z\":0,\"visibility\":1}],\
+\"poseWorldLandmarks\":[{\"x\":0.1,\"y\":0.2,\"z\":0}]},{\"timestampMs\":40}]";
+const SIGML: &str = "<sigml><hns_sign gloss=\"HUND\"><hamnosys_manual><hamflathand/><hamextfingeru/><hampalml/><hamchin/></hamnosys_manual>\
+</hns_sign><hamgestural_sign gloss=\"KAT\"><sign_manual><handconfig handshape=\"flat\" extfidir=\"u\" palmor=\"l\"/>\
+<location_bodyarm location=\"chin\"/><directedmotion direction=\"r\"/></sign_manual></hamgestural_sign></sigml>";
+const HNS: &str =
+    "HUND\thamflathand hamextfingeru hampalml hamchin\nKAT\t\\hamfist \\hamextfingeru\n";
+const TABLE: &str =
+    "gloss;Handshape strong;Location;frequency\nCAT;B;forehead > chin;12\nDOG;5;neutral space;3\n";
+const SIGNS: &str = "[{\"gloss\":\"CAT\",\"handshape\":\"B\",\"location\":\"chin\"},{\"gloss\":\"DOG\",\"hamnosys\":\"hamfist\"}]";
+const EXPORT: &str = "{\"name\":\"c\",\"signs\":[{\"signlevel\":{\"entryid\":7,\"gloss\":[\"DOG\"]},\"cfg modules\":{\"a\":\
+{\"_handconfiguration\":[{\"field_number\":4,\"slots\":[{\"slot_number\":17,\"symbol\":\"E\"}]}],\"_articulators\":[\"Hand\",{\"1\":true}]}},\
+\"loc modules\":{\"x\":{\"locationtree\":{\"checkstates\":{\"Body>Chin\":2}}}}}]}";
+const ROWS: &str = "tier,start_ms,end_ms,value\nGloss,0,500,CAT\nGloss,600,900,DOG\n";
+
+fn binary_text_grid() -> Vec<u8> {
+    let mut bytes = b"ooBinaryFile\x08TextGrid".to_vec();
+    let float = |bytes: &mut Vec<u8>, value: f64| bytes.extend(value.to_be_bytes());
+    float(&mut bytes, 0.0);
+    float(&mut bytes, 2.0);
+    bytes.push(1);
+    bytes.extend(1_i32.to_be_bytes());
+    bytes.push(12);
+    bytes.extend(b"IntervalTier");
+    bytes.extend(5_i16.to_be_bytes());
+    bytes.extend(b"gloss");
+    float(&mut bytes, 0.0);
+    float(&mut bytes, 2.0);
+    bytes.extend(1_i32.to_be_bytes());
+    float(&mut bytes, 0.0);
+    float(&mut bytes, 2.0);
+    bytes.extend(1_i16.to_be_bytes());
+    bytes.extend(b"A");
+    bytes
+}
+
+fn body() -> Clip {
+    let skeleton = Skeleton::new(vec![
+        Joint::new("hips", None, DVec3::Y),
+        Joint::new("chest", Some(0), DVec3::Y * 0.3),
+        Joint::new("head", Some(1), DVec3::Y * 0.3),
+    ])
+    .expect("a skeleton");
+    Clip::still(skeleton.into(), Rate::new(25, 1).expect("a rate"), 3)
+}
+
+fn markers() -> Markers {
+    let column = |phase: f32| Column::singles((0..4).map(|at| at as f32 + phase).collect());
+    let point = |name| Marker::new(name, vec![column(1.0), column(2.0), column(3.0)]);
+    let rate = Rate::new(100, 1).expect("a rate");
+    let space = Space::World(Convention::MODEL);
+    Markers::new(Times::Even(rate), space, vec![point("LSHO"), point("RSHO")]).expect("markers")
+}
+
+fn points() -> Vec<u8> {
+    let mut bytes = 0.2f32.to_le_bytes().to_vec();
+    let short = |bytes: &mut Vec<u8>, value: u16| bytes.extend(value.to_le_bytes());
+    for value in [100, 50, 0, 1, 4] {
+        short(&mut bytes, value);
+    }
+    bytes.extend(b"HAND");
+    short(&mut bytes, 4);
+    bytes.extend(b"XYZC");
+    for value in [1, 0, 0, 5] {
+        short(&mut bytes, value);
+    }
+    bytes.extend(b"WRIST");
+    bytes.extend(25f32.to_le_bytes());
+    bytes.extend(2u32.to_le_bytes());
+    short(&mut bytes, 1);
+    bytes.extend((0..8).flat_map(|at: u8| f32::from(at).to_le_bytes()));
+    bytes
+}
+
+/// Points of version 0.0, whose frames without people take two bytes.
+fn old_points() -> Vec<u8> {
+    let mut bytes = points();
+    bytes.splice(0..4, 0f32.to_le_bytes());
+    let body = bytes.len() - 42;
+    bytes.truncate(body);
+    for value in [25_u16, 3, 0, 0, 0] {
+        bytes.extend(value.to_le_bytes());
+    }
+    bytes
+}
+
+fn read_bvh(bytes: &[u8]) -> bool {
+    let Ok(mut reader) = Reader::open(bytes) else {
+        return false;
+    };
+    let mut block = Block::default();
+    while reader.next_block(&mut block).is_ok_and(|more| more) {}
+    true
+}
+
+fn formats() -> Vec<Format> {
+    let about = gltf::About::default();
+    let keys = |bytes: &[u8]| {
+        let mut reader = keypoints::Reader::default();
+        let pushed = reader.push(None, bytes);
+        pushed.and_then(|()| reader.finish(None)).is_ok()
+    };
+    let gltf_of = |bytes: &[u8]| gltf::read(bytes, &|_| None).is_ok();
+    let signs = |bytes: &[u8]| lexicon::read(bytes, &Mapping::default()).is_ok();
+    let mut all = vec![
+        format("bvh", BVH, read_bvh),
+        format("eaf", EAF, |bytes| eaf::read(bytes).is_ok()),
+        format("ecv", ECV, |bytes| eaf::read_vocabularies(bytes).is_ok()),
+        format("pfsx", PFSX, |bytes| eaf::settings::read(bytes).is_ok()),
+        format("textgrid", TEXT_GRID, |bytes| textgrid::read(bytes).is_ok()),
+        format("textgrid, binary", binary_text_grid(), |bytes| {
+            textgrid::read(bytes).is_ok()
+        }),
+        format("srt", SRT, |bytes| subtitles::read(bytes).is_ok()),
+        format("vtt", VTT, |bytes| subtitles::read(bytes).is_ok()),
+        format("glb", gltf::write(&body(), &about), gltf_of),
+        format(
+            "c3d",
+            c3d::write(&markers(), Instant::ZERO).expect("markers"),
+            |bytes| c3d::read(bytes).is_ok(),
+        ),
+        format("trc", TRC, |bytes| trc::read(bytes).is_ok()),
+        format("pose", points(), |bytes| pose::read(bytes).is_ok()),
+        format("pose 0.0", old_points(), |bytes| pose::read(bytes).is_ok()),
+        format("openpose", PEOPLE, keys),
+        format("openpose, a film", FILM, keys),
+        format("landmarks", MARKS, keys),
+        format("sigml", SIGML, |bytes| sigml::read(bytes).is_ok()),
+        format("hamnosys", HNS, |bytes| hns::read(bytes).is_ok()),
+        format("lexicon", TABLE, signs),
+        format("lexicon as json", SIGNS, signs),
+        format("slp-aa", EXPORT, signs),
+        format("annotations", ROWS, |bytes| {
+            table::annotations::read(bytes, None).is_ok()
+        }),
+    ];
+    for (name, text) in [
+        ("live link", LIVE_LINK),
+        ("openface", OPEN_FACE),
+        ("scores", SCORES),
+        ("fap", FAP),
+        ("curves", "time [s],a,b\n0,1,2\n0.1,2,3\n"),
+    ] {
+        all.push(format(name, text, |bytes| curves::read(bytes).is_ok()));
+    }
+    #[cfg(feature = "fbx")]
+    all.push(format(
+        "fbx",
+        include_str!("../src/fbx/plain.fbx"),
+        |bytes| chereme_formats::fbx::read(bytes).is_ok(),
+    ));
+    all
+}
+
+/// Numbers that come out the same every time.
+struct Chance(u64);
+
+impl Chance {
+    fn below(&mut self, limit: usize) -> usize {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as usize) % limit.max(1)
+    }
+}
+
+/// Words that stand where numbers and names are expected.
+const WORDS: [&str; 14] = [
+    "",
+    "-1",
+    "0",
+    "4294967295",
+    "18446744073709551616",
+    "1e308",
+    "1e999",
+    "-0",
+    "NaN",
+    "inf",
+    "\"",
+    "{",
+    "\u{fffd}",
+    "99999999",
+];
+
+/// Returns damaged forms of a file.
+fn damaged(format: &Format, chance: &mut Chance) -> Vec<Vec<u8>> {
+    let whole = &format.sample;
+    let mut all = vec![Vec::new()];
+    // Cut at every block of a few bytes.
+    let step = (whole.len() / 64).max(1);
+    all.extend(
+        (0..whole.len())
+            .step_by(step)
+            .map(|end| whole[..end].to_vec()),
+    );
+    // Bytes and words of two, four and eight bytes turned to their extremes.
+    for _ in 0..96 {
+        let mut bytes = whole.clone();
+        for _ in 0..=chance.below(3) {
+            let at = chance.below(bytes.len());
+            let width = [1, 2, 4, 8][chance.below(4)].min(bytes.len() - at);
+            let fill = [0x00, 0xff, 0x7f, 0x80, chance.below(256) as u8][chance.below(5)];
+            bytes[at..at + width].fill(fill);
+        }
+        all.push(bytes);
+    }
+    // Parts left out, doubled, exchanged.
+    for _ in 0..24 {
+        let (a, b) = (chance.below(whole.len()), chance.below(whole.len()));
+        let (a, b) = (a.min(b), a.max(b));
+        let mut bytes = whole[..a].to_vec();
+        match chance.below(3) {
+            0 => {}
+            1 => bytes.extend([&whole[a..b], &whole[a..b]].concat()),
+            _ => bytes.extend(whole[a..b].iter().rev()),
+        }
+        bytes.extend(&whole[b..]);
+        all.push(bytes);
+    }
+    if format.is_text {
+        let text = String::from_utf8_lossy(whole);
+        let cuts: Vec<(usize, usize)> = words(&text);
+        for _ in 0..96 {
+            let (from, to) = cuts[chance.below(cuts.len())];
+            let word = WORDS[chance.below(WORDS.len())];
+            all.push(format!("{}{word}{}", &text[..from], &text[to..]).into_bytes());
+        }
+        for _ in 0..4 {
+            let (from, _) = cuts[chance.below(cuts.len())];
+            let many = "(<{[\"".chars().nth(chance.below(5)).unwrap_or('{');
+            let deep: String = std::iter::repeat_n(many, 30_000).collect();
+            all.push(format!("{}{deep}{}", &text[..from], &text[from..]).into_bytes());
+        }
+    }
+    all
+}
+
+/// Returns where the words of a text begin and end: runs of letters and digits.
+fn words(text: &str) -> Vec<(usize, usize)> {
+    let mut found = Vec::new();
+    let mut from = None;
+    for (at, letter) in text.char_indices() {
+        let inside = letter.is_alphanumeric() || ".-+".contains(letter);
+        match (inside, from) {
+            (true, None) => from = Some(at),
+            (false, Some(start)) => {
+                found.push((start, at));
+                from = None;
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// Returns the most memory that this process ever used, in MiB, where the system tells.
+fn most_memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kilobytes / 1024)
+}
+
+/// The most memory, in MiB, that files of a few kilobytes may take.
+const MOST: u64 = 1536;
+
+#[test]
+fn every_reader_takes_its_own_sample() {
+    for format in formats() {
+        assert!((format.read)(&format.sample), "{}", format.name);
+    }
+}
+
+#[test]
+fn no_reader_panics_on_damaged_bytes_or_fills_the_memory() {
+    let mut chance = Chance(20);
+    let mut faults = String::new();
+    for format in formats() {
+        for (number, bytes) in damaged(&format, &mut chance).into_iter().enumerate() {
+            let done = catch_unwind(AssertUnwindSafe(|| (format.read)(&bytes)));
+            if done.is_err() {
+                let shown = String::from_utf8_lossy(&bytes[..bytes.len().min(300)]).into_owned();
+                let _ = writeln!(faults, "{} panics on form {number}: {shown:?}", format.name);
+            }
+        }
+        if let Some(most) = most_memory().filter(|most| *most > MOST) {
+            panic!("{} or one before it took {most} MiB", format.name);
+        }
+    }
+    assert!(faults.is_empty(), "{faults}");
+}
+
+#[test]
+fn every_reader_takes_or_refuses_the_samples_of_all_others() {
+    for format in formats() {
+        for other in formats() {
+            (format.read)(&other.sample);
+        }
+    }
+}
+
+/// Counts and sizes that would need more memory than there is, in files that are otherwise sound.
+#[test]
+fn promises_of_endless_data_are_refused_or_cut() {
+    let mut old = old_points();
+    let end = old.len();
+    // 65,535 frames without people, and a component of 65,535 points.
+    old[end - 8..end - 6].copy_from_slice(&u16::MAX.to_le_bytes());
+    pose::read(&old).ok();
+    let glb = |accessor: &str, more: &str| {
+        format!(
+            "{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{{\"name\":\"a\"}}],\"scenes\":[{{\"nodes\":[0]}}],\
+             \"accessors\":[{accessor}],\"bufferViews\":[{{\"buffer\":0,\"byteLength\":16,\"byteStride\":0}}],\
+             \"buffers\":[{{\"byteLength\":16,\"uri\":\"data:application/octet-stream;base64,AAAAAAAAgD8AAABAAABAQA==\"}}],\
+             \"animations\":[{{\"channels\":[{{\"sampler\":0,\"target\":{{\"node\":0,\"path\":\"translation\"}}}}],\
+             \"samplers\":[{{\"input\":0,\"output\":1}}]}}]{more}}}"
+        )
+    };
+    for accessor in [
+        "{\"componentType\":5126,\"count\":4000000000,\"type\":\"SCALAR\"},{\"componentType\":5126,\"count\":4000000000,\"type\":\"VEC3\"}",
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":200000000,\"type\":\"SCALAR\"},{\"bufferView\":0,\"componentType\":5126,\"count\":200000000,\"type\":\"VEC3\"}",
+        "{\"bufferView\":0,\"byteOffset\":18446744073709551615,\"componentType\":5126,\"count\":2,\"type\":\"SCALAR\"},{\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}",
+    ] {
+        let text = glb(accessor, "");
+        assert!(
+            gltf::read(text.as_bytes(), &|_| None).is_err(),
+            "{accessor}"
+        );
+    }
+    let far = "{\"people\":[{\"pose_keypoints_2d\":[1,2,0.5]}]}";
+    let film =
+        format!("{{\"frames\":{{\"0\":{far},\"5183999\":{far},\"18446744073709551615\":{far}}}}}");
+    let mut reader = keypoints::Reader::default();
+    assert!(reader.push(None, film.as_bytes()).is_err());
+    let frames: Vec<String> = (0..2000)
+        .map(|at| format!("[{{\"categoryName\":\"n{at}\",\"score\":0}}]"))
+        .collect();
+    let scores = format!("{{\"frames\":[{}]}}", frames.join(","));
+    assert!(curves::read(scores.as_bytes()).is_err());
+    if let Some(most) = most_memory() {
+        assert!(most < MOST, "{most} MiB");
+    }
+}

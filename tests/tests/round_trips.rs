@@ -1,0 +1,243 @@
+//! A file of any format is read, stored and read back: every number and every annotation is the one of the file.
+
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use chereme_corpus::{
+    Corpus, ExportOptions, ExportWhat, ImportOptions, Name, Progress, Track, unheard,
+};
+use chereme_formats::eaf::Transcript;
+use chereme_formats::tracks::{Content, Tracks};
+use chereme_formats::{Scene, c3d, curves, fbx, gltf, keypoints, pose, subtitles, textgrid, trc};
+use chereme_motion::{
+    Clip, Column, Convention, Instant, Joint, Marker, Markers, Rate, Skeleton, Space, Times,
+    glam::DVec3,
+};
+
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+/// What a reader makes of a file.
+enum Meaning {
+    Tracks(Tracks),
+    Scene(Box<Scene>),
+    Transcript(Transcript),
+}
+
+/// Reads a file as its ending says; nothing for other endings, and for files that are refused.
+fn read(path: &Path) -> Option<Meaning> {
+    let bytes = fs::read(path).ok()?;
+    let ending = path.extension()?.to_string_lossy().to_lowercase();
+    let folder = path.parent()?.to_owned();
+    let tracks = |it: Tracks| Some(Meaning::Tracks(it));
+    match ending.as_str() {
+        "c3d" => tracks(c3d::read(&bytes).ok()?.0),
+        "trc" => tracks(trc::read(&bytes).ok()?.0),
+        "pose" => tracks(pose::read(&bytes).ok()?.0),
+        "csv" | "fap" | "pbtxt" => tracks(curves::read(&bytes).ok()?.0),
+        "json" if keypoints::is_keypoints(&bytes) => {
+            let mut reader = keypoints::Reader::default();
+            reader.push(None, &bytes).ok()?;
+            tracks(reader.finish(None).ok()?.0)
+        }
+        "json" => tracks(curves::read(&bytes).ok()?.0),
+        "glb" | "gltf" | "vrm" => {
+            let beside = |name: &str| fs::read(folder.join(name)).ok();
+            Some(Meaning::Scene(Box::new(
+                gltf::read(&bytes, &beside).ok()?.0,
+            )))
+        }
+        "fbx" => Some(Meaning::Scene(Box::new(fbx::read(&bytes).ok()?.0))),
+        "textgrid" => Some(Meaning::Transcript(textgrid::read(&bytes).ok()?.0)),
+        "srt" | "vtt" => Some(Meaning::Transcript(subtitles::read(&bytes).ok()?.0)),
+        _ => None,
+    }
+}
+
+fn corpus_of(folder: &Path, file: &Path) -> Result<Corpus> {
+    let mut corpus = Corpus::create(&folder.join("c.chereme"), "A")?;
+    let mut hear = unheard;
+    let options = ImportOptions::default();
+    let report = corpus.import(&[file.to_owned()], &options, &mut Progress::new(&mut hear))?;
+    match report.has_refusals() {
+        true => Err(format!("{}: {:?}", file.display(), report.files).into()),
+        false => Ok(corpus),
+    }
+}
+
+/// Compares a clip with that of the store, whose rotations are the same turns.
+fn same_clip(is: &Clip, want: &Clip) -> bool {
+    let joints = is.skeleton().joints().iter().zip(want.skeleton().joints());
+    let names = joints
+        .clone()
+        .all(|(a, b)| a.name == b.name && a.parent == b.parent);
+    let frames = 0..want.frames();
+    names
+        && is.frames() == want.frames()
+        && is.rate() == want.rate()
+        && frames.into_iter().all(|frame| {
+            let (a, b) = (is.pose(frame), want.pose(frame));
+            a.rotations == b.rotations && a.translations == b.translations
+        })
+}
+
+/// Checks a file; returns whether it holds something that is compared.
+fn check(path: &Path) -> Result<bool> {
+    let Some(meaning) = read(path) else {
+        return Ok(false);
+    };
+    let own = tempfile::tempdir()?;
+    let corpus = corpus_of(own.path(), path)?;
+    let rows = corpus.tracks(&Name::Number(1))?;
+    let stored = |name: &str| -> Result<Track> {
+        let row = rows.iter().find(|row| row.name == name);
+        let row = row.ok_or_else(|| format!("{}: no track {name}", path.display()))?;
+        Ok(corpus.track(row.id, None)?)
+    };
+    match meaning {
+        Meaning::Tracks(tracks) => {
+            for track in tracks.tracks {
+                let same = match (stored(&track.name)?, &track.content) {
+                    (Track::Markers(is), Content::Markers(want)) => is == *want,
+                    (Track::Curves(is), Content::Curves(want)) => is == *want,
+                    _ => false,
+                };
+                assert!(same, "{}: {}", path.display(), track.name);
+            }
+        }
+        Meaning::Scene(scene) => {
+            let Track::Skeleton(body) = stored("body")? else {
+                return Err(format!("{}: no body", path.display()).into());
+            };
+            assert!(same_clip(&body.clip, &scene.clip), "{}", path.display());
+            if let Some(morphs) = scene.morphs {
+                let Track::Curves(face) = stored("face")? else {
+                    return Err(format!("{}: no face", path.display()).into());
+                };
+                assert!(face == morphs, "{}", path.display());
+            }
+        }
+        Meaning::Transcript(want) => {
+            let ending = path.extension().unwrap_or_default();
+            let to = own.path().join("out").with_extension(ending);
+            let mut hear = unheard;
+            corpus.export(
+                &ExportWhat::Recording(Name::Number(1)),
+                &to,
+                &ExportOptions::default(),
+                &mut Progress::new(&mut hear),
+            )?;
+            let Some(Meaning::Transcript(is)) = read(&to) else {
+                return Err(format!("{} is not read again", to.display()).into());
+            };
+            assert_eq!(said(&is), said(&want), "{}", path.display());
+        }
+    }
+    Ok(true)
+}
+
+/// Tier, times and value of every annotation that says something.
+fn said(transcript: &Transcript) -> Vec<(String, i64, i64, String)> {
+    let mut all: Vec<_> = transcript
+        .tiers
+        .iter()
+        .flat_map(|tier| tier.annotations.iter().map(move |it| (tier, it)))
+        .filter(|(_, it)| !it.value.trim().is_empty())
+        .map(|(tier, it)| {
+            let at = [it.span.start(), it.span.end()].map(Instant::millis);
+            (tier.name.clone(), at[0], at[1], it.value.clone())
+        })
+        .collect();
+    all.sort();
+    all
+}
+
+fn markers() -> Result<Markers> {
+    let column =
+        |phase: f32| Column::singles((0..40_u8).map(|at| f32::from(at).sin() + phase).collect());
+    let point = |name| Marker::new(name, vec![column(1.0), column(2.0), column(3.0)]);
+    let rate = Rate::new(100, 1)?;
+    let space = Space::World(Convention::MODEL);
+    Ok(Markers::new(
+        Times::Even(rate),
+        space,
+        vec![point("LSHO"), point("RSHO"), point("C7")],
+    )?)
+}
+
+/// Returns small files of every format, written into a folder.
+fn samples(folder: &Path) -> Result<Vec<PathBuf>> {
+    let skeleton = Skeleton::new(vec![
+        Joint::new("hips", None, DVec3::Y),
+        Joint::new("chest", Some(0), DVec3::Y * 0.3),
+        Joint::new("head", Some(1), DVec3::Y * 0.3),
+    ])?;
+    let still = Clip::still(skeleton.into(), Rate::new(25, 1)?, 9);
+    let people = "{\"people\":[{\"pose_keypoints_2d\":[10.5,20,0.9,0,0,0]},{\"pose_keypoints_2d\":[300.25,20,0.5,1,2,0.125]}]}";
+    let files: Vec<(&str, Vec<u8>)> = vec![
+        ("a.glb", gltf::write(&still, &gltf::About::default())),
+        ("b.c3d", c3d::write(&markers()?, Instant::ZERO)?),
+        ("c.trc", trc::write("c.trc", &markers()?, Instant::ZERO)?.into_bytes()),
+        (
+            "d.csv",
+            b"Timecode,BlendShapeCount,JawOpen,HeadYaw\n11:00:00:00.0,61,0.1000000001,0.2\n11:00:00:01.0,61,0.25,-0.3\n".to_vec(),
+        ),
+        (
+            "e.csv",
+            b"frame, face_id, timestamp, confidence, success, AU01_r\n1, 0, 0.000, 0.98, 1, 0.51\n2, 0, 0.033, 0.98, 1, 0.6\n".to_vec(),
+        ),
+        ("f.json", people.into()),
+        (
+            "g.TextGrid",
+            b"\"ooTextFile\" \"TextGrid\" 0 2 <exists> 2 \"IntervalTier\" \"Gloss\" 0 2 2 0 1.25 \"CHAT \"\"x\"\"\" 1.25 2 \"\" \
+              \"IntervalTier\" \"Place\" 0 2 1 0 2 \"chin\""
+                .to_vec(),
+        ),
+        ("h.srt", b"1\n00:00:01,000 --> 00:00:02,500\nthe dog\nsleeps\n\n2\n00:00:03,000 --> 00:00:04,000\nthe cat\n".to_vec()),
+        ("i.vtt", b"WEBVTT\n\n00:01.000 --> 00:02.500\nthe dog &amp; the cat\n".to_vec()),
+    ];
+    let mut paths = Vec::new();
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        fs::write(&path, bytes)?;
+        paths.push(path);
+    }
+    Ok(paths)
+}
+
+#[test]
+fn every_format_is_read_back_from_the_store_as_its_file_has_it() -> Result<()> {
+    let own = tempfile::tempdir()?;
+    for path in samples(own.path())? {
+        assert!(check(&path)?, "{} is compared", path.display());
+    }
+    Ok(())
+}
+
+/// Files of more bytes than this are left to the tests of their formats.
+const LARGEST: u64 = 500_000;
+
+#[test]
+fn other_peoples_captures_are_read_back_as_their_files_have_them() -> Result<()> {
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        return Ok(());
+    };
+    let mut folders = vec![
+        PathBuf::from(&data).join("motion"),
+        PathBuf::from(&data).join("face"),
+    ];
+    folders.push(PathBuf::from(&data).join("annotation/textgrid"));
+    let mut count = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder)?.flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if entry.metadata()?.len() <= LARGEST {
+                count += usize::from(check(&path)?);
+            }
+        }
+    }
+    assert!(count > 20, "{count}");
+    Ok(())
+}
