@@ -5,11 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    Corpus, ExportOptions, ExportWhat, ImportOptions, Name, Progress, Track, unheard,
+    Address, Corpus, ExportOptions, ExportWhat, ImportOptions, Name, Progress, Track, unheard,
 };
 use chereme_formats::eaf::Transcript;
 use chereme_formats::tracks::{Content, Tracks};
-use chereme_formats::{Scene, c3d, curves, fbx, gltf, keypoints, pose, subtitles, textgrid, trc};
+use chereme_formats::{
+    Scene, c3d, curves, eaf, fbx, gltf, keypoints, pose, subtitles, textgrid, trc,
+};
 use chereme_motion::{
     Clip, Column, Convention, Instant, Joint, Marker, Markers, Rate, Skeleton, Space, Times,
     glam::DVec3,
@@ -49,6 +51,7 @@ fn read(path: &Path) -> Option<Meaning> {
         }
         "fbx" => Some(Meaning::Scene(Box::new(fbx::read(&bytes).ok()?.0))),
         "textgrid" => Some(Meaning::Transcript(textgrid::read(&bytes).ok()?.0)),
+        "eaf" => Some(Meaning::Transcript(eaf::read(&bytes).ok()?.0)),
         "srt" | "vtt" => Some(Meaning::Transcript(subtitles::read(&bytes).ok()?.0)),
         _ => None,
     }
@@ -118,11 +121,16 @@ fn check(path: &Path) -> Result<bool> {
             }
         }
         Meaning::Transcript(want) => {
-            let ending = path.extension().unwrap_or_default();
-            let to = own.path().join("out").with_extension(ending);
+            // Subtitles have one tier of no known role, which only annotation files hold.
+            let is_grid = path
+                .extension()
+                .is_some_and(|it| it.eq_ignore_ascii_case("textgrid"));
+            let to = own
+                .path()
+                .join(if is_grid { "out.TextGrid" } else { "out.eaf" });
             let mut hear = unheard;
             corpus.export(
-                &ExportWhat::Recording(Name::Number(1)),
+                &ExportWhat::Address(Address::Recording(Name::Number(1))),
                 &to,
                 &ExportOptions::default(),
                 &mut Progress::new(&mut hear),

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use chereme_corpus::{
-    Corpus, ExportOptions, ExportWhat, ImportOptions, ImportReport, ListFilter, ListKind, Name,
-    Progress, SearchOptions, TrackKind, time_of_day, unheard,
+    Address, Corpus, ExportOptions, ExportWhat, ImportOptions, ImportReport, ListFilter, ListKind,
+    Name, Progress, SearchOptions, TrackKind, time_of_day, unheard,
 };
 use chereme_motion::Rate;
 
@@ -176,7 +176,7 @@ fn settings_of_elan_show_tiers_in_their_order_and_leave_the_file_as_it_was() {
     let mut hear = unheard;
     corpus
         .export(
-            &ExportWhat::Recording(Name::Number(1)),
+            &ExportWhat::Address(Address::Recording(Name::Number(1))),
             &to,
             &ExportOptions::default(),
             &mut Progress::new(&mut hear),
@@ -274,7 +274,10 @@ fn a_folder_with_one_file_of_movement_and_one_of_a_face_is_one_take() {
             ("one/phone.csv", FACE),
             ("two/x.bvh", &other),
             ("two/y.bvh", &MOVEMENT.replace("0 0 1", "0 0 3")),
-            ("two/z.csv", &FACE.replace("0.25", "0.75")),
+            (
+                "two/z.csv",
+                &FACE.replace("0.25", "0.75").replace("10:00", "15:00"),
+            ),
         ],
     );
     let mut corpus = desk.corpus("c.chereme");
