@@ -63,7 +63,7 @@ FORMAT=\"3.0\" VERSION=\"3.0\"><HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds
 <LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"t\" TIME_ALIGNABLE=\"true\"/>\
 <LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"h\" TIME_ALIGNABLE=\"true\" CONSTRAINTS=\"Included_In\" CONTROLLED_VOCABULARY_REF=\"shapes\"/>\
 <CONTROLLED_VOCABULARY CV_ID=\"shapes\" EXT_REF=\"er1\"/><EXTERNAL_REF EXT_REF_ID=\"er1\" TYPE=\"ecv\" \
-VALUE=\"file:///home/anna/shapes.ecv\"/></ANNOTATION_DOCUMENT>";
+VALUE=\"file:///media/shapes.ecv\"/></ANNOTATION_DOCUMENT>";
 const VOCABULARY: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?><CV_RESOURCE AUTHOR=\"\" DATE=\"2021-05-11T16:48:01+08:00\" \
 VERSION=\"0.2\"><LANGUAGE LANG_DEF=\"x\" LANG_ID=\"und\" LANG_LABEL=\"u\"/><CONTROLLED_VOCABULARY CV_ID=\"shapes\">\
 <DESCRIPTION LANG_REF=\"und\"/><CV_ENTRY_ML CVE_ID=\"c1\"><CVE_VALUE LANG_REF=\"und\">bunny</CVE_VALUE></CV_ENTRY_ML>\
