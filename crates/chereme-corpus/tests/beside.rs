@@ -119,7 +119,11 @@ fn a_template_gives_its_tiers_to_recordings_without_tiers_and_its_vocabulary_com
         ],
     );
     let mut corpus = desk.corpus("c.chereme");
-    import_all(&mut corpus, &[inbox.clone()], &ImportOptions::default());
+    import_all(
+        &mut corpus,
+        std::slice::from_ref(&inbox),
+        &ImportOptions::default(),
+    );
     let tiers = |corpus: &Corpus| {
         let listing = corpus
             .list(ListKind::Tiers, &ListFilter::default())
@@ -206,7 +210,7 @@ fn files_of_single_frames_become_one_track_next_to_the_movement_of_their_name() 
         rate: Rate::new(50, 1).ok(),
         ..ImportOptions::default()
     };
-    let report = import_all(&mut corpus, &[inbox.clone()], &options);
+    let report = import_all(&mut corpus, std::slice::from_ref(&inbox), &options);
     assert_eq!(report.files.len(), 2, "{:?}", report.files);
     assert_eq!(recordings(&corpus), ["take"]);
     let tracks = corpus.tracks(&Name::Number(1)).expect("tracks");

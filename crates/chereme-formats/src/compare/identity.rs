@@ -74,7 +74,7 @@ fn by_id(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>, matching: &
     if moved.is_empty() {
         return;
     }
-    let mut equals: HashMap<(usize, &str), Vec<Place>> = HashMap::new();
+    let mut equals: BTreeMap<(usize, &str), Vec<Place>> = BTreeMap::new();
     for place in places(b) {
         let key = (place.tier, get(b, place).value.as_str());
         equals.entry(key).or_default().push(place);
