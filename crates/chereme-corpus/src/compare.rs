@@ -123,7 +123,8 @@ fn write_eaf(mine: &[u8], whole: &Transcript) -> Result<Vec<u8>> {
     if let Some(bytes) = patched(mine, whole).map_err(fault)? {
         return Ok(bytes);
     }
-    let (template, _) = raw::read(mine).map_err(fault)?;
+    let decoded = eaf::decode(mine).map_err(fault)?;
+    let (template, _) = raw::read(decoded.text.as_bytes()).map_err(fault)?;
     let mut bytes = Vec::new();
     raw::write(&to_raw(whole, &template), &mut bytes)
         .map_err(|error| Error::wrong(error.to_string()))?;

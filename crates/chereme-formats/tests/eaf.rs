@@ -483,7 +483,7 @@ fn what_is_no_eaf_is_refused_with_its_line() {
         ("nested", (HEAD.to_owned() + &"<a>".repeat(1_000_000)).into(), "line 3: elements are nested too deep, more than 64"),
         ("attributes", format!("<ANNOTATION_DOCUMENT{many}/>").into(), "line 1: the element has too many attributes, more than 64"),
         ("utf-16", utf16, "line 1: the text is in UTF-16"),
-        ("declared", b"<?xml version=\"1.0\" encoding=\"UTF-16\"?><ANNOTATION_DOCUMENT/>".into(), "line 1: the text is in UTF-16"),
+        ("declared", b"<?xml version=\"1.0\" encoding=\"Shift_JIS\"?><ANNOTATION_DOCUMENT/>".into(), "line 1: the text is in Shift_JIS"),
         ("latin-1", b"<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<ANNOTATION_DOCUMENT AUTHOR=\"\xe9\"/>".into(), "line 2: the text is in ISO-8859-1"),
         ("cut", HEAD.into(), "line 3: the file ends inside <ANNOTATION_DOCUMENT>"),
         ("crossed", (HEAD.to_owned() + "<HEADER>\n</TIER>").into(), "line 4: </TIER> closes <HEADER>"),

@@ -125,6 +125,102 @@ fn an_untouched_file_comes_back_byte_for_byte() {
     }
 }
 
+/// Returns a text in an encoding that its declaration names, with a mark or without.
+fn encoded(text: &str, encoding: &str) -> Vec<u8> {
+    let name = encoding.trim_end_matches(" marked");
+    let text = text.replacen("UTF-8", name, 1);
+    let mark = encoding.ends_with(" marked").then_some(0xfeff);
+    let units = mark.into_iter().chain(text.encode_utf16());
+    match name {
+        "UTF-16LE" => units.flat_map(u16::to_le_bytes).collect(),
+        "UTF-16" | "UTF-16BE" => units.flat_map(u16::to_be_bytes).collect(),
+        _ => text
+            .chars()
+            .map(|it| u8::try_from(u32::from(it)).expect("Latin-1"))
+            .collect(),
+    }
+}
+
+const ENCODINGS: [&str; 6] = [
+    "UTF-16LE marked",
+    "UTF-16LE",
+    "UTF-16BE",
+    "UTF-16 marked",
+    "ISO-8859-1",
+    "windows-1252",
+];
+
+#[test]
+fn files_in_other_encodings_come_back_byte_for_byte_and_keep_theirs_when_they_change() {
+    for (name, text) in both() {
+        let text = text.replacen("CHAT", "CH\u{c2}T\u{e9}", 1);
+        let text: String = text.chars().filter(|it| u32::from(*it) < 0x100).collect();
+        for encoding in ENCODINGS {
+            let bytes = encoded(&text, encoding);
+            let (before, findings) = read(&bytes).expect(encoding);
+            assert_eq!(
+                before.tiers,
+                transcript(text.as_bytes()).tiers,
+                "{encoding}"
+            );
+            assert_eq!(
+                findings.len(),
+                1 + read(text.as_bytes()).expect("read").1.len()
+            );
+            let same = patched(&bytes, &before).expect("read").expect("kept");
+            assert!(same == bytes, "{name} {encoding}");
+            let mut after = before.clone();
+            annotation(&mut after, "a1").value = "\u{ca}TRE \u{2019} \u{20ac} \u{1f91f}".into();
+            let changed = patched(&bytes, &after).expect("read").expect("in place");
+            assert!(same_meaning(&transcript(&changed), &after), "{encoding}");
+            let decoded = eaf::decode(&changed).expect("the same encoding").text;
+            let (gone, new) = difference(
+                &text.replacen("UTF-8", encoding.trim_end_matches(" marked"), 1),
+                &decoded,
+            );
+            assert_eq!((gone.len(), new.len()), (1, 1), "{encoding} {new:?}");
+        }
+    }
+}
+
+#[test]
+fn an_encoding_that_a_file_declares_wrongly_is_a_finding() {
+    let text = OLD.replacen("CHAT", "CH\u{c2}T", 1);
+    for name in ["ISO-8859-1", "UTF-16"] {
+        let wrong = text.replacen("UTF-8", name, 1);
+        let (it, findings) = read(wrong.as_bytes()).expect("read");
+        assert!(
+            findings.iter().any(|it| it.message.contains("in UTF-8")),
+            "{findings:?}"
+        );
+        let same = patched(wrong.as_bytes(), &it).expect("read").expect("kept");
+        assert!(same == wrong.as_bytes());
+    }
+    let marked = format!("\u{feff}{text}").replacen("UTF-8", "ISO-8859-1", 1);
+    assert_eq!(
+        read(marked.as_bytes()).expect("read").0.tiers,
+        transcript(text.as_bytes()).tiers
+    );
+}
+
+#[test]
+fn bytes_of_no_encoding_are_refused_in_words() {
+    let cut = &encoded(NEW, "UTF-16LE marked")[..301];
+    let mut half = encoded(NEW, "UTF-16LE marked");
+    half.splice(200..202, [0x00, 0xd8]);
+    let mut wide = vec![0xff, 0xfe, 0, 0];
+    wide.extend(NEW.chars().flat_map(|it| u32::from(it).to_le_bytes()));
+    let latin: Vec<u8> = OLD
+        .replacen("CHAT", "\u{e9}", 1)
+        .chars()
+        .map(|it| it as u8)
+        .collect();
+    for bytes in [cut, &half, &wide, &latin] {
+        let error = read(bytes).expect_err("refused");
+        assert!(!error.to_string().is_empty());
+    }
+}
+
 #[test]
 fn a_changed_value_changes_its_own_line() {
     for (_, text) in both() {

@@ -3,6 +3,7 @@
 //! Unchanged parts of such a file go back byte for byte; a changed annotation changes its
 //! own lines in the layout of the file.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::Write;
@@ -11,7 +12,7 @@ use std::path::Path;
 use chereme_formats::eaf::convert::{
     Annotation, Entry, EntryValue, Media, Place, Tier, Timing, Transcript, Vocabulary,
 };
-use chereme_formats::eaf::{from_raw, patched, raw, to_raw};
+use chereme_formats::eaf::{decode, from_raw, patched, raw, to_raw};
 use chereme_formats::roles::{self, Mapping};
 use chereme_motion::{Instant, Span};
 use chereme_sign::Stereotype;
@@ -43,7 +44,8 @@ pub(super) fn write(
     out: &mut dyn Write,
 ) -> Result<()> {
     let files = files(connection, recording)?;
-    let documents = documents(&files, recording)?;
+    let texts = texts(&files, recording)?;
+    let documents = documents(&texts, recording)?;
     let template = documents.first().cloned().unwrap_or_default();
     let transcript = transcript(connection, recording, &documents)?;
     let fault = |error| Error::wrong(format!("the file cannot be written: {error}"));
@@ -58,7 +60,8 @@ pub(super) fn write(
 /// Returns the tiers of a recording for files of other programs.
 pub(crate) fn tiers_of(connection: &Connection, recording: &RecordingRow) -> Result<Transcript> {
     let files = files(connection, recording)?;
-    let documents = documents(&files, recording)?;
+    let texts = texts(&files, recording)?;
+    let documents = documents(&texts, recording)?;
     transcript(connection, recording, &documents)
 }
 
@@ -81,21 +84,33 @@ fn files(connection: &Connection, recording: &RecordingRow) -> Result<Vec<(Strin
     Ok(files)
 }
 
-fn documents<'f>(
+/// Returns the texts of files, whatever their encoding.
+fn texts<'f>(
     files: &'f [(String, Vec<u8>)],
     recording: &RecordingRow,
-) -> Result<Vec<raw::Document<'f>>> {
-    let mut documents = Vec::new();
-    for (_, bytes) in files {
-        let (document, _) = raw::read(bytes).map_err(|error| {
-            damaged(
-                format!("a file of the recording {:?}", recording.name),
-                error.to_string(),
-            )
-        })?;
-        documents.push(document);
-    }
-    Ok(documents)
+) -> Result<Vec<Cow<'f, str>>> {
+    let texts = files.iter().map(|(_, bytes)| decode(bytes));
+    texts
+        .map(|it| {
+            it.map(|it| it.text)
+                .map_err(|error| broken(recording, &error))
+        })
+        .collect()
+}
+
+fn documents<'t>(
+    texts: &'t [Cow<'_, str>],
+    recording: &RecordingRow,
+) -> Result<Vec<raw::Document<'t>>> {
+    let documents = texts.iter().map(|text| raw::read(text.as_bytes()));
+    documents
+        .map(|it| it.map(|it| it.0).map_err(|error| broken(recording, &error)))
+        .collect()
+}
+
+fn broken(recording: &RecordingRow, error: &chereme_formats::eaf::Error) -> Error {
+    let file = format!("a file of the recording {:?}", recording.name);
+    damaged(file, error.to_string())
 }
 
 fn transcript(

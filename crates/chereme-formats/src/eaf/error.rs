@@ -5,10 +5,10 @@
 /// Oddities that the reader tolerates are a [`Finding`](crate::finding::Finding) instead.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
-    /// The file is not UTF-8.
+    /// The file is in an encoding that is not read.
     #[error(
-        "line {line}: the text is in {encoding}, and EAF is read in UTF-8; \
-         open it in ELAN or a text editor and save it as UTF-8"
+        "line {line}: the text is in {encoding}; EAF is read in UTF-8 and UTF-16, and in Latin-1 and Windows-1252 \
+         where the file says so: open it in ELAN or a text editor and save it as UTF-8"
     )]
     Encoding {
         /// The encoding that its first bytes or its declaration name, or `an unknown encoding`.

@@ -19,6 +19,7 @@
 
 mod back;
 mod check;
+mod encoding;
 mod error;
 mod fields;
 mod layout;
@@ -35,6 +36,7 @@ pub mod raw;
 pub mod settings;
 
 pub use convert::{Transcript, from_raw, to_raw};
+pub use encoding::{Decoded, decode};
 pub use error::Error;
 pub use patch::{patched, same_meaning};
 
@@ -49,12 +51,15 @@ pub fn read_vocabularies(bytes: &[u8]) -> Result<(Vec<convert::Vocabulary>, Vec<
     Ok((convert::vocabularies(&document), findings))
 }
 
-/// Reads an EAF document as a transcript: [`raw::read`], then [`from_raw`].
+/// Reads an EAF document as a transcript: [`decode`], [`raw::read`], then [`from_raw`].
 ///
 /// # Errors
-/// The same as [`raw::read`]'s.
+/// The same as those of [`decode`] and [`raw::read`].
 pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
-    let (document, mut findings) = raw::read(bytes)?;
+    let decoded = decode(bytes)?;
+    let (document, more) = raw::read(decoded.text.as_bytes())?;
+    let mut findings = decoded.findings;
+    findings.extend(more);
     let (transcript, more) = from_raw(&document);
     findings.extend(more);
     Ok((transcript, findings))

@@ -10,6 +10,7 @@ pub use same::same_meaning;
 use super::Error;
 use super::back::to_raw;
 use super::convert::from_raw_placed;
+use super::encoding::decode;
 use super::layout::{Edits, Layout};
 use super::model::{Annotation, Place, Timing, Transcript};
 use super::raw::{self, Document};
@@ -20,25 +21,24 @@ use std::collections::{BTreeMap, HashMap};
 /// Returns the file `bytes`, changed so that it means `after`; the same bytes if it does already.
 ///
 /// A changed annotation changes its own lines and time slots; line ends, quotes, entities, the order of
-/// attributes, comments and all that EAF does not define stay as they are. The date stays, too, and
+/// attributes, the encoding, comments and all that EAF does not define stay as they are. The date stays, too, and
 /// `lastUsedAnnotationId` rises if the file counts it. `None` stands for a change that is more than lines, such
 /// as a vocabulary of a format before 2.8 or another order of tiers: then the file has to be
 /// [written](raw::write) whole.
 ///
 /// # Errors
-/// The same as [`raw::read`]'s.
+/// The same as [`read`](super::read)'s.
 pub fn patched(bytes: &[u8], after: &Transcript) -> Result<Option<Vec<u8>>, Error> {
-    let (document, _) = raw::read(bytes)?;
+    let decoded = decode(bytes)?;
+    let (document, _) = raw::read(decoded.text.as_bytes())?;
     let (before, places, _) = from_raw_placed(&document);
     if same_meaning(&before, after) {
         return Ok(Some(bytes.to_vec()));
     }
-    let text = document.source.0;
     let Some(changed) = change(&document, (&before, &places), after) else {
         return Ok(None);
     };
-    let mark = &bytes[..bytes.len() - text.len()];
-    let changed = [mark, changed.as_bytes()].concat();
+    let changed = decoded.encoding.bytes(&changed);
     let (meant, _) = super::read(&changed)?;
     Ok(same_meaning(&meant, after).then_some(changed))
 }

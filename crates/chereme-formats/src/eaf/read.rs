@@ -12,7 +12,7 @@ use crate::finding::Finding;
 /// attribute is reported, too, and becomes an empty text. [`check`] checks the references.
 ///
 /// # Errors
-/// [`Error`] if the bytes are not UTF-8, not XML, cut short, not EAF, declare a document type, or exceed
+/// [`Error`] if the bytes are not UTF-8 (see [`decode`](super::decode)), not XML, cut short, not EAF, declare a document type, or exceed
 /// the limits on depth and attributes.
 pub fn read(bytes: &[u8]) -> Result<(Document<'_>, Vec<Finding>), Error> {
     document(bytes, "ANNOTATION_DOCUMENT")

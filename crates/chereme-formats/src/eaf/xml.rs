@@ -1,5 +1,6 @@
 //! A cursor over the elements of a hostile XML text, built on quick-xml's pull parser.
 
+use super::encoding::is_known;
 use super::error::Error;
 use super::raw::{At, Source};
 use crate::finding::Finding;
@@ -14,7 +15,8 @@ const DEPTH: usize = 64;
 /// The most attributes of one element; EAF needs 10.
 const ATTRIBUTES: usize = 64;
 /// The longest text that is read, in bytes.
-const BYTES: usize = 1 << 30;
+pub(super) const BYTES: usize = 1 << 30;
+
 /// The start tag of an element.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tag<'a> {
@@ -81,7 +83,8 @@ impl<'a> Cursor<'a> {
                         .encoding()
                         .and_then(Result::ok)
                         .unwrap_or("UTF-8".into());
-                    if !["utf-8", "us-ascii", "utf8"].contains(&&*encoding.to_ascii_lowercase()) {
+                    // The text is in UTF-8 by now, whatever the file was in.
+                    if !is_known(&encoding) {
                         return Err(Error::Encoding {
                             encoding: encoding.into(),
                             line: self.here(),
@@ -505,7 +508,8 @@ fn shown(text: &str) -> String {
     }
 }
 
-fn decode(bytes: &[u8]) -> Result<&str, Error> {
+/// Returns a text in UTF-8.
+pub(super) fn decode(bytes: &[u8]) -> Result<&str, Error> {
     if bytes.len() > BYTES {
         return Err(Error::Limit {
             line: 1,
@@ -533,12 +537,8 @@ fn decode(bytes: &[u8]) -> Result<&str, Error> {
         if memchr::memchr(0, bytes).is_some() {
             return Error::NotXml { line };
         }
-        let head = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]);
-        let declared = head
-            .split_once("encoding=")
-            .and_then(|(_, rest)| rest.get(1..)?.split(['"', '\'']).next().map(str::to_owned));
         let utf8 = |name: &String| name.eq_ignore_ascii_case("utf-8");
-        let encoding = declared
+        let encoding = declared(bytes)
             .filter(|name| !utf8(name))
             .unwrap_or_else(|| "an unknown encoding".into());
         Error::Encoding {
@@ -546,6 +546,16 @@ fn decode(bytes: &[u8]) -> Result<&str, Error> {
             line,
         }
     })
+}
+
+/// Returns the encoding that the declaration of a text names.
+pub(super) fn declared(bytes: &[u8]) -> Option<String> {
+    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]);
+    let declaration = head.split("?>").next()?;
+    let (_, rest) = declaration.split_once("encoding")?;
+    let rest = rest.trim_start().strip_prefix('=')?.trim_start();
+    let quote = rest.chars().next().filter(|it| ['"', '\''].contains(it))?;
+    rest[1..].split(quote).next().map(str::to_owned)
 }
 
 fn control_character(bytes: &[u8]) -> Option<usize> {

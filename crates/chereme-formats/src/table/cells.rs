@@ -189,10 +189,18 @@ fn fit(mut row: Row, width: usize, findings: &mut Findings) -> Row {
 }
 
 /// The characters of the bytes 0x80 to 0x9F in Windows-1252; elsewhere it is Latin-1.
-const WINDOWS: [char; 32] = [
+pub(crate) const WINDOWS: [char; 32] = [
     '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
     '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
 ];
+
+/// Returns the character of a byte in Windows-1252.
+pub(crate) fn western(byte: u8) -> char {
+    match byte {
+        0x80..=0x9f => WINDOWS[usize::from(byte - 0x80)],
+        _ => char::from(byte),
+    }
+}
 
 /// Returns the text of bytes in UTF-8, UTF-16 or Windows-1252.
 pub(crate) fn decode<'b>(
@@ -221,11 +229,8 @@ pub(crate) fn decode<'b>(
         Ok(text) => printable(text.into()),
         Err(error) => {
             let line = line_of(bytes, error.valid_up_to());
-            let character = |byte: &u8| match byte {
-                0x80..=0x9f => WINDOWS[usize::from(byte - 0x80)],
-                _ => char::from(*byte),
-            };
-            let text = printable(bytes.iter().map(character).collect::<String>().into())?;
+            let text: String = bytes.iter().map(|byte| western(*byte)).collect();
+            let text = printable(text.into())?;
             findings.add("another encoding", || {
                 Finding::warning(
                     line,

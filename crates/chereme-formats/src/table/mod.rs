@@ -8,4 +8,4 @@ pub mod annotations;
 mod cells;
 
 pub use cells::TableError;
-pub(crate) use cells::{COLUMNS, Cells, PADDED, Row, decode};
+pub(crate) use cells::{COLUMNS, Cells, PADDED, Row, WINDOWS, decode, western};
