@@ -381,9 +381,9 @@ fn what_is_no_lexicon_makes_nothing_and_is_named() {
         r#"{"name": "x", "version": "1.0.0", "scripts": {"start": "node a.js"}, "private": true, "license": "MIT"}"#,
     );
     desk.file("prices.csv", "item,price\nbread,2\n");
-    desk.file("take.etf", "");
-    desk.file("take.pfsx", "");
-    desk.file("more.pfsx", "");
+    desk.file("take.etf", &eaf(&[]));
+    desk.file("take.pfsx", "<preferences/>");
+    desk.file("more.pfsx", "<preferences/>");
     desk.file("good.eaf", &eaf(&[("Gloss", 0, 500, "BOL")]));
     let mut corpus = desk.corpus("c.chereme");
     let folder = [desk.folder.path().to_owned()];
