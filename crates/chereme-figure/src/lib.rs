@@ -80,5 +80,5 @@ pub use points::{PointCloud, points_sheet};
 pub use points_film::{PointsAnimation, PointsOptions};
 pub use sheet::{Frames, Progress, SheetOptions, contact_sheet, thumbnail};
 pub use strip::{Caption, Strip};
-pub use view::{Framing, View, stroke};
+pub use view::{Framing, View, has_hand_up, signed, stroke};
 pub use writer::write_png;

@@ -153,7 +153,7 @@ impl<M: Borrow<Markers>> PointCloud<M> {
             View::Right => (Vec3::NEG_X, Vec3::Y),
             View::Top => (Vec3::Y, Vec3::Z),
             View::Signer => (Vec3::new(0.0, 0.62, -0.78), Vec3::Y),
-            View::Addressee | View::Hand(_) | View::Face => (Vec3::Z, Vec3::Y),
+            View::Addressee | View::Hand(_) | View::Palm(_) | View::Face => (Vec3::Z, Vec3::Y),
         };
         let half = (self.high - self.low) * 0.5;
         let right = up.cross(towards).normalize_or(Vec3::X);

@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use chereme_motion::ends::Ends;
 use chereme_motion::{Anatomy, Clip, Face, Side};
 
 use crate::body::Body;
@@ -12,13 +11,13 @@ use crate::image::Image;
 use crate::mesh::Mesh;
 use crate::palette::Palette;
 use crate::raster::{Raster, Style};
-use crate::view::{Framing, View, stroke};
+use crate::view::{Framing, View, signed, stroke};
 
 /// The frames of a clip to show.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Frames {
-    /// This number of frames, evenly spaced from the first to the last, without odd frames at both ends;
-    /// all frames if there are fewer.
+    /// This number of frames, evenly spaced over the signing: from the first to the last frame with a hand up, without
+    /// odd frames at both ends; all of these if there are fewer.
     Spaced(usize),
     /// Exactly these.
     At(Vec<usize>),
@@ -188,7 +187,7 @@ fn chosen(frames: &Frames, clip: &Clip, anatomy: &Anatomy) -> Result<Vec<usize>,
     let last = clip.frames().checked_sub(1).ok_or(FigureError::Empty)?;
     let chosen = match frames {
         Frames::Spaced(wanted) => {
-            let sound = Ends::of(clip, anatomy).sound;
+            let sound = signed(clip, anatomy);
             let (wanted, last) = ((*wanted).min(sound.len()), sound.len().saturating_sub(1));
             (0..wanted)
                 .map(|i| (2 * last * i + (wanted - 1)) / (2 * (wanted - 1).max(1)))

@@ -1,5 +1,7 @@
 //! Camera presets, and the space of a clip's signing.
 
+use std::ops::Range;
+
 use chereme_motion::ends::Ends;
 use chereme_motion::{Anatomy, Clip, ModelPose, Part, Side};
 use glam::{Mat3, Vec3};
@@ -23,11 +25,14 @@ pub enum View {
     Hand(Side),
     /// The face from the front and near, followed as it moves, with the hands before it.
     Face,
+    /// A hand with its palm towards the eye and its fingers up, however it is turned: the same handshape looks the
+    /// same everywhere.
+    Palm(Side),
 }
 
 impl View {
     /// Every view.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::Addressee,
         Self::Signer,
         Self::Left,
@@ -36,6 +41,8 @@ impl View {
         Self::Hand(Side::Right),
         Self::Hand(Side::Left),
         Self::Face,
+        Self::Palm(Side::Right),
+        Self::Palm(Side::Left),
     ];
 
     /// Returns the name that labels and commands use.
@@ -50,13 +57,15 @@ impl View {
             Self::Hand(Side::Right) => "right hand",
             Self::Hand(Side::Left) => "left hand",
             Self::Face => "face",
+            Self::Palm(Side::Right) => "right palm",
+            Self::Palm(Side::Left) => "left palm",
         }
     }
 
     /// Returns the direction towards the eye and the picture's up, as left, up and forwards.
     const fn axes(self) -> [Vec3; 2] {
         match self {
-            Self::Addressee | Self::Hand(_) | Self::Face => [Vec3::Z, Vec3::Y],
+            Self::Addressee | Self::Hand(_) | Self::Palm(_) | Self::Face => [Vec3::Z, Vec3::Y],
             Self::Signer => [Vec3::new(0.0, 0.62, -0.78), Vec3::Y],
             Self::Left => [Vec3::X, Vec3::Y],
             Self::Right => [Vec3::NEG_X, Vec3::Y],
@@ -79,6 +88,8 @@ pub struct Framing {
     follow: Option<usize>,
     /// Whether the camera goes round with the body, because it turns far.
     turns: bool,
+    /// Whether the lower edge stays at the hips where a picture is narrower than the space: legs are not shown.
+    seated: bool,
 }
 
 /// The number of frames of a clip that are sampled to measure its space.
@@ -176,6 +187,7 @@ impl Framing {
             },
             follow,
             turns: turns && known,
+            seated: false,
         }
     }
 
@@ -220,13 +232,23 @@ impl Framing {
             return whole;
         };
         let (low, high) = hands.map_or((low, high), |it| (low.min(it.0), high.max(it.1)));
-        Self { low, high, ..whole }
+        Self {
+            low,
+            high,
+            seated: true,
+            ..whole
+        }
     }
 
     /// Returns the camera of a view for a picture whose width is `aspect` times its height; the hand views
-    /// look at that hand in `pose`, the face view at the head.
+    /// look at that hand in `pose`, the face view at the head. A picture too narrow for the space shows more room
+    /// above the head, no legs.
     #[must_use]
     pub fn camera(&self, view: View, aspect: f32, pose: &ModelPose, anatomy: &Anatomy) -> Camera {
+        let view = match view {
+            View::Palm(side) if palm_axes(pose, anatomy, side).is_none() => View::Hand(side),
+            view => view,
+        };
         let [towards, up] = view.axes();
         let own = Self {
             axes: self.facing(pose, anatomy),
@@ -242,6 +264,19 @@ impl Framing {
                 ..camera
             };
         }
+        if let View::Palm(side) = view
+            && let Some(target) = hand_middle(pose, anatomy, side)
+            && let Some((towards, up)) = palm_axes(pose, anatomy, side)
+        {
+            let half_height = self.hand * 0.6 / aspect.clamp(1e-3, 1.0);
+            return Camera {
+                eye: target + towards * (half_height * DISTANCE),
+                target,
+                up,
+                half_height,
+                near: half_height * DISTANCE - self.hand * 1.2,
+            };
+        }
         if view == View::Face
             && let Some((target, height)) = head_middle(pose, anatomy)
         {
@@ -254,8 +289,15 @@ impl Framing {
         let tall = half.dot(right.cross(towards).abs());
         let wide = half.dot(right.abs());
         let deep = half.dot(towards.abs());
-        let half_height = tall.max(wide / aspect.max(1e-3)) * 1.02 + deep / DISTANCE * 0.5;
-        own.place(middle, [towards, up], half_height)
+        let room = |half: f32| half * 1.02 + deep / DISTANCE * 0.5;
+        let half_height = room(tall.max(wide / aspect.max(1e-3)));
+        let level = matches!(view, View::Addressee | View::Left | View::Right);
+        let raised = if self.seated && level {
+            Vec3::Y * (half_height - room(tall))
+        } else {
+            Vec3::ZERO
+        };
+        own.place(middle + raised, [towards, up], half_height)
     }
 
     /// Returns the signer's left, up and forwards in a posture as the camera takes them.
@@ -293,7 +335,7 @@ impl Framing {
     #[must_use]
     pub fn aspect(&self, view: View) -> f32 {
         let [towards, up] = view.axes();
-        if matches!(view, View::Hand(_) | View::Face) {
+        if matches!(view, View::Hand(_) | View::Palm(_) | View::Face) {
             return 1.0;
         }
         let half = (self.high - self.low) * 0.5;
@@ -309,25 +351,46 @@ pub fn stroke(clip: &Clip, anatomy: &Anatomy) -> usize {
     let Some(last) = clip.frames().checked_sub(1) else {
         return 0;
     };
-    let sound = Ends::of(clip, anatomy).sound;
+    let (sound, up) = signing(clip, anatomy);
     let middle = (sound.start + sound.len() / 2).min(last);
-    let hands = Side::BOTH.map(|side| anatomy.joint(Part::Hand(side)));
-    let (Some(hips), Some(size)) = (anatomy.joint(Part::Hips), anatomy.measures()) else {
-        return middle;
-    };
-    let count = sound.len().min(LOOKS);
-    let up: Vec<usize> = (0..count)
-        .map(|i| sound.start + (sound.len() - 1) * i / (count - 1).max(1))
-        .filter(|&frame| {
-            let pose = clip.model_pose(frame);
-            let least = pose.position(hips).y + 0.2 * size.trunk;
-            hands
-                .iter()
-                .flatten()
-                .any(|&hand| pose.position(hand).y > least)
-        })
-        .collect();
     up.get(up.len() / 2).copied().unwrap_or(middle)
+}
+
+/// Returns the frames of `clip` from the first to the last with a hand up, without odd frames at both ends; all that are
+/// not odd if no hand ever is.
+#[must_use]
+pub fn signed(clip: &Clip, anatomy: &Anatomy) -> Range<usize> {
+    if clip.frames() == 0 {
+        return 0..0;
+    }
+    let (sound, up) = signing(clip, anatomy);
+    match (up.first(), up.last()) {
+        (Some(&first), Some(&last)) if last > first => first..last + 1,
+        _ => sound,
+    }
+}
+
+/// Returns the frames that are not odd, and those of up to [`LOOKS`] of them in which a hand is up.
+fn signing(clip: &Clip, anatomy: &Anatomy) -> (Range<usize>, Vec<usize>) {
+    let sound = Ends::of(clip, anatomy).sound;
+    let count = sound.len().min(LOOKS);
+    let frames = (0..count).map(|i| sound.start + (sound.len() - 1) * i / (count - 1).max(1));
+    let up = frames.filter(|&frame| has_hand_up(&clip.model_pose(frame), anatomy));
+    let up = up.collect();
+    (sound, up)
+}
+
+/// Returns whether a hand is above the lower fifth of the trunk: it signs, and does not rest. `false` if the skeleton
+/// is not a known body.
+#[must_use]
+pub fn has_hand_up(pose: &ModelPose, anatomy: &Anatomy) -> bool {
+    let (Some(hips), Some(size)) = (anatomy.joint(Part::Hips), anatomy.measures()) else {
+        return false;
+    };
+    let least = pose.position(hips).y + 0.2 * size.trunk;
+    let hands = Side::BOTH.map(|side| anatomy.joint(Part::Hand(side)));
+    let mut hands = hands.iter().flatten();
+    hands.any(|&hand| pose.position(hand).y > least)
 }
 
 /// Returns the point that the camera follows; the origin if it stands still.
@@ -370,6 +433,16 @@ fn hand_middle(pose: &ModelPose, anatomy: &Anatomy, side: Side) -> Option<Vec3> 
         .map(|&joint| pose.position(joint).as_vec3())
         .sum();
     Some(wrist.lerp(sum / fingers.len() as f32, 0.85))
+}
+
+/// Returns the direction out of a palm, a little from the thumb's side and from above, and the fingers' direction.
+fn palm_axes(pose: &ModelPose, anatomy: &Anatomy, side: Side) -> Option<(Vec3, Vec3)> {
+    let palm = anatomy.palm_normal(side, pose)?.as_vec3();
+    let along = anatomy.hand_direction(side, pose)?.as_vec3();
+    let thumb = along.cross(palm) * -side.sign() as f32;
+    let towards = (palm + thumb * 0.42 + along * 0.3).try_normalize()?;
+    let up = (along - towards * along.dot(towards)).try_normalize()?;
+    Some((towards, up))
 }
 
 /// Returns the middle of the head and its height, if both are known.

@@ -9,7 +9,7 @@ use chereme_figure::{
     Theme, View, contact_sheet, thumbnail, write_gif, write_png,
 };
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Anatomy, Clip, Face, Joint, ModelPose, Pose, Rate, Skeleton};
+use chereme_motion::{Anatomy, Clip, Face, Joint, ModelPose, Part, Pose, Rate, Side, Skeleton};
 
 #[path = "../examples/common/signer.rs"]
 mod signer;
@@ -250,9 +250,73 @@ fn every_view_shows_the_signer_and_the_figure_does_not_jump() {
             "{} shows {share}",
             view.name()
         );
-        if !matches!(view, View::Hand(_) | View::Face) {
+        if !matches!(view, View::Hand(_) | View::Palm(_) | View::Face) {
             let later = framing.camera(view, 1.0, &clip.model_pose(60), &anatomy);
             assert_eq!(camera, later);
+        }
+    }
+}
+
+#[test]
+fn legs_are_in_no_picture_however_narrow_it_is() {
+    let (clip, anatomy) = clip();
+    let framing = Framing::of(&clip, &anatomy).expect("frames");
+    let knees: Vec<usize> = Side::BOTH
+        .into_iter()
+        .flat_map(|side| [Part::Shin(side), Part::Foot(side)])
+        .filter_map(|part| anatomy.joint(part))
+        .collect();
+    let head = anatomy.joint(Part::Head).expect("a head");
+    assert!(!knees.is_empty());
+    for aspect in [0.2, 0.5, 1.0, 1.6, 3.0] {
+        for view in [View::Addressee, View::Left, View::Right] {
+            let pose = clip.model_pose(30);
+            let size = [(400.0 * aspect) as usize, 400];
+            let camera = framing.camera(view, aspect, &pose, &anatomy);
+            let projection = camera.projection(size[0], size[1]);
+            let row = |joint: usize| projection.project(pose.position(joint).as_vec3()).y;
+            for &knee in &knees {
+                assert!(row(knee) > 400.0, "{aspect} {}: {}", view.name(), row(knee));
+            }
+            assert!((0.0..400.0).contains(&row(head)));
+        }
+    }
+}
+
+#[test]
+fn a_hand_casts_a_shadow_on_the_chest_only_if_it_is_near() {
+    let (clip, anatomy) = clip();
+    let skeleton = clip.skeleton();
+    let body = Body::new(skeleton, &anatomy);
+    let dark = |pose: &ModelPose| {
+        let plain = body.mesh(&skeleton.rest_model_pose());
+        let mesh = body.mesh(pose);
+        let pairs = mesh.vertices.iter().zip(&plain.vertices);
+        pairs.filter(|(a, b)| a.colour.0[1] < b.colour.0[1]).count()
+    };
+    let frames = 0..clip.frames();
+    let shadows: Vec<usize> = frames.map(|frame| dark(&clip.model_pose(frame))).collect();
+    let (least, most) = (shadows.iter().min(), shadows.iter().max());
+    assert_eq!(least, Some(&0), "{shadows:?}");
+    assert!(most > Some(&20), "{shadows:?}");
+}
+
+#[test]
+fn a_palm_fills_its_picture_however_the_hand_is_turned() {
+    let (clip, anatomy) = clip();
+    let framing = Framing::of(&clip, &anatomy).expect("frames");
+    let body = Body::new(clip.skeleton(), &anatomy);
+    let mut raster = Raster::default();
+    for frame in [0, clip.frames() / 2] {
+        let pose = clip.model_pose(frame);
+        for side in Side::BOTH {
+            let camera = framing.camera(View::Palm(side), 1.0, &pose, &anatomy);
+            let palm = anatomy.palm_normal(side, &pose).expect("a palm").as_vec3();
+            let towards = (camera.eye - camera.target).normalize();
+            assert!(towards.dot(palm) > 0.8, "{frame}");
+            let image = raster.draw(&body.mesh(&pose), &camera, [96, 96], &Style::default());
+            let share = inked(&image, Theme::Light) as f64 / (96.0 * 96.0);
+            assert!(share > 0.1, "{frame}: {share}");
         }
     }
 }
@@ -534,7 +598,6 @@ const TORSO: u8 = 1;
 
 #[test]
 fn a_body_without_spine_hips_or_neck_keeps_its_trunk() {
-    use chereme_motion::{Part, Side};
     let (clip, whole) = clip();
     let skeleton = clip.skeleton();
     let pose = clip.model_pose(0);

@@ -3,6 +3,7 @@
 use chereme_motion::{Anatomy, Face, ModelPose, Side, Skeleton, anatomy::Part};
 use glam::{Mat3, Quat, Vec3};
 
+use super::contact::Contact;
 use super::clothed::{Clothed, FORE, SHOULDER, TRUNK, UPPER};
 use super::group;
 use super::hand::{HandAxes, HandFit, Seat};
@@ -86,10 +87,12 @@ impl<'a> Builder<'a> {
             elements: self.out.elements,
             skin,
             face: self.face,
+            contact: Contact::default(),
         };
         let mut mesh = std::mem::take(&mut body.template);
         body.pose(self.rest, &mut mesh);
         body.template = mesh;
+        body.contact = Contact::of(self.skeleton, self.anatomy, &body.template, self.size);
         body
     }
 

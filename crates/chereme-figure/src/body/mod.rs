@@ -3,6 +3,7 @@
 
 mod builder;
 mod clothed;
+mod contact;
 mod delaunay;
 mod extras;
 mod face;
@@ -25,6 +26,7 @@ use glam::Vec3;
 use crate::mesh::{Mesh, smooth};
 use crate::palette::Palette;
 use builder::Builder;
+use contact::Contact;
 use head::Head;
 use shape::{Element, place, rotation};
 use skin::{Bound, Rig};
@@ -40,6 +42,7 @@ pub struct Body {
     elements: Vec<Element>,
     skin: Option<Skin>,
     face: Option<Expressive>,
+    contact: Contact,
 }
 
 /// A skin and its vertices in the body's mesh.
@@ -183,6 +186,7 @@ impl Body {
             mesh.clone_from(&self.template);
         }
         self.pose(pose, mesh);
+        self.contact.shade(pose, &self.template, mesh);
     }
 
     fn pose(&self, pose: &ModelPose, mesh: &mut Mesh) {
