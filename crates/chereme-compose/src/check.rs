@@ -256,8 +256,27 @@ fn check_step(step: &Step) -> Result<(), RecipeError> {
         }
         Step::Amplify(amplify) => range(name, "the factor", amplify.by.0, 0.0, 20.0),
         Step::Travel(travel) => {
-            filled(name, &travel.path, "no way is given")?;
+            if !travel.path.is_empty() && !travel.through.is_empty() {
+                let what = "it has legs and a curve: keep one of them";
+                return Err(RecipeError::Empty { step: name, what });
+            }
+            if travel.through.is_empty() {
+                filled(name, &travel.path, "no way is given")?;
+                if travel.time.is_some() {
+                    let what =
+                        "only a curve has a time; each leg has its own, such as left 5cm in 0.2s";
+                    return Err(RecipeError::Empty { step: name, what });
+                }
+            }
             check_legs(name, &travel.path)?;
+            if travel.through.len() > MOST_POINTS {
+                let what = "the curve has more than 64 points";
+                return Err(RecipeError::Empty { step: name, what });
+            }
+            for point in &travel.through {
+                point.iter().try_for_each(|it| length(name, *it))?;
+            }
+            time(name, "the time", travel.time, 600.0)?;
             via(name, &travel.via)
         }
         Step::Retime(retime) => {
@@ -301,6 +320,9 @@ fn check_step(step: &Step) -> Result<(), RecipeError> {
         }
     }
 }
+
+/// The most points of a curve.
+const MOST_POINTS: usize = 64;
 
 fn check_cut(step: &'static str, cut: &Cut) -> Result<(), RecipeError> {
     time(step, "the start", cut.from, LONGEST)?;

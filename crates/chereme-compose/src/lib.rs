@@ -38,6 +38,7 @@ mod check;
 mod contact;
 mod course;
 pub mod cue;
+mod curve;
 mod draft;
 mod error;
 mod evaluate;
@@ -65,6 +66,7 @@ mod work;
 
 pub use check::{DEEPEST, MOST_PARTS, MOST_REPETITIONS};
 pub use cue::{CuePhases, PhaseRule};
+pub use curve::Spline;
 pub use draft::Draft;
 pub use error::{Cause, MakeError, Problem, RecipeError, TextError};
 pub use evaluate::{ENGINE, evaluate};

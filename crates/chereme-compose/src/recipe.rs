@@ -520,7 +520,8 @@ pub struct Amplify {
     pub by: Factor,
 }
 
-/// Settings of `travel right down 20cm then up 20cm`.
+/// Settings of `travel right down 20cm then up 20cm`, and of
+/// `travel right through 10cm,5cm,0cm then 20cm,0cm,0cm in 1.2s`: along straight legs, or along a smooth curve.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Travel {
@@ -528,7 +529,15 @@ pub struct Travel {
     #[serde(default = "dominant")]
     pub hand: Hands,
     /// The legs, one after another; those without a time share the rest by their length.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Leg>,
+    /// The points of a curve that is taken instead of legs, each so far to the left of where the hands would be, up and
+    /// forward.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub through: Vec<[Length; 3]>,
+    /// The time that the curve takes; without one all of the movement.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<Seconds>,
     /// The course along each way; without one minimum jerk.
     #[serde(default, skip_serializing_if = "Transition::is_default")]
     pub via: Transition,

@@ -131,13 +131,13 @@ pub use paths::paths_like;
 pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
 pub use place::Place;
 pub use progress::{Progress, Step, Unit, unheard};
-pub use propose::Proposed;
+pub use propose::{ProposeOptions, ProposeScope, Proposed, proposed_for};
 pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
 pub use search::{
     Answer, FACET_VALUES, Finding, FindingKind, Hit, NO_VALUE, Order, SearchOptions, Tally,
     TallyRow, guessed, meant,
 };
-pub use starter::{starter_files, unpack_starter};
+pub use starter::{StarterSign, starter_files, starter_signs, unpack_starter};
 pub use suggest::{Partner, Suggestions};
 pub use track::{
     Alignment, FitReport, FitResidual, MediaFile, NewTrack, PointsPiece, Signal, SkeletonTrack,

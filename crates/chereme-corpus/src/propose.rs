@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_analysis::transcribe::FeatureKind;
 use chereme_formats::roles::Hands;
 use chereme_formats::table::annotations::Moment;
-use chereme_motion::Instant;
+use chereme_motion::{Instant, Span};
 use chereme_sign::hamnosys::Notated;
 use chereme_sign::hamnosys::components::Mapper;
 use chereme_sign::{Component, HandRef, Phase, TierRole};
@@ -12,12 +13,38 @@ use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{Address, Name};
-use crate::annotate::{AnnotateOptions, AnnotationAction, AnnotationChange, NewTier, TierName};
+use crate::annotate::{
+    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, NewTier,
+    TierName,
+};
 use crate::db::columns::AnnotationOrigin;
 use crate::db::tiers;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use crate::search::{Hit, SearchOptions};
+use crate::transcribe::TranscribedFeature;
+
+/// What is to be proposed, and for which tokens.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProposeOptions {
+    /// The components, of [`Proposed::COMPONENTS`].
+    pub components: Vec<Component>,
+    /// The tokens; those that have a component keep what they have.
+    pub scope: ProposeScope,
+}
+
+/// The tokens that something is proposed for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ProposeScope {
+    /// All of the corpus.
+    All,
+    /// Those of a recording.
+    Recording(Name),
+    /// Those of a recording that share time with a span.
+    Span(Name, Span),
+    /// A single one.
+    Token(i64),
+}
 
 /// What was proposed.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
@@ -34,11 +61,21 @@ pub struct Proposed {
 
 impl Proposed {
     /// The components that are read from movement.
-    pub const COMPONENTS: [Component; 3] = [
+    pub const COMPONENTS: [Component; 4] = [
         Component::Configuration,
         Component::Placement,
         Component::Movement,
+        Component::Orientation,
     ];
+}
+
+/// The end of the names of tiers with proposals.
+const SUFFIX: &str = " (proposed)";
+
+/// Returns the name of the tier that accepted values of a tier with proposals go to; `None` for other tiers.
+#[must_use]
+pub fn proposed_for(tier: &str) -> Option<&str> {
+    tier.strip_suffix(SUFFIX)
 }
 
 /// A value of a token that is to be written.
@@ -46,56 +83,72 @@ struct Value {
     start: i64,
     end: i64,
     value: String,
+    confidence: Option<f64>,
 }
 
-/// The values that go onto each tier: by the recording, and the hand.
-type Values = BTreeMap<(String, HandRef), Vec<Value>>;
+/// The subject of a tier with proposals: a component, a feature of it, and the hand.
+type Subject = (Component, Option<String>, HandRef);
+
+/// The values that go onto each tier, by the recording.
+type Values = BTreeMap<(String, Subject), Vec<Value>>;
 
 impl Corpus {
-    /// Reads a component of every token from its movement that has no value for it, and writes that onto tiers of
-    /// their own, called for example `configuration dominant (proposed)`.
-    ///
-    /// Each value is an annotation of a detector, as those of [`AnnotationOrigin::Detector`], so that a person's
-    /// codings stay apart from it and another detector may replace it; all of it is one operation, which one step back
-    /// takes away. The values are those of
-    /// [`transcribe`](Self::transcribe) in the words of the corpus's inventories.
+    /// Proposes one component for every token of the corpus that has no value for it: [`propose`](Self::propose).
     ///
     /// # Errors
-    /// [`Error::Stopped`] where `progress` says so before anything is written; where movement does not say the
-    /// component, or the corpus cannot be written.
+    /// As [`propose`](Self::propose).
     pub fn propose_coding(
         &mut self,
         component: Component,
         progress: &mut Progress<'_>,
     ) -> Result<Proposed> {
-        if !Proposed::COMPONENTS.contains(&component) {
-            let text = format!("{} is not read from movement yet", component.name());
-            let readable = Proposed::COMPONENTS.map(Component::name).join(", ");
-            return Err(Error::wrong(text).advise(format!("what can be proposed: {readable}")));
-        }
-        let options = SearchOptions {
-            limit: None,
-            facets: false,
-            ..SearchOptions::default()
+        let options = ProposeOptions {
+            components: vec![component],
+            scope: ProposeScope::All,
         };
-        let query = format!("not {}=*", component.name());
-        let found = self.search_until(&query, &options, progress)?;
+        self.propose(&options, progress)
+    }
+
+    /// Reads components of tokens from their movement where they have no value for them, and writes that onto tiers of
+    /// their own, called for example `configuration dominant (proposed)`.
+    ///
+    /// Each value is an annotation of a detector, as those of [`AnnotationOrigin::Detector`], with its confidence, so
+    /// that a person's codings stay apart from it and another detector may replace it; all of it is one operation, which
+    /// one step back takes away. The values are those of [`transcribe`](Self::transcribe) in the words of the corpus's
+    /// inventories.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] where `progress` says so before anything is written; where movement does not say a
+    /// component, nothing has the name in the scope, or the corpus cannot be written.
+    pub fn propose(
+        &mut self,
+        options: &ProposeOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Proposed> {
+        let mut wanted: BTreeMap<i64, (Hit, BTreeSet<Component>)> = BTreeMap::new();
+        for &component in &options.components {
+            for hit in self.without(component, &options.scope, progress)? {
+                let entry = wanted.entry(hit.token);
+                let (_, components) = entry.or_insert_with(|| (hit, BTreeSet::new()));
+                components.insert(component);
+            }
+        }
         let mut report = Proposed::default();
         let mut values = Values::new();
-        let total = Some(found.hits.len() as u64);
-        for (done, hit) in found.hits.iter().enumerate() {
+        let total = Some(wanted.len() as u64);
+        for (done, (hit, components)) in wanted.values().enumerate() {
             progress.tell(Step {
                 task: &hit.gloss,
                 done: done as u64,
                 total,
                 unit: Unit::Items,
             })?;
-            match self.read(component, hit, progress) {
+            match self.read(components, hit, progress) {
                 Ok(Some(read)) => {
                     report.tokens += 1;
                     let recording = hit.recording.clone().unwrap_or_default();
-                    for (hand, value) in read {
-                        let key = (recording.clone(), hand);
+                    for (subject, value) in read {
+                        let key = (recording.clone(), subject);
                         values.entry(key).or_default().push(value);
                     }
                 }
@@ -103,34 +156,68 @@ impl Corpus {
                 Ok(None) | Err(_) => report.unread += 1,
             }
         }
-        let (new, changes) = self.changes(component, values)?;
+        let (new, changes) = self.changes(values)?;
         report.annotations = changes.len() as u64;
-        let recordings: BTreeSet<&str> = found
-            .hits
-            .iter()
-            .filter_map(|hit| hit.recording.as_deref())
-            .collect();
         if !changes.is_empty() {
             let options = AnnotateOptions {
                 origin: AnnotationOrigin::Detector,
                 ..AnnotateOptions::default()
             };
             let work = (changes.as_slice(), &options);
-            let written = self.annotate_with("propose", &new, work, progress)?;
-            let is_written = |name: &&str| written.recordings.iter().any(|it| it == name);
-            let written = recordings.into_iter().filter(is_written);
-            report.recordings = written.map(str::to_owned).collect();
+            report.recordings = self
+                .annotate_with("propose", &new, work, progress)?
+                .recordings;
         }
         Ok(report)
     }
 
-    /// Returns what a token's movement says of a component, for each hand in the order of time.
+    /// Returns the tokens of a scope that have no value for a component.
+    fn without(
+        &mut self,
+        component: Component,
+        scope: &ProposeScope,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<Hit>> {
+        if !Proposed::COMPONENTS.contains(&component) {
+            let text = format!("{} is not read from movement yet", component.name());
+            let readable = Proposed::COMPONENTS.map(Component::name).join(", ");
+            return Err(Error::wrong(text).advise(format!("what can be proposed: {readable}")));
+        }
+        let name = match scope {
+            ProposeScope::Recording(name) | ProposeScope::Span(name, _) => {
+                Some(crate::address::recording(self.store.read(), name)?.name)
+            }
+            ProposeScope::All | ProposeScope::Token(_) => None,
+        };
+        let options = SearchOptions {
+            limit: None,
+            facets: false,
+            ..SearchOptions::default()
+        };
+        let query = format!("not {}=*", component.name());
+        let found = self.search_until(&query, &options, progress)?;
+        let is_in = |hit: &Hit| match scope {
+            ProposeScope::All => true,
+            ProposeScope::Token(token) => hit.token == *token,
+            ProposeScope::Recording(_) => hit.recording == name,
+            ProposeScope::Span(_, span) => {
+                let (Some(start), Some(end)) = (hit.start_us, hit.end_us) else {
+                    return false;
+                };
+                let shares = start < span.end().micros() && end > span.start().micros();
+                hit.recording == name && shares
+            }
+        };
+        Ok(found.hits.into_iter().filter(is_in).collect())
+    }
+
+    /// Returns what a token's movement says of components, for each hand in the order of time.
     fn read(
         &self,
-        component: Component,
+        components: &BTreeSet<Component>,
         hit: &Hit,
         progress: &mut Progress<'_>,
-    ) -> Result<Option<Vec<(HandRef, Value)>>> {
+    ) -> Result<Option<Vec<(Subject, Value)>>> {
         let Some((start, end)) = hit.start_us.zip(hit.end_us) else {
             return Ok(None);
         };
@@ -138,6 +225,7 @@ impl Corpus {
             return Ok(None);
         }
         let written = self.transcribe(&Address::Token(hit.token), progress)?;
+        let features = written.features;
         let inventories = self.inventories_now()?;
         let mapper = Mapper::new(inventories.iter().map(|stored| &stored.inventory));
         let sign = Notated {
@@ -146,53 +234,135 @@ impl Corpus {
             sign: written.sign,
             ..Notated::default()
         };
-        let mut hands: BTreeMap<HandRef, Vec<(u32, String)>> = BTreeMap::new();
+        let mut subjects: BTreeMap<Subject, Vec<(u32, String)>> = BTreeMap::new();
         for value in mapper.map(&sign).values {
-            if value.field.component != component || value.field.feature.is_some() {
+            let field = value.field;
+            let whole = field.feature.is_none() || field.component == Component::Orientation;
+            if !components.contains(&field.component) || !whole {
                 continue;
             }
-            let order = match value.field.phase {
+            let order = match field.phase {
                 None | Some(Phase::Initial) => 0,
                 Some(Phase::Middle(place)) => 1 + u32::from(place),
                 Some(Phase::Final) => u32::MAX,
             };
-            let hand = value.field.hand.unwrap_or(HandRef::Dominant);
-            hands.entry(hand).or_default().push((order, value.value));
+            let hand = field.hand.unwrap_or(HandRef::Dominant);
+            let subject = (field.component, field.feature, hand);
+            subjects
+                .entry(subject)
+                .or_default()
+                .push((order, value.value));
         }
         let mut read = Vec::new();
-        for (hand, mut values) in hands {
+        for (subject, mut values) in subjects {
             values.sort_by_key(|(order, _)| *order);
             values.dedup_by(|a, b| a.1 == b.1);
             let count = values.len() as i64;
             let at = |part: i64| start + (end - start) * part / count;
             for (nth, (_, value)) in (0..).zip(values) {
                 let (start, end) = (at(nth), at(nth + 1));
-                read.push((hand, Value { start, end, value }));
+                let confidence = confidence(&features, &subject, count > 1, (start, end));
+                read.push((
+                    subject.clone(),
+                    Value {
+                        start,
+                        end,
+                        value,
+                        confidence,
+                    },
+                ));
             }
         }
         Ok(Some(read).filter(|read| !read.is_empty()))
     }
 
+    /// Accepts proposals as they are: each becomes an annotation of the person who works, on the tier without
+    /// `(proposed)` in its name, which is added if it is missing. All of it is one operation.
+    ///
+    /// # Errors
+    /// If one of them is no proposal, lies where its tier has an annotation already, or the corpus cannot be written.
+    pub fn accept_proposals(
+        &mut self,
+        annotations: &[i64],
+        progress: &mut Progress<'_>,
+    ) -> Result<AnnotateReport> {
+        let connection = self.store.read();
+        let (mut new, mut changes): (Vec<NewTier>, Vec<AnnotationChange>) = Default::default();
+        for &id in annotations {
+            let row = tiers::annotation(connection, id)?;
+            let tier = tiers::tier(connection, row.tier_id)?;
+            let Some(name) = proposed_for(&tier.name) else {
+                let text = format!("annotation:{id} on \"{}\" is no proposal", tier.name);
+                return Err(Error::wrong(text)
+                    .advise("proposals lie on tiers whose names end in \"(proposed)\""));
+            };
+            let recording = Name::Number(tier.recording_id);
+            let all = tiers::tiers(connection, tier.recording_id)?;
+            let same = |it: &&tiers::TierRow| {
+                proposed_for(&it.name).is_none()
+                    && (&it.role, &it.component, &it.feature, &it.hand)
+                        == (&tier.role, &tier.component, &tier.feature, &tier.hand)
+            };
+            let known = all.iter().find(|it| same(it) && it.name == name);
+            let known = known.or_else(|| all.iter().find(same));
+            let to = match known {
+                Some(known) => known.name.clone(),
+                None if all.iter().any(|it| it.name == name) => format!("{name} (accepted)"),
+                None => name.to_owned(),
+            };
+            if known.is_none()
+                && new
+                    .iter()
+                    .all(|it| (&it.recording, &it.name) != (&recording, &to))
+            {
+                let mut added = NewTier::new(recording.clone(), to.clone(), tier.role());
+                let mut hands = HandRef::ALL.into_iter();
+                let hand = hands.find(|it| Some(it.name()) == tier.hand.as_deref());
+                added.hand = hand.map(Hands::One);
+                new.push(added);
+            }
+            let time = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+            changes.push(
+                AnnotationAction::Add {
+                    tier: TierName::Of {
+                        recording,
+                        tier: to,
+                    },
+                    start: time(row.start_us),
+                    end: time(row.end_us),
+                    parent: None,
+                    order: None,
+                    value: row.value,
+                    confidence: None,
+                }
+                .into(),
+            );
+            changes.push(
+                AnnotationAction::Remove {
+                    annotation: AnnotationName::Number(id),
+                }
+                .into(),
+            );
+        }
+        let options = AnnotateOptions::default();
+        self.annotate_with("accept", &new, (&changes, &options), progress)
+    }
+
     /// Returns the annotations to add, and the tiers for them that a recording lacks.
-    fn changes(
-        &self,
-        component: Component,
-        all: Values,
-    ) -> Result<(Vec<NewTier>, Vec<AnnotationChange>)> {
+    fn changes(&self, all: Values) -> Result<(Vec<NewTier>, Vec<AnnotationChange>)> {
         let (mut tiers, mut changes) = (Vec::new(), Vec::new());
-        for ((recording, hand), mut values) in all {
+        for ((recording, (component, feature, hand)), mut values) in all {
             let recording = Name::Text(recording);
-            let name = format!("{} {} (proposed)", component.name(), hand.name());
+            let part = feature.as_deref().map(|it| format!(".{it}"));
+            let part = part.unwrap_or_default();
+            let name = format!("{}{part} {}{SUFFIX}", component.name(), hand.name());
             let tier = TierName::Of {
                 recording: recording.clone(),
                 tier: name.clone(),
             };
             let mut end = self.tier_end(&recording, &name)?;
             if end.is_none() {
-                let role = TierRole::Component {
-                    component,
-                    feature: None,
-                };
+                let role = TierRole::Component { component, feature };
                 let mut new = NewTier::new(recording, name, role);
                 new.hand = Some(Hands::One(hand));
                 tiers.push(new);
@@ -214,7 +384,7 @@ impl Corpus {
                         parent: None,
                         order: None,
                         value: value.value,
-                        confidence: None,
+                        confidence: value.confidence,
                     }
                     .into(),
                 );
@@ -235,4 +405,31 @@ impl Corpus {
         let rows = tiers::annotations(connection, tier.id)?;
         Ok(Some(rows.iter().map(|row| row.end_us).max().unwrap_or(0)))
     }
+}
+
+/// Returns how sure a value is: the less the best reading is off compared with the second best, the surer. `None` if no
+/// feature of notation belongs to the value.
+fn confidence(
+    features: &[TranscribedFeature],
+    (component, feature, _): &Subject,
+    timed: bool,
+    (start, end): (i64, i64),
+) -> Option<f64> {
+    let kinds: &[FeatureKind] = match (component, feature.as_deref()) {
+        (Component::Configuration, _) => &[FeatureKind::Handshape],
+        (Component::Placement, _) => &[FeatureKind::Location, FeatureKind::Contact],
+        (Component::Movement, _) => &[FeatureKind::Movement, FeatureKind::Course],
+        (Component::Orientation, Some("fingers")) => &[FeatureKind::Direction],
+        (Component::Orientation, _) => &[FeatureKind::Palm],
+        _ => &[],
+    };
+    let sure = |it: &TranscribedFeature| {
+        let (first, second) = (it.value.residual, it.runner_up.as_ref()?.residual);
+        let share = second / (first + second);
+        share.is_finite().then_some(share.clamp(0.5, 1.0))
+    };
+    let within = |it: &&TranscribedFeature| !timed || (it.at_us >= start && it.at_us < end);
+    let of_kind = features.iter().filter(|it| kinds.contains(&it.feature));
+    let least = of_kind.filter(within).filter_map(sure).reduce(f64::min);
+    least.map(|it| (it * 1000.0).round() / 1000.0)
 }

@@ -3,5 +3,6 @@
 pub use chereme_compose::recipe::*;
 pub use chereme_compose::units::*;
 pub use chereme_compose::{
-    ChannelReport, JoinReport, PhaseRule, Problem, RecipeError, Report, StepReport, TextError,
+    ChannelReport, JoinReport, PhaseRule, Problem, RecipeError, Report, Spline, StepReport,
+    TextError,
 };

@@ -147,6 +147,9 @@ actions! {
     AlsoPrevious "annotation.also-previous" ALSO_PREVIOUS Annotation Corpus repeats;
     SelectOnTier "annotation.select-on-tier" SELECT_ON_TIER Annotation Corpus;
     EditValue "value.edit" VALUE_EDIT Value Corpus;
+    Propose "value.propose" VALUE_PROPOSE Value Corpus;
+    AcceptProposal "value.accept" VALUE_ACCEPT Value Corpus;
+    NextProposal "value.next-proposal" VALUE_NEXT_PROPOSAL Value Corpus repeats;
     PictureValue "value.picture" VALUE_PICTURE Value Corpus;
     ClearValue "value.clear" VALUE_CLEAR Value Corpus;
     Value1 "value.1" VALUE_1 Value Corpus;
@@ -233,6 +236,9 @@ actions! {
     StageTrails "stage.trails" STAGE_TRAILS Stage Corpus;
     StageGhosts "stage.ghosts" STAGE_GHOSTS Stage Corpus;
     StagePlaces "stage.places" STAGE_PLACES Stage Corpus;
+    StageHands "stage.hands" STAGE_HANDS Stage Corpus;
+    StagePalms "stage.palms" STAGE_PALMS Stage Corpus;
+    StageFace "stage.face" STAGE_FACE Stage Corpus;
     StageGrid "stage.grid" STAGE_GRID Stage Corpus;
     StageCompare "stage.compare" STAGE_COMPARE Stage Corpus;
     StageRecording "stage.recording" STAGE_RECORDING Stage Corpus;

@@ -44,6 +44,8 @@ pub struct Studio {
     pub(crate) beginning: Option<Beginning>,
     /// The open corpus, if it was created only to receive files.
     pub(crate) made_for: Option<PathBuf>,
+    /// The gloss that the starter corpus opens with, empty for any.
+    pub(crate) greets: Option<String>,
     /// Whether the import of a corpus that was just made has room to be looked at.
     looking: bool,
     /// Whether the file of the open corpus is gone from its place.
@@ -117,6 +119,7 @@ impl Studio {
             desk: None,
             beginning: None,
             made_for: None,
+            greets: None,
             looking: false,
             gone: false,
             snapshot: None,

@@ -4,12 +4,12 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use chereme_corpus::recipe::Goal;
+use chereme_corpus::recipe::{Goal, Length};
 use chereme_motion::{Instant, Span};
 
 use crate::action::Action;
 use crate::choose::Choose;
-use crate::model::handle::Handle;
+use crate::model::handle::{Course, Handle};
 use crate::model::made::Made;
 use crate::panes::Carried;
 use crate::panes::inspector::Thing;
@@ -60,6 +60,11 @@ pub(crate) enum Command {
     /// A placement that can be dragged on the stage, or `None` to remove it:
     /// [`Shown::handle`](crate::context::Shown::handle).
     Handle(Option<Handle>),
+    /// A path that can be pulled on the stage, or `None` to remove it:
+    /// [`Shown::course`](crate::context::Shown::course).
+    Course(Option<Box<Course>>),
+    /// The path of that card was pulled or drawn: its points to the left, up and forward.
+    Travelled(u64, Vec<[Length; 3]>),
     /// The placement of that card was dragged there.
     Placed(u64, Goal),
     /// A media file goes with the recording of that row, in place of the track of that row where one is said.

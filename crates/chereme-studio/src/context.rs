@@ -10,7 +10,7 @@ use crate::film::Films;
 use crate::keys::Keys;
 use crate::little::Figures;
 use crate::model::Snapshot;
-use crate::model::handle::Handle;
+use crate::model::handle::{Course, Handle};
 use crate::model::made::Made;
 use crate::model::reel::Reel;
 use crate::player::Player;
@@ -39,6 +39,8 @@ pub(crate) struct Shown {
     pub(crate) spot: Option<String>,
     /// The placement of the open recipe that can be dragged on the stage.
     pub(crate) handle: Option<Handle>,
+    /// The path of the open recipe that can be pulled on the stage.
+    pub(crate) course: Option<Box<Course>>,
     /// Movement that lies in no recording and is shown instead, with a playhead of its own.
     pub(crate) made: Option<Showing>,
 }

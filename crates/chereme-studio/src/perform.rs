@@ -22,7 +22,7 @@ use crate::model::made::Made;
 use crate::model::reel::Reel;
 use crate::panes::history::data as history;
 use crate::panes::{Carried, PaneKind, recombine};
-use crate::player::Player;
+use crate::player::{Player, Preview};
 use crate::settings::{ThemeChoice, View, view_of};
 use crate::theme;
 use crate::words::{shell as words, timeline};
@@ -68,6 +68,8 @@ impl Studio {
                 }
             }
             Command::Begin(begin) => {
+                let starter = matches!(begin, Begin::Starter(_));
+                self.greets = starter.then(|| self.greets.take().unwrap_or_default());
                 self.beginning = Some(Beginning::start(begin, &self.author, &self.wake));
             }
             Command::Choose(what) => {
@@ -88,6 +90,7 @@ impl Studio {
                 self.shown.made = None;
                 self.shown.span = Some(span);
                 self.shown.player.seek(span.start());
+                self.shown.player.preview(Preview { span, loops: false });
             }
             Command::Look => self.look(ctx),
             Command::Tier(tier) => self.shown.tier = tier,
@@ -102,6 +105,11 @@ impl Studio {
             Command::Speed(speed) => self.shown.on_stage_mut().speed = speed,
             Command::Made(made) => self.show_made(made),
             Command::Handle(handle) => self.shown.handle = handle,
+            Command::Course(course) => self.shown.course = course,
+            Command::Travelled(card, points) => {
+                self.panes.recombine.travel(card, &points);
+                self.keep_up(ctx);
+            }
             Command::Placed(card, goal) => {
                 self.panes.recombine.place(card, goal);
                 self.keep_up(ctx);
@@ -484,7 +492,9 @@ impl Studio {
             ..Shown::default()
         };
         let end = Instant::from_micros(glance.row.duration_us);
-        self.shown.player.load(Span::between(Instant::ZERO, end));
+        let span = Span::between(Instant::ZERO, end);
+        self.shown.player.load(span);
+        self.shown.player.preview(Preview { span, loops: false });
         (self.shown.player.speed, self.shown.player.looping) = (speed, looping);
         self.reel.load(Some(glance));
         if let Some(desk) = &self.desk {
@@ -656,7 +666,11 @@ impl Studio {
         if let (None, Some(first)) = (self.shown.recording, first) {
             // Generated movement stays on the stage while its sign is stored.
             let made = self.shown.made.take();
-            self.turn_to(first);
+            let greeting = self.greeting();
+            self.turn_to(greeting.map_or(first, |it| it.0));
+            if let Some((_, span)) = greeting {
+                self.shown.player.preview(Preview { span, loops: true });
+            }
             self.shown.made = made;
         }
     }

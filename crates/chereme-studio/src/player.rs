@@ -23,6 +23,16 @@ pub(crate) struct Player {
     pub(crate) looping: bool,
     /// The steps of playback, if it steps.
     steps: Option<Steps>,
+    /// What was opened and is previewed, until somebody moves the playhead.
+    preview: Option<Preview>,
+}
+
+/// Something just opened, of which the stage shows more than its first moment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Preview {
+    pub(crate) span: Span,
+    /// It plays in a loop; else its stroke is shown.
+    pub(crate) loops: bool,
 }
 
 /// How step and repeat goes through something, in seconds.
@@ -98,6 +108,7 @@ impl Default for Player {
             speed: 1.0,
             looping: false,
             steps: None,
+            preview: None,
         }
     }
 }
@@ -107,8 +118,18 @@ impl Player {
     pub(crate) fn load(&mut self, whole: Span) {
         self.at = whole.start().micros() as f64;
         self.whole = whole;
-        (self.part, self.steps) = (None, None);
+        (self.part, self.steps, self.preview) = (None, None, None);
         self.direction = 0.0;
+    }
+
+    /// Previews something just opened; the playhead stays.
+    pub(crate) fn preview(&mut self, preview: Preview) {
+        self.preview = Some(preview);
+    }
+
+    /// Returns what is previewed, if nobody has moved the playhead since it was opened.
+    pub(crate) fn previewed(&self) -> Option<Preview> {
+        self.preview.filter(|_| !self.is_playing())
     }
 
     /// Goes on with what became longer or shorter.
@@ -136,11 +157,13 @@ impl Player {
 
     /// Puts the playhead there, within the recording.
     pub(crate) fn seek(&mut self, at: Instant) {
+        self.preview = None;
         self.at = self.clamped(at.micros() as f64);
     }
 
     /// Plays on, or pauses; at the end it begins again.
     pub(crate) fn toggle(&mut self) {
+        self.preview = None;
         if self.is_playing() {
             self.stop();
             return;
@@ -154,6 +177,7 @@ impl Player {
 
     /// Plays a part from its start.
     pub(crate) fn play_part(&mut self, part: Span) {
+        self.preview = None;
         if let Some(part) = part.intersection(self.whole) {
             self.at = part.start().micros() as f64;
             (self.part, self.steps) = (Some(part), None);
@@ -219,6 +243,7 @@ impl Player {
 
     /// Shuttles: pressed again the same way it doubles, up to eight times.
     pub(crate) fn shuttle(&mut self, sign: f64) {
+        self.preview = None;
         (self.part, self.steps) = (None, None);
         self.direction = if self.direction * sign > 0.0 {
             (self.direction * 2.0).clamp(-8.0, 8.0)
@@ -315,6 +340,29 @@ mod tests {
         assert_eq!(player.playhead().micros(), 1_999_999);
         player.toggle();
         assert_eq!(player.playhead().micros(), 0);
+    }
+
+    #[test]
+    fn a_preview_lasts_until_the_playhead_is_moved() {
+        let preview = Preview {
+            span: span(0, 900_000),
+            loops: true,
+        };
+        let moves: [fn(&mut Player); 4] = [
+            Player::toggle,
+            |player| player.seek(Instant::ZERO),
+            |player| player.play_part(span(0, 9)),
+            |player| player.shuttle(1.0),
+        ];
+        for moves in moves {
+            let mut player = player();
+            player.preview(preview);
+            assert_eq!(player.previewed(), Some(preview));
+            assert_eq!(player.playhead(), Instant::ZERO);
+            moves(&mut player);
+            player.stop();
+            assert_eq!(player.previewed(), None);
+        }
     }
 
     #[test]

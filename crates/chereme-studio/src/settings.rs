@@ -58,6 +58,8 @@ pub(crate) struct Settings {
     pub(crate) stepping: Stepping,
     /// How the stage is looked at.
     pub(crate) stage: StageWays,
+    /// Whether the library is a list, and not a wall of figures.
+    pub(crate) library_list: bool,
     /// How corpora are looked at, by their paths; of those opened before.
     pub(crate) views: BTreeMap<String, View>,
 }
@@ -125,6 +127,7 @@ impl Default for Settings {
             timeline: Ways::default(),
             stepping: Stepping::default(),
             stage: StageWays::default(),
+            library_list: false,
             views: BTreeMap::new(),
         }
     }

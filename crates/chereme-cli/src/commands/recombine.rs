@@ -28,6 +28,7 @@ What is done to it, step by step, each after |
   repeat 3 scale 0.8 tempo 1.2 gap 0.1s   again, each smaller and faster
   amplify both 1.5                        larger ways
   travel right down 20cm then up 20cm     along a path
+  travel right through 10cm,8cm,0cm then 20cm,0cm,0cm in 1s   along a curve: left, up, forward
   from me to left                         a directional verb between other places
   retime 150%   retime to 2s              slower, faster
   nonmanual from BOL                      head and face of another sign

@@ -7,11 +7,13 @@ use chereme_sign::Component;
 use crate::arm::{self, Reach};
 use crate::body::{Frame, arm_length};
 use crate::course::Course;
+use crate::curve::Spline;
 use crate::error::Cause;
 use crate::ops::place::{self, told};
 use crate::ops::say;
 use crate::recipe::{Amplify, Indicate, Leg, Solver, Spot, Travel};
 use crate::resolve::PlaceInput;
+use crate::units::{Length, Seconds};
 use crate::work::{Columns, Group, Work};
 
 /// The effects and the largest residual.
@@ -58,7 +60,11 @@ pub(crate) fn travel(
 ) -> Result<Done, Cause> {
     let sides = settings.hand.sides(work.handedness);
     let frame = place::frame(work, sides)?;
-    let way = way(work, &frame, &settings.path, course);
+    let curve = curve(&frame, &settings.through);
+    let way = match &curve {
+        Some(curve) => along(work, curve, settings.time, course),
+        None => way(work, &frame, &settings.path, course),
+    };
     let before = work.clone();
     let reach = place::wrists(work, sides, Solver::Analytic, |_, frame, at| {
         at + way[frame]
@@ -66,7 +72,19 @@ pub(crate) fn travel(
     let still = sides.iter().all(|&side| is_still(&before, side));
     moved(work, sides, operator);
     if still {
-        drawn(work, &frame, sides, &settings.path, operator);
+        drawn(
+            work,
+            &frame,
+            sides,
+            (&settings.path, curve.as_ref()),
+            operator,
+        );
+    }
+    if let Some(curve) = curve {
+        let length = curve.length() * 100.0;
+        let mut did = vec![format!("a curve of {length:.0} cm ({})", curve.shape())];
+        did.extend(told(&reach));
+        return Ok((did, reach.residual));
     }
     let length: f64 = settings
         .path
@@ -85,6 +103,26 @@ pub(crate) fn travel(
     )];
     did.extend(told(&reach));
     Ok((did, reach.residual))
+}
+
+/// Returns the curve through points of body space, in model space; `None` without points.
+fn curve(frame: &Frame, through: &[[Length; 3]]) -> Option<Spline> {
+    let point = |at: &[Length; 3]| {
+        let [left, up, forward] = at.map(|length| length.metres(frame.arm));
+        frame.direction(DVec3::new(left, up, forward))
+    };
+    let points: Vec<DVec3> = through.iter().map(point).collect();
+    (!points.is_empty()).then(|| Spline::new(&points))
+}
+
+/// Returns how far along a curve the hands are at each frame; they stay at its end where the movement lasts longer.
+fn along(work: &Work, curve: &Spline, time: Option<Seconds>, course: &Course) -> Vec<DVec3> {
+    let total = work.frames.saturating_sub(1).max(1) as f64 * work.rate.frame_time();
+    let time = time.map_or(total, |time| time.0).max(1e-9);
+    let now = |f: usize| f as f64 * work.rate.frame_time();
+    (0..work.frames)
+        .map(|f| curve.at(course.share((now(f) / time).min(1.0))))
+        .collect()
 }
 
 /// Returns how far along the path the hands are at each frame.
@@ -335,15 +373,25 @@ fn is_still(work: &Work, side: Side) -> bool {
     path.iter().all(|at| at.distance(path[0]) < STILL)
 }
 
-/// Notes the new path of hands that did not move before: straight if it has one leg.
-fn drawn(work: &mut Work, frame: &Frame, sides: &[Side], path: &[Leg], operator: &str) {
+/// Notes the new path of hands that did not move before: straight if it has one leg, the shape of a curve.
+fn drawn(
+    work: &mut Work,
+    frame: &Frame,
+    sides: &[Side],
+    (path, curve): (&[Leg], Option<&Spline>),
+    operator: &str,
+) {
     let all = 0..work.frames;
     for &side in sides {
-        let one = match path {
-            [leg] => say::direction(frame.to_body(frame.leg(leg))),
+        let shape = curve.map(Spline::shape);
+        let one = match (path, curve) {
+            (_, Some(curve)) if shape != Some("circle") && shape != Some("path") => {
+                say::direction(frame.to_body(curve.at(1.0)))
+            }
+            ([leg], _) => say::direction(frame.to_body(frame.leg(leg))),
             _ => None,
         };
-        let shape = if one.is_some() { "straight" } else { "path" };
+        let shape = shape.unwrap_or(if one.is_some() { "straight" } else { "path" });
         let movement = Component::Movement;
         say::tell(work, side, (movement, None), shape, all.clone(), operator);
         if let Some(direction) = one {

@@ -72,6 +72,16 @@ fn paths_are_scaled_carried_and_sent() {
         let path = wrist(&carried, Side::Right);
         assert!(path[0].abs_diff_eq(before[0], 1e-6) && path[119].abs_diff_eq(before[119], 1e-3));
         assert!((before[60].y - path[60].y - 0.06).abs() < 2e-3, "{gloss}");
+        let curve = "travel right through 0cm,-6cm,0cm then 4cm,-6cm,0cm in 1s";
+        let curved = made(&format!("{gloss} | {curve}"));
+        let path = wrist(&curved, Side::Right);
+        let gone = |f: usize| path[f] - before[f];
+        assert!(gone(0).length() < 1e-6, "{gloss}");
+        let end = DVec3::new(0.04, -0.06, 0.0);
+        for f in [100, 119] {
+            // The recorded frames are 10 ms apart: after a second the hand stays at the end of the curve.
+            assert!(gone(f).abs_diff_eq(end, 3e-3), "{gloss} {f}: {}", gone(f));
+        }
         let sent = made(&format!("{gloss} | from me to left with right"));
         let path = wrist(&sent, Side::Right);
         assert!(
@@ -82,7 +92,7 @@ fn paths_are_scaled_carried_and_sent() {
         );
         let across = wrist(&made(&format!("{gloss} | from right to left")), Side::Right);
         assert!(across[119].x > across[0].x + 0.3, "{gloss}: {across:?}");
-        for made in [carried, sent] {
+        for made in [carried, curved, sent] {
             bones_keep_their_lengths(&made.clip);
             assert_eq!(differing(&made, &source(gloss)), [Group::Arm(Side::Right)]);
         }
@@ -302,4 +312,26 @@ fn mirrored_hands_that_would_go_through_each_other_are_told() {
     assert!(told.contains("go through each other"), "{told}");
     let apart = made("ESCARGOT | place right by right 20cm | mirror right");
     assert!(!apart.report.to_string().contains("go through each other"));
+}
+
+#[test]
+fn a_curve_is_drawn_smoothly_by_a_hand_that_spells_and_its_shape_is_noted() {
+    let points = "through 3cm,8cm,0cm then 10cm,12cm,0cm then 17cm,8cm,0cm then 20cm,0cm,0cm";
+    let made = made(&format!("spell UU | travel right {points}"));
+    assert!(
+        made.report.steps[1].did[0].contains("a curve of"),
+        "{:?}",
+        made.report.steps[1].did
+    );
+    let path = wrist(&made, Side::Right);
+    let steps: Vec<DVec3> = path.windows(2).map(|it| it[1] - it[0]).collect();
+    let moving = steps.iter().filter(|it| it.length() > 2e-3);
+    let moving: Vec<&DVec3> = moving.collect();
+    assert!(moving.len() > 10);
+    for pair in moving.windows(2) {
+        let turn = pair[0].angle_between(*pair[1]);
+        assert!(turn < 0.6, "a corner of {turn} radians");
+    }
+    let said = format!("{:?}", made.tiers);
+    assert!(said.contains("arc"), "{said}");
 }

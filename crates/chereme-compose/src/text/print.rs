@@ -305,6 +305,11 @@ impl Display for Step {
             Self::Travel(travel) => {
                 write!(f, "travel {} ", travel.hand.name())?;
                 list(f, &travel.path, " then ")?;
+                for (n, point) in travel.through.iter().enumerate() {
+                    f.write_str(if n == 0 { "through " } else { " then " })?;
+                    point_text(f, point)?;
+                }
+                option(f, "in", travel.time)?;
                 write!(f, "{}", travel.via)
             }
             Self::Retime(retime) => {

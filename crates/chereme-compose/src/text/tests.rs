@@ -1,5 +1,6 @@
 //! Texts and trees as people write them.
 
+use proptest::array::uniform3;
 use proptest::collection::vec;
 use proptest::option::of;
 use proptest::prelude::*;
@@ -359,8 +360,19 @@ fn step() -> impl Strategy<Value = Step> {
         (hands(), legs(true), via()).prop_map(|(hand, path, via)| Step::Travel(Travel {
             hand,
             path,
+            through: Vec::new(),
+            time: None,
             via
         })),
+        (hands(), vec(uniform3(length()), 1..5), of(seconds()), via()).prop_map(
+            |(hand, through, time, via)| Step::Travel(Travel {
+                hand,
+                path: Vec::new(),
+                through,
+                time,
+                via
+            })
+        ),
         vec(pace, 1..3).prop_map(|paces| Step::Retime(Retime { paces })),
         (name(), of(name()), over(), any::<bool>()).prop_map(
             |(from, function, over, by_phases)| {

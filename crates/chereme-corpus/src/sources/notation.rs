@@ -7,6 +7,7 @@ use chereme_compose::notation::{self as animator, Settings};
 use chereme_compose::{About, ENGINE, Held, Made, Material, SourceError, Sources};
 use chereme_formats::bvh::convert::{self, ClipBuilder};
 use chereme_formats::bvh::raw::{Block, Reader};
+use chereme_motion::Clip;
 use chereme_motion::anatomy::{Anatomy, Roles};
 use chereme_sign::Handedness;
 use chereme_sign::hamnosys::Notated;
@@ -123,21 +124,43 @@ fn material(made: Made, address: String, hash: String, gloss: String) -> Materia
 
 /// Returns the body that comes with the program, at rest.
 pub(crate) fn own_body() -> Result<Material> {
-    let bad = |what: String| Error::wrong(format!("the built-in body cannot be read: {what}"));
+    let (clip, anatomy, bytes) = own_movement(OWN_RECORDING, 1)?;
+    Ok(Material {
+        address: OWN_BODY.to_owned(),
+        hash: hex(&Sha256::digest(bytes)),
+        gloss: OWN_BODY.to_owned(),
+        signer: None,
+        handedness: Handedness::Right,
+        clip,
+        anatomy: Arc::new(anatomy),
+        held: Vec::new(),
+        curves: Vec::new(),
+    })
+}
+
+/// Returns the first `most` frames of a recording of the starter corpus, with which joint is what, and the file's bytes.
+pub(crate) fn own_movement(name: &str, most: usize) -> Result<(Clip, Anatomy, &'static [u8])> {
+    let bad = |what: String| Error::wrong(format!("{name} of the program cannot be read: {what}"));
     let bytes = starter::starter_files()
-        .find(|(name, _)| *name == Path::new(OWN_RECORDING))
+        .find(|(path, _)| *path == Path::new(name))
         .map(|(_, bytes)| bytes)
-        .ok_or_else(|| bad(format!("{OWN_RECORDING} is missing")))?;
+        .ok_or_else(|| bad("it is missing".to_owned()))?;
     let mut reader = Reader::open(bytes).map_err(|error| bad(error.to_string()))?;
-    let mut block = Block::default();
-    reader
-        .next_block(&mut block)
-        .map_err(|error| bad(error.to_string()))?;
     let rate = convert::rate(reader.header().frame_time.as_ref());
     let rate = rate.map_err(|error| bad(error.to_string()))?;
     let mut builder =
         ClipBuilder::new(reader.hierarchy(), None).map_err(|error| bad(error.to_string()))?;
-    builder.push(0..block.frames.min(1), |at| block.columns.get(at));
+    let mut block = Block::default();
+    let mut left = most;
+    while left > 0
+        && reader
+            .next_block(&mut block)
+            .map_err(|error| bad(error.to_string()))?
+    {
+        let taken = block.frames.min(left);
+        builder.push(0..taken, |at| block.columns.get(at));
+        left -= taken;
+    }
     let clip = builder
         .finish(rate)
         .map_err(|error| bad(error.to_string()))?;
@@ -152,17 +175,7 @@ pub(crate) fn own_body() -> Result<Material> {
     let anatomy = anatomy
         .map_err(|error| bad(error.to_string()))?
         .with_clip(&clip);
-    Ok(Material {
-        address: OWN_BODY.to_owned(),
-        hash: hex(&Sha256::digest(bytes)),
-        gloss: OWN_BODY.to_owned(),
-        signer: None,
-        handedness: Handedness::Right,
-        clip,
-        anatomy: Arc::new(anatomy),
-        held: Vec::new(),
-        curves: Vec::new(),
-    })
+    Ok((clip, anatomy, bytes))
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 use chereme_motion::{Anatomy, Face, ModelPose, Side, Skeleton, anatomy::Part};
 use glam::{Mat3, Quat, Vec3};
 
-use super::contact::Contact;
 use super::clothed::{Clothed, FORE, SHOULDER, TRUNK, UPPER};
+use super::contact::Contact;
 use super::group;
 use super::hand::{HandAxes, HandFit, Seat};
 use super::head::Head;

@@ -90,5 +90,10 @@ fn points(skeleton: &Skeleton, anatomy: &Anatomy, side: Side) -> Vec<Point> {
     let knuckles = Finger::ALL.map(|finger| at(Part::Finger(side, finger, 1)));
     let tips = Finger::ALL.map(|finger| tip(Part::Finger(side, finger, 3)));
     let others = [at(Part::Hand(side)), tip(Part::Thumb(side, 2))];
-    knuckles.into_iter().chain(tips).chain(others).flatten().collect()
+    knuckles
+        .into_iter()
+        .chain(tips)
+        .chain(others)
+        .flatten()
+        .collect()
 }

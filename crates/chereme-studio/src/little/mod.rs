@@ -16,7 +16,7 @@ mod data;
 mod draw;
 mod ui;
 
-pub(crate) use ui::empty;
+pub(crate) use ui::{empty, still};
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;

@@ -1,5 +1,7 @@
 //! Little figures on the window: shows finished pictures, and requests the others.
 
+use std::sync::Arc;
+
 use chereme_motion::{HandAngles, Side};
 use eframe::egui::epaint::RectShape;
 use eframe::egui::text::LayoutJob;
@@ -11,7 +13,8 @@ use eframe::egui::{
 use super::draw::{Film, Movement, State};
 use super::{Cell, Figures, Focus, Key, Motion, Own, Source, Texture, data};
 use crate::context::{Outbox, Seen};
-use crate::words::stage as words;
+use crate::model::made::Made;
+use crate::words::{Language, stage as words};
 use crate::work::Work;
 
 /// The most movement requested at once: a figure that scrolls out of sight need not wait.
@@ -70,7 +73,32 @@ impl Figures {
         if cell.clock.is_some() {
             ui.ctx().request_repaint_after_secs(BEAT as f32);
         }
-        self.put(ui, seen, &key, sight, rect);
+        self.put(ui, seen.language, &key, sight, rect);
+    }
+
+    /// Paints movement that lies in no corpus over `rect`, as on the page without one.
+    pub(crate) fn paint_made(
+        &self,
+        ui: &Ui,
+        language: Language,
+        (made, clock): (&Arc<Made>, f64),
+        rect: Rect,
+        focus: Focus,
+    ) {
+        if !ui.is_rect_visible(rect) {
+            return;
+        }
+        let motion = Motion::Made(made.clone());
+        let key = key(ui, Source::of(&motion), focus, rect.size());
+        self.begin(ui);
+        let sight = {
+            let mut state = self.board.state();
+            self.load_made(&mut state, &key.source, made);
+            look(&mut state, &key, Some(clock))
+        };
+        self.board.tell();
+        ui.ctx().request_repaint_after_secs(BEAT as f32);
+        self.put(ui, language, &key, sight, rect);
     }
 
     /// Shows a posture of one hand alone, called `name`: the picture of a handshape.
@@ -85,7 +113,7 @@ impl Figures {
     ) -> Response {
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
-        self.paint_hand(ui, seen, (side, angles), rect);
+        self.paint_hand(ui, seen.language, (side, angles), rect);
         edge(ui, &response, rect);
         response
     }
@@ -94,7 +122,7 @@ impl Figures {
     pub(crate) fn paint_hand(
         &self,
         ui: &Ui,
-        seen: &Seen<'_>,
+        language: Language,
         (side, angles): (Side, &HandAngles),
         rect: Rect,
     ) {
@@ -108,7 +136,7 @@ impl Figures {
         self.begin(ui);
         let sight = look(&mut self.board.state(), &key, None);
         self.board.tell();
-        self.put(ui, seen, &key, sight, rect);
+        self.put(ui, language, &key, sight, rect);
     }
 
     /// Begins the thread, and gives it the number of the window's frame.
@@ -137,15 +165,15 @@ impl Figures {
 
     /// Loads the movement, unless it was requested before.
     fn load(&self, state: &mut State, source: &Source, motion: &Motion, out: &mut Outbox) {
+        if let Motion::Made(made) = motion {
+            return self.load_made(state, source, made);
+        }
         if state.films.contains_key(source) {
             return;
         }
         let mut own = self.own.borrow_mut();
         let film = match motion {
-            Motion::Made(made) => {
-                own.made.insert(source.clone(), made.clone());
-                Film::Loaded(Movement::Made(made.clone()))
-            }
+            Motion::Made(_) => return,
             Motion::Span(..) if own.asked.len() >= ASKED => return,
             Motion::Span(recording, span) => {
                 let work = Work::Stretch(*recording, data::shown(*span));
@@ -156,11 +184,20 @@ impl Figures {
         state.films.insert(source.clone(), film);
     }
 
-    fn put(&self, ui: &Ui, seen: &Seen<'_>, key: &Key, sight: Sight, rect: Rect) {
+    fn load_made(&self, state: &mut State, source: &Source, made: &Arc<Made>) {
+        if !state.films.contains_key(source) {
+            let mut own = self.own.borrow_mut();
+            own.made.insert(source.clone(), made.clone());
+            let film = Film::Loaded(Movement::Made(made.clone()));
+            state.films.insert(source.clone(), film);
+        }
+    }
+
+    fn put(&self, ui: &Ui, language: Language, key: &Key, sight: Sight, rect: Rect) {
         let (index, image) = match sight {
             Sight::Picture(index, image) => (index, image),
-            Sight::Preparing => return stand_in(ui, seen, rect, true),
-            Sight::Nothing => return stand_in(ui, seen, rect, false),
+            Sight::Preparing => return stand_in(ui, language, rect, true),
+            Sight::Nothing => return stand_in(ui, language, rect, false),
         };
         let mut own = self.own.borrow_mut();
         let now = ui.ctx().cumulative_pass_nr();
@@ -235,12 +272,24 @@ fn edge(ui: &Ui, response: &Response, rect: Rect) {
 }
 
 /// The stand-in for a missing picture: head and shoulders, faintly.
-fn stand_in(ui: &Ui, seen: &Seen<'_>, rect: Rect, coming: bool) {
+fn stand_in(ui: &Ui, language: Language, rect: Rect, coming: bool) {
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     painter.rect_filled(rect, RADIUS, ui.visuals().extreme_bg_color);
     silhouette(ui, rect, coming);
     if !coming && rect.size().min_elem() > 90.0 {
-        below(ui, rect, seen.say(words::LITTLE_NOTHING), TextStyle::Small);
+        below(
+            ui,
+            rect,
+            words::LITTLE_NOTHING.of(language),
+            TextStyle::Small,
+        );
+    }
+}
+
+/// Paints the place of something that has no movement.
+pub(crate) fn still(ui: &Ui, language: Language, rect: Rect) {
+    if ui.is_rect_visible(rect) {
+        stand_in(ui, language, rect, false);
     }
 }
 

@@ -1,9 +1,9 @@
 //! A placement of the open recipe that can be dragged on the stage.
 
-use chereme_corpus::recipe::{Goal, Hands, Length, towards};
+use chereme_corpus::recipe::{Goal, Hands, Length, Spline, Travel, towards};
 use chereme_motion::glam::DVec3;
 
-use crate::panes::recombine::offset_legs;
+use crate::panes::recombine::{offset_legs, points_of};
 
 /// A placement, as its card has it.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +15,33 @@ pub(crate) struct Handle {
     pub(crate) to: Goal,
     /// The way by which the hands were moved: metres to the left, up and forward.
     pub(crate) moved: Option<[f64; 3]>,
+}
+
+/// A path of the open recipe that can be pulled on the stage.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Course {
+    /// The number of the card.
+    pub(crate) card: u64,
+    /// The path, as its card has it.
+    pub(crate) travel: Travel,
+}
+
+impl Course {
+    /// Returns the points that the path goes through, in metres to the left, up and forward of where the hand would be;
+    /// `arm` is the length of the arm.
+    pub(crate) fn points(&self, arm: f64) -> Vec<DVec3> {
+        points_of(&self.travel, arm)
+    }
+
+    /// Returns the places along the path.
+    pub(crate) fn places(&self, arm: f64) -> Vec<DVec3> {
+        let points = self.points(arm);
+        if self.travel.through.is_empty() {
+            std::iter::once(DVec3::ZERO).chain(points).collect()
+        } else {
+            Spline::new(&points).places().to_vec()
+        }
+    }
 }
 
 impl Handle {

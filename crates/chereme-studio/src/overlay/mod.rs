@@ -49,6 +49,7 @@ impl Studio {
             keys,
             settings,
             out,
+            little,
             ..
         } = self;
         overlays.notices.ui(ctx, settings.language, out);
@@ -57,7 +58,7 @@ impl Studio {
             .ui(ctx, keys, settings.language, place, out);
         overlays.keys.ui(ctx, keys, settings, out);
         overlays.settings.ui(ctx, settings, out);
-        overlays.steps.ui(ctx, keys, settings.language);
+        overlays.steps.ui(ctx, keys, little, settings.language);
         self.exporting(ctx);
     }
 }

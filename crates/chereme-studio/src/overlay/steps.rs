@@ -1,23 +1,48 @@
-//! The steps of the first five minutes, in order.
+//! The first steps: five short loops, with a sentence each.
 
-use eframe::egui::{Align2, Context, Id, Label, RichText, ScrollArea, Window};
+use std::sync::Arc;
+
+use chereme_motion::{HandAngles, Side};
+use eframe::egui::{
+    Align2, Context, FontId, Id, Label, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui,
+    Vec2, Window, pos2, vec2,
+};
 
 use crate::action::Action;
 use crate::keys::Keys;
+use crate::little::{self, Figures, Focus};
+use crate::model::made::Made;
+use crate::start::wall;
+use crate::theme::{self, Colours};
 use crate::words::{Language, Text, steps as words};
 
-/// The subject of a step, and the instructions: keys are named between braces.
-const STEPS: [(Text, Text); 9] = [
-    (words::LOOK, words::LOOK_HOW),
-    (words::SELECT, words::SELECT_HOW),
-    (words::ANNOTATE, words::ANNOTATE_HOW),
-    (words::VALUE, words::VALUE_HOW),
-    (words::BOUNDS, words::BOUNDS_HOW),
-    (words::SEARCH, words::SEARCH_HOW),
-    (words::MAKE, words::MAKE_HOW),
-    (words::BACK, words::BACK_HOW),
-    (words::MORE, words::MORE_HOW),
+/// The loop of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Loop {
+    /// A sign plays.
+    Sign,
+    /// A sign plays, and an annotation grows below it.
+    Annotation,
+    /// A hand takes one shape after the other.
+    Hand,
+    /// A sign, and the same with another hand.
+    Two,
+    /// A sign plays forwards and back.
+    Back,
+}
+
+/// The subject of a step, the instructions with keys named between braces, and its loop.
+const STEPS: [(Text, Text, Loop); 5] = [
+    (words::LOOK, words::LOOK_HOW, Loop::Sign),
+    (words::ANNOTATE, words::ANNOTATE_HOW, Loop::Annotation),
+    (words::SEARCH, words::SEARCH_HOW, Loop::Hand),
+    (words::MAKE, words::MAKE_HOW, Loop::Two),
+    (words::BACK, words::BACK_HOW, Loop::Back),
 ];
+
+/// The side of a loop, and how long one lasts, in seconds.
+const SIDE: f32 = 104.0;
+const LASTS: f64 = 4.0;
 
 /// The window with the first steps; it stays open beside the work.
 #[derive(Debug, Default)]
@@ -30,12 +55,12 @@ impl FirstSteps {
         self.open = !self.open;
     }
 
-    pub(crate) fn ui(&mut self, ctx: &Context, keys: &Keys, language: Language) {
+    pub(crate) fn ui(&mut self, ctx: &Context, keys: &Keys, little: &Figures, language: Language) {
         if !self.open {
             return;
         }
         let room = ctx.content_rect().size();
-        let width = 380.0_f32.min(room.x - 40.0);
+        let width = 400.0_f32.min(room.x - 40.0);
         let mut open = true;
         Window::new(Action::FirstSteps.row().name.of(language))
             .id(Id::unique("first steps"))
@@ -48,17 +73,101 @@ impl FirstSteps {
                 ui.set_width(width);
                 let high = (room.y - 140.0).max(120.0);
                 let area = ScrollArea::vertical().max_height(high);
-                area.min_scrolled_height(high).show(ui, |ui| {
-                    for (at, (what, how)) in STEPS.into_iter().enumerate() {
-                        let title = format!("{}. {}", at + 1, what.of(language));
-                        ui.label(RichText::new(title).strong());
-                        ui.add(Label::new(keys.named(how.of(language))).wrap());
-                        ui.add_space(4.0);
-                    }
-                });
+                area.min_scrolled_height(high.min(5.0 * (SIDE + 8.0)))
+                    .show(ui, |ui| {
+                        let signs = wall::signs(ui.ctx());
+                        for (at, (what, how, film)) in STEPS.into_iter().enumerate() {
+                            ui.horizontal_top(|ui| {
+                                let (rect, _) =
+                                    ui.allocate_exact_size(Vec2::splat(SIDE), Sense::hover());
+                                let sign = signs.get(at % signs.len().max(1));
+                                film.paint(ui, little, language, sign, rect);
+                                ui.vertical(|ui| {
+                                    let title = format!("{}. {}", at + 1, what.of(language));
+                                    ui.label(RichText::new(title).strong());
+                                    ui.add(Label::new(keys.named(how.of(language))).wrap());
+                                });
+                            });
+                            ui.add_space(4.0);
+                        }
+                        ui.add(Label::new(keys.named(words::MORE.of(language))).wrap());
+                    });
             });
         self.open = open && !super::escaped(ctx);
     }
+}
+
+impl Loop {
+    /// Paints the loop at this moment.
+    fn paint(
+        self,
+        ui: &Ui,
+        little: &Figures,
+        language: Language,
+        sign: Option<&Arc<Made>>,
+        rect: Rect,
+    ) {
+        let colours = Colours::of(theme::is_dark(ui.ctx()));
+        let clock = little::clock(ui);
+        let share = (clock / LASTS).rem_euclid(1.0) as f32;
+        let painter = ui.painter().with_clip_rect(rect);
+        painter.rect_filled(rect, 6.0, ui.visuals().extreme_bg_color);
+        let film = |rect: Rect, clock: f64, focus: Focus| {
+            if let Some(sign) = sign {
+                little.paint_made(ui, language, (sign, clock), rect, focus);
+            }
+        };
+        match self {
+            Self::Sign => film(rect, clock, Focus::Signing),
+            Self::Annotation => {
+                let foot = rect.with_min_y(rect.bottom() - 24.0);
+                film(rect.with_max_y(foot.top()), clock, Focus::Signing);
+                let grown = (share * 1.6).min(1.0);
+                let left = foot.left() + foot.width() * 0.15;
+                let size = vec2(foot.width() * 0.7 * grown, 15.0);
+                let bar = Rect::from_min_size(pos2(left, foot.top() + 4.0), size);
+                painter.rect_filled(bar, 3.0, colours.gloss);
+                if grown >= 1.0 {
+                    let name = sign.map_or("", |sign| sign.name.as_str());
+                    let letters = ((share - 0.62).max(0.0) * 30.0) as usize;
+                    let typed: String = name.chars().take(letters).collect();
+                    let font = FontId::proportional(11.0);
+                    let at = bar.left_center() + vec2(4.0, 0.0);
+                    painter.text(at, Align2::LEFT_CENTER, typed, font, colours.on_annotation);
+                }
+                let now = foot.left() + foot.width() * (0.15 + 0.7 * grown);
+                painter.vline(now, foot.y_range(), Stroke::new(1.5, colours.playhead));
+            }
+            Self::Hand => {
+                let shape = (share * 3.0) as usize;
+                little.paint_hand(ui, language, (Side::Right, &bent(shape)), rect);
+            }
+            Self::Two => {
+                let right = Focus::Hand(Side::Right);
+                let changed = share >= 0.5;
+                film(rect, clock, if changed { right } else { Focus::Signing });
+            }
+            Self::Back => {
+                let to_and_fro = if share < 0.5 { share } else { 1.0 - share };
+                film(rect, f64::from(to_and_fro) * LASTS, Focus::Signing);
+                let from = rect.center_top() + vec2(if share < 0.5 { -14.0 } else { 14.0 }, 12.0);
+                let way = vec2(if share < 0.5 { 28.0 } else { -28.0 }, 0.0);
+                painter.arrow(from, way, Stroke::new(2.0, colours.accent));
+            }
+        }
+        let edge = Stroke::new(1.0, colours.rule);
+        ui.painter()
+            .rect_stroke(rect, 6.0, edge, StrokeKind::Inside);
+    }
+}
+
+/// Returns a hand with that many of its fingers straight, beginning with the index.
+fn bent(straight: usize) -> HandAngles {
+    let mut angles = HandAngles::default();
+    for finger in angles.fingers.iter_mut().skip(straight + 1) {
+        finger.flexion = [1.5; 3];
+    }
+    angles
 }
 
 #[cfg(test)]
@@ -70,7 +179,8 @@ mod tests {
     fn every_key_that_is_named_is_an_actions() {
         for (keymap, _) in Keymap::ALL {
             let keys = Keys::new(keymap, &Rebound::default());
-            for (_, how) in STEPS {
+            let all = STEPS.map(|it| it.1).into_iter().chain([words::MORE]);
+            for how in all {
                 for (language, _) in Language::ALL {
                     let told = keys.named(how.of(language));
                     assert!(!told.contains(['{', '}']), "{told}");
@@ -83,5 +193,11 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn hands_differ_from_step_to_step() {
+        assert_ne!(bent(0), bent(1));
+        assert_ne!(bent(1), bent(2));
     }
 }

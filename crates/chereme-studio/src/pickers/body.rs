@@ -1,26 +1,56 @@
-//! Places picked on a body: circles on pictures of the head, the body and the weak hand, or in the
-//! space before the signer, with the list of all places beside.
+//! Places picked on a body: areas on large pictures of the head, the body and the weak hand, or in the
+//! space before the signer, that light up, with the list of all places beside.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use chereme_sign::inventory::InventoryValue;
 use eframe::egui::{
-    Align2, Color32, Painter, Rect, ScrollArea, Sense, Stroke, TextStyle, TextureId, Ui, Vec2,
-    pos2, vec2,
+    Align2, Color32, Painter, Rect, ScrollArea, Sense, TextStyle, TextureId, Ui, Vec2, pos2, vec2,
 };
 
+use super::areas::{self, Wanted};
 use super::cells::{Cell, Cells, State};
-use super::places::{self, Panel, Zone, is_part};
+use super::places::{self, Panel, is_part};
 use super::{Picker, gallery, paint};
 use crate::context::Seen;
 use crate::words::{Text, pickers as words};
 
-/// The radius of a place's circle.
-const RADIUS: f32 = 8.0;
+/// The side of the point in the middle of an area that keys and screen readers find.
+const POINT: f32 = 8.0;
 /// Height of a row of the list.
 const ROW: f32 = 24.0;
 /// Pictures are drawn larger than shown, for screens with small pixels.
 const FINER: f32 = 1.5;
+/// The height of the line with the name of the place that is lit.
+const NAME: f32 = 26.0;
+
+/// The places that are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Tab {
+    /// Those on head and body.
+    #[default]
+    Body,
+    /// Those on the weak hand.
+    Hand,
+    /// Those in space.
+    Space,
+}
+
+impl Tab {
+    const ALL: [(Self, Text); 3] = [
+        (Self::Body, words::ON_BODY),
+        (Self::Hand, words::WEAK_HAND),
+        (Self::Space, words::IN_SPACE),
+    ];
+
+    fn of(panel: Panel) -> Self {
+        match panel {
+            Panel::Head | Panel::Trunk => Self::Body,
+            Panel::Hand => Self::Hand,
+            Panel::Space => Self::Space,
+        }
+    }
+}
 
 /// Draws the list and the pictures.
 pub(super) fn show(
@@ -29,8 +59,8 @@ pub(super) fn show(
     cells: &Cells<'_>,
     shown: &[usize],
 ) -> Option<String> {
-    let listed = (ui.available_width() * 0.28).clamp(110.0, 190.0);
-    let height = (ui.available_height() - 34.0).clamp(220.0, 330.0);
+    let listed = (ui.available_width() * 0.26).clamp(110.0, 180.0);
+    let height = (ui.available_height() - 34.0).clamp(220.0, 470.0);
     let mut picked = None;
     follow(picker, cells);
     ui.horizontal_top(|ui| {
@@ -43,6 +73,7 @@ pub(super) fn show(
         let by_picture = ui.vertical(|ui| {
             ui.set_height(height);
             tabs(ui, picker, cells.seen);
+            lit(ui, picker, cells);
             pictures(ui, picker, cells, shown)
         });
         picked = by_list.or(by_picture.inner);
@@ -52,26 +83,25 @@ pub(super) fn show(
 
 /// Turns to the pictures on which the value is that the keys are at.
 fn follow(picker: &mut Picker, cells: &Cells<'_>) {
-    if cells.pressed.way.is_none() && !picker.filter.is_empty() {
+    let walked = cells.pressed.way.is_some();
+    if walked || !picker.filter.is_empty() || std::mem::take(&mut picker.turns) {
         let at = picker.at.as_deref().and_then(|id| cells.inventory.get(id));
         if let Some(landmark) = at.and_then(|value| value.landmark.as_ref()) {
-            picker.space = places::panel(landmark) == Panel::Space;
+            picker.tab = Tab::of(places::panel(landmark));
         }
     }
 }
 
 fn tabs(ui: &mut Ui, picker: &mut Picker, seen: &Seen<'_>) {
     ui.horizontal(|ui| {
-        for (space, name) in [(false, words::ON_BODY), (true, words::IN_SPACE)] {
-            if ui
-                .selectable_label(picker.space == space, seen.say(name))
-                .clicked()
-            {
-                picker.space = space;
+        for (tab, name) in Tab::ALL {
+            let on = picker.tab == tab;
+            if ui.selectable_label(on, seen.say(name)).clicked() {
+                picker.tab = tab;
             }
         }
         ui.separator();
-        if picker.space {
+        if picker.tab == Tab::Space {
             for (depth, name) in [words::NEAR, words::REACH, words::FAR]
                 .into_iter()
                 .enumerate()
@@ -94,6 +124,29 @@ fn tabs(ui: &mut Ui, picker: &mut Picker, seen: &Seen<'_>) {
             }
         }
     });
+}
+
+/// Writes the name of the place that is lit, always in the same line.
+fn lit(ui: &mut Ui, picker: &Picker, cells: &Cells<'_>) {
+    let size = vec2(ui.available_width(), NAME);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let at = picker.at.as_deref().or(cells.chosen);
+    let value = at.and_then(|id| cells.inventory.get(id));
+    let (text, colour) = match value {
+        Some(value) => {
+            let label = super::data::label(value, cells.seen.language);
+            (label, ui.visuals().strong_text_color())
+        }
+        None => {
+            let text = cells.seen.say(words::POINT_AT);
+            (text.to_owned(), ui.visuals().weak_text_color())
+        }
+    };
+    let font = TextStyle::Heading.resolve(ui.style());
+    let text = paint::fitted(ui, text, &font, rect.width() - 4.0);
+    let at = rect.left_center() + vec2(2.0, 0.0);
+    ui.painter()
+        .text(at, Align2::LEFT_CENTER, text, font, colour);
 }
 
 /// Draws the list of places; the arrow keys walk through it.
@@ -152,17 +205,16 @@ fn pictures(
         ui.weak(cells.seen.say(words::DRAWING));
         return None;
     }
-    let panels: &[(Panel, bool, Text)] = &if picker.space {
-        vec![
+    let panels: &[(Panel, bool, Text)] = &match picker.tab {
+        Tab::Space => vec![
             (Panel::Space, false, words::SPACE_FRONT),
             (Panel::Space, true, words::SPACE_SIDE),
-        ]
-    } else {
-        vec![
+        ],
+        Tab::Body => vec![
             (Panel::Head, picker.turned, words::HEAD),
             (Panel::Trunk, picker.turned, words::TRUNK),
-            (Panel::Hand, picker.turned, words::WEAK_HAND),
-        ]
+        ],
+        Tab::Hand => vec![(Panel::Hand, picker.turned, words::WEAK_HAND)],
     };
     let gap = 6.0;
     let aspects: f32 = panels.iter().map(|(panel, ..)| panel.aspect()).sum();
@@ -198,33 +250,67 @@ fn panel_zones(
     view: (Panel, bool),
     rect: Rect,
 ) -> Option<String> {
-    let scene = places::ready()?;
     let inventory = cells.inventory;
     let here: Vec<usize> = shown
         .iter()
         .copied()
         .filter(|at| belongs(&inventory.values[*at], inventory, view, picker.depth))
         .collect();
-    let zones = places::zones(scene, inventory, &here, view, rect, RADIUS);
-    let reached = picker.at.clone();
-    for zone in &zones {
-        let value = &inventory.values[zone.value];
-        let on = |id: &str| inventory.is_within(&value.id, id);
-        let lit = reached.as_deref().is_some_and(on);
-        let chosen = cells.chosen.is_some_and(on);
-        let key = ui.scope_id().with(("zone", &value.id, view.1));
-        let spot = Rect::from_center_size(zone.centre, Vec2::splat(RADIUS * 2.0));
-        let response = cells.zone(ui, spot, key, value);
-        if response.hovered() && ui.input(|input| input.pointer.is_moving()) {
-            picker.at = Some(value.id.clone());
+    let wanted = Wanted {
+        view,
+        values: here,
+        size: rect.size().round(),
+    };
+    let size = [wanted.size.x as u32, wanted.size.y as u32];
+    let key = key((
+        "areas",
+        &inventory.id,
+        inventory.values.len(),
+        view,
+        &wanted.values,
+        size,
+    ));
+    let areas = areas::find(ui.ctx(), key, inventory, &wanted)?;
+    let whole = ui.interact(rect, ui.scope_id().with(("panel", view)), Sense::click());
+    let under = whole.hover_pos().and_then(|at| areas.at(rect, at));
+    let mut picked = None;
+    let moved = ui.input(|input| input.pointer.is_moving());
+    if let Some(zone) = under {
+        let id = &inventory.values[areas.zones[zone].value].id;
+        if moved {
+            picker.at = Some(id.clone());
         }
-        let how = (lit, chosen, response.hovered());
-        circle(ui.painter(), rect, zone, cells.seen, how);
-        if response.clicked() {
-            return Some(value.id.clone());
+        if whole.clicked() {
+            picked = Some(id.clone());
         }
     }
-    None
+    let colours = cells.seen.colours();
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    areas::paint(&painter, (key, &areas), None, colours.accent, rect);
+    for (nth, zone) in areas.zones.iter().enumerate() {
+        let value = &inventory.values[zone.value];
+        let on = |id: &str| inventory.is_within(&value.id, id);
+        let lit = picker.at.as_deref().is_some_and(on);
+        let chosen = cells.chosen.is_some_and(on);
+        let colour = match (lit, chosen) {
+            (true, _) => colours.playhead.gamma_multiply(0.62),
+            (false, true) => colours.accent.gamma_multiply(0.5),
+            _ => Color32::TRANSPARENT,
+        };
+        if lit || chosen {
+            areas::paint(&painter, (key, &areas), Some(nth), colour, rect);
+        }
+        let spot = Rect::from_center_size(rect.min + zone.centre.to_vec2(), Vec2::splat(POINT));
+        let name = ui.scope_id().with(("zone", &value.id, view.1));
+        let response = cells.zone(ui, spot, name, value);
+        if response.hovered() && moved {
+            picker.at = Some(value.id.clone());
+        }
+        if response.clicked() {
+            picked = Some(value.id.clone());
+        }
+    }
+    picked
 }
 
 /// Returns whether a place has a circle in a panel.
@@ -257,38 +343,6 @@ fn depth_of(value: &InventoryValue) -> usize {
         forward if forward > 0.05 => 2,
         _ => 1,
     }
-}
-
-/// Paints a place's circle: lit, chosen, under the pointer.
-fn circle(
-    painter: &Painter,
-    rect: Rect,
-    zone: &Zone,
-    seen: &Seen<'_>,
-    (lit, chosen, near): (bool, bool, bool),
-) {
-    let colours = seen.colours();
-    let paper = paint::paper(seen.dark);
-    if zone.at.distance(zone.centre) > RADIUS {
-        let thin = Stroke::new(1.0, colours.accent.gamma_multiply(0.8));
-        let painter = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
-        painter.line_segment([zone.at, zone.centre], thin);
-        painter.circle_filled(zone.at, 2.0, colours.accent);
-    }
-    let fill = if chosen {
-        colours.accent
-    } else if lit {
-        colours.playhead
-    } else {
-        paper.gamma_multiply(0.72)
-    };
-    let width = if near || lit { 2.5 } else { 1.5 };
-    let edge = if lit {
-        colours.playhead
-    } else {
-        colours.accent
-    };
-    painter.circle(zone.centre, RADIUS - 1.5, fill, Stroke::new(width, edge));
 }
 
 /// Paints a small picture of where a place is; returns whether it is anywhere.

@@ -121,7 +121,7 @@ impl Cells<'_> {
         let chosen = self.chosen == Some(value.id.as_str());
         let name = fill(self.seen.say(words::ZONE), &[("value", &label)]);
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &name));
-        response.on_hover_text(label)
+        response
     }
 
     fn cell(&self, ui: &Ui, cell: &Cell, id: &str) -> Response {

@@ -131,10 +131,18 @@ pub(crate) fn cell(kind: Kind) -> Vec2 {
 /// Returns the width that a picker is good at.
 pub(crate) fn width(kind: Kind) -> f32 {
     match kind {
-        Kind::Body => 680.0,
-        Kind::Hands => 560.0,
+        Kind::Body => 780.0,
+        Kind::Hands => 660.0,
         Kind::Rose | Kind::Glyphs => 460.0,
         Kind::Names => 340.0,
+    }
+}
+
+/// Returns the height that a picker is good at.
+pub(crate) fn height(kind: Kind) -> f32 {
+    match kind {
+        Kind::Body => 560.0,
+        _ => 440.0,
     }
 }
 

@@ -12,6 +12,7 @@
 pub(crate) mod data;
 pub(crate) mod hamnosys;
 
+mod areas;
 pub(crate) mod board;
 mod body;
 mod cells;
@@ -22,6 +23,7 @@ mod paint;
 
 mod places;
 mod rose;
+mod worn;
 
 use chereme_sign::Inventory;
 use eframe::egui::{
@@ -57,8 +59,10 @@ pub(crate) struct Picker {
     pub(crate) digits: Vec<String>,
     /// The inventory and the value whose details are requested.
     asked: Option<(String, String)>,
-    /// Of places: those in space rather than those on the body, from the side, and how far off.
-    space: bool,
+    /// Of places: where they are shown, from the side, and how far off.
+    tab: body::Tab,
+    /// It turns to the pictures with the value that it is at.
+    turns: bool,
     turned: bool,
     depth: usize,
 }
@@ -91,6 +95,7 @@ impl Picker {
     pub(crate) fn fresh() -> Self {
         Self {
             fresh: true,
+            turns: true,
             depth: 1,
             ..Self::default()
         }
@@ -126,6 +131,7 @@ pub(crate) fn pick(
         let picked = match data::kind(inventory) {
             Kind::Body => body::show(ui, picker, &cells, &shown),
             Kind::Rose => rose::show(ui, picker, &cells, &shown),
+            Kind::Hands => hands(ui, picker, &cells, &shown),
             kind => grid(ui, picker, &cells, &shown, kind),
         };
         let at = picker.at.as_deref().and_then(|id| inventory.get(id));
@@ -150,11 +156,23 @@ pub(crate) fn button(
     name: &str,
 ) -> Option<String> {
     let response = face(ui, seen, inventory, chosen, name);
+    below(ui, &response, picker, seen, (inventory, chosen, name))
+}
+
+/// Opens the picker of an inventory below something that was clicked, and returns the id of the value that was picked;
+/// `chosen` and `name` are those of [`button`].
+pub(crate) fn below(
+    ui: &mut Ui,
+    response: &Response,
+    picker: &mut Picker,
+    seen: &Seen<'_>,
+    (inventory, chosen, name): (&Inventory, Option<&str>, &str),
+) -> Option<String> {
     if response.clicked() {
         *picker = Picker::fresh();
     }
     let screen = ui.ctx().content_rect().size();
-    let popup = Popup::from_toggle_button_response(&response)
+    let popup = Popup::from_toggle_button_response(response)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .accessible_name(name);
     // It stays within its pane, so that the stage with the picked value stays free.
@@ -172,7 +190,7 @@ pub(crate) fn button(
     }
     let picked = popup.show(|ui| {
         ui.set_width(width);
-        ui.set_max_height((screen.y - 120.0).min(440.0));
+        ui.set_max_height((screen.y - 120.0).min(data::height(data::kind(inventory))));
         pick(ui, picker, seen, inventory, chosen)
     });
     let away = picked.is_some() && ui.input(|input| input.key_pressed(Key::Escape));
@@ -230,6 +248,46 @@ fn filter(ui: &mut Ui, picker: &mut Picker, seen: &Seen<'_>, inventory: &Invento
             .map(|at| inventory.values[*at].id.clone());
     }
     pressed
+}
+
+/// The room for the hand that wears a handshape, and the least width for the pictures beside it.
+const WORN: f32 = 176.0;
+const BESIDE: f32 = 250.0;
+
+/// Draws pictures of hands, and beside them a hand that wears the handshape that the pointer or the keys are at.
+fn hands(ui: &mut Ui, picker: &mut Picker, cells: &Cells<'_>, shown: &[usize]) -> Option<String> {
+    let room = ui.available_width();
+    if room < WORN + BESIDE {
+        return grid(ui, picker, cells, shown, Kind::Hands);
+    }
+    let high = ui.available_height();
+    ui.horizontal_top(|ui| {
+        let picked = ui
+            .allocate_ui(vec2(room - WORN - 8.0, high), |ui| {
+                ui.set_width(room - WORN - 8.0);
+                grid(ui, picker, cells, shown, Kind::Hands)
+            })
+            .inner;
+        let (rect, _) = ui.allocate_exact_size(vec2(WORN, WORN + 40.0), Sense::hover());
+        let at = picker.at.as_deref().or(cells.chosen);
+        let at = at.and_then(|id| cells.inventory.get(id));
+        let at = at.or_else(|| cells.inventory.values.get(*shown.first()?));
+        if let Some((value, angles)) = at.and_then(|it| Some((it, data::hand(it)?))) {
+            let square = Rect::from_min_size(rect.min, vec2(WORN, WORN));
+            ui.painter()
+                .rect_filled(square, 8.0, paint::paper(cells.seen.dark));
+            worn::show(ui, square.shrink(4.0), cells.seen.dark, &angles);
+            let font = TextStyle::Heading.resolve(ui.style());
+            let below = pos2(rect.center().x, square.bottom() + 18.0);
+            let text = ui.visuals().text_color();
+            let name = data::said(value, cells.seen.language).to_owned();
+            let name = paint::fitted(ui, name, &font, WORN);
+            ui.painter()
+                .text(below, eframe::egui::Align2::CENTER_CENTER, name, font, text);
+        }
+        picked
+    })
+    .inner
 }
 
 /// Draws values in rows.

@@ -51,6 +51,8 @@ pub(crate) struct Scene {
 
 /// The dominant hand for which places of the own and the other side are shown.
 const ACTING: Side = Side::Right;
+/// A place farther than this behind the axis of its part of the body is not seen, in metres.
+const BEHIND: f32 = 0.045;
 /// The eye's distance beside half the height of what it sees: a long lens.
 const DISTANCE: f32 = 9.0;
 
@@ -84,6 +86,42 @@ impl Scene {
         let frame = self.anatomy.body_frame(&self.model)?;
         let offset = frame.direction_to_model(DVec3::new(left, up, forward)) * frame.scale;
         Some((at + offset).as_vec3())
+    }
+
+    /// Returns those of the places `values` that a look at a panel shows: the others lie behind the body.
+    pub(crate) fn in_sight(
+        &self,
+        inventory: &Inventory,
+        values: &[usize],
+        (panel, turned): (Panel, bool),
+    ) -> Vec<usize> {
+        let middle = match panel {
+            Panel::Space => None,
+            Panel::Head => self.landmark("head-top").map(|top| (top, Vec3::Y)),
+            Panel::Trunk => self.landmark("hips").map(|hips| (hips, Vec3::Y)),
+            Panel::Hand => {
+                let side = ACTING.other();
+                let wrist = self.anatomy.joint(Part::Hand(side));
+                let wrist = wrist.map(|it| self.model.position(it).as_vec3());
+                let along = self.anatomy.hand_direction(side, &self.model);
+                wrist.zip(along.map(|it| it.as_vec3()))
+            }
+        };
+        let camera = self.camera(panel, turned);
+        let Some(((middle, axis), camera)) = middle.zip(camera) else {
+            return values.to_vec();
+        };
+        let towards = (camera.eye - camera.target).normalize_or(Vec3::Z);
+        let seen = |at: Vec3| {
+            // How far it lies before the axis of this part of the body.
+            let away = at - middle;
+            (away - axis * away.dot(axis)).dot(towards) > -BEHIND
+        };
+        let place = |value: &usize| self.at(inventory.values[*value].landmark.as_ref()?);
+        let values = values.iter().copied();
+        values
+            .filter(|value| place(value).is_none_or(seen))
+            .collect()
     }
 
     fn landmark(&self, name: &str) -> Option<Vec3> {

@@ -1,13 +1,17 @@
-//! The page without a corpus: the starter corpus, recent ones, a path, a folder to import.
+//! The page without a corpus: the starter corpus, recent ones, a path, a folder to import, and a wall of signs.
+
+pub(crate) mod wall;
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use eframe::egui::epaint::RectShape;
 use eframe::egui::{
-    Button, Key, ProgressBar, Response, RichText, Role, ScrollArea, Shape, StrokeKind, Ui,
-    WidgetInfo, vec2,
+    Button, Key, ProgressBar, Rect, Response, RichText, Role, ScrollArea, Sense, Shape, StrokeKind,
+    Ui, UiBuilder, WidgetInfo, vec2,
 };
+
+use chereme_motion::Span;
 
 use crate::action::Action;
 use crate::app::Studio;
@@ -52,6 +56,12 @@ type Typed = (Text, fn(PathBuf) -> Begin);
 /// The keys that bring the keyboard to the page if nothing else has it.
 const KEYS: [Key; 4] = [Key::ArrowDown, Key::ArrowUp, Key::Enter, Key::Space];
 const WIDE: f32 = 620.0;
+/// The least width of the column beside the wall, and the room at its sides.
+const LEAST: f32 = 400.0;
+const EDGE: f32 = 20.0;
+/// A window narrower than this has the wall below the column, so high.
+const WALLED: f32 = 860.0;
+const STRIP: f32 = 190.0;
 /// How many recent corpora are on the page; the others are in the menu.
 const RECENT: usize = 4;
 /// The room beside a recent corpus for what forgets it.
@@ -61,14 +71,37 @@ const LOW: f32 = 680.0;
 
 impl Studio {
     pub(crate) fn start_page(&mut self, ui: &mut Ui) {
-        let language = self.settings.language;
         // A key that would go nowhere goes to what one most likely wants.
         let lost = ui.memory(|memory| memory.focused().is_none());
         if lost && ui.input(|input| KEYS.into_iter().any(|key| input.key_pressed(key))) {
             self.start.come = false;
         }
+        let whole = ui.available_rect_before_wrap();
+        let walled = whole.width() >= WALLED;
+        let mut column = whole;
+        if walled {
+            let share = (whole.width() * 0.42).clamp(LEAST, WIDE);
+            column.set_width(share);
+            let room = whole.with_min_x(column.right()).shrink2(vec2(20.0, 28.0));
+            self.wall(ui, room);
+        }
+        let builder = UiBuilder::new().max_rect(column).id_salt("start");
+        ui.scope_builder(builder, |ui| self.start_column(ui, walled));
+    }
+
+    /// Shows the wall; a sign that is clicked opens the starter corpus with it.
+    fn wall(&mut self, ui: &mut Ui, room: Rect) {
+        let language = self.settings.language;
+        if let Some(gloss) = wall::show(ui, &self.little, language, room) {
+            self.greets = Some(gloss);
+            self.out.send(Command::Do(Action::OpenStarter));
+        }
+    }
+
+    fn start_column(&mut self, ui: &mut Ui, walled: bool) {
+        let language = self.settings.language;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            let width = ui.available_width().min(WIDE);
+            let width = (ui.available_width() - 2.0 * EDGE).min(WIDE - 2.0 * EDGE);
             let left = (ui.available_width() - width) / 2.0;
             ui.horizontal(|ui| {
                 ui.add_space(left.max(0.0));
@@ -96,9 +129,25 @@ impl Studio {
                     self.offers_part(ui);
                     ui.add_space(gap);
                     self.path_part(ui);
+                    if !walled {
+                        ui.add_space(gap);
+                        let size = vec2(width, STRIP);
+                        let (room, _) = ui.allocate_exact_size(size, Sense::hover());
+                        self.wall(ui, room);
+                    }
                 });
             });
         });
+    }
+
+    /// Returns where the sign lies that a new user is greeted with, once.
+    pub(crate) fn greeting(&mut self) -> Option<(i64, Span)> {
+        let gloss = self.greets.take()?;
+        let signs = &self.snapshot.as_ref()?.overview.signs;
+        let wanted = signs.iter().find(|it| it.gloss == gloss);
+        wanted
+            .and_then(|it| it.place)
+            .or_else(|| signs.iter().find_map(|it| it.place))
     }
 
     fn beginning_page(&mut self, ui: &mut Ui) {

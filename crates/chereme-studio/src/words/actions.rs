@@ -42,6 +42,9 @@ texts! {
     ALSO_NEXT: "Select the next annotation too", "Sélectionner aussi l’annotation suivante";
     ALSO_PREVIOUS: "Select the previous annotation too", "Sélectionner aussi l’annotation précédente";
     SELECT_ON_TIER: "Select all on the tier", "Tout sélectionner sur l’acteur";
+    VALUE_PROPOSE: "Propose values from movement", "Proposer des valeurs d’après le mouvement";
+    VALUE_ACCEPT: "Accept the proposal", "Accepter la proposition";
+    VALUE_NEXT_PROPOSAL: "Next doubtful proposal", "Proposition douteuse suivante";
     VALUE_EDIT: "Type the value", "Saisir la valeur";
     VALUE_PICTURE: "Choose the value by picture", "Choisir la valeur en image";
     VALUE_CLEAR: "Clear the value", "Effacer la valeur";
@@ -130,6 +133,9 @@ texts! {
     STAGE_TRAILS: "Trails of the hands", "Traces des mains";
     STAGE_GHOSTS: "Ghosts of other moments", "Fantômes d’autres instants";
     STAGE_PLACES: "Places on the body", "Lieux du corps";
+    STAGE_HANDS: "Hands in the corners", "Mains dans les coins";
+    STAGE_PALMS: "Palms turned to the eye", "Paumes tournées vers l’œil";
+    STAGE_FACE: "Face in the corner", "Visage dans le coin";
     STAGE_GRID: "Grid of the signing space", "Grille de l’espace de signation";
     STAGE_COMPARE: "Original: beside, over, away", "Original : à côté, dessus, masqué";
     STAGE_RECORDING: "Back from the made sign to the recording", "Revenir du signe composé à l’enregistrement";

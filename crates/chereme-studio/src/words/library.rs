@@ -8,6 +8,8 @@ texts! {
     NO_SIGN_FITS: "No sign is called like that.", "Aucun signe ne s’appelle ainsi.";
     RECORDINGS: "Recordings ({n})", "Enregistrements ({n})";
     SIGNS: "Signs ({n})", "Signes ({n})";
+    WALL: "Wall", "Mur";
+    LIST: "List", "Liste";
     RECORDED: "recorded", "enregistré";
     NOTATED: "notated", "noté";
     IN_LEXICON: "lexicon entry", "entrée de lexique";

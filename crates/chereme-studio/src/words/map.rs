@@ -7,5 +7,5 @@ texts! {
     COUNT: "Signs on the map: {n}", "Signes sur la carte : {n}";
     LEFT_OUT: "not coded for these: {n}", "non codés pour cela : {n}";
     ALIKE: "most alike:", "les plus proches :";
-    HINT: "The wheel zooms, a drag moves, a click opens a sign, Shift and a drag select several.", "La molette agrandit, un glissement déplace, un clic ouvre un signe, Maj et un glissement en choisissent plusieurs.";
+    HINT: "The wheel zooms, a drag moves, a click opens a sign, Shift and a drag around signs select them.", "La molette agrandit, un glissement déplace, un clic ouvre un signe, Maj et un glissement autour de signes les choisissent.";
 }

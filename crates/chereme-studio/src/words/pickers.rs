@@ -18,6 +18,7 @@ texts! {
     NEAR: "Near", "Près";
     REACH: "Middle", "Milieu";
     FAR: "Far", "Loin";
+    POINT_AT: "Point at a place", "Désignez un lieu";
     ZONE: "{value}, on the picture", "{value}, sur l’image";
     AWAY: "Away", "Vers l’avant";
     LEVEL: "Across", "Sans avancer";

@@ -170,6 +170,12 @@ texts! {
     ANOTHER_PHASE_TIP: "One for each phase of the sign in turn", "Une pour chaque phase du signe";
     WAY: "Way", "Chemin";
     IN_TIME: "in", "en";
+    DRAW_ON_STAGE: "Draw on the stage", "Dessiner sur la scène";
+    DRAW_ON_STAGE_HINT: "The next drag on the stage draws the path of the hand, as it is seen there", "Le prochain glissement sur la scène dessine le trajet de la main, tel qu’on l’y voit";
+    CURVE: "Curve through {n} points", "Courbe par {n} points";
+    CURVE_HINT: "Pull it on the stage: a point, or the line between; the other button takes a point away.", "Tirez-la sur la scène : un point, ou la ligne entre deux ; l’autre bouton enlève un point.";
+    COURSE_POINT: "Point {n} of the path", "Point {n} du trajet";
+    COURSE_LINE: "Path of the hand", "Trajet de la main";
     ADD_WAY: "+ way", "+ chemin";
     BOARD: "Board", "Tableau";
     BOARD_FRONT: "seen from the front", "vu de face";

@@ -4,6 +4,9 @@ texts! {
     TITLE: "Search", "Recherche";
     QUERY: "Query", "Requête";
     HINT: "handshape U placement chin", "configuration U emplacement menton";
+    TILE_HAND: "Hand", "Main";
+    TILE_BODY: "Body", "Corps";
+    TILE_MOVEMENT: "Movement", "Mouvement";
     OFFERS: "Completions", "Ce qui peut s’écrire";
     OFFER: "Write {text}", "Écrire {text}";
     OFFER_KEYS: "Tab or arrow keys and Enter", "Tab ou flèches et Entrée";

@@ -17,6 +17,7 @@ texts! {
     START_LEAD: "Annotate, search and recombine signed movement.", "Annoter, rechercher et recombiner des signes en mouvement.";
     START_STARTER: "Open the starter corpus", "Ouvrir le corpus de départ";
     START_STARTER_HINT: "A small corpus made by a program, to try everything on.", "Un petit corpus produit par un programme, pour tout essayer.";
+    START_SIGN: "{gloss}: open the starter corpus with it", "{gloss} : ouvrir le corpus de départ avec ce signe";
     START_OPEN: "Open a corpus…", "Ouvrir un corpus…";
     START_OPEN_HINT: "A file ending in .chereme.", "Un fichier en .chereme.";
     START_NEW: "New empty corpus…", "Nouveau corpus vide…";
@@ -100,7 +101,7 @@ texts! {
     TASK_RECOMBINE: "Recombining", "Recombinaison";
     TASK_EXPORT: "Exporting", "Exportation";
     TASK_PROPOSE: "Reading codings from movement", "Lecture des codages d’après le mouvement";
-    NOTICE_PROPOSED: "Signs coded from movement, on tiers of their own: {tokens}; not readable: {unread}", "Signes codés d’après le mouvement, sur des acteurs à part : {tokens} ; illisibles : {unread}";
+    NOTICE_PROPOSED: "Signs coded from movement, hatched on tiers of their own: {tokens}; not readable: {unread}. Enter accepts the selected one; the menu Value has the next doubtful one.", "Signes codés d’après le mouvement, hachurés sur des acteurs à part : {tokens} ; illisibles : {unread}. Entrée accepte celle qui est sélectionnée ; le menu Valeur mène à la prochaine douteuse.";
     NOTICE_NOT_PROPOSED: "None of these signs could be read from movement: {unread}. They lie in recordings without movement, or their movement is not understood.", "Aucun de ces signes n’a pu être lu dans le mouvement : {unread}. Leurs enregistrements sont sans mouvement, ou leur mouvement n’est pas compris.";
     TASK_CHECK: "Checking", "Vérification";
     CHECKED_WELL: "Checked: nothing is wrong.", "Vérifié : tout est en ordre.";

@@ -29,6 +29,15 @@ texts! {
     ESTIMATED: "Points estimated from film", "Points estimés d’après un film";
     ESTIMATED_FLAT: "Points estimated from film, without depth", "Points estimés d’après un film, sans profondeur";
     NO_DEPTH: "Points without depth", "Points sans profondeur";
+    HANDS: "Hands", "Mains";
+    HANDS_HINT: "Both hands from near, in the corners", "Les deux mains de près, dans les coins";
+    PALMS: "Palms", "Paumes";
+    PALMS_HINT: "Hands in the corners are turned palm to the eye, fingers up: a handshape always looks the same", "Les mains des coins sont tournées paume vers l’œil, doigts en haut : une configuration a toujours le même aspect";
+    FACE: "Face", "Visage";
+    FACE_HINT: "The face from near, in a corner", "Le visage de près, dans un coin";
+    INSET_TIP: "{name}; a click turns palms to the eye, or back ({keys})", "{name} ; un clic tourne les paumes vers l’œil, ou revient ({keys})";
+    PREVIEW: "Preview: the stroke at {time}", "Aperçu : le geste à {time}";
+    PREVIEW_LOOP: "Preview: {play.toggle} plays from the playhead", "Aperçu : {play.toggle} lit depuis le curseur";
     BESIDE: "Beside", "À côté";
     OVER: "Over", "Dessus";
     ALONE: "Alone", "Seul";

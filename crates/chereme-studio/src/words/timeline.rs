@@ -1,6 +1,7 @@
 //! The timeline.
 
 texts! {
+    NO_PROPOSAL: "There is no proposal here. {value.propose} reads handshapes, places, movements and orientations from the movement.", "Il n’y a pas de proposition ici. {value.propose} lit configurations, emplacements, mouvements et orientations dans le mouvement.";
     TITLE: "Timeline", "Ligne de temps";
     EMPTY: "This recording has no tiers yet.", "Cet enregistrement n’a pas encore d’acteurs.";
     NO_RECORDINGS: "This corpus has no recordings, and so no tiers. Its signs are in the library and in the search.", "Ce corpus n’a pas d’enregistrements, donc pas d’acteurs. Ses signes sont dans le fonds et la recherche.";

@@ -68,6 +68,10 @@ pub(super) fn carry(
             .map(|()| Outcome::Changed)?,
         Work::ForgetSearch(name) => corpus.forget_search(&name).map(|_| Outcome::Changed)?,
         Work::Check { mend } => Outcome::Checked(corpus.check(mend, progress)?),
+        Work::ProposeIn(options) => Outcome::Proposed(corpus.propose(&options, progress)?),
+        Work::Accept(annotations) => {
+            Outcome::Annotated(corpus.accept_proposals(&annotations, progress)?)
+        }
         Work::Propose(component) => Outcome::Proposed(corpus.propose_coding(component, progress)?),
         Work::Look(thing) => Outcome::Looked(look(corpus, thing)?),
         Work::Decide(number, decision) => corpus

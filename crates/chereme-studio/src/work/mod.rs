@@ -15,9 +15,9 @@ use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
     Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat,
     ImportOptions, ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier,
-    OperationRow, Picture, PictureOptions, PointsPiece, Proposed, Recombination, RecordingChange,
-    Scheme, SearchOptions, SignChange, SignMap, SignerChange, Suggestions, TierChange, TierName,
-    TrackChange, Unit,
+    OperationRow, Picture, PictureOptions, PointsPiece, ProposeOptions, Proposed, Recombination,
+    RecordingChange, Scheme, SearchOptions, SignChange, SignMap, SignerChange, Suggestions,
+    TierChange, TierName, TrackChange, Unit,
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
@@ -102,6 +102,10 @@ pub(crate) enum Work {
     },
     /// Reads a component that is not coded from movement.
     Propose(Component),
+    /// Propose values for a sign, a span or a recording.
+    ProposeIn(ProposeOptions),
+    /// Accept these proposals.
+    Accept(Vec<i64>),
     /// Says all that is known of something.
     Look(Thing),
     /// Finds tokens.
@@ -297,6 +301,8 @@ impl Work {
             | Self::ForgetSearch(_)
             | Self::Check { .. }
             | Self::Propose(_)
+            | Self::ProposeIn(_)
+            | Self::Accept(_)
             | Self::Undo
             | Self::Redo => Lane::Edit,
             Self::Search(..)
@@ -322,7 +328,7 @@ impl Work {
             Self::Import(_, options) if options.dry_run => shell::TASK_LOOKING,
             Self::Import(..) => shell::TASK_IMPORT,
             Self::Check { .. } => shell::TASK_CHECK,
-            Self::Propose(_) => shell::TASK_PROPOSE,
+            Self::Propose(_) | Self::ProposeIn(_) => shell::TASK_PROPOSE,
             Self::Search(..)
             | Self::Around(..)
             | Self::Map(_)
@@ -367,7 +373,7 @@ impl Work {
         self.lane() != Lane::Edit
             || matches!(
                 self,
-                Self::Import(..) | Self::Check { .. } | Self::Propose(_)
+                Self::Import(..) | Self::Check { .. } | Self::Propose(_) | Self::ProposeIn(_)
             )
     }
 }

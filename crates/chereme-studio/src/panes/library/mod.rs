@@ -1,9 +1,12 @@
 //! The recordings and the signs of the corpus, to choose one.
 
 pub(crate) mod data;
+mod wall;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use chereme_motion::Span;
 use eframe::egui::{
     EventFilter, Id, Key, Modifiers, Rect, RectAlign, Response, ScrollArea, Sense, Tooltip, Ui,
     Vec2, WidgetInfo, vec2,
@@ -57,6 +60,8 @@ struct Rows {
     of: Option<(usize, String, Language)>,
     recordings: Vec<Row>,
     signs: Vec<SignRow>,
+    /// The first sign of each recording.
+    first: BTreeMap<i64, Span>,
 }
 
 impl Rows {
@@ -74,6 +79,7 @@ impl Rows {
         let kind = |kind| seen.say(data::kind_text(kind)).to_owned();
         self.recordings = data::rows(&overview.recordings, filter, origin, kind);
         self.signs = data::signs(&overview.signs, &overview.recordings, filter, seen.language);
+        self.first = wall::first_signs(&overview.signs);
         self.of = Some(now);
     }
 }
@@ -91,7 +97,7 @@ impl Library {
     }
 
     /// Draws what is listed, and the filter.
-    fn head(&mut self, ui: &mut Ui, seen: &Seen<'_>) -> List {
+    fn head(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) -> List {
         let list = self.listed(seen);
         let overview = &seen.snapshot.overview;
         ui.horizontal_wrapped(|ui| {
@@ -108,6 +114,16 @@ impl Library {
                 if ui.selectable_label(list == of, name).clicked() && list != of {
                     (self.list, self.at, self.scrolled) = (Some(of), 0, 0.0);
                     self.reach = None;
+                }
+            }
+            ui.separator();
+            for (as_list, name) in [(false, words::WALL), (true, words::LIST)] {
+                let on = seen.settings.library_list == as_list;
+                if ui.selectable_label(on, seen.say(name)).clicked() && !on {
+                    let mut settings = seen.settings.clone();
+                    settings.library_list = as_list;
+                    out.send(Command::Settings(Box::new(settings)));
+                    (self.scrolled, self.reach) = (0.0, None);
                 }
             }
         });
@@ -242,27 +258,32 @@ impl Library {
                     let motion = Motion::Span(row.id, row.whole);
                     figure(ui, seen, out, motion, &response, lead);
                 }
-                if response.clicked() {
-                    out.send(Command::Recording(row.id));
-                    out.send(Command::Look);
-                }
-                if response.double_clicked() {
-                    open_recipe(seen, Some(row.id), out);
-                }
-                response.context_menu(|ui| {
-                    if seen.snapshot.recipe_of(row.id).is_some() {
-                        let name = seen.say(Action::OpenRecipe.row().name);
-                        if ui.button(name).clicked() {
-                            open_recipe(seen, Some(row.id), out);
-                            ui.close();
-                        }
-                    }
-                    inspect(ui, seen, Thing::Recording(row.id), out);
-                });
+                self.on_recording(seen, out, row, &response);
             }
         });
         self.scrolled = shown.state.clamped_offset().y;
         self.rows.recordings = rows;
+    }
+
+    /// Answers to clicks on a recording.
+    fn on_recording(&self, seen: &Seen<'_>, out: &mut Outbox, row: &Row, response: &Response) {
+        if response.clicked() {
+            out.send(Command::Recording(row.id));
+            out.send(Command::Look);
+        }
+        if response.double_clicked() {
+            open_recipe(seen, Some(row.id), out);
+        }
+        response.context_menu(|ui| {
+            if seen.snapshot.recipe_of(row.id).is_some() {
+                let name = seen.say(Action::OpenRecipe.row().name);
+                if ui.button(name).clicked() {
+                    open_recipe(seen, Some(row.id), out);
+                    ui.close();
+                }
+            }
+            inspect(ui, seen, Thing::Recording(row.id), out);
+        });
     }
 
     fn signs(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
@@ -302,8 +323,19 @@ impl Library {
         if let Some(motion) = &motion {
             figure(ui, seen, out, motion.clone(), &response, lead);
         }
+        self.on_sign(seen, out, (row, motion), &response);
+    }
+
+    /// Answers to clicks on a sign, and to drags.
+    fn on_sign(
+        &mut self,
+        seen: &Seen<'_>,
+        out: &mut Outbox,
+        (row, motion): (&SignRow, Option<Motion>),
+        response: &Response,
+    ) {
         if let Some(carried) = carried(row) {
-            super::carry::drag(&response, carried, motion);
+            super::carry::drag(response, carried, motion);
         }
         if response.clicked() {
             self.choose(row, out);
@@ -388,7 +420,7 @@ impl Pane for Library {
             }
             return;
         }
-        let list = self.head(ui, seen);
+        let list = self.head(ui, seen, out);
         self.rows.update(seen, &self.filter);
         if list == List::Signs {
             self.hint(ui, seen, out);
@@ -400,6 +432,7 @@ impl Pane for Library {
             List::Signs if self.rows.signs.is_empty() => {
                 ui.label(seen.say(words::NO_SIGN_FITS));
             }
+            _ if !seen.settings.library_list => self.wall(ui, seen, out, list),
             List::Recordings => self.recordings(ui, seen, out),
             List::Signs => self.signs(ui, seen, out),
         }

@@ -25,6 +25,8 @@ impl Default for View {
 
 /// The margin around the whole map, as a share of its side.
 const MARGIN: f32 = 0.06;
+/// The share of a flight that is left after a second.
+const LEFT: f32 = 1e-4;
 /// The greatest magnification.
 const NEAREST: f32 = 400.0;
 
@@ -41,6 +43,48 @@ impl View {
     /// Returns the place of the map at a point of the window.
     pub(super) fn place(&self, rect: Rect, point: Pos2) -> Pos2 {
         self.centre + (point - rect.center()) / self.scale(rect)
+    }
+
+    /// Returns the view with a place in the middle and at most so many of all `places` in sight, no farther off than this
+    /// one.
+    pub(super) fn near(
+        &self,
+        rect: Rect,
+        place: Pos2,
+        places: impl Iterator<Item = Pos2>,
+        most: usize,
+    ) -> Self {
+        let unit = Self {
+            centre: place,
+            zoom: 1.0,
+        }
+        .scale(rect);
+        // How far the map must be magnified for each place to leave the window.
+        let leaves = |at: Pos2| {
+            let away = (at - place).abs() * unit;
+            let half = rect.size() / 2.0;
+            (half.x / away.x.max(1e-6)).min(half.y / away.y.max(1e-6))
+        };
+        let mut zooms: Vec<f32> = places.map(leaves).collect();
+        zooms.sort_by(|a, b| b.total_cmp(a));
+        let zoom = zooms.get(most).copied().unwrap_or(0.0);
+        Self {
+            centre: place,
+            zoom: zoom.max(self.zoom).clamp(0.5, NEAREST),
+        }
+    }
+
+    /// Flies towards another view for so many seconds; returns whether it has arrived.
+    pub(super) fn towards(&mut self, to: Self, seconds: f32) -> bool {
+        let share = 1.0 - LEFT.powf(seconds);
+        self.centre += (to.centre - self.centre) * share;
+        self.zoom *= (to.zoom / self.zoom).powf(share);
+        let off = (to.centre - self.centre).length() * self.zoom;
+        let near = off < 1e-3 && (to.zoom / self.zoom).ln().abs() < 1e-2;
+        if near {
+            *self = to;
+        }
+        near
     }
 
     /// Moves the map along with the pointer; its middle stays on the map.
@@ -82,6 +126,19 @@ impl Labels {
         }
         free
     }
+}
+
+/// Returns whether a point lies inside a closed line.
+pub(super) fn is_inside(line: &[Pos2], point: Pos2) -> bool {
+    let mut inside = false;
+    for (at, a) in line.iter().enumerate() {
+        let b = line[(at + 1) % line.len()];
+        if (a.y > point.y) != (b.y > point.y) {
+            let x = a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x);
+            inside ^= point.x < x;
+        }
+    }
+    inside
 }
 
 /// Returns the signs most like one, by their index.
@@ -137,6 +194,44 @@ mod tests {
             view.moved(rect(), Vec2::new(1e6, 1e6));
         }
         assert!(view.centre.x >= 0.0 && view.zoom <= NEAREST);
+    }
+
+    #[test]
+    fn a_flight_arrives_with_a_sign_in_the_middle_and_few_around_it() {
+        let places: Vec<Pos2> = (0..400)
+            .map(|n| pos2((n % 20) as f32 / 19.0, (n / 20) as f32 / 19.0))
+            .collect();
+        let goal = places[210];
+        let to = View::default().near(rect(), goal, places.iter().copied(), 20);
+        let seen = |view: &View| {
+            let shown = places.iter().map(|at| view.shown(rect(), *at));
+            shown.filter(|at| rect().contains(*at)).count()
+        };
+        assert!((2..=21).contains(&seen(&to)), "{}", seen(&to));
+        let mut view = View::default();
+        let mut frames = 1;
+        while !view.towards(to, 1.0 / 60.0) {
+            frames += 1;
+            assert!(frames < 120);
+        }
+        assert!(frames > 10, "it flies");
+        assert!(view.shown(rect(), goal).distance(rect().center()) < 0.1);
+    }
+
+    #[test]
+    fn a_lasso_holds_what_it_goes_around() {
+        let line = [
+            (0.0, 0.0),
+            (10.0, 0.0),
+            (10.0, 10.0),
+            (5.0, 4.0),
+            (0.0, 10.0),
+        ];
+        let line = line.map(|(x, y)| pos2(x, y));
+        assert!(is_inside(&line, pos2(2.0, 3.0)));
+        assert!(!is_inside(&line, pos2(5.0, 8.0)), "the notch is outside");
+        assert!(!is_inside(&line, pos2(-1.0, 3.0)));
+        assert!(!is_inside(&[], pos2(0.0, 0.0)));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod data;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::SignMap;
@@ -45,9 +46,13 @@ pub(crate) struct Map {
     /// The generation of the corpus and the components of the newest request.
     of: Option<(i64, [bool; 4])>,
     view: View,
+    /// The view that it flies to.
+    towards: Option<View>,
     chosen: Option<usize>,
-    /// The corner where a selection by dragging began.
-    lasso: Option<Pos2>,
+    /// The line that a selection by dragging has drawn so far.
+    lasso: Vec<Pos2>,
+    /// Maps of this corpus by their components, as it was in the generation.
+    kept: BTreeMap<[bool; 4], (i64, Arc<SignMap>)>,
 }
 
 impl Default for Map {
@@ -59,8 +64,10 @@ impl Default for Map {
             wrong: None,
             of: None,
             view: View::default(),
+            towards: None,
             chosen: None,
-            lasso: None,
+            lasso: Vec::new(),
+            kept: BTreeMap::new(),
         }
     }
 }
@@ -73,6 +80,11 @@ impl Map {
             return;
         }
         self.of = of;
+        let generation = seen.snapshot.overview.generation;
+        if let Some((_, map)) = self.kept.get(&self.by).filter(|it| it.0 == generation) {
+            (self.map, self.wrong, self.chosen) = (Some(map.clone()), None, None);
+            return;
+        }
         let wanted = COMPONENTS.iter().zip(self.by).filter(|(_, on)| *on);
         let components = wanted.map(|((component, _), _)| *component).collect();
         self.asked = Some(out.work(Work::Map(components)));
@@ -87,7 +99,7 @@ impl Map {
                 ui.add_enabled_ui(!only, |ui| ui.checkbox(&mut self.by[at], seen.say(*name)));
             }
             if ui.button(seen.say(words::WHOLE)).clicked() {
-                self.view = View::default();
+                self.towards = Some(View::default());
             }
             if seen.is_running(self.asked) {
                 ui.spinner();
@@ -111,6 +123,7 @@ impl Map {
         let name = fill(seen.say(words::COUNT), &[("n", &map.signs.len())]);
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
         self.look_around(ui, &response, rect);
+        self.fly(ui);
         ui.painter()
             .rect_filled(rect, 4.0, ui.visuals().extreme_bg_color);
         let painter = ui.painter().with_clip_rect(rect);
@@ -170,21 +183,23 @@ impl Map {
             };
             label(&painter, &mut labels, at, &sign.gloss, &font, text, marked);
         }
-        if let (Some(from), Some(to)) = (self.lasso, response.interact_pointer_pos()) {
-            let stroke = Stroke::new(1.0, colours.accent);
-            painter.rect_stroke(
-                Rect::from_two_pos(from, to),
-                0.0,
-                stroke,
-                StrokeKind::Middle,
-            );
+        if self.lasso.len() > 1 {
+            let stroke = Stroke::new(1.5, colours.accent);
+            painter.line(self.lasso.clone(), stroke);
+            let ends = [self.lasso[self.lasso.len() - 1], self.lasso[0]];
+            painter.line_segment(ends, Stroke::new(1.0, colours.rule));
+            for &at in visible
+                .iter()
+                .filter(|&&at| data::is_inside(&self.lasso, places[at]))
+            {
+                painter.circle_stroke(places[at], 7.0, stroke);
+            }
         }
-        if response.drag_stopped()
-            && let Some(from) = self.lasso.take()
-            && let Some(to) = response.interact_pointer_pos()
-        {
-            let box_of = Rect::from_two_pos(from, to);
-            let inside = visible.iter().filter(|&&at| box_of.contains(places[at]));
+        if response.drag_stopped() && !self.lasso.is_empty() {
+            let lasso = std::mem::take(&mut self.lasso);
+            let inside = visible
+                .iter()
+                .filter(|&&at| data::is_inside(&lasso, places[at]));
             if let Some(query) = data::query(inside.map(|&at| map.signs[at].gloss.as_str())) {
                 out.send(Command::Find(query));
             }
@@ -192,17 +207,41 @@ impl Map {
         if response.clicked() {
             self.chosen = under;
             if let Some(at) = under {
+                let sign = &map.signs[at];
+                let places = map.signs.iter().map(|it| pos2(it.x, it.y));
+                let few = MOST_FIGURES / 2;
+                let to = self.view.near(rect, pos2(sign.x, sign.y), places, few);
+                self.towards = Some(to);
                 open(seen, map.signs[at].token, out);
             }
         }
     }
 
-    /// Moves and zooms by drag, wheel and pinch; a drag with Shift selects.
-    fn look_around(&mut self, ui: &Ui, response: &Response, rect: Rect) {
-        if response.drag_started() && ui.input(|it| it.modifiers.shift) {
-            self.lasso = response.interact_pointer_pos();
+    /// Goes a part of the way to where it flies.
+    fn fly(&mut self, ui: &Ui) {
+        let Some(to) = self.towards else { return };
+        let passed = ui.input(|input| input.stable_dt).min(0.1);
+        if self.view.towards(to, passed) {
+            self.towards = None;
         }
-        if response.dragged() && self.lasso.is_none() {
+        ui.ctx().request_repaint();
+    }
+
+    /// Moves and zooms by drag, wheel and pinch; a drag with Shift selects what it goes around.
+    fn look_around(&mut self, ui: &Ui, response: &Response, rect: Rect) {
+        let pointer = response.interact_pointer_pos();
+        if response.drag_started() && ui.input(|it| it.modifiers.shift) {
+            self.lasso = pointer.into_iter().collect();
+        } else if response.dragged()
+            && let (Some(at), Some(last)) = (pointer, self.lasso.last())
+            && last.distance(at) > 2.0
+        {
+            self.lasso.push(at);
+        }
+        if response.dragged() {
+            self.towards = None;
+        }
+        if response.dragged() && self.lasso.is_empty() {
             self.view.moved(rect, response.drag_delta());
         }
         let Some(pointer) = response.hover_pos() else {
@@ -211,6 +250,7 @@ impl Map {
         let (scroll, pinch) = ui.input(|it| (it.smooth_scroll_delta.y, it.zoom_delta()));
         let factor = pinch * (scroll / 200.0).exp();
         if (factor - 1.0).abs() > 1e-3 {
+            self.towards = None;
             self.view.zoomed(rect, pointer, factor);
         }
     }
@@ -292,6 +332,9 @@ impl Pane for Map {
             Ok(Outcome::Mapped(map)) => {
                 self.wrong = None;
                 self.map = Some(map.clone());
+                if let Some((generation, by)) = self.of {
+                    self.kept.insert(by, (generation, map.clone()));
+                }
             }
             Err(error) => {
                 self.map = None;

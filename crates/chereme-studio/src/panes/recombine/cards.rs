@@ -129,6 +129,7 @@ fn frame(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &m
                     ui.disable();
                 }
                 let at = settings::At {
+                    card: shown.card.id,
                     id,
                     first: shown.first,
                     whole: shown.chosen,

@@ -101,6 +101,8 @@ pub(super) fn operators() -> [(Text, Text, Step); 14] {
             Step::Travel(Travel {
                 hand: Hands::Dominant,
                 path: vec![leg(Direction::Right, 20.0)],
+                through: Vec::new(),
+                time: None,
                 via: Transition::default(),
             }),
         ),

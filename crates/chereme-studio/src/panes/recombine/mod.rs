@@ -15,7 +15,7 @@ mod suggest;
 
 use std::sync::Arc;
 
-use chereme_corpus::recipe::{Goal, Node, Recipe, RecipeError, Step};
+use chereme_corpus::recipe::{Goal, Length, Node, Recipe, RecipeError, Step};
 use chereme_corpus::{OperationRow, Overview, Recombination};
 use eframe::egui::{Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollArea, Ui};
 
@@ -23,14 +23,14 @@ use super::{Acted, Carried, Pane, carry};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
-use crate::model::handle::Handle;
+use crate::model::handle::{Course, Handle};
 use crate::model::made::Made;
 use crate::script::edit;
 use crate::words::{fill, recombine as words};
 use crate::work::{Ended, Outcome, WorkId};
 pub(crate) use fields::{recipe_of, selected_token};
 use live::Live;
-pub(crate) use path::offset_legs;
+pub(crate) use path::{draw_on_stage, drawing, offset_legs, points_of, points_of_line};
 use stack::{Card, Stack, What};
 use steps::Steps;
 
@@ -192,6 +192,33 @@ impl Recombine {
         }
     }
 
+    /// Has a card carry the hands along a curve through points, in metres to the left, up and forward.
+    pub(crate) fn travel(&mut self, card: u64, points: &[[Length; 3]]) {
+        if let Some(Card {
+            what: What::Step(Step::Travel(travel)),
+            ..
+        }) = self.stack.get_mut(card)
+        {
+            travel.through = points.to_vec();
+            travel.path.clear();
+            self.follow_cards();
+        }
+    }
+
+    /// Returns the path that can be pulled on the stage: that of the chosen card.
+    fn course(&self) -> Option<Course> {
+        let made = self.live.made.is_some() && self.on_stage && self.wrong.is_none();
+        let card = self.chosen.filter(|_| made)?;
+        let at = self.stack.position(card)?;
+        let What::Step(Step::Travel(travel)) = &self.stack.cards()[at].what else {
+            return None;
+        };
+        self.stack.counts(at).then(|| Course {
+            card,
+            travel: travel.clone(),
+        })
+    }
+
     /// Returns the placement that can be dragged on the stage: that of the chosen card.
     fn handle(&self) -> Option<Handle> {
         let made = self.live.made.is_some() && self.on_stage && self.wrong.is_none();
@@ -249,6 +276,10 @@ impl Recombine {
         let handle = self.handle();
         if seen.shown.handle != handle {
             out.send(Command::Handle(handle));
+        }
+        let course = self.course();
+        if seen.shown.course.as_deref() != course.as_ref() {
+            out.send(Command::Course(course.map(Box::new)));
         }
     }
 

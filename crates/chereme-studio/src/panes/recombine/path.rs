@@ -1,20 +1,22 @@
 //! Ways of the hands: an offset as three lengths, and a path drawn with the pointer.
 
-use chereme_corpus::recipe::{Direction, Leg, Length, towards};
+use chereme_corpus::recipe::{Direction, Leg, Length, Spline, Travel, towards};
 use chereme_motion::glam::DVec3;
 use eframe::egui::{
-    Align2, Id, Pos2, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2,
-    vec2,
+    Align2, Context, Id, Pos2, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::fields::{self, caption, choose, tidy};
 use crate::context::Seen;
-use crate::words::recombine as words;
+use crate::words::{fill, recombine as words};
 
 /// How many metres the drawing board shows from edge to edge.
 const BOARD: f32 = 0.8;
-/// Ways shorter than this in metres are no part of a path.
+/// A drawn line smaller than this in metres is no path.
 const LEAST: f64 = 0.02;
+/// The most points of a drawn path.
+const MOST: usize = 24;
 
 /// Returns the legs of an offset to the left, up and forward, in metres; an empty list for a zero offset.
 pub(super) fn legs_of(offset: [f64; 3]) -> Vec<Leg> {
@@ -166,67 +168,46 @@ impl Board {
         vec2(way.dot(right.vector()) as f32, -way.dot(up.vector()) as f32)
     }
 
-    /// Returns the way nearest to a stroke of metres to the right and down: along an axis of the
-    /// board, or half-way between two; nothing for one that is too short.
-    fn leg(self, stroke: Vec2) -> Option<Leg> {
-        let length = f64::from(stroke.length());
-        if length < LEAST {
-            return None;
-        }
-        let [right, up, left, down] = self.axes();
-        let turns = [
-            vec![right],
-            vec![right, up],
-            vec![up],
-            vec![left, up],
-            vec![left],
-            vec![left, down],
-            vec![down],
-            vec![right, down],
-        ];
-        let angle = f64::from((-stroke.y).atan2(stroke.x));
-        let eighth = (angle / std::f64::consts::FRAC_PI_4)
-            .round()
-            .rem_euclid(8.0) as usize;
-        Some(Leg {
-            towards: turns[eighth % 8].clone(),
-            distance: Length::Metres((length * 100.0).round() / 100.0),
-            time: None,
-        })
+    /// Returns the way of metres to the right and down on the board in space: to the left, up and forward.
+    fn deep(self, way: Vec2) -> DVec3 {
+        let [right, up, ..] = self.axes();
+        right.vector() * f64::from(way.x) - up.vector() * f64::from(way.y)
     }
 }
 
-/// Returns the ways of a drawn line, in metres to the right and down on `board`: its corners are
-/// those that stand out by more than a fifteenth of its size, and ways in one direction are one.
-pub(super) fn legs_of_line(line: &[Vec2], board: Board) -> Vec<Leg> {
-    let bounds = Rect::from_points(&line.iter().map(|it| it.to_pos2()).collect::<Vec<Pos2>>());
-    let tolerance = (bounds.size().length() / 15.0).max(0.01);
-    let mut corners = Vec::new();
-    corners_of(line, tolerance, &mut corners);
-    corners.extend(line.last());
-    let mut legs: Vec<Leg> = Vec::new();
-    for pair in corners.windows(2) {
-        let Some(leg) = board.leg(pair[1] - pair[0]) else {
-            continue;
-        };
-        match legs.last_mut() {
-            Some(last) if last.towards == leg.towards => {
-                let metres = last.distance.metres(1.0) + leg.distance.metres(1.0);
-                last.distance = Length::Metres((metres * 100.0).round() / 100.0);
-            }
-            _ => legs.push(leg),
-        }
+/// Returns the points of a drawn line, in metres to the left, up and forward of its beginning: those that stand out by
+/// more than a fortieth of its size, so that the curve through them lies on the line; nothing for one that is too short.
+pub(crate) fn points_of_line(line: &[DVec3]) -> Vec<[Length; 3]> {
+    let Some(first) = line.first() else {
+        return Vec::new();
+    };
+    let size = line
+        .iter()
+        .map(|at| at.distance(*first))
+        .fold(0.0, f64::max);
+    if size < LEAST {
+        return Vec::new();
     }
-    legs
+    let mut corners = Vec::new();
+    corners_of(line, (size / 40.0).max(0.004), &mut corners);
+    corners.extend(line.last());
+    let metres = |value: f64| Length::Metres((value * 1000.0).round() / 1000.0);
+    let mut points: Vec<[Length; 3]> = corners[1..]
+        .iter()
+        .map(|at| (*at - *first).to_array().map(metres))
+        .collect();
+    points.dedup();
+    points.truncate(MOST);
+    points
 }
 
 /// Adds the corners of a line but for its last point, after Douglas and Peucker.
-fn corners_of(line: &[Vec2], tolerance: f32, corners: &mut Vec<Vec2>) {
+fn corners_of(line: &[DVec3], tolerance: f64, corners: &mut Vec<DVec3>) {
     let (Some(first), Some(last)) = (line.first(), line.last()) else {
         return;
     };
-    let along = (*last - *first).normalized();
-    let off = |point: &Vec2| {
+    let along = (*last - *first).normalize_or_zero();
+    let off = |point: &DVec3| {
         let way = *point - *first;
         (way - along * way.dot(along)).length()
     };
@@ -244,8 +225,52 @@ fn corners_of(line: &[Vec2], tolerance: f32, corners: &mut Vec<Vec2>) {
     }
 }
 
-/// Shows a path: a board to draw it on, and its ways below.
-pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, id: Id, path: &mut Vec<Leg>) -> bool {
+/// Returns where the path of a movement of the hands goes, in metres to the left, up and forward: its points, or where
+/// each of its legs ends.
+pub(crate) fn points_of(travel: &Travel, arm: f64) -> Vec<DVec3> {
+    if !travel.through.is_empty() {
+        let point = |at: &[Length; 3]| DVec3::from(at.map(|it| it.metres(arm)));
+        return travel.through.iter().map(point).collect();
+    }
+    let mut at = DVec3::ZERO;
+    let legs = travel.path.iter();
+    legs.map(|leg| {
+        at += towards(&leg.towards).unwrap_or_default() * leg.distance.metres(arm);
+        at
+    })
+    .collect()
+}
+
+/// Whether the next drag on the stage draws the path of a card, by its number.
+pub(crate) fn drawing(ctx: &Context) -> Option<u64> {
+    ctx.data(|data| data.get_temp(Id::unique(DRAWING)))
+}
+
+/// Has the next drag on the stage draw the path of a card, or nothing.
+pub(crate) fn draw_on_stage(ctx: &Context, card: Option<u64>) {
+    ctx.data_mut(|data| match card {
+        Some(card) => drop(data.insert_temp(Id::unique(DRAWING), card)),
+        None => drop(data.remove_temp::<u64>(Id::unique(DRAWING))),
+    });
+}
+
+const DRAWING: &str = "path drawn on the stage";
+
+/// Shows a path: a board to draw it on, and its legs or the points of its curve below.
+pub(super) fn show(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    (id, card): (Id, u64),
+    travel: &mut Travel,
+) -> bool {
+    let on = drawing(ui.ctx()) == Some(card);
+    let button = ui.selectable_label(on, seen.say(words::DRAW_ON_STAGE));
+    if button
+        .on_hover_text(seen.say(words::DRAW_ON_STAGE_HINT))
+        .clicked()
+    {
+        draw_on_stage(ui.ctx(), (!on).then_some(card));
+    }
     let mut board: u8 = ui.data(|data| data.get_temp(id.with("board"))).unwrap_or(0);
     let boards = [
         (0, seen.say(words::BOARD_FRONT)),
@@ -256,14 +281,23 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, id: Id, path: &mut Vec<Leg>) ->
         ui.data_mut(|data| data.insert_temp(id.with("board"), board));
     }
     let board = [Board::Front, Board::Above, Board::Side][usize::from(board.min(2))];
-    let drawn = draw(ui, seen, id, path, board);
+    let drawn = draw(ui, seen, id, travel, board);
     let mut changed = drawn.is_some();
-    if let Some(legs) = drawn {
-        *path = legs;
+    if let Some(points) = drawn {
+        (travel.through, travel.path) = (points, Vec::new());
     }
-    changed |= rows(ui, seen, path, true);
+    if !travel.through.is_empty() {
+        ui.horizontal_wrapped(|ui| {
+            let count = travel.through.len();
+            ui.weak(fill(seen.say(words::CURVE), &[("n", &count)]));
+            changed |= fields::time(ui, seen, words::IN_TIME, &mut travel.time, 1.0);
+        });
+        ui.weak(seen.say(words::CURVE_HINT));
+        return changed;
+    }
+    changed |= rows(ui, seen, &mut travel.path, true);
     if ui.small_button(seen.say(words::ADD_WAY)).clicked() {
-        path.push(Leg {
+        travel.path.push(Leg {
             towards: vec![Direction::Up],
             distance: Length::Metres(0.1),
             time: None,
@@ -273,8 +307,14 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, id: Id, path: &mut Vec<Leg>) ->
     changed
 }
 
-/// Shows the board; returns the path that was drawn on it.
-fn draw(ui: &mut Ui, seen: &Seen<'_>, id: Id, path: &[Leg], board: Board) -> Option<Vec<Leg>> {
+/// Shows the board; returns the points of the path that was drawn on it.
+fn draw(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    id: Id,
+    travel: &Travel,
+    board: Board,
+) -> Option<Vec<[Length; 3]>> {
     let side = ui.available_width().clamp(80.0, 220.0);
     let (rect, response) = ui.allocate_exact_size(vec2(side, side * 0.7), Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, seen.say(words::BOARD_DRAW)));
@@ -323,8 +363,9 @@ fn draw(ui: &mut Ui, seen: &Seen<'_>, id: Id, path: &[Leg], board: Board) -> Opt
         ui.data_mut(|data| data.insert_temp(line_id, line.clone()));
     }
     if response.drag_stopped() {
-        let metres: Vec<Vec2> = line.iter().map(|at| (*at - line[0]) / scale).collect();
-        drawn = Some(legs_of_line(&metres, board)).filter(|legs| !legs.is_empty());
+        let metres = line.iter().map(|at| board.deep((*at - line[0]) / scale));
+        let points = points_of_line(&metres.collect::<Vec<_>>());
+        drawn = Some(points).filter(|points| !points.is_empty());
         line.clear();
         ui.data_mut(|data| data.remove::<Vec<Pos2>>(line_id));
     }
@@ -333,34 +374,31 @@ fn draw(ui: &mut Ui, seen: &Seen<'_>, id: Id, path: &[Leg], board: Board) -> Opt
         painter.line(line, stroke);
         return drawn;
     }
-    let points = points_of(path, board);
-    let shift = rect.center() - (bounds(&points).center() * scale);
-    let points: Vec<Pos2> = points
+    let points = points_of(travel, 0.6);
+    let ways: Vec<DVec3> = if travel.through.is_empty() {
+        std::iter::once(DVec3::ZERO).chain(points).collect()
+    } else {
+        Spline::new(&points).places().to_vec()
+    };
+    let flat: Vec<Pos2> = ways.iter().map(|at| board.flat(*at).to_pos2()).collect();
+    let shift = rect.center() - (Rect::from_points(&flat).center() * scale);
+    let flat: Vec<Pos2> = flat
         .iter()
         .map(|at| pos2(at.x, at.y) * scale + shift)
         .collect();
-    for pair in points.windows(2) {
-        painter.arrow(pair[0], pair[1] - pair[0], Stroke::new(2.5, colours.accent));
+    let stroke = Stroke::new(2.5, colours.accent);
+    if travel.through.is_empty() {
+        for pair in flat.windows(2) {
+            painter.arrow(pair[0], pair[1] - pair[0], stroke);
+        }
+    } else if let [.., before, last] = flat[..] {
+        painter.arrow(before, (last - before) * 4.0, stroke);
+        painter.line(flat.clone(), stroke);
     }
-    if let Some(first) = points.first() {
+    if let Some(first) = flat.first() {
         painter.circle_filled(*first, 4.0, colours.accent);
     }
     drawn
-}
-
-/// Returns where each way of a path begins and the last ends on the board, in metres.
-fn points_of(path: &[Leg], board: Board) -> Vec<Pos2> {
-    let mut at = DVec3::ZERO;
-    let mut points = vec![Pos2::ZERO];
-    for leg in path {
-        at += towards(&leg.towards).unwrap_or_default() * leg.distance.metres(0.6);
-        points.push(board.flat(at).to_pos2());
-    }
-    points
-}
-
-fn bounds(points: &[Pos2]) -> Rect {
-    Rect::from_points(points)
 }
 
 #[cfg(test)]
@@ -386,26 +424,52 @@ mod tests {
     }
 
     #[test]
-    fn a_drawn_line_becomes_ways_in_eight_directions() {
-        let texts = |points: &[(f32, f32)], board| -> Vec<String> {
-            let mut line = Vec::new();
-            for pair in points.windows(2) {
-                for step in 0..20 {
-                    let t = step as f32 / 20.0;
-                    let mix = |a: f32, b: f32| a + (b - a) * t;
-                    line.push(vec2(mix(pair[0].0, pair[1].0), mix(pair[0].1, pair[1].1)));
-                }
+    fn a_drawn_line_becomes_a_curve_that_lies_on_it() {
+        let loops: Vec<Vec2> = (0..=80)
+            .map(|n| n as f32 / 80.0 * std::f32::consts::TAU)
+            .map(|a| vec2(0.1 * a.sin(), 0.1 * a.cos() - 0.1))
+            .collect();
+        for (board, left) in [(Board::Front, 0), (Board::Above, 0), (Board::Side, 2)] {
+            let line: Vec<DVec3> = loops.iter().map(|at| board.deep(*at)).collect();
+            let points = points_of_line(&line);
+            assert!(
+                (6..=MOST).contains(&points.len()),
+                "{} points",
+                points.len()
+            );
+            let travel = Travel {
+                through: points,
+                ..straight(Vec::new())
+            };
+            let spline = Spline::new(&points_of(&travel, 0.6));
+            assert_eq!(spline.shape(), "circle");
+            for place in spline.places() {
+                let near = line.iter().map(|at| at.distance(*place));
+                let near = near.fold(f64::INFINITY, f64::min);
+                assert!(near < 0.012, "{near}");
             }
-            line.extend(points.last().map(|(x, y)| vec2(*x, *y)));
-            let legs = legs_of_line(&line, board);
-            legs.iter().map(Leg::to_string).collect()
-        };
-        let corner = [(0.0, 0.0), (0.2, 0.01), (0.2, 0.3)];
-        assert_eq!(texts(&corner, Board::Front), ["left 20cm", "down 29cm"]);
-        assert_eq!(texts(&corner, Board::Above), ["left 20cm", "forward 29cm"]);
-        assert_eq!(texts(&corner, Board::Side), ["back 20cm", "down 29cm"]);
-        let slope = [(0.0, 0.0), (-0.1, -0.1)];
-        assert_eq!(texts(&slope, Board::Front), ["right up 14cm"]);
-        assert!(texts(&[(0.0, 0.0), (0.001, 0.0)], Board::Front).is_empty());
+            let wide = spline.places().iter().map(|at| at.to_array()[left].abs());
+            assert!(wide.fold(0.0, f64::max) > 0.08, "{board:?}");
+        }
+        assert!(points_of_line(&[DVec3::ZERO, DVec3::X * 0.001]).is_empty());
+        assert!(points_of_line(&[]).is_empty());
+    }
+
+    #[test]
+    fn a_path_of_legs_goes_through_their_ends() {
+        let legs = legs_of([0.25, -0.05, 0.0]);
+        let points = points_of(&straight(legs), 0.6);
+        assert_eq!(points.len(), 2);
+        assert!(points[1].distance(DVec3::new(0.25, -0.05, 0.0)) < 1e-9);
+    }
+
+    fn straight(path: Vec<Leg>) -> Travel {
+        Travel {
+            hand: chereme_corpus::recipe::Hands::Dominant,
+            path,
+            through: Vec::new(),
+            time: None,
+            via: chereme_corpus::recipe::Transition::default(),
+        }
     }
 }

@@ -18,6 +18,8 @@ use crate::words::recombine as words;
 pub(super) struct At {
     /// The card.
     pub(super) id: Id,
+    /// Its number.
+    pub(super) card: u64,
     /// Whether it is the first card.
     pub(super) first: bool,
     /// Whether all of them are shown, not only those that matter most.
@@ -256,7 +258,7 @@ fn operator(ui: &mut Ui, seen: &Seen<'_>, at: At, step: &mut Step) -> bool {
         }
         Step::Travel(it) => {
             ui.horizontal_wrapped(|ui| changed |= fields::hands(ui, seen, &mut it.hand, true));
-            changed |= path::show(ui, seen, at.id, &mut it.path);
+            changed |= path::show(ui, seen, (at.id, at.card), it);
             changed |= transition(ui, seen, at, &mut it.via);
         }
         Step::Retime(it) => return operators::retime(ui, seen, it),

@@ -88,7 +88,7 @@ impl What {
                 Step::Orient(it) => {
                     !(it.palm.is_empty() && it.fingers.is_empty() && it.by.is_empty())
                 }
-                Step::Travel(it) => !it.path.is_empty(),
+                Step::Travel(it) => !(it.path.is_empty() && it.through.is_empty()),
                 Step::Retime(it) => !it.paces.is_empty(),
                 Step::Nonmanual(it) => there(&it.from),
                 Step::Indicate(it) => {

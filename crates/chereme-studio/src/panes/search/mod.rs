@@ -8,6 +8,7 @@
 //! | `hits`, `results` | what was found: pages and order, and the grid and the table |
 //! | `page` | the pane from top to bottom |
 //! | `examples` | the signs that a query names as examples |
+//! | `tiles` | what a search begins with: a hand, the body, a movement |
 //! | `facets` | how often each value occurs |
 //! | `aside`, `kept` | recent queries, help, and what is said where nothing is found; kept queries |
 
@@ -23,6 +24,7 @@ mod results;
 mod rows;
 mod suggest;
 mod symbols;
+mod tiles;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -43,6 +45,7 @@ use crate::words::{fill, search as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
 pub(crate) use builder::with_value;
 use field::Field;
+pub(crate) use hits::walk as walked;
 use hits::{Found, NEIGHBOURS, PAGE, Sort};
 use rows::Rows;
 pub(crate) use rows::{feature_text, field_text};
@@ -96,6 +99,7 @@ pub(crate) struct Search {
     stopped: bool,
     aside: aside::Aside,
     examples: examples::Examples,
+    tiles: tiles::Tiles,
     /// The moment of the corpus that was searched.
     generation: i64,
     /// The hit that the keys are at, the one that they go to, and the one that was opened.
@@ -155,6 +159,7 @@ impl Default for Search {
             stopped: false,
             aside: aside::Aside::default(),
             examples: examples::Examples::default(),
+            tiles: tiles::Tiles::default(),
             generation: 0,
             at: 0,
             reach: None,

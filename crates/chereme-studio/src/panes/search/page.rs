@@ -21,10 +21,16 @@ impl Search {
         let top = ui.cursor().top();
         self.question(ui, seen, out);
         self.head = ui.cursor().top() - top + ui.spacing().interact_size.y;
-        if self.found.is_none() && self.asked.is_none() {
-            if let Some(query) = aside::examples(ui, seen) {
+        if self.field.text.trim().is_empty() {
+            if let Some(query) = self.tiles.show(ui, seen, out) {
                 self.turn_to(query, out);
             }
+            // The wall of all signs stands below.
+            if self.found.is_none() && self.asked.is_none() && self.wrong.is_none() && !self.stopped
+            {
+                self.ask(out);
+            }
+        } else if self.found.is_none() && self.asked.is_none() {
             return;
         }
         self.status(ui, seen, out);

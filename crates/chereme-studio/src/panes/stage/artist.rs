@@ -48,7 +48,12 @@ pub(super) struct Pane {
     pub(super) size: [usize; 2],
     /// The sheets to draw, the lowest first.
     pub(super) layers: Vec<Sheet>,
+    /// Whether it is a small picture that must be read at its size: clear lines, many samples.
+    pub(super) fine: bool,
 }
+
+/// Half the width of lines in small pictures, in pixels, their depth step in metres, and their samples.
+const FINE: (f32, f32, usize) = (0.9, 0.006, 3);
 
 /// Shapes drawn together, over the sheets below.
 pub(super) struct Sheet {
@@ -214,25 +219,57 @@ impl Hand {
         }
     }
 
-    /// Draws every pane; several at once, each on a thread of its own.
+    /// Draws every pane; several at once, each on a thread of its own, and the small ones one after the other.
     fn panes(&mut self, wish: &Wish) -> Vec<ColorImage> {
         self.canvases.resize_with(wish.panes.len(), Canvas::default);
         let meshes = &self.meshes;
+        let large = wish.panes.iter().filter(|pane| !pane.fine).count();
         let style = Style {
-            threads: (wish.style.threads / wish.panes.len().max(1)).max(1),
+            threads: (wish.style.threads / large.max(1)).max(1),
             ..wish.style
         };
-        let mut work: Vec<_> = wish.panes.iter().zip(&mut self.canvases).collect();
-        let last = work.pop();
+        let (line, step, samples) = FINE;
+        let fine = Style {
+            line,
+            step,
+            samples,
+            threads: 1,
+            ..wish.style
+        };
+        let work = wish.panes.iter().zip(&mut self.canvases);
+        let (small, mut others): (Vec<_>, Vec<_>) = work.partition(|(pane, _)| pane.fine);
+        let mut images: Vec<Option<ColorImage>> = vec![None; wish.panes.len()];
+        let places = |fine: bool| {
+            let of = wish.panes.iter().enumerate();
+            of.filter(move |(_, pane)| pane.fine == fine).map(|it| it.0)
+        };
         std::thread::scope(|scope| {
-            let others: Vec<_> = work
+            let last = others.pop();
+            let others: Vec<_> = others
                 .into_iter()
                 .map(|(pane, canvas)| scope.spawn(move || canvas.draw(pane, meshes, &style)))
                 .collect();
+            let small = (!small.is_empty()).then(|| {
+                scope.spawn(move || {
+                    let drawn = small.into_iter();
+                    let drawn = drawn.map(|(pane, canvas)| canvas.draw(pane, meshes, &fine));
+                    drawn.collect::<Vec<_>>()
+                })
+            });
             let last = last.map(|(pane, canvas)| canvas.draw(pane, meshes, &style));
-            let others = others.into_iter().map(|it| it.join());
-            others.flatten().chain(last).collect()
-        })
+            let others = others.into_iter().map(|it| it.join().ok()).chain([last]);
+            for (place, image) in places(false).zip(others) {
+                images[place] = image;
+            }
+            let small = small.and_then(|it| it.join().ok()).unwrap_or_default();
+            for (place, image) in places(true).zip(small) {
+                images[place] = Some(image);
+            }
+        });
+        let empty = |(image, pane): (Option<ColorImage>, &Pane)| {
+            image.unwrap_or_else(|| ColorImage::filled(pane.size, Color32::GRAY))
+        };
+        images.into_iter().zip(&wish.panes).map(empty).collect()
     }
 }
 

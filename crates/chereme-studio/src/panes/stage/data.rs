@@ -3,7 +3,7 @@
 use chereme_figure::View;
 use chereme_figure::camera::Camera;
 use chereme_motion::Instant;
-use eframe::egui::Rect;
+use eframe::egui::{Align2, Pos2, Rect, Vec2};
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -223,10 +223,94 @@ pub(crate) struct Shows {
     pub(crate) points: bool,
 }
 
+/// The close-ups in the corners of the stage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Insets {
+    /// Both hands.
+    pub(crate) hands: bool,
+    /// Hands are turned so that their palms are seen and their fingers point up.
+    pub(crate) palms: bool,
+    pub(crate) face: bool,
+}
+
+impl Default for Insets {
+    fn default() -> Self {
+        Self {
+            hands: true,
+            palms: false,
+            face: false,
+        }
+    }
+}
+
+/// A close-up in a corner of a part of the stage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Inset {
+    pub(crate) rect: Rect,
+    pub(crate) view: View,
+    pub(crate) who: Who,
+}
+
+/// A part of the stage narrower or lower than this, in points, has no room for close-ups.
+const ROOM: [f32; 2] = [300.0, 220.0];
+/// The side of a close-up beside the shorter side of its part, and its least and greatest, in points.
+const INSET: (f32, f32, f32) = (0.3, 80.0, 168.0);
+/// The distance between a close-up and the edges.
+const MARGIN: f32 = 8.0;
+
+/// Returns the close-ups in a part of the stage that is looked at so: the signer's right hand on the side where it is
+/// seen, below; the face above.
+pub(crate) fn insets(part: &Part, view: View, wanted: Insets) -> Vec<Inset> {
+    use chereme_motion::Side;
+    let [wide, high] = ROOM;
+    let close = matches!(view, View::Hand(_) | View::Palm(_) | View::Face);
+    if close || part.rect.width() < wide || part.rect.height() < high {
+        return Vec::new();
+    }
+    let (share, least, most) = INSET;
+    let side = (part.rect.size().min_elem() * share)
+        .clamp(least, most)
+        .round();
+    let room = part.rect.shrink(MARGIN);
+    let size = Vec2::splat(side);
+    let corner = |at: Pos2, align: Align2| align.anchor_size(at, size);
+    let mut found = Vec::new();
+    let mut add = |rect, view| {
+        found.push(Inset {
+            rect,
+            view,
+            who: part.who,
+        });
+    };
+    if wanted.hands {
+        let behind = matches!(view, View::Signer | View::Top);
+        for hand in Side::BOTH {
+            let left = (hand == Side::Right) != behind;
+            let rect = if left {
+                corner(room.left_bottom(), Align2::LEFT_BOTTOM)
+            } else {
+                corner(room.right_bottom(), Align2::RIGHT_BOTTOM)
+            };
+            let view = if wanted.palms {
+                View::Palm(hand)
+            } else {
+                View::Hand(hand)
+            };
+            add(rect, view);
+        }
+    }
+    if wanted.face {
+        add(corner(room.right_top(), Align2::RIGHT_TOP), View::Face);
+    }
+    found
+}
+
 /// All that the pictures of the stage depend on.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Look {
     pub(crate) at: Instant,
+    pub(crate) insets: Vec<(View, Who, [usize; 2])>,
     pub(crate) eyes: Vec<Eye>,
     pub(crate) parts: Vec<(usize, Who, [usize; 2])>,
     pub(crate) shows: Shows,
@@ -309,6 +393,56 @@ mod tests {
             assert_eq!(usual_views(eyes).len(), eyes);
         }
         assert_eq!(parts(whole, 1, Some(Compare::Beside))[0].who, Who::Original);
+    }
+
+    #[test]
+    fn close_ups_lie_in_the_corners_and_never_on_each_other() {
+        use chereme_motion::Side;
+        let part = |wide: f32, high: f32| Part {
+            rect: Rect::from_min_size(Pos2::new(10.0, 20.0), Vec2::new(wide, high)),
+            eye: 0,
+            who: Who::Signer,
+        };
+        let all = Insets {
+            hands: true,
+            palms: false,
+            face: true,
+        };
+        for (wide, high) in [(300.0, 220.0), (660.0, 400.0), (330.0, 700.0)] {
+            let part = part(wide, high);
+            let insets = insets(&part, View::Addressee, all);
+            assert_eq!(insets.len(), 3);
+            for (at, inset) in insets.iter().enumerate() {
+                assert!(part.rect.contains_rect(inset.rect));
+                let mut others = insets[at + 1..].iter();
+                assert!(others.all(|other| !other.rect.intersects(inset.rect)));
+            }
+        }
+        let part = part(660.0, 400.0);
+        let right = |view| {
+            let insets = insets(&part, view, Insets::default());
+            let hand = insets.iter().find(|it| it.view == View::Hand(Side::Right));
+            hand.map(|it| it.rect.center().x < part.rect.center().x)
+        };
+        assert_eq!(right(View::Addressee), Some(true));
+        assert_eq!(
+            right(View::Signer),
+            Some(false),
+            "from behind it is on the right"
+        );
+        assert!(
+            insets(&part, View::Face, all).is_empty(),
+            "it is near enough"
+        );
+        assert!(insets(&self::part_of(200.0), View::Addressee, all).is_empty());
+    }
+
+    fn part_of(side: f32) -> Part {
+        Part {
+            rect: Rect::from_min_size(Pos2::ZERO, Vec2::splat(side)),
+            eye: 0,
+            who: Who::Signer,
+        }
     }
 
     #[test]

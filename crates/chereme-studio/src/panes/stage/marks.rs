@@ -4,7 +4,7 @@ use chereme_corpus::Overview;
 use chereme_figure::camera::Projection;
 use chereme_motion::{Anatomy, Side};
 use chereme_sign::component::Component;
-use eframe::egui::{Align2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use eframe::egui::{Align2, Painter, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 use glam::DVec3;
 
 use super::scene::Subject;
@@ -106,7 +106,13 @@ pub(super) fn marks(
 /// How near the pointer has to be, and how large marks are.
 const REACH: f32 = 11.0;
 
-/// Shows the marks over a picture; names come up under the pointer and with the focus.
+/// Writes the name of a mark in the line below the signer, where it covers no other mark.
+fn named(painter: &Painter, ui: &Ui, rect: Rect, name: &str) {
+    let at = rect.center_bottom() - vec2(0.0, 34.0);
+    super::ui::chip_on(painter, ui, at, Align2::CENTER_BOTTOM, name);
+}
+
+/// Shows the marks over a picture; the name of the one under the pointer or with the focus stands in a line below.
 pub(super) fn show(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -130,8 +136,7 @@ pub(super) fn show(
             painter.circle_filled(place, radius, colours.accent.gamma_multiply(0.7));
             if near {
                 pointed = true;
-                let at = place + vec2(9.0, 0.0);
-                super::ui::chip_on(&painter, ui, at, Align2::LEFT_CENTER, &mark.name);
+                named(&painter, ui, rect, &mark.name);
             }
             continue;
         };
@@ -151,13 +156,7 @@ pub(super) fn show(
         };
         painter.circle(place, radius, fill, Stroke::new(1.2, colours.accent));
         if lit || chosen {
-            let font = eframe::egui::TextStyle::Small.resolve(ui.style());
-            let galley = painter.layout_no_wrap(mark.name.clone(), font, ui.visuals().text_color());
-            let mut at = place + vec2(9.0, -galley.size().y / 2.0);
-            at.x = at.x.min(rect.max.x - galley.size().x - 6.0);
-            let chip = Rect::from_min_size(at, galley.size()).expand2(vec2(4.0, 2.0));
-            painter.rect_filled(chip, 4.0, ui.visuals().panel_fill);
-            painter.galley(pos2(at.x, at.y), galley, ui.visuals().text_color());
+            named(&painter, ui, rect, &mark.name);
         }
         if response.clicked() {
             out.send(Command::Spot(Some(zone.clone())));

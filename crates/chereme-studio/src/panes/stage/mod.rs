@@ -6,21 +6,27 @@
 //! | `scene` | bodies, ghosts, trails, grid and floor |
 //! | `gizmo` | the handle of a placement, as geometry |
 //! | `handle` | its widget: dragged, moved by keys |
+//! | `course` | a path that is drawn and pulled |
 //! | `marks` | landmarks and placement zones over the body |
+//! | `insets` | both hands and the face in the corners |
 //! | `original` | what made movement was made from |
 //! | `points` | optical markers, and points from film |
+//! | `preview` | the stroke of what was just opened |
 //! | `artist` | the thread that draws |
 //! | `ways` | what is remembered of it |
 //! | `tools` | the line above |
 //! | `transport` | the bar and the buttons below |
 
 mod artist;
+mod course;
 pub(crate) mod data;
 mod gizmo;
 mod handle;
+mod insets;
 mod marks;
 mod original;
 mod points;
+mod preview;
 mod scene;
 mod tools;
 mod transport;
@@ -42,7 +48,7 @@ use crate::model::made::Made;
 use crate::panes::{Acted, Pane};
 use crate::work::{Ended, WorkId};
 use artist::Artist;
-use data::{Compare, Eye, Look, Shows};
+use data::{Compare, Eye, Insets, Look, Shows};
 use marks::Zone;
 use original::Original;
 use points::Points;
@@ -70,6 +76,11 @@ pub(crate) struct Stage {
     /// How far trails reach when they are shown, in seconds.
     reach: f64,
     places: bool,
+    insets: Insets,
+    /// The moment that stands for what was opened.
+    stroke: Option<preview::Stroke>,
+    /// The moment that is shown in place of the playhead's.
+    previews: Option<chereme_motion::Instant>,
     zones: Option<(Arc<Overview>, Vec<Zone>)>,
     textures: Vec<TextureHandle>,
     /// The signer's posture in the pictures that are shown.
@@ -85,6 +96,8 @@ pub(crate) struct Stage {
     took: Duration,
     /// The handle of a placement that is dragged.
     holding: handle::Holding,
+    /// The point of a path that is pulled.
+    pull: Option<course::Pull>,
     /// Whether the signer is that of made movement.
     made: bool,
     /// When made movement was last replaced by newer of it, in seconds of the window's clock, and whether
@@ -113,6 +126,9 @@ impl Default for Stage {
             },
             reach: REACH,
             places: false,
+            insets: Insets::default(),
+            stroke: None,
+            previews: None,
             zones: None,
             textures: Vec::new(),
             drawn: None,
@@ -122,6 +138,7 @@ impl Default for Stage {
             coming: false,
             took: Duration::ZERO,
             holding: handle::Holding::default(),
+            pull: None,
             made: false,
             replaced: None,
             at_once: false,
@@ -279,6 +296,13 @@ impl Pane for Stage {
             }
             Action::StageGhosts => self.shows.ghosts = !self.shows.ghosts,
             Action::StagePlaces => self.places = !self.places,
+            Action::StageHands => self.insets.hands = !self.insets.hands,
+            Action::StagePalms => {
+                // Palms that are asked for are to be seen.
+                self.insets.palms = !(self.insets.palms && self.insets.hands);
+                self.insets.hands = true;
+            }
+            Action::StageFace => self.insets.face = !self.insets.face,
             Action::StageGrid => self.shows.grid = !self.shows.grid,
             Action::StageCompare => self.compare = self.compare.next(),
             Action::StageRecording => out.send(Command::Made(None)),

@@ -48,6 +48,24 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
                 stage.places,
             ),
             (
+                words::HANDS,
+                words::HANDS_HINT,
+                Action::StageHands,
+                stage.insets.hands,
+            ),
+            (
+                words::PALMS,
+                words::PALMS_HINT,
+                Action::StagePalms,
+                stage.insets.hands && stage.insets.palms,
+            ),
+            (
+                words::FACE,
+                words::FACE_HINT,
+                Action::StageFace,
+                stage.insets.face,
+            ),
+            (
                 words::GRID,
                 words::GRID_HINT,
                 Action::StageGrid,

@@ -12,14 +12,17 @@ use eframe::egui::{
 };
 
 use super::artist::{Artist, Figure, Pane, Sheet, Wish};
-use super::data::{self, Compare, Look, Part, VIEWS, Who};
+use super::data::{self, Compare, Inset, Look, Part, VIEWS, Who};
 use super::scene::Subject;
-use super::{Eye, Stage, handle, marks, movement, original, tools, transport};
+use super::{
+    Eye, Stage, course, handle, insets, marks, movement, original, preview, tools, transport,
+};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::film::Films;
 use crate::little;
+use crate::panes::timeline;
 use crate::words::{Text, fill, stage as words};
 
 /// The most pixels that are drawn; larger stages show theirs scaled.
@@ -178,7 +181,10 @@ fn panes(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, whol
         turn(stage, ui, &response, part);
         dragged |= response.dragged();
     }
-    let poses = pictures(stage, ui, seen, &parts, dragged);
+    let insets = insets::of(stage, &parts);
+    let poses = pictures(stage, ui, seen, (&parts, &insets), dragged);
+    insets::show(stage, ui, seen, out, (&insets, parts.len()));
+    insets::proposal(ui, seen, &insets);
     let many = stage.eyes.len() > 1;
     stage.holding.begin();
     for part in &parts {
@@ -242,7 +248,7 @@ fn pictures(
     stage: &mut Stage,
     ui: &mut Ui,
     seen: &Seen<'_>,
-    parts: &[Part],
+    (parts, insets): (&[Part], &[Inset]),
     dragged: bool,
 ) -> Option<ModelPose> {
     stage.artist.get_or_insert_with(|| {
@@ -254,17 +260,33 @@ fn pictures(
     let shrink = (MOST_PIXELS / area.max(1.0)).sqrt().min(1.0);
     let pixels = |side: f32| ((side * scale * shrink).round() as usize).max(1);
     let player = seen.shown.on_stage();
-    let at = player.playhead();
     let now = ui.input(|input| input.time);
+    let preview = preview::moment(&mut stage.stroke, seen, now);
+    let loops = player.previewed().is_some_and(|it| it.loops);
+    if preview.is_some() && loops {
+        ui.ctx().request_repaint();
+    }
+    stage.previews = preview;
+    let at = preview.unwrap_or(player.playhead());
     let changing = stage.replaced.map(|since| SETTLES - (now - since));
     let changing = changing.filter(|rest| *rest > 0.0);
     if let Some(rest) = changing {
         ui.ctx()
             .request_repaint_after(std::time::Duration::from_secs_f64(rest));
     }
-    let moving = player.is_playing() || dragged || changing.is_some();
+    let moving = player.is_playing() || dragged || changing.is_some() || loops;
     let look = Look {
         at,
+        insets: insets
+            .iter()
+            .map(|it| {
+                (
+                    it.view,
+                    it.who,
+                    [pixels(it.rect.width()), pixels(it.rect.height())],
+                )
+            })
+            .collect(),
         eyes: stage.eyes.clone(),
         parts: parts
             .iter()
@@ -397,12 +419,13 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
         Some((figures.len() - 1, subject))
     });
     let mut panes = Vec::new();
+    let of = |who: &Who| match (who, &original) {
+        (Who::Original, Some((figure, subject))) => (*subject, *figure),
+        _ => (&*signer, 0),
+    };
     for (eye, who, size) in &look.parts {
         let eye = look.eyes[*eye];
-        let (subject, at): (&Subject, usize) = match (who, &original) {
-            (Who::Original, Some((figure, subject))) => (subject, *figure),
-            _ => (signer, 0),
-        };
+        let (subject, at): (&Subject, usize) = of(who);
         let camera = camera(subject, eye, *size, &figures[at].pose);
         let ground = subject.ground(eye.view, theme, look.shows.grid);
         let mut layers = vec![sheet(None, Some(std::sync::Arc::new(ground)), 1.0)];
@@ -428,6 +451,16 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
             camera,
             size: *size,
             layers,
+            fine: false,
+        });
+    }
+    for (view, who, size) in &look.insets {
+        let (subject, at) = of(who);
+        panes.push(Pane {
+            camera: camera(subject, Eye::of(*view), *size, &figures[at].pose),
+            size: *size,
+            layers: vec![sheet(Some(at), None, 1.0)],
+            fine: true,
         });
     }
     stage.wished += 1;
@@ -616,6 +649,7 @@ pub(super) fn chip_on(
 /// Shows notes on the whole: a moment is being loaded, hands have no fingers.
 fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
     let at = whole.center_bottom() - vec2(0.0, 8.0);
+    let whole_top = whole.center_top() + vec2(0.0, 8.0);
     let mittens = stage
         .signer
         .as_ref()
@@ -627,6 +661,16 @@ fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
         Some(_) => Some(words::ESTIMATED),
         None => None,
     };
+    if let Some(at) = stage.previews {
+        let loops = seen.shown.player.previewed().is_some_and(|it| it.loops);
+        let time = timeline::data::time_text(at);
+        let text = if loops {
+            seen.say(words::PREVIEW_LOOP).to_owned()
+        } else {
+            fill(seen.say(words::PREVIEW), &[("time", &time)])
+        };
+        chip(ui, whole_top, Align2::CENTER_TOP, &seen.keys.named(&text));
+    }
     if stage.coming {
         chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::COMING));
     } else if let Some(points) = points.filter(|_| stage.signer.is_none() || stage.shows.points) {
@@ -658,6 +702,7 @@ fn handled(
     let before = stage.holding.grab.is_some();
     if let Some(projection) = projection(stage, part, pose) {
         handle::show(stage, ui, seen, out, (part, projection, pose));
+        course::show(stage, ui, seen, out, (part, projection, pose));
         let panned = std::mem::take(&mut stage.holding.panned) / part.rect.height().max(1.0);
         stage.eyes[part.eye].pan([panned.x, panned.y]);
     }

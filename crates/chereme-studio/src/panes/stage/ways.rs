@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::data::{Compare, Eye, Shows, VIEWS};
+use super::data::{Compare, Eye, Insets, Shows, VIEWS};
 use super::{REACH, Stage};
 
 /// The stage's settings that are remembered.
@@ -19,6 +19,7 @@ pub(crate) struct StageWays {
     points: bool,
     places: bool,
     compare: Compare,
+    insets: Insets,
 }
 
 impl Default for StageWays {
@@ -32,6 +33,7 @@ impl Default for StageWays {
             points: true,
             places: false,
             compare: Compare::default(),
+            insets: Insets::default(),
         }
     }
 }
@@ -52,6 +54,7 @@ impl StageWays {
             points: stage.shows.points,
             places: stage.places,
             compare: stage.compare,
+            insets: stage.insets,
         }
     }
 
@@ -82,7 +85,7 @@ impl StageWays {
             grid: self.grid,
             points: self.points,
         };
-        (stage.places, stage.compare) = (self.places, self.compare);
+        (stage.places, stage.compare, stage.insets) = (self.places, self.compare, self.insets);
     }
 }
 
@@ -96,6 +99,7 @@ mod tests {
         assert_eq!(StageWays::of(&stage), StageWays::default());
         stage.split(4);
         (stage.places, stage.compare, stage.reach) = (true, Compare::Over, 1.5);
+        (stage.insets.palms, stage.insets.hands) = (true, false);
         let ways = StageWays::of(&stage);
         let text = serde_json::to_string(&ways).expect("written");
         let read: StageWays = serde_json::from_str(&text).expect("read");

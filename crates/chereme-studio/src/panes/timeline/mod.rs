@@ -39,6 +39,7 @@ mod overview;
 mod paint;
 mod paste;
 mod paste_box;
+mod proposals;
 mod rows;
 mod select;
 mod snap;
@@ -388,10 +389,17 @@ impl Pane for Timeline {
                     }
                     return Acted::Yes;
                 }
-                let acted = [select::act, edit::act, tiers::act, paste::act, beside::act]
-                    .into_iter()
-                    .map(|act| act(self, other, &scene, out))
-                    .find(|acted| *acted != Acted::No);
+                let acted = [
+                    proposals::act,
+                    select::act,
+                    edit::act,
+                    tiers::act,
+                    paste::act,
+                    beside::act,
+                ]
+                .into_iter()
+                .map(|act| act(self, other, &scene, out))
+                .find(|acted| *acted != Acted::No);
                 if self.is_open() && !self.drawn {
                     out.send(Command::Do(Action::ShowTimeline));
                 }

@@ -1,6 +1,6 @@
 //! The parts of the timeline that are painted: ruler, bars, selection, playhead.
 
-use chereme_corpus::{TierContents, ValueState};
+use chereme_corpus::{TierContents, ValueState, proposed_for};
 use chereme_motion::{Instant, Span};
 use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
@@ -87,11 +87,12 @@ pub(super) fn bar(
     let id = tier.annotations.ids[bar.at];
     let chosen = bar.count == 1 && seen.shown.annotations.contains(&id);
     let missing = bar.count == 1 && tier.annotations.states[bar.at] != ValueState::Value;
+    let proposed = proposed_for(&tier.row.name).is_some();
     let colour = colours.role(&tier.row.role);
-    let (fill, ink) = match (faint, chosen, missing) {
-        (true, ..) => (colour.gamma_multiply(0.15), colours.on_annotation),
-        (_, true, _) => (colours.chosen, colours.on_chosen),
-        (.., true) => (
+    let (fill, ink) = match (faint, chosen) {
+        (true, _) => (colour.gamma_multiply(0.15), colours.on_annotation),
+        (_, true) => (colours.chosen, colours.on_chosen),
+        _ if missing || proposed => (
             colour.gamma_multiply(0.35),
             painter.ctx().global_style().visuals.text_color(),
         ),
@@ -113,6 +114,9 @@ pub(super) fn bar(
         Stroke::new(width, edge),
         StrokeKind::Inside,
     );
+    if proposed && !faint {
+        hatch(painter, rect, edge.gamma_multiply(0.55));
+    }
     if chosen && !faint && rect.width() > 16.0 {
         grips(painter, rect, edge);
     }
@@ -135,6 +139,26 @@ fn inside(painter: &Painter, rect: Rect, text: String, font: &FontId, ink: Color
         painter.galley(at, galley, ink);
     } else {
         painter.with_clip_rect(room).galley(at, galley, ink);
+    }
+}
+
+/// Paints slanting lines over what nobody has accepted yet.
+fn hatch(painter: &Painter, rect: Rect, colour: Color32) {
+    const STEP: f32 = 7.0;
+    let seen = rect.shrink(1.0).intersect(painter.clip_rect());
+    if !seen.is_positive() {
+        return;
+    }
+    let painter = painter.with_clip_rect(seen);
+    let high = rect.height();
+    let first = ((seen.left() - high - rect.left()) / STEP)
+        .floor()
+        .max(-high / STEP) as i32;
+    let last = ((seen.right() - rect.left()) / STEP).ceil() as i32;
+    for line in first..=last {
+        let x = rect.left() + line as f32 * STEP;
+        let ends = [pos2(x, rect.bottom()), pos2(x + high, rect.top())];
+        painter.line_segment(ends, Stroke::new(1.0, colour));
     }
 }
 

@@ -1,0 +1,305 @@
+//! The path of a recipe on the stage: a curve that is drawn there, and pulled by its points or anywhere between.
+
+use chereme_corpus::recipe::Length;
+use chereme_figure::camera::Projection;
+use chereme_motion::{ModelPose, Part as Joint};
+use eframe::egui::{
+    CursorIcon, Id, Key, Modifiers, Painter, Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
+    vec2,
+};
+use glam::{DMat3, DVec3};
+
+use super::Stage;
+use super::data::Part;
+use super::gizmo::{Directions, Ray};
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::panes::recombine::{draw_on_stage, drawing, points_of_line};
+use crate::words::{fill, recombine as words};
+
+/// The size of a point for the pointer, and how near to the line a press pulls it, in points of the window.
+const POINT: f32 = 18.0;
+const NEAR: f32 = 9.0;
+/// How far an arrow key moves a point, in metres.
+const STEP: f64 = 0.01;
+/// The most points of a path.
+const MOST: usize = 32;
+
+/// A path in one picture.
+struct Laid<'a> {
+    pane: Rect,
+    projection: &'a Projection,
+    /// Where the path begins, in model space, and the signer's directions.
+    base: DVec3,
+    axes: DMat3,
+    /// Its points, to the left, up and forward of the base.
+    points: Vec<DVec3>,
+    /// Places along it in the picture.
+    line: Vec<Pos2>,
+    card: u64,
+}
+
+/// What is pulled: a point by its number, kept while the drag lasts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pull {
+    point: usize,
+}
+
+/// Shows the path over a picture of the made movement, and takes drags of it.
+pub(super) fn show(
+    stage: &mut Stage,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    (pane, projection, pose): (&Part, Projection, &ModelPose),
+) {
+    let (Some(course), Some(showing)) = (&seen.shown.course, &seen.shown.made) else {
+        stage.pull = None;
+        return;
+    };
+    let made = &showing.made;
+    let Some(directions) = Directions::of(&made.clip, &made.anatomy) else {
+        return;
+    };
+    let sides = course.travel.hand.sides(made.handedness);
+    let dominant = made.handedness.dominant();
+    let side = sides.iter().find(|side| **side == dominant);
+    let Some(side) = side.or(sides.first()).copied() else {
+        return;
+    };
+    if made.clip.frames() == 0 || pose.positions().len() < made.clip.skeleton().len() {
+        return;
+    }
+    let Some(wrist) = made.anatomy.joint(Joint::Hand(side)) else {
+        return;
+    };
+    let base = made.clip.model_pose(0).position(wrist);
+    let axes = directions.axes;
+    let places = course.places(directions.arm);
+    let spot = |at: DVec3| spot(&projection, pane.rect, base + axes * at);
+    let laid = Laid {
+        pane: pane.rect,
+        projection: &projection,
+        base,
+        axes,
+        line: places.into_iter().map(spot).collect(),
+        points: course.points(directions.arm),
+        card: course.card,
+    };
+    let painter = ui.painter().with_clip_rect(pane.rect);
+    paint(&painter, seen, &laid);
+    if drawing(ui.ctx()) == Some(course.card) {
+        draw(ui, seen, out, &laid);
+        return;
+    }
+    pull_line(stage, ui, seen, out, &laid);
+    for point in 0..laid.points.len() {
+        pull_point(stage, ui, seen, out, &laid, point);
+    }
+}
+
+/// Returns where a place of model space lies in the window.
+fn spot(projection: &Projection, pane: Rect, at: DVec3) -> Pos2 {
+    let seen = projection.project(at.as_vec3());
+    pane.min + vec2(seen.x, seen.y)
+}
+
+fn paint(painter: &Painter, seen: &Seen<'_>, laid: &Laid<'_>) {
+    let colours = seen.colours();
+    painter.line(
+        laid.line.clone(),
+        Stroke::new(5.0, colours.on_annotation.gamma_multiply(0.35)),
+    );
+    let stroke = Stroke::new(3.0, colours.playhead);
+    if let [.., before, last] = laid.line[..] {
+        painter.arrow(last, (last - before).normalized() * 14.0, stroke);
+    }
+    painter.line(laid.line.clone(), stroke);
+    if let Some(first) = laid.line.first() {
+        painter.circle_stroke(*first, 5.0, stroke);
+    }
+}
+
+/// Lets a point of the path be pulled, moved by keys, or taken away.
+fn pull_point(
+    stage: &mut Stage,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    laid: &Laid<'_>,
+    point: usize,
+) {
+    let place = laid.base + laid.axes * laid.points[point];
+    let at = spot(laid.projection, laid.pane, place);
+    if !laid.pane.contains(at) {
+        return;
+    }
+    let id = id(ui, laid).with(("point", point));
+    let room = Rect::from_center_size(at, Vec2::splat(POINT));
+    let response = ui.interact(room, id, Sense::click_and_drag());
+    let name = fill(seen.say(words::COURSE_POINT), &[("n", &(point + 1))]);
+    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &name));
+    let lit = response.hovered() || response.dragged() || response.has_focus();
+    let colours = seen.colours();
+    let painter = ui.painter().with_clip_rect(laid.pane);
+    let radius = if lit { 8.0 } else { 6.0 };
+    let stroke = Stroke::new(2.0, colours.on_chosen);
+    painter.circle(at, radius, colours.playhead, stroke);
+    if response.clicked() {
+        response.request_focus();
+    }
+    let mut points = laid.points.clone();
+    if response.secondary_clicked() && points.len() > 1 {
+        points.remove(point);
+        return send(laid, &points, out);
+    }
+    if response.dragged() {
+        stage.pull = Some(Pull { point });
+        if let Some(to) = pulled(ui, laid, place) {
+            points[point] = to;
+            send(laid, &points, out);
+        }
+    }
+    if response.drag_stopped() {
+        stage.pull = None;
+    }
+    if response.has_focus()
+        && let Some(by) = stepped(ui, &response.id)
+    {
+        points[point] += by;
+        send(laid, &points, out);
+    }
+}
+
+/// Lets the path be pulled between its points: a new point comes there.
+fn pull_line(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, laid: &Laid<'_>) {
+    let id = id(ui, laid).with("line");
+    let pointer = ui.input(|input| input.pointer.interact_pos());
+    let Some(pointer) = pointer.filter(|at| laid.pane.contains(*at)) else {
+        return;
+    };
+    let dragged = ui.ctx().is_being_dragged(id);
+    let near = laid.line.iter().enumerate();
+    let near = near.map(|(nth, at)| (at.distance(pointer), nth));
+    let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0));
+    if !dragged && nearest.is_none_or(|(far, _)| far > NEAR) {
+        return;
+    }
+    let room = Rect::from_center_size(pointer, Vec2::splat(POINT));
+    let response = ui.interact(room, id, Sense::drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, seen.say(words::COURSE_LINE)));
+    let response = response.on_hover_cursor(CursorIcon::Grab);
+    let mut points = laid.points.clone();
+    if response.drag_started()
+        && points.len() < MOST
+        && let Some((_, nth)) = nearest
+    {
+        // The line has as many pieces between any two points.
+        let pieces = (laid.line.len() - 1) / points.len().max(1);
+        let at = (nth.saturating_sub(1) / pieces.max(1)).min(points.len());
+        let origin = points.get(at).copied().unwrap_or_default();
+        let place = laid.base + laid.axes * origin;
+        if let Some(to) = pulled(ui, laid, place) {
+            points.insert(at, to);
+            stage.pull = Some(Pull { point: at });
+            return send(laid, &points, out);
+        }
+    }
+    if response.dragged()
+        && let Some(pull) = stage.pull
+        && let Some(point) = points.get(pull.point).copied()
+    {
+        let place = laid.base + laid.axes * point;
+        if let Some(to) = pulled(ui, laid, place) {
+            points[pull.point] = to;
+            send(laid, &points, out);
+        }
+    }
+    if response.drag_stopped() {
+        stage.pull = None;
+    }
+}
+
+/// Draws a new path with the pointer, in the plane across the sight through its beginning.
+fn draw(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, laid: &Laid<'_>) {
+    let id = id(ui, laid).with("draw");
+    let response = ui.interact(laid.pane, id, Sense::drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, seen.say(words::DRAW_ON_STAGE)));
+    let response = response.on_hover_cursor(CursorIcon::Crosshair);
+    let mut line: Vec<Pos2> = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    if response.drag_started() {
+        line.clear();
+    }
+    if let Some(at) = response
+        .interact_pointer_pos()
+        .filter(|_| response.dragged())
+        && line.last().is_none_or(|last| last.distance(at) > 2.0)
+    {
+        line.push(at);
+    }
+    let painter = ui.painter().with_clip_rect(laid.pane);
+    painter.line(line.clone(), Stroke::new(3.0, seen.colours().accent));
+    if response.drag_stopped() {
+        let sight = laid.projection.sight().as_dvec3();
+        let deep = line.iter().filter_map(|at| {
+            let [x, y] = (*at - laid.pane.min).into();
+            let place = Ray::through(laid.projection, [x, y]).on_plane(laid.base, sight)?;
+            Some(laid.axes.transpose() * (place - laid.base))
+        });
+        let points = points_of_line(&deep.collect::<Vec<_>>());
+        if !points.is_empty() {
+            out.send(Command::Travelled(laid.card, points));
+            draw_on_stage(ui.ctx(), None);
+        }
+        line.clear();
+    }
+    ui.data_mut(|data| data.insert_temp(id, line));
+}
+
+/// Returns where the pointer has pulled a place to: across the sight, in the signer's directions from the base.
+fn pulled(ui: &Ui, laid: &Laid<'_>, place: DVec3) -> Option<DVec3> {
+    let pointer = ui.input(|input| input.pointer.interact_pos())?;
+    let [x, y] = (pointer - laid.pane.min).into();
+    let sight = laid.projection.sight().as_dvec3();
+    let to = Ray::through(laid.projection, [x, y]).on_plane(place, sight)?;
+    Some(laid.axes.transpose() * (to - laid.base))
+}
+
+/// Returns how far arrow keys move a point with the focus: to the left, up and forward.
+fn stepped(ui: &Ui, id: &Id) -> Option<DVec3> {
+    ui.memory_mut(|memory| {
+        memory.set_focus_lock_filter(
+            *id,
+            eframe::egui::EventFilter {
+                horizontal_arrows: true,
+                vertical_arrows: true,
+                ..eframe::egui::EventFilter::default()
+            },
+        );
+    });
+    let keys = [
+        (Key::ArrowRight, DVec3::X),
+        (Key::ArrowLeft, DVec3::NEG_X),
+        (Key::ArrowUp, DVec3::Y),
+        (Key::ArrowDown, DVec3::NEG_Y),
+        (Key::PageUp, DVec3::Z),
+        (Key::PageDown, DVec3::NEG_Z),
+    ];
+    ui.input_mut(|input| {
+        let pressed = keys
+            .into_iter()
+            .find(|(key, _)| input.consume_key(Modifiers::NONE, *key));
+        pressed.map(|(_, way)| way * STEP)
+    })
+}
+
+fn send(laid: &Laid<'_>, points: &[DVec3], out: &mut Outbox) {
+    let metres = |value: f64| Length::Metres((value * 1000.0).round() / 1000.0);
+    let points = points.iter().map(|at| at.to_array().map(metres)).collect();
+    out.send(Command::Travelled(laid.card, points));
+}
+
+fn id(ui: &Ui, laid: &Laid<'_>) -> Id {
+    let (x, y) = (laid.pane.min.x as i64, laid.pane.min.y as i64);
+    ui.scope_id().with(("course", x, y))
+}

@@ -1,0 +1,181 @@
+//! Values proposed from movement: they are hatched until a person accepts them.
+
+use std::collections::BTreeSet;
+
+use chereme_corpus::{Contents, Name, ProposeOptions, ProposeScope, Proposed, proposed_for};
+use chereme_motion::Instant;
+
+use super::edit::Scene;
+use super::{Then, Timeline};
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::Outbox;
+use crate::panes::Acted;
+use crate::words::timeline as words;
+use crate::work::Work;
+
+/// A proposal is doubtful below this confidence, or if none is known.
+const SURE: f64 = 0.75;
+
+/// A proposal in a recording.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Proposal {
+    start: i64,
+    end: i64,
+    tier: i64,
+    id: i64,
+    doubtful: bool,
+}
+
+/// Does what keys and menus ask for.
+pub(super) fn act(
+    timeline: &mut Timeline,
+    action: Action,
+    scene: &Scene<'_>,
+    out: &mut Outbox,
+) -> Acted {
+    match action {
+        Action::Propose => propose(scene, out),
+        Action::NextProposal => match next(&all(scene.contents), here(scene)) {
+            Some(next) => go(timeline, next, out),
+            None => return Acted::Cannot(words::NO_PROPOSAL),
+        },
+        Action::AcceptProposal | Action::EditValue => {
+            let chosen = chosen(scene);
+            if chosen.is_empty() {
+                return match action {
+                    Action::EditValue => Acted::No,
+                    _ => Acted::Cannot(words::NO_PROPOSAL),
+                };
+            }
+            let all = all(scene.contents);
+            let left: Vec<Proposal> = all
+                .into_iter()
+                .filter(|it| !chosen.contains(&it.id))
+                .collect();
+            let id = out.work(Work::Accept(chosen.into_iter().collect()));
+            timeline.pending.insert(id, Then::default());
+            if let Some(next) = next(&left, here(scene)) {
+                go(timeline, next, out);
+            }
+        }
+        _ => return Acted::No,
+    }
+    Acted::Yes
+}
+
+/// Has values proposed for the selected sign, the selected time, or else the recording.
+fn propose(scene: &Scene<'_>, out: &mut Outbox) {
+    let shown = scene.seen.shown;
+    let recording = Name::Number(scene.contents.recording.id);
+    let token = shown.annotation().and_then(|annotation| {
+        let mut tokens = scene.contents.tokens.iter();
+        tokens.find(|it| it.annotation_id == Some(annotation))
+    });
+    let scope = match (token, shown.span) {
+        (Some(token), _) => ProposeScope::Token(token.id),
+        (None, Some(span)) => ProposeScope::Span(recording, span),
+        (None, None) => ProposeScope::Recording(recording),
+    };
+    out.work(Work::ProposeIn(ProposeOptions {
+        components: Proposed::COMPONENTS.to_vec(),
+        scope,
+    }));
+}
+
+/// Returns the proposals of a recording, in order of time.
+fn all(contents: &Contents) -> Vec<Proposal> {
+    let mut all = Vec::new();
+    for tier in &contents.tiers {
+        if proposed_for(&tier.row.name).is_none() {
+            continue;
+        }
+        let columns = &tier.annotations;
+        all.extend((0..columns.len()).map(|at| Proposal {
+            start: columns.starts[at],
+            end: columns.ends[at],
+            tier: tier.row.id,
+            id: columns.ids[at],
+            doubtful: columns.confidences[at].is_none_or(|sure| sure < SURE),
+        }));
+    }
+    all.sort_by_key(|it| (it.start, it.tier, it.id));
+    all
+}
+
+/// Returns the selected annotations, if all of them are proposals.
+fn chosen(scene: &Scene<'_>) -> BTreeSet<i64> {
+    let chosen = &scene.seen.shown.annotations;
+    let is_proposal = |id: &i64| {
+        let found = scene.seen.snapshot.annotation(*id);
+        found.is_some_and(|it| proposed_for(&it.tier.row.name).is_some())
+    };
+    if chosen.iter().all(is_proposal) {
+        chosen.clone()
+    } else {
+        BTreeSet::new()
+    }
+}
+
+/// Returns where one is: the start of the selected annotation and its tier, else the playhead before every tier.
+fn here(scene: &Scene<'_>) -> (i64, i64, i64) {
+    let found = scene.seen.shown.annotations.last().and_then(|id| {
+        let found = scene.seen.snapshot.annotation(*id)?;
+        let start = found.tier.annotations.starts[found.at];
+        Some((start, found.tier.row.id, *id))
+    });
+    found.unwrap_or((scene.playhead(), i64::MIN, i64::MIN))
+}
+
+/// Returns the next doubtful proposal after a place, around the end too; the next of all if none is doubtful.
+fn next(all: &[Proposal], here: (i64, i64, i64)) -> Option<Proposal> {
+    let after = |it: &&Proposal| (it.start, it.tier, it.id) > here;
+    let doubtful = || all.iter().filter(|it| it.doubtful);
+    let found = doubtful().find(after).or_else(|| doubtful().next());
+    let found = found.or_else(|| all.iter().find(after));
+    found.or_else(|| all.first()).copied()
+}
+
+/// Selects a proposal, and shows its moment.
+fn go(timeline: &mut Timeline, to: Proposal, out: &mut Outbox) {
+    let micros = Instant::from_micros;
+    out.send(Command::Tier(Some(to.tier)));
+    out.send(Command::Annotations([to.id].into()));
+    out.send(Command::Span(Some(chereme_motion::Span::between(
+        micros(to.start),
+        micros(to.end),
+    ))));
+    out.seek(micros(to.start + (to.end - to.start) / 2));
+    timeline.show_tier();
+    if !timeline.drawn {
+        out.send(Command::Do(Action::ShowTimeline));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_next_proposal_is_a_doubtful_one_and_goes_round() {
+        let proposal = |start, id, doubtful| Proposal {
+            start,
+            end: start + 5,
+            tier: 1,
+            id,
+            doubtful,
+        };
+        let all = [
+            proposal(0, 10, true),
+            proposal(10, 11, false),
+            proposal(20, 12, true),
+        ];
+        let id = |here| next(&all, here).map(|it| it.id);
+        assert_eq!(id((-1, 0, 0)), Some(10));
+        assert_eq!(id((0, 1, 10)), Some(12), "what is sure is passed over");
+        assert_eq!(id((20, 1, 12)), Some(10), "it goes round");
+        let sure = [proposal(0, 10, false), proposal(10, 11, false)];
+        assert_eq!(next(&sure, (0, 1, 10)).map(|it| it.id), Some(11));
+        assert_eq!(next(&[], (0, 1, 10)), None);
+    }
+}

@@ -1,0 +1,284 @@
+//! Areas on a picture of the body: every place fills all that is nearer to it than to others, and lights up as a whole.
+//!
+//! They are found on a thread of their own, once for a picture and the places in it.
+
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use chereme_sign::Inventory;
+use eframe::egui::{
+    Color32, ColorImage, Context, Id, Painter, Pos2, Rect, TextureHandle, TextureOptions, Vec2,
+    pos2, vec2,
+};
+
+use super::paint;
+use super::places::{self, Panel, Zone};
+
+/// The least distance between the middles of two areas, halved, in points.
+const RADIUS: f32 = 9.0;
+/// How far an area reaches on the body, and beside it, beside the height of the picture.
+const REACH: f32 = 0.2;
+const OFF: f32 = 0.05;
+/// The same in space, where there is no body to fill.
+const IN_SPACE: f32 = 0.1;
+/// Areas are found on a grid of this many points to a side of a pixel.
+const GRAIN: f32 = 1.5;
+
+/// The areas of a picture.
+#[derive(Debug)]
+pub(super) struct Areas {
+    /// The places, in their order in `ids`.
+    pub(super) zones: Vec<Zone>,
+    size: [usize; 2],
+    /// For each pixel the number of its area, 0 for none.
+    ids: Vec<u8>,
+    /// The pixels that each area lies in: columns and rows.
+    bounds: Vec<[usize; 4]>,
+}
+
+/// The picture, what it is of, and its places.
+#[derive(Debug, Clone)]
+pub(super) struct Wanted {
+    pub(super) view: (Panel, bool),
+    pub(super) values: Vec<usize>,
+    pub(super) size: Vec2,
+}
+
+impl Areas {
+    /// Finds the areas; not for the window's thread. `None` if there is no picture.
+    fn find(inventory: &Inventory, wanted: &Wanted) -> Option<Self> {
+        let scene = places::scene()?;
+        let rect = Rect::from_min_size(Pos2::ZERO, wanted.size);
+        let values = scene.in_sight(inventory, &wanted.values, wanted.view);
+        let zones = places::zones(scene, inventory, &values, wanted.view, rect, RADIUS);
+        let size = [wanted.size.x, wanted.size.y].map(|side| ((side / GRAIN) as usize).max(1));
+        let picture = scene.draw(wanted.view.0, wanted.view.1, size, false)?;
+        let paper = paint::paper(false);
+        let body: Vec<bool> = picture.pixels.iter().map(|it| *it != paper).collect();
+        Some(Self::of(zones, &body, size, wanted))
+    }
+
+    /// Returns the areas around the middles of `zones`, where `body` says which pixels show the body.
+    fn of(mut zones: Vec<Zone>, body: &[bool], size: [usize; 2], wanted: &Wanted) -> Self {
+        zones.truncate(usize::from(u8::MAX));
+        let high = wanted.size.y;
+        let space = wanted.view.0 == Panel::Space;
+        let (on, off) = if space {
+            (IN_SPACE * high, IN_SPACE * high)
+        } else {
+            (REACH * high, (OFF * high).max(RADIUS))
+        };
+        let mut ids = vec![0; body.len()];
+        let mut bounds = vec![[usize::MAX, usize::MAX, 0, 0]; zones.len()];
+        for (at, (id, shown)) in ids.iter_mut().zip(body).enumerate() {
+            let (column, row) = (at % size[0], at / size[0]);
+            let point = pos2(column as f32 + 0.5, row as f32 + 0.5) * GRAIN;
+            let nearest = zones
+                .iter()
+                .enumerate()
+                .map(|(nth, zone)| (zone.centre.distance_sq(point), nth))
+                .min_by(|a, b| a.0.total_cmp(&b.0));
+            let reach = if *shown { on } else { off };
+            let Some((_, nth)) = nearest.filter(|it| it.0 <= reach * reach) else {
+                continue;
+            };
+            *id = nth as u8 + 1;
+            let room = &mut bounds[nth];
+            *room = [
+                room[0].min(column),
+                room[1].min(row),
+                room[2].max(column),
+                room[3].max(row),
+            ];
+        }
+        Self {
+            zones,
+            size,
+            ids,
+            bounds,
+        }
+    }
+
+    /// Returns the place at a point of the picture, which fills `rect`, by its number among the zones.
+    pub(super) fn at(&self, rect: Rect, point: Pos2) -> Option<usize> {
+        let share = (point - rect.min) / rect.size();
+        let column = (share.x * self.size[0] as f32).floor();
+        let row = (share.y * self.size[1] as f32).floor();
+        let inside = column >= 0.0 && row >= 0.0;
+        let (column, row) = (column as usize, row as usize);
+        if !inside || column >= self.size[0] || row >= self.size[1] {
+            return None;
+        }
+        usize::from(self.ids[row * self.size[0] + column]).checked_sub(1)
+    }
+
+    /// Returns a picture of all areas: what they fill, faintly, and the lines between them.
+    fn all(&self, colour: Color32) -> ColorImage {
+        let [wide, high] = self.size;
+        let id = |column: usize, row: usize| self.ids[row * wide + column];
+        let pixel = |at: usize| {
+            let (column, row) = (at % wide, at / wide);
+            let own = id(column, row);
+            let right = id((column + 1).min(wide - 1), row);
+            let below = id(column, (row + 1).min(high - 1));
+            let line = own != right || own != below;
+            match (line, own) {
+                (true, _) => colour.gamma_multiply(0.55),
+                (false, 0) => Color32::TRANSPARENT,
+                (false, _) => colour.gamma_multiply(0.1),
+            }
+        };
+        ColorImage::new(self.size, (0..wide * high).map(pixel).collect())
+    }
+
+    /// Returns a picture of one area, and the share of the whole that it lies in.
+    fn one(&self, zone: usize, colour: Color32) -> Option<(ColorImage, Rect)> {
+        let [left, top, right, bottom] = *self.bounds.get(zone)?;
+        if left > right || top > bottom {
+            return None;
+        }
+        let size = [right - left + 1, bottom - top + 1];
+        let own = zone as u8 + 1;
+        let pixel = |at: usize| {
+            let place = (top + at / size[0]) * self.size[0] + left + at % size[0];
+            if self.ids[place] == own {
+                colour
+            } else {
+                Color32::TRANSPARENT
+            }
+        };
+        let image = ColorImage::new(size, (0..size[0] * size[1]).map(pixel).collect());
+        let whole = vec2(self.size[0] as f32, self.size[1] as f32);
+        let part = Rect::from_min_size(
+            (vec2(left as f32, top as f32) / whole).to_pos2(),
+            vec2(size[0] as f32, size[1] as f32) / whole,
+        );
+        Some((image, part))
+    }
+}
+
+/// The areas that were found, and their pictures.
+#[derive(Default)]
+struct Atlas {
+    /// Nothing as long as they are looked for.
+    areas: BTreeMap<u64, Option<Arc<Areas>>>,
+    textures: BTreeMap<(u64, usize, Rgba), (TextureHandle, Rect)>,
+}
+
+/// A colour as a key: red, green, blue and how much it hides.
+type Rgba = [u8; 4];
+
+fn atlas(ctx: &Context) -> Arc<Mutex<Atlas>> {
+    ctx.data_mut(|data| {
+        data.get_temp_mut_or_insert_with(
+            Id::unique("atlas of places"),
+            Arc::<Mutex<Atlas>>::default,
+        )
+        .clone()
+    })
+}
+
+/// Returns the areas of that key if they were found; the first call has them found.
+pub(super) fn find(
+    ctx: &Context,
+    key: u64,
+    inventory: &Inventory,
+    wanted: &Wanted,
+) -> Option<Arc<Areas>> {
+    let shared = atlas(ctx);
+    let mut atlas = shared.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = atlas.areas.get(&key) {
+        return known.clone();
+    }
+    atlas.areas.insert(key, None);
+    drop(atlas);
+    let (ctx, inventory, wanted) = (ctx.clone(), inventory.clone(), wanted.clone());
+    std::thread::spawn(move || {
+        if let Some(areas) = Areas::find(&inventory, &wanted) {
+            let mut atlas = shared.lock().unwrap_or_else(PoisonError::into_inner);
+            atlas.areas.insert(key, Some(Arc::new(areas)));
+            drop(atlas);
+            ctx.request_repaint();
+        }
+    });
+    None
+}
+
+/// Paints all areas over the picture in `rect`, or one of them.
+pub(super) fn paint(
+    painter: &Painter,
+    (key, areas): (u64, &Areas),
+    zone: Option<usize>,
+    colour: Color32,
+    rect: Rect,
+) {
+    let shared = atlas(painter.ctx());
+    let mut atlas = shared.lock().unwrap_or_else(PoisonError::into_inner);
+    let name = (key, zone.map_or(0, |zone| zone + 1), colour.to_array());
+    let (texture, part) = match atlas.textures.entry(name) {
+        Entry::Occupied(known) => known.into_mut(),
+        Entry::Vacant(free) => {
+            let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+            let drawn = match zone {
+                None => Some((areas.all(colour), whole)),
+                Some(zone) => areas.one(zone, colour),
+            };
+            let Some((image, part)) = drawn else { return };
+            let ctx = painter.ctx();
+            let texture = ctx.load_texture("area", image, TextureOptions::LINEAR);
+            free.insert((texture, part))
+        }
+    };
+    let place = Rect::from_min_max(
+        rect.min + part.min.to_vec2() * rect.size(),
+        rect.min + part.max.to_vec2() * rect.size(),
+    );
+    let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+    painter.image(texture.id(), place, whole, Color32::WHITE);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_sign::inventory::builtin_by_id;
+
+    #[test]
+    fn every_place_in_sight_has_an_area_of_its_own_that_the_pointer_finds() {
+        let inventory = builtin_by_id("placements").expect("of the house");
+        for (panel, turned) in [
+            (Panel::Head, false),
+            (Panel::Head, true),
+            (Panel::Trunk, false),
+            (Panel::Hand, false),
+        ] {
+            let values: Vec<usize> = (0..inventory.values.len())
+                .filter(|at| {
+                    let value = &inventory.values[*at];
+                    let landmark = value.landmark.as_ref();
+                    landmark.map(places::panel) == Some(panel)
+                        && !places::is_part(inventory, &value.id)
+                })
+                .collect();
+            let high = 330.0;
+            let size = vec2(high * panel.aspect(), high);
+            let wanted = Wanted {
+                view: (panel, turned),
+                values,
+                size,
+            };
+            let areas = Areas::find(inventory, &wanted).expect("areas");
+            assert!(areas.zones.len() > 3, "{panel:?} {turned}");
+            let rect = Rect::from_min_size(pos2(30.0, 20.0), size);
+            for (nth, zone) in areas.zones.iter().enumerate() {
+                let id = &inventory.values[zone.value].id;
+                let at = rect.min + zone.centre.to_vec2();
+                assert_eq!(areas.at(rect, at), Some(nth), "{panel:?} {turned} {id}");
+                let own = nth as u8 + 1;
+                let pixels = areas.ids.iter().filter(|it| **it == own).count();
+                assert!(pixels > 80, "{panel:?} {turned} {id}: {pixels} pixels");
+            }
+            assert_eq!(areas.at(rect, pos2(0.0, 0.0)), None);
+        }
+    }
+}

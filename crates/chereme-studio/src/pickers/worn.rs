@@ -1,0 +1,115 @@
+//! A hand that wears the handshape under the pointer, and turns from one to the next.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use chereme_figure::raster::Style;
+use chereme_figure::{HandshapeOptions, handshape_picture};
+use chereme_motion::HandAngles;
+use eframe::egui::{Color32, Id, Pos2, Rect, TextureHandle, TextureOptions, Ui, pos2};
+
+use super::paint;
+
+/// The share of the distance to a handshape that is left after a second.
+const LEFT: f64 = 1e-9;
+/// A hand nearer to its handshape than this in every angle wears it, in radians.
+const NEAR: f64 = 0.02;
+/// The greatest side of the picture, in pixels.
+const MOST: f32 = 220.0;
+
+/// The hand as it is drawn.
+#[derive(Default)]
+struct Worn {
+    angles: Option<[f64; HandAngles::LEN]>,
+    drawn: Option<(bool, usize)>,
+    texture: Option<TextureHandle>,
+}
+
+/// Shows the hand on its way to `target`.
+pub(super) fn show(ui: &Ui, rect: Rect, dark: bool, target: &HandAngles) {
+    let shared = ui.ctx().data_mut(|data| {
+        data.get_temp_mut_or_insert_with(Id::unique("worn hand"), Arc::<Mutex<Worn>>::default)
+            .clone()
+    });
+    let mut worn = shared.lock().unwrap_or_else(PoisonError::into_inner);
+    let target = target.to_array();
+    let step = f64::from(ui.input(|input| input.stable_dt)).min(0.1);
+    let (angles, moved) = turned(worn.angles, target, step);
+    let pixels = rect.size().min_elem() * ui.ctx().pixels_per_point();
+    let wanted = (dark, pixels.clamp(48.0, MOST) as usize);
+    if moved || worn.drawn != Some(wanted) || worn.texture.is_none() {
+        let usual = HandshapeOptions::small(wanted.1);
+        let options = HandshapeOptions {
+            style: Style {
+                theme: paint::theme(dark),
+                samples: 3,
+                ..usual.style
+            },
+            ..usual
+        };
+        if let Ok(image) = handshape_picture(&HandAngles::from_array(angles), &options) {
+            let image = paint::colour_image(&image);
+            match &mut worn.texture {
+                Some(texture) => texture.set(image, TextureOptions::LINEAR),
+                none => {
+                    let texture = ui.ctx().load_texture("worn", image, TextureOptions::LINEAR);
+                    *none = Some(texture);
+                }
+            }
+        }
+        worn.drawn = Some(wanted);
+    }
+    worn.angles = Some(angles);
+    if moved {
+        ui.ctx().request_repaint();
+    }
+    if let Some(texture) = &worn.texture {
+        let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+        ui.painter()
+            .image(texture.id(), rect, whole, Color32::WHITE);
+    }
+}
+
+/// Returns the angles after `step` seconds on the way, and whether that is another posture than before.
+fn turned(
+    now: Option<[f64; HandAngles::LEN]>,
+    target: [f64; HandAngles::LEN],
+    step: f64,
+) -> ([f64; HandAngles::LEN], bool) {
+    let Some(mut angles) = now else {
+        return (target, true);
+    };
+    if angles == target {
+        return (angles, false);
+    }
+    let share = 1.0 - LEFT.powf(step);
+    let mut near = true;
+    for (angle, target) in angles.iter_mut().zip(target) {
+        *angle += (target - *angle) * share;
+        near &= (target - *angle).abs() < NEAR;
+    }
+    (if near { target } else { angles }, true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hand_reaches_its_shape_in_a_fifth_of_a_second_and_rests() {
+        let fist = [1.5; HandAngles::LEN];
+        let mut now = Some([0.0; HandAngles::LEN]);
+        let mut frames = 0;
+        loop {
+            let (angles, moved) = turned(now, fist, 1.0 / 60.0);
+            now = Some(angles);
+            if !moved {
+                break;
+            }
+            frames += 1;
+            assert!(frames <= 14, "it never comes");
+        }
+        assert_eq!(now, Some(fist));
+        assert!(frames > 3, "it turns, and does not jump");
+        assert_eq!(turned(None, fist, 0.0), (fist, true));
+    }
+}

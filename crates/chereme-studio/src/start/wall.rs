@@ -1,0 +1,155 @@
+//! The living wall of the start page: signs of the starter corpus, each in a loop.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use chereme_corpus::{StarterSign, starter_signs};
+use chereme_sign::Handedness;
+use eframe::egui::{
+    Align2, Context, CornerRadius, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui,
+    Vec2, WidgetInfo, vec2,
+};
+
+use crate::little::{self, Figures, Focus};
+use crate::model::made::Made;
+use crate::theme::{self, Colours};
+use crate::words::{Language, fill, shell as words};
+
+/// The least side of a sign's picture, and the gap between two, in points.
+const LEAST: f32 = 132.0;
+const GAP: f32 = 10.0;
+/// The room for a gloss below its picture.
+const FOOT: f32 = 22.0;
+
+/// The signs that were read so far, in order; a thread reads them once.
+static SIGNS: OnceLock<Mutex<Vec<Arc<Made>>>> = OnceLock::new();
+
+/// Returns the signs of the starter corpus that were read so far; the first call has them read.
+pub(crate) fn signs(ctx: &Context) -> Vec<Arc<Made>> {
+    let mut fresh = false;
+    let signs = SIGNS.get_or_init(|| {
+        fresh = true;
+        Mutex::default()
+    });
+    if fresh {
+        let ctx = ctx.clone();
+        std::thread::spawn(move || {
+            for sign in starter_signs().flatten() {
+                let made = Arc::new(made(sign));
+                let mut all = signs.lock().unwrap_or_else(PoisonError::into_inner);
+                all.push(made);
+                drop(all);
+                ctx.request_repaint();
+            }
+        });
+    }
+    signs.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}
+
+fn made(sign: StarterSign) -> Made {
+    Made {
+        name: sign.gloss,
+        token: None,
+        clip: sign.clip,
+        faces: Vec::new(),
+        anatomy: Arc::new(sign.anatomy),
+        handedness: Handedness::Right,
+        parts: Vec::new(),
+    }
+}
+
+/// Returns columns, rows and the side of a picture for so many signs in that room; nothing where not even one fits.
+pub(super) fn grid(room: Vec2, count: usize) -> Option<([usize; 2], f32)> {
+    let fit = |side: f32, foot: f32| ((side + GAP) / (LEAST + foot + GAP)).floor() as usize;
+    let most = [fit(room.x, 0.0), fit(room.y, FOOT)];
+    if most.contains(&0) || count == 0 {
+        return None;
+    }
+    // As few columns as show all that there is room for, and the pictures as large as that lets them.
+    let shown = count.min(most[0] * most[1]);
+    let side = |columns: usize| {
+        let rows = shown.div_ceil(columns);
+        let wide = (room.x + GAP) / columns as f32 - GAP;
+        let high = (room.y + GAP) / rows as f32 - GAP - FOOT;
+        ([columns, rows], wide.min(high))
+    };
+    (1..=most[0])
+        .map(side)
+        .filter(|(_, side)| *side >= LEAST * 0.9)
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Shows the wall in a rectangle; returns the gloss of the sign that was clicked.
+pub(super) fn show(
+    ui: &mut Ui,
+    little: &Figures,
+    language: Language,
+    room: Rect,
+) -> Option<String> {
+    let signs = signs(ui.ctx());
+    let ([columns, rows], side) = grid(room.size(), signs.len())?;
+    let step = vec2(side + GAP, side + FOOT + GAP);
+    let size = vec2(columns as f32 * step.x, rows as f32 * step.y) - Vec2::splat(GAP);
+    let first = Align2::CENTER_CENTER.align_size_within_rect(size, room).min;
+    let mut chosen = None;
+    for (at, made) in signs.iter().take(columns * rows).enumerate() {
+        let place = vec2((at % columns) as f32, (at / columns) as f32);
+        let rect = Rect::from_min_size(first + place * step, Vec2::splat(side));
+        if cell(ui, little, language, (at, made), rect).clicked() {
+            chosen = Some(made.name.clone());
+        }
+    }
+    chosen
+}
+
+fn cell(
+    ui: &mut Ui,
+    little: &Figures,
+    language: Language,
+    (at, made): (usize, &Arc<Made>),
+    rect: Rect,
+) -> Response {
+    let whole = rect.with_max_y(rect.bottom() + FOOT);
+    let id = ui.scope_id().with(("wall", at));
+    let response = ui.interact(whole, id, Sense::click());
+    let name = fill(words::START_SIGN.of(language), &[("gloss", &made.name)]);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+    let clock = little::clock(ui);
+    little.paint_made(ui, language, (made, clock), rect, Focus::Signing);
+    let colours = Colours::of(theme::is_dark(ui.ctx()));
+    let lit = response.hovered() || response.has_focus();
+    let stroke = if lit {
+        Stroke::new(2.0, colours.accent)
+    } else {
+        Stroke::new(1.0, colours.rule)
+    };
+    let painter = ui.painter();
+    painter.rect_stroke(rect, CornerRadius::same(6), stroke, StrokeKind::Inside);
+    let font = TextStyle::Body.resolve(ui.style());
+    let below = rect.center_bottom() + vec2(0.0, FOOT / 2.0 + 1.0);
+    let colour = ui.visuals().text_color();
+    painter.text(below, Align2::CENTER_CENTER, &made.name, font, colour);
+    response.on_hover_text(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_wall_fills_its_room_with_pictures_that_are_large_enough() {
+        for (room, count, least) in [
+            (vec2(640.0, 700.0), 10, 10),
+            (vec2(400.0, 560.0), 10, 6),
+            (vec2(150.0, 200.0), 10, 1),
+            (vec2(900.0, 500.0), 3, 3),
+        ] {
+            let ([columns, rows], side) = grid(room, count).expect("room");
+            assert!(columns * rows >= least, "{room:?}: {columns} by {rows}");
+            assert!(side >= LEAST * 0.9, "{room:?}: {side}");
+            assert!(columns as f32 * (side + GAP) - GAP <= room.x + 0.1);
+            assert!(rows as f32 * (side + FOOT + GAP) - GAP <= room.y + 0.1);
+        }
+        assert_eq!(grid(vec2(90.0, 500.0), 10), None);
+        assert_eq!(grid(vec2(900.0, 500.0), 0), None);
+    }
+}
