@@ -1,4 +1,7 @@
-//! Measures how well handshapes are distinguished in small pictures: `cargo run --release --example legible -- FILE`.
+//! Measures how well handshapes are distinguished in small pictures: `cargo run --release --example legible -- FILE [VIEW]`.
+//!
+//! VIEW is `three-quarter` as usual, `palm`, `thumb`, `back`, or `two`: three-quarter and from the thumb's side, next to
+//! each other, each of the size that is measured.
 //!
 //! FILE is an inventory of handshapes, such as `schema/inventories/configurations.json`. Draws every handshape at 24,
 //! 48 and 96 pixels, and prints for each size the mean and the fifth percentile of the distance to the nearest other
@@ -23,6 +26,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args()
         .nth(1)
         .ok_or("name an inventory of handshapes")?;
+    let view = std::env::args().nth(2).unwrap_or_default();
+    let views: &[HandView] = match view.as_str() {
+        "palm" => &[HandView::Palm],
+        "thumb" => &[HandView::Thumb],
+        "back" => &[HandView::Back],
+        "two" => &[HandView::ThreeQuarter, HandView::Thumb],
+        _ => &[HandView::ThreeQuarter],
+    };
     let inventory: Value = serde_json::from_str(&std::fs::read_to_string(file)?)?;
     let values = inventory["values"].as_array().ok_or("no values")?;
     let shapes: Vec<(String, HandAngles)> = values
@@ -33,7 +44,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("| px | mean | p5 | pairs < .08 | noise, 12 | noise, all | nearest pairs |");
     println!("|---|---|---|---|---|---|---|");
     for size in [24, 48, 96] {
-        let drawn: Result<Vec<Tones>, _> = shapes.iter().map(|(_, it)| picture(it, size)).collect();
+        let drawn = shapes.iter().map(|(_, it)| picture(it, (size, views)));
+        let drawn: Result<Vec<Tones>, _> = drawn.collect();
         let drawn = drawn?;
         let mut near: Vec<(f32, usize, usize)> = (0..drawn.len())
             .filter_map(|a| nearest(&drawn, &drawn[a], Some(a)).map(|(far, b)| (far, a, b)))
@@ -54,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             .take(4)
             .map(|&(_, a, b)| format!("{}/{}", shapes[a].0, shapes[b].0))
             .collect();
-        let [few, many] = [clear, all].map(|set| noise(&shapes, &drawn, &set, size));
+        let [few, many] = [clear, all].map(|set| noise(&shapes, &drawn, &set, (size, views)));
         println!(
             "| {size} | {mean:.3} | {fifth:.3} | {close} | {:.0} % | {:.0} % | {} |",
             few? * 100.0,
@@ -67,23 +79,32 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Lightness of a picture, and which pixels differ from the paper.
 struct Tones {
-    size: usize,
+    /// Columns and rows.
+    size: [usize; 2],
     light: Vec<f32>,
     inked: Vec<bool>,
 }
 
-fn picture(angles: &HandAngles, size: usize) -> Result<Tones, Box<dyn Error>> {
-    let options = HandshapeOptions {
-        view: HandView::default(),
-        ..HandshapeOptions::small(size)
-    };
-    Ok(tones(&handshape_picture(angles, &options)?))
+fn picture(
+    angles: &HandAngles,
+    (size, views): (usize, &[HandView]),
+) -> Result<Tones, Box<dyn Error>> {
+    let usual = HandshapeOptions::small(size);
+    let mut all = Image::new(size * views.len(), size, usual.style.theme.background());
+    for (at, view) in views.iter().enumerate() {
+        let options = HandshapeOptions {
+            view: *view,
+            ..usual.clone()
+        };
+        all.paste(&handshape_picture(angles, &options)?, [at * size, 0]);
+    }
+    Ok(tones(&all))
 }
 
 fn tones(image: &Image) -> Tones {
     let paper = image.pixel(0, 0);
     Tones {
-        size: image.width(),
+        size: [image.width(), image.height()],
         light: image
             .pixels()
             .iter()
@@ -113,18 +134,18 @@ fn lightness(rgb: [u8; 3]) -> f32 {
 
 /// Returns the root mean square difference of lightness over the pixels of both hands, the least over small shifts.
 fn distance(a: &Tones, b: &Tones) -> f32 {
-    let size = a.size as i64;
-    let most = (size / 32).max(1);
+    let [wide, high] = a.size.map(|side| side as i64);
+    let most = (high / 32).max(1);
     let mut least = f32::INFINITY;
     for dy in -most..=most {
         for dx in -most..=most {
             let (mut sum, mut count) = (0.0f32, 0usize);
-            for y in 0..size {
-                for x in 0..size {
-                    let own = (y * size + x) as usize;
+            for y in 0..high {
+                for x in 0..wide {
+                    let own = (y * wide + x) as usize;
                     let (u, v) = (x + dx, y + dy);
-                    let inside = (0..size).contains(&u) && (0..size).contains(&v);
-                    let other = inside.then_some((v * size + u) as usize);
+                    let inside = (0..wide).contains(&u) && (0..high).contains(&v);
+                    let other = inside.then_some((v * wide + u) as usize);
                     let inked = a.inked[own] || other.is_some_and(|other| b.inked[other]);
                     if inked {
                         let light = other.map_or(b.light[0], |other| b.light[other]);
@@ -151,7 +172,7 @@ fn noise(
     shapes: &[(String, HandAngles)],
     drawn: &[Tones],
     set: &[usize],
-    size: usize,
+    (size, views): (usize, &[HandView]),
 ) -> Result<f32, Box<dyn Error>> {
     let mut random = 0x2545_F491_4F6C_DD1Du64;
     let mut next = move || {
@@ -178,7 +199,7 @@ fn noise(
                     *angle += next() * most;
                 }
             }
-            let noisy = picture(&angles, size)?;
+            let noisy = picture(&angles, (size, views))?;
             let best = set
                 .iter()
                 .map(|&other| (distance(&drawn[other], &noisy), other))

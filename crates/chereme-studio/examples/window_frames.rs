@@ -1,10 +1,11 @@
-//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS|two|grid|change] [SECONDS]`.
+//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS|two|grid|wall|change] [SECONDS]`.
 //!
 //! The window opens without waiting for the screen and plays its first recording in a loop, scrolls and zooms
 //! the timeline while it plays, drags an annotation among its neighbours, and closes. Without a corpus one is
 //! made with a recording of the starter corpus and with 200 tiers of 500 annotations; `two` makes one with a
 //! sign made from another instead, and only plays the two signers side by side; `grid` imports the starter
-//! corpus, and shows all its signs as at least 24 looping little figures. Prints for each scene how long
+//! corpus, and shows all its signs as at least 24 looping little figures; `wall` shows them in the whole window, more than
+//! 40 at once. Prints for each scene how long
 //! a frame took to compute on the window's thread, how far apart frames were, and how long pictures of the stage
 //! took on the thread that draws them; and on Linux how much processor time a frame cost, all threads together and
 //! each by its name, which other programs on the machine change less. At last the window is empty: frames are as far
@@ -32,7 +33,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let first = arguments.next();
     let two = first.as_deref() == Some("two");
-    let grid = first.as_deref() == Some("grid");
+    let wall = first.as_deref() == Some("wall");
+    let grid = first.as_deref() == Some("grid") || wall;
     let change = first.as_deref() == Some("change");
     let corpus = match first {
         Some(_) if two => pair(folder.path())?,
@@ -72,6 +74,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             VecDeque::from([Scene::Two, Scene::Empty])
         } else if change {
             (0..RECIPES.len()).map(Scene::Change).collect()
+        } else if wall {
+            VecDeque::from([Scene::Wall, Scene::Empty])
         } else if grid {
             VecDeque::from([Scene::Grid, Scene::Empty])
         } else {
@@ -236,6 +240,8 @@ enum Scene {
     Drag,
     /// Looking at hits as looping little figures.
     Grid,
+    /// The same in the whole window.
+    Wall,
     /// Changing a recipe.
     Change(usize),
     /// No work: the time of a window's frames without the studio.
@@ -260,6 +266,7 @@ impl Scene {
     fn sets(self) -> u64 {
         match self {
             Self::Grid => 900,
+            Self::Wall => 3000,
             Self::Change(_) => 60,
             _ => 20,
         }
@@ -284,9 +291,10 @@ impl Scene {
             (Self::Two, 0) => vec![key(Key::PageDown, Modifiers::COMMAND)],
             (Self::Play, 0) | (Self::Two, 1) => vec![key(Key::L, Modifiers::COMMAND)],
             (Self::Play, 1) | (Self::Two, 2) => vec![key(Key::Space, Modifiers::COMMAND)],
-            (Self::Grid, 0) => vec![key(Key::F2, Modifiers::COMMAND)],
-            (Self::Grid, 4) => vec![key(Key::F, Modifiers::COMMAND)],
-            (Self::Grid, 10) => vec![key(Key::Enter, Modifiers::NONE)],
+            (Self::Grid | Self::Wall, 0) => vec![key(Key::F2, Modifiers::COMMAND)],
+            (Self::Grid | Self::Wall, 4) => vec![key(Key::F, Modifiers::COMMAND)],
+            (Self::Grid | Self::Wall, 10) => vec![key(Key::Enter, Modifiers::NONE)],
+            (Self::Wall, 14) => vec![key(Key::F11, Modifiers::NONE)],
             (Self::Change(_), 0) => vec![
                 key(Key::F3, Modifiers::COMMAND),
                 key(Key::R, Modifiers::COMMAND),
@@ -295,7 +303,10 @@ impl Scene {
             (Self::Change(nth), 5) => vec![Event::Text(RECIPES[nth].into())],
             (Self::Change(_), 6) => vec![key(Key::ArrowLeft, Modifiers::NONE); 2],
             (Self::Change(_), 40) => vec![key(Key::Space, Modifiers::COMMAND)],
-            (Self::Play | Self::Two | Self::Grid | Self::Change(_) | Self::Empty, _) => Vec::new(),
+            (
+                Self::Play | Self::Two | Self::Grid | Self::Wall | Self::Change(_) | Self::Empty,
+                _,
+            ) => Vec::new(),
             (Self::Scroll, frame) => {
                 let zooms = frame % 240 >= 180;
                 let up = frame % 120 >= 60;

@@ -345,6 +345,64 @@ fn a_placed_hand_is_moved_on_the_stage_by_keys_and_by_dragging() {
 }
 
 #[test]
+fn a_path_is_a_curve_that_is_pulled_by_keys_and_drawn_on_the_stage() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    key(&mut window, Modifiers::COMMAND, Key::R);
+    let curve = "travel right through 0cm,6cm,0cm then 6cm,8cm,0cm";
+    type_into(&mut window, "Recipe", &format!("ESCARGOT | {curve}"));
+    idle(&mut window);
+    assert!(!has(&window, "Point 1 of the path"), "no card is chosen");
+    press(&mut window, "Card: Path");
+    idle(&mut window);
+    window.get_by_label("Point 2 of the path").focus();
+    window.run_steps(2);
+    key(&mut window, Modifiers::NONE, Key::ArrowUp);
+    idle(&mut window);
+    assert_eq!(
+        recipe_of(&window),
+        "ESCARGOT | travel right through 0cm,6cm,0cm then 6cm,9cm,0cm"
+    );
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(recipe_of(&window), format!("ESCARGOT | {curve}"));
+
+    press(&mut window, "Draw on the stage");
+    press(&mut window, "Pause");
+    until(&mut window, "the picture", |window| {
+        window.state().is_drawn()
+    });
+    let from = window.get_by_label("Point 1 of the path").rect().center();
+    press(&mut window, "Draw on the stage");
+    press(&mut window, "Draw on the stage");
+    window.drag_at(from);
+    window.run_steps(2);
+    for step in 1..=24 {
+        let angle = step as f32 / 24.0 * std::f32::consts::PI;
+        let by = eframe::egui::vec2(60.0 - 60.0 * angle.cos(), -40.0 * angle.sin());
+        window.hover_at(from + by);
+        window.run_steps(1);
+    }
+    window.drop_at(from + eframe::egui::vec2(120.0, 0.0));
+    window.run_steps(4);
+    idle(&mut window);
+    let drawn = recipe_of(&window);
+    assert!(
+        drawn.starts_with("ESCARGOT | travel right through "),
+        "{drawn}"
+    );
+    assert!(
+        drawn.matches(" then ").count() >= 3,
+        "an arc has several points: {drawn}"
+    );
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(
+        recipe_of(&window),
+        format!("ESCARGOT | {curve}"),
+        "it is one step"
+    );
+}
+
+#[test]
 fn a_press_near_a_moving_handle_holds_the_hand_and_takes_its_handle() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open(folder.path());

@@ -50,6 +50,35 @@ fn the_signer_is_seen_from_seven_places_and_in_up_to_four_views() {
 }
 
 #[test]
+fn hands_are_in_the_corners_and_palms_and_the_face_on_request() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    let hands = ["Right hand close up", "Left hand close up"];
+    until(&mut window, "both hands", |window| {
+        hands.iter().all(|hand| has(window, hand))
+    });
+    assert!(is_on(&window, "Hands") && !is_on(&window, "Palms"));
+    assert!(!has(&window, "Face close up"));
+    click(&mut window, "Face");
+    until(&mut window, "the face", |window| {
+        has(window, "Face close up")
+    });
+    click(&mut window, hands[0]);
+    window.run_steps(2);
+    assert!(
+        is_on(&window, "Palms"),
+        "a click turns the palms to the eye"
+    );
+    window.key_press_modifiers(Modifiers::ALT, Key::H);
+    window.run_steps(3);
+    assert!(!is_on(&window, "Hands") && !has(&window, hands[0]));
+    // A view that is near enough needs no close-up.
+    window.key_press_modifiers(Modifiers::ALT, Key::V);
+    window.run_steps(3);
+    assert!(!has(&window, "Face close up"));
+}
+
+#[test]
 fn trails_ghosts_grid_and_places_are_shown_and_put_away() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());

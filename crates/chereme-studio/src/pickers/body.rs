@@ -274,7 +274,7 @@ fn panel_zones(
     let whole = ui.interact(rect, ui.scope_id().with(("panel", view)), Sense::click());
     let under = whole.hover_pos().and_then(|at| areas.at(rect, at));
     let mut picked = None;
-    let moved = ui.input(|input| input.pointer.is_moving());
+    let moved = ui.input(|input| input.pointer.delta() != eframe::egui::Vec2::ZERO);
     if let Some(zone) = under {
         let id = &inventory.values[areas.zones[zone].value].id;
         if moved {

@@ -4,7 +4,7 @@ use chereme_sign::Inventory;
 use chereme_sign::inventory::InventoryValue;
 use eframe::egui::{EventFilter, Id, Rect, Response, Role, Sense, Ui, WidgetInfo};
 
-use super::data::{self, walk};
+use super::data::{self, Kind, walk};
 use super::keys::Pressed;
 use super::{Picker, Seen};
 use crate::words::{fill, pickers as words};
@@ -66,7 +66,9 @@ impl Cells<'_> {
         let moved = self.pressed.way.is_some();
         for (number, cell) in cells.iter().enumerate() {
             let response = self.cell(ui, cell, id_of(cell));
-            if response.hovered() && ui.input(|input| input.pointer.is_moving()) {
+            if response.hovered()
+                && ui.input(|input| input.pointer.delta() != eframe::egui::Vec2::ZERO)
+            {
                 at = Some(number);
             }
             if moved && at == Some(number) {
@@ -130,6 +132,10 @@ impl Cells<'_> {
         let label = data::label(&self.inventory.values[cell.value], self.seen.language);
         let chosen = self.chosen == Some(id);
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
+        // Hands and places say their names in a place of their own, where they cover no neighbour.
+        if matches!(data::kind(self.inventory), Kind::Hands | Kind::Body) {
+            return response;
+        }
         let tip = fill(self.seen.say(words::TIP), &[("value", &label)]);
         response.on_hover_text(tip)
     }

@@ -268,7 +268,7 @@ fn hands(ui: &mut Ui, picker: &mut Picker, cells: &Cells<'_>, shown: &[usize]) -
                 grid(ui, picker, cells, shown, Kind::Hands)
             })
             .inner;
-        let (rect, _) = ui.allocate_exact_size(vec2(WORN, WORN + 40.0), Sense::hover());
+        let (rect, _) = ui.allocate_exact_size(vec2(WORN, WORN + 64.0), Sense::hover());
         let at = picker.at.as_deref().or(cells.chosen);
         let at = at.and_then(|id| cells.inventory.get(id));
         let at = at.or_else(|| cells.inventory.values.get(*shown.first()?));
@@ -277,13 +277,12 @@ fn hands(ui: &mut Ui, picker: &mut Picker, cells: &Cells<'_>, shown: &[usize]) -
             ui.painter()
                 .rect_filled(square, 8.0, paint::paper(cells.seen.dark));
             worn::show(ui, square.shrink(4.0), cells.seen.dark, &angles);
-            let font = TextStyle::Heading.resolve(ui.style());
-            let below = pos2(rect.center().x, square.bottom() + 18.0);
-            let text = ui.visuals().text_color();
-            let name = data::said(value, cells.seen.language).to_owned();
-            let name = paint::fitted(ui, name, &font, WORN);
-            ui.painter()
-                .text(below, eframe::egui::Align2::CENTER_CENTER, name, font, text);
+            let font = TextStyle::Body.resolve(ui.style());
+            let text = ui.visuals().strong_text_color();
+            let label = data::label(value, cells.seen.language);
+            let galley = ui.painter().layout(label, font, text, WORN);
+            let at = pos2(square.left() + 4.0, square.bottom() + 6.0);
+            ui.painter().galley(at, galley, text);
         }
         picked
     })

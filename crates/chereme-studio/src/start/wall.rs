@@ -128,7 +128,7 @@ fn cell(
     let below = rect.center_bottom() + vec2(0.0, FOOT / 2.0 + 1.0);
     let colour = ui.visuals().text_color();
     painter.text(below, Align2::CENTER_CENTER, &made.name, font, colour);
-    response.on_hover_text(name)
+    response
 }
 
 #[cfg(test)]

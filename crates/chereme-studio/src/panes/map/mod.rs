@@ -51,6 +51,8 @@ pub(crate) struct Map {
     chosen: Option<usize>,
     /// The line that a selection by dragging has drawn so far.
     lasso: Vec<Pos2>,
+    /// Where the citation forms move, by their tokens, and the overview that says so.
+    moving: (usize, BTreeMap<i64, (i64, Span)>),
     /// Maps of this corpus by their components, as it was in the generation.
     kept: BTreeMap<[bool; 4], (i64, Arc<SignMap>)>,
 }
@@ -67,6 +69,7 @@ impl Default for Map {
             towards: None,
             chosen: None,
             lasso: Vec::new(),
+            moving: (0, BTreeMap::new()),
             kept: BTreeMap::new(),
         }
     }
@@ -127,6 +130,12 @@ impl Map {
         ui.painter()
             .rect_filled(rect, 4.0, ui.visuals().extreme_bg_color);
         let painter = ui.painter().with_clip_rect(rect);
+        let overview = Arc::as_ptr(&seen.snapshot.overview) as usize;
+        if self.moving.0 != overview {
+            let signs = seen.snapshot.overview.signs.iter();
+            let moving = signs.filter_map(|it| Some((it.citation?, it.place?)));
+            self.moving = (overview, moving.collect());
+        }
         let places: Vec<Pos2> = map
             .signs
             .iter()
@@ -153,7 +162,7 @@ impl Map {
                 painter.line_segment([places[at], places[near]], Stroke::new(1.0, colours.accent));
             }
         }
-        let figures = visible.len() <= MOST_FIGURES;
+        let mut rooms: Vec<Rect> = Vec::new();
         let font = FontId::proportional(11.0);
         let mut labels = Labels::default();
         let first = [self.chosen, under].into_iter().flatten();
@@ -162,9 +171,11 @@ impl Map {
             let sign = &map.signs[at];
             let marked = self.chosen == Some(at) || under == Some(at);
             let colour = if marked { colours.accent } else { weak };
-            let moves = place(seen, sign.token).filter(|_| figures);
+            let room = Rect::from_center_size(places[at], Vec2::splat(FIGURE));
+            let free = rooms.len() < MOST_FIGURES && rooms.iter().all(|it| !it.intersects(room));
+            let moves = self.moving.1.get(&sign.token).copied().filter(|_| free);
             if let Some((recording, span)) = moves {
-                let room = Rect::from_center_size(places[at], Vec2::splat(FIGURE));
+                rooms.push(room);
                 let cell = Cell::new(Motion::Span(recording, span), room.size());
                 seen.little
                     .paint(ui, seen, out, &cell.playing(little::clock(ui)), room);

@@ -30,7 +30,7 @@ use crate::words::{fill, recombine as words};
 use crate::work::{Ended, Outcome, WorkId};
 pub(crate) use fields::{recipe_of, selected_token};
 use live::Live;
-pub(crate) use path::{draw_on_stage, drawing, offset_legs, points_of, points_of_line};
+pub(crate) use path::{draw_on_stage, drawing, lengths, offset_legs, points_of, points_of_line};
 use stack::{Card, Stack, What};
 use steps::Steps;
 

@@ -175,54 +175,44 @@ impl Board {
     }
 }
 
-/// Returns the points of a drawn line, in metres to the left, up and forward of its beginning: those that stand out by
-/// more than a fortieth of its size, so that the curve through them lies on the line; nothing for one that is too short.
+/// Returns the points of a drawn line, in metres to the left, up and forward of its beginning: as few as let the curve
+/// through them lie within a thirtieth of its size of the line; nothing for one that is too short.
 pub(crate) fn points_of_line(line: &[DVec3]) -> Vec<[Length; 3]> {
     let Some(first) = line.first() else {
         return Vec::new();
     };
-    let size = line
-        .iter()
-        .map(|at| at.distance(*first))
-        .fold(0.0, f64::max);
+    let line: Vec<DVec3> = line.iter().map(|at| *at - *first).collect();
+    let size = line.iter().map(|at| at.length()).fold(0.0, f64::max);
     if size < LEAST {
         return Vec::new();
     }
-    let mut corners = Vec::new();
-    corners_of(line, (size / 40.0).max(0.004), &mut corners);
-    corners.extend(line.last());
-    let metres = |value: f64| Length::Metres((value * 1000.0).round() / 1000.0);
-    let mut points: Vec<[Length; 3]> = corners[1..]
-        .iter()
-        .map(|at| (*at - *first).to_array().map(metres))
-        .collect();
-    points.dedup();
-    points.truncate(MOST);
-    points
+    let tolerance = (size / 30.0).max(0.005);
+    let mut knots = vec![line.len() - 1];
+    while knots.len() < MOST {
+        let points: Vec<DVec3> = knots.iter().map(|&at| line[at]).collect();
+        let spline = Spline::new(&points);
+        let off = |at: &DVec3| {
+            let far = spline.places().iter().map(|it| it.distance(*at));
+            far.fold(f64::INFINITY, f64::min)
+        };
+        let all = line.iter().enumerate().map(|(at, place)| (off(place), at));
+        let worst = all.max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, at)) = worst.filter(|(far, at)| *far > tolerance && !knots.contains(at))
+        else {
+            break;
+        };
+        knots.push(at);
+        knots.sort_unstable();
+    }
+    knots.iter().map(|&at| lengths(line[at])).collect()
 }
 
-/// Adds the corners of a line but for its last point, after Douglas and Peucker.
-fn corners_of(line: &[DVec3], tolerance: f64, corners: &mut Vec<DVec3>) {
-    let (Some(first), Some(last)) = (line.first(), line.last()) else {
-        return;
-    };
-    let along = (*last - *first).normalize_or_zero();
-    let off = |point: &DVec3| {
-        let way = *point - *first;
-        (way - along * way.dot(along)).length()
-    };
-    let farthest = line
-        .iter()
-        .enumerate()
-        .map(|(at, point)| (at, off(point)))
-        .max_by(|a, b| a.1.total_cmp(&b.1));
-    match farthest {
-        Some((at, distance)) if distance > tolerance && at > 0 && at + 1 < line.len() => {
-            corners_of(&line[..=at], tolerance, corners);
-            corners_of(&line[at..], tolerance, corners);
-        }
-        _ => corners.push(*first),
-    }
+/// Returns a place as lengths in whole millimetres, which are written in centimetres.
+pub(crate) fn lengths(place: DVec3) -> [Length; 3] {
+    let cm = |value: f64| (value * 1000.0).round() / 10.0 + 0.0;
+    place
+        .to_array()
+        .map(|value| Length::Metres(cm(value) / 100.0))
 }
 
 /// Returns where the path of a movement of the hands goes, in metres to the left, up and forward: its points, or where

@@ -1,6 +1,5 @@
 //! The path of a recipe on the stage: a curve that is drawn there, and pulled by its points or anywhere between.
 
-use chereme_corpus::recipe::Length;
 use chereme_figure::camera::Projection;
 use chereme_motion::{ModelPose, Part as Joint};
 use eframe::egui::{
@@ -14,7 +13,7 @@ use super::data::Part;
 use super::gizmo::{Directions, Ray};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
-use crate::panes::recombine::{draw_on_stage, drawing, points_of_line};
+use crate::panes::recombine::{draw_on_stage, drawing, lengths, points_of_line};
 use crate::words::{fill, recombine as words};
 
 /// The size of a point for the pointer, and how near to the line a press pulls it, in points of the window.
@@ -282,8 +281,8 @@ fn stepped(ui: &Ui, id: &Id) -> Option<DVec3> {
         (Key::ArrowLeft, DVec3::NEG_X),
         (Key::ArrowUp, DVec3::Y),
         (Key::ArrowDown, DVec3::NEG_Y),
-        (Key::PageUp, DVec3::Z),
-        (Key::PageDown, DVec3::NEG_Z),
+        (Key::PageDown, DVec3::Z),
+        (Key::PageUp, DVec3::NEG_Z),
     ];
     ui.input_mut(|input| {
         let pressed = keys
@@ -294,8 +293,7 @@ fn stepped(ui: &Ui, id: &Id) -> Option<DVec3> {
 }
 
 fn send(laid: &Laid<'_>, points: &[DVec3], out: &mut Outbox) {
-    let metres = |value: f64| Length::Metres((value * 1000.0).round() / 1000.0);
-    let points = points.iter().map(|at| at.to_array().map(metres)).collect();
+    let points = points.iter().map(|at| lengths(*at)).collect();
     out.send(Command::Travelled(laid.card, points));
 }
 

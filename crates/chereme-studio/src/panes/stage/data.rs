@@ -255,7 +255,7 @@ pub(crate) struct Inset {
 /// A part of the stage narrower or lower than this, in points, has no room for close-ups.
 const ROOM: [f32; 2] = [300.0, 220.0];
 /// The side of a close-up beside the shorter side of its part, and its least and greatest, in points.
-const INSET: (f32, f32, f32) = (0.3, 80.0, 168.0);
+const INSET: (f32, f32, f32) = (0.36, 84.0, 190.0);
 /// The distance between a close-up and the edges.
 const MARGIN: f32 = 8.0;
 

@@ -1,0 +1,107 @@
+//! Proposals from movement: asked for, gone through, accepted with Enter, and taken back.
+
+mod common;
+
+use std::path::{Path, PathBuf};
+
+use chereme_corpus::{
+    AnnotationAction, Corpus, ImportOptions, ListFilter, ListKind, Moment, Name, NewTier, Progress,
+    TierName, TierRole, starter_files, unheard,
+};
+use chereme_motion::Instant;
+use chereme_studio::Options;
+use common::*;
+use eframe::egui::{Key, Modifiers};
+
+/// Returns a corpus with one recording whose gloss alone is annotated.
+fn uncoded(folder: &Path) -> PathBuf {
+    let film = folder.join("bol.bvh");
+    let (_, bytes) = starter_files()
+        .find(|(name, _)| *name == Path::new("bol.bvh"))
+        .expect("in the starter corpus");
+    std::fs::write(&film, bytes).expect("written");
+    let path = folder.join("uncoded.chereme");
+    let mut corpus = Corpus::create(&path, "A").expect("made");
+    let mut hear = unheard;
+    let mut progress = Progress::new(&mut hear);
+    corpus
+        .import(&[film], &ImportOptions::default(), &mut progress)
+        .expect("imported");
+    let gloss = NewTier::new(Name::Text("bol".into()), "gloss", TierRole::Gloss);
+    let tier = corpus.add_tier(&gloss).expect("a tier");
+    let time = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+    let add = AnnotationAction::Add {
+        tier: TierName::Number(tier.id),
+        start: time(0),
+        end: time(1_000_000),
+        parent: None,
+        order: None,
+        value: "BOL".into(),
+        confidence: None,
+    };
+    corpus
+        .annotate(&[add.into()], &Default::default(), &mut progress)
+        .expect("annotated");
+    path
+}
+
+/// Returns how many annotations each tier has, by its name.
+fn tiers(window: &Window<'_>) -> Vec<(String, u64)> {
+    let path = window.state().corpus().expect("open");
+    let corpus = Corpus::open(path, "B").expect("opened");
+    let listing = corpus.list(ListKind::Tiers, &ListFilter::default());
+    let rows = listing.expect("listed").rows;
+    rows.iter()
+        .map(|row| {
+            let name = row["name"].as_str().unwrap_or_default().to_owned();
+            (name, row["annotations"].as_u64().unwrap_or_default())
+        })
+        .collect()
+}
+
+fn count(window: &Window<'_>, wanted: impl Fn(&str) -> bool) -> u64 {
+    let all = tiers(window);
+    all.iter().filter(|it| wanted(&it.0)).map(|it| it.1).sum()
+}
+
+#[test]
+fn values_are_proposed_for_a_recording_gone_through_and_accepted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window(Options {
+        corpus: Some(uncoded(folder.path())),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "bol"));
+    idle(&mut window);
+    let press = |window: &mut Window<'_>, modifiers, key| {
+        window.key_press_modifiers(modifiers, key);
+        window.run_steps(4);
+        idle(window);
+        window.run_steps(4);
+    };
+    press(&mut window, Modifiers::COMMAND | Modifiers::ALT, Key::P);
+    let proposed = |name: &str| name.ends_with("(proposed)");
+    let all = count(&window, proposed);
+    assert!(all >= 3, "{:?}", tiers(&window));
+    assert_eq!(
+        count(&window, |name| name.starts_with("configuration ")
+            && !proposed(name)),
+        0
+    );
+
+    press(&mut window, Modifiers::ALT, Key::N);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(count(&window, proposed), all - 1, "{:?}", tiers(&window));
+    let accepted = |name: &str| !proposed(name) && name != "gloss";
+    assert_eq!(count(&window, accepted), 1, "{:?}", tiers(&window));
+    // The next one is selected by then.
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(count(&window, proposed), all - 2, "{:?}", tiers(&window));
+    assert_eq!(count(&window, accepted), 2);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(count(&window, proposed), all);
+    assert_eq!(count(&window, accepted), 0);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(count(&window, proposed), 0, "all of them were one step");
+}
