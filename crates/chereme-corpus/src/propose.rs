@@ -299,9 +299,7 @@ impl Corpus {
             let recording = Name::Number(tier.recording_id);
             let all = tiers::tiers(connection, tier.recording_id)?;
             let same = |it: &&tiers::TierRow| {
-                proposed_for(&it.name).is_none()
-                    && (&it.role, &it.component, &it.feature, &it.hand)
-                        == (&tier.role, &tier.component, &tier.feature, &tier.hand)
+                proposed_for(&it.name).is_none() && (&it.role, it.hand) == (&tier.role, tier.hand)
             };
             let known = all.iter().find(|it| same(it) && it.name == name);
             let known = known.or_else(|| all.iter().find(same));
@@ -315,10 +313,8 @@ impl Corpus {
                     .iter()
                     .all(|it| (&it.recording, &it.name) != (&recording, &to))
             {
-                let mut added = NewTier::new(recording.clone(), to.clone(), tier.role());
-                let mut hands = HandRef::ALL.into_iter();
-                let hand = hands.find(|it| Some(it.name()) == tier.hand.as_deref());
-                added.hand = hand.map(Hands::One);
+                let mut added = NewTier::new(recording.clone(), to.clone(), tier.role.clone());
+                added.hand = tier.hand;
                 new.push(added);
             }
             let time = |micros| Some(Moment::Time(Instant::from_micros(micros)));

@@ -12,6 +12,7 @@ use chereme_motion::Instant;
 use chereme_studio::Options;
 use common::*;
 use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
 
 /// Returns a corpus with one recording whose gloss alone is annotated.
 fn uncoded(folder: &Path) -> PathBuf {
@@ -80,6 +81,10 @@ fn values_are_proposed_for_a_recording_gone_through_and_accepted() {
         window.run_steps(4);
     };
     press(&mut window, Modifiers::COMMAND | Modifiers::ALT, Key::P);
+    until(&mut window, "the proposals", |window| {
+        let mut named = window.query_all_by_label_contains("(proposed)");
+        named.next().is_some()
+    });
     let proposed = |name: &str| name.ends_with("(proposed)");
     let all = count(&window, proposed);
     assert!(all >= 3, "{:?}", tiers(&window));

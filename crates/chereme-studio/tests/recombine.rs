@@ -355,6 +355,7 @@ fn a_path_is_a_curve_that_is_pulled_by_keys_and_drawn_on_the_stage() {
     assert!(!has(&window, "Point 1 of the path"), "no card is chosen");
     press(&mut window, "Card: Path");
     idle(&mut window);
+    window.run_steps(60);
     window.get_by_label("Point 2 of the path").focus();
     window.run_steps(2);
     key(&mut window, Modifiers::NONE, Key::ArrowUp);
@@ -365,14 +366,14 @@ fn a_path_is_a_curve_that_is_pulled_by_keys_and_drawn_on_the_stage() {
     );
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(recipe_of(&window), format!("ESCARGOT | {curve}"));
+    window.run_steps(60);
+    idle(&mut window);
 
-    press(&mut window, "Draw on the stage");
     press(&mut window, "Pause");
     until(&mut window, "the picture", |window| {
         window.state().is_drawn()
     });
     let from = window.get_by_label("Point 1 of the path").rect().center();
-    press(&mut window, "Draw on the stage");
     press(&mut window, "Draw on the stage");
     window.drag_at(from);
     window.run_steps(2);
@@ -538,7 +539,7 @@ fn what_cannot_be_made_is_told_on_its_card_and_nowhere_else() {
     click(&mut window, "Clear");
     type_into(&mut window, "Recipe", "ESCARGOT");
     idle(&mut window);
-    click(&mut window, "What could be made from ESCARGOT");
+    click(&mut window, "New signs from ESCARGOT");
     idle(&mut window);
     click(&mut window, "LIMACE");
     assert!(

@@ -324,10 +324,10 @@ fn the_kept_search_that_was_meant_is_offered() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::F);
     window.run_steps(3);
     type_query(&mut window, "@mein");
-    assert!(has(&window, "No search is kept as mein."));
+    assert!(has(&window, "No search is saved as mein."));
     click(&mut window, "Write @mine");
     assert_eq!(query(&window), "@mine");
-    assert!(!has(&window, "No search is kept as mine."));
+    assert!(!has(&window, "No search is saved as mine."));
     enter(&mut window);
     assert_eq!(
         (query(&window).as_str(), hits(&window)),

@@ -230,9 +230,9 @@ fn the_first_steps_name_the_keys_and_the_start_page_speaks_either_language() {
     window.run_steps(2);
     window.key_press(Key::F12);
     window.run_steps(3);
-    assert!(has(&window, "3. Annotate"));
-    assert!(window.query_by_label_contains("Ctrl+Alt+N").is_some());
+    assert!(has(&window, "2. Annotate"));
+    assert!(window.query_by_label_contains("Ctrl+Z").is_some());
     window.key_press(Key::Escape);
     window.run_steps(3);
-    assert!(!has(&window, "3. Annotate"));
+    assert!(!has(&window, "2. Annotate"));
 }

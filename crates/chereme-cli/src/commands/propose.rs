@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use anyhow::Result;
-use chereme_corpus::{Progress, Step};
+use anyhow::{Result, bail};
+use chereme_corpus::{Address, Progress, ProposeOptions, ProposeScope, Proposed, Step};
 use chereme_sign::Component;
 
 use crate::args::Cli;
@@ -21,20 +21,51 @@ use crate::output::{Bar, Output};
 #[command(after_help = "\
 Examples:
   chereme propose mine.chereme configuration
+  chereme propose mine.chereme --for recording:3
+  chereme propose mine.chereme --accept 41 42
   chereme search mine.chereme configuration=U    (finds proposed codings, too)
   chereme undo mine.chereme                      (takes all of them back)")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The component: configuration (or handshape), placement or movement
-    component: Component,
+    /// The component: configuration (or handshape), placement, movement or orientation; without one all of them
+    component: Option<Component>,
+    /// Only for the tokens of this recording, or for this token
+    #[arg(long = "for", value_name = "ADDRESS")]
+    only: Option<String>,
+    /// Accept these proposals, by the numbers of their annotations, as codings of your own
+    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["component", "only"], num_args = 1..)]
+    accept: Vec<i64>,
 }
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
     let mut bar = Bar::new();
     let mut hear = |step: Step<'_>| bar.show(step);
-    let proposed = corpus.propose_coding(args.component, &mut Progress::new(&mut hear))?;
+    let mut progress = Progress::new(&mut hear);
+    if !args.accept.is_empty() {
+        let report = corpus.accept_proposals(&args.accept, &mut progress)?;
+        drop(bar);
+        output.line(format!(
+            "{} accepted",
+            output.counted(report.added, "annotations")
+        ))?;
+        return output.document(report);
+    }
+    let scope = match args.only.as_deref().map(str::parse).transpose()? {
+        None => ProposeScope::All,
+        Some(Address::Recording(name)) => ProposeScope::Recording(name),
+        Some(Address::Token(token)) => ProposeScope::Token(token),
+        Some(other) => bail!("{other} is no recording and no token; name one, such as recording:3"),
+    };
+    let options = ProposeOptions {
+        components: match args.component {
+            Some(component) => vec![component],
+            None => Proposed::COMPONENTS.to_vec(),
+        },
+        scope,
+    };
+    let proposed = corpus.propose(&options, &mut progress)?;
     drop(bar);
     output.line(format!(
         "{} in {}, for {}; {} could not be read from movement",

@@ -207,7 +207,8 @@ mod tests {
             let shown = places.iter().map(|at| view.shown(rect(), *at));
             shown.filter(|at| rect().contains(*at)).count()
         };
-        assert!((2..=21).contains(&seen(&to)), "{}", seen(&to));
+        // Places of a grid come and go in groups.
+        assert!((2..=30).contains(&seen(&to)), "{}", seen(&to));
         let mut view = View::default();
         let mut frames = 1;
         while !view.towards(to, 1.0 / 60.0) {

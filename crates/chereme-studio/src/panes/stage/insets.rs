@@ -3,6 +3,8 @@
 use chereme_corpus::proposed_for;
 use chereme_figure::View;
 use chereme_motion::Side;
+use chereme_sign::HandRef;
+use chereme_sign::tier::Hands;
 use eframe::egui::{
     Align2, Color32, CornerRadius, Pos2, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui,
     WidgetInfo, pos2, vec2,
@@ -124,8 +126,8 @@ impl Proposal {
         let found = seen.snapshot.annotation(seen.shown.annotation()?)?;
         let row = &found.tier.row;
         proposed_for(&row.name)?;
-        let side = match row.hand.as_deref() {
-            Some("left" | "weak") => Side::Left,
+        let side = match row.hand {
+            Some(Hands::One(HandRef::Left | HandRef::Weak)) => Side::Left,
             _ => Side::Right,
         };
         Some(Self {
