@@ -12,7 +12,7 @@ use egui_kittest::kittest::Queryable;
 fn the_starter_corpus_is_opened_and_a_recording_played() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_starter(folder.path());
-    click(&mut window, "escargot");
+    click(&mut window, "aimer");
     until(&mut window, "the tiers", |window| has(window, "Tier Gloss"));
     idle(&mut window);
     assert_eq!(window.state().playhead().micros(), 0);
@@ -88,7 +88,7 @@ fn the_start_page_is_walked_by_keys_and_goes_on_with_what_was_open() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path());
     let mut window = open_starter_by_key(folder.path());
-    assert!(has(&window, "escargot"));
+    assert!(has(&window, "aimer"));
     window.key_press_modifiers(Modifiers::COMMAND, Key::W);
     window.run_steps(3);
     // The corpus that was open last has the keyboard, the offers stand below it.
@@ -123,7 +123,7 @@ fn open_starter_by_key<'a>(folder: &std::path::Path) -> Window<'a> {
     window.run_steps(2);
     window.key_press(Key::Enter);
     until(&mut window, "the starter corpus", |window| {
-        has(window, "escargot")
+        has(window, "aimer")
     });
     idle(&mut window);
     window

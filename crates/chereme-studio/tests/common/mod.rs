@@ -67,7 +67,7 @@ pub fn open_starter<'a>(folder: &Path) -> Window<'a> {
     window.step();
     click(&mut window, "Open the starter corpus");
     until(&mut window, "the starter corpus", |window| {
-        has(window, "escargot")
+        has(window, "aimer")
     });
     idle(&mut window);
     window

@@ -36,6 +36,8 @@ struct Laid<'a> {
     /// Places along it in the picture.
     line: Vec<Pos2>,
     card: u64,
+    /// The number of the picture's eye.
+    eye: usize,
 }
 
 /// What is pulled: a point by its number, kept while the drag lasts.
@@ -84,6 +86,7 @@ pub(super) fn show(
         line: places.into_iter().map(spot).collect(),
         points: course.points(directions.arm),
         card: course.card,
+        eye: pane.eye,
     };
     let painter = ui.painter().with_clip_rect(pane.rect);
     paint(&painter, seen, &laid);
@@ -298,6 +301,5 @@ fn send(laid: &Laid<'_>, points: &[DVec3], out: &mut Outbox) {
 }
 
 fn id(ui: &Ui, laid: &Laid<'_>) -> Id {
-    let (x, y) = (laid.pane.min.x as i64, laid.pane.min.y as i64);
-    ui.scope_id().with(("course", x, y))
+    ui.scope_id().with(("course", laid.eye))
 }

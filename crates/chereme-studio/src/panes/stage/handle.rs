@@ -117,7 +117,7 @@ pub(super) fn show(
             projection,
             side,
             whole: Some(side) == first,
-            id: id(ui, pane.rect, side),
+            id: id(ui, pane, side),
         };
         one(
             &mut stage.holding,
@@ -130,9 +130,9 @@ pub(super) fn show(
     }
 }
 
-fn id(ui: &Ui, pane: Rect, side: Side) -> Id {
-    let (x, y) = (pane.min.x as i64, pane.min.y as i64);
-    ui.scope_id().with(("handle", x, y, side.name()))
+/// The same wherever the picture lies: what is above it may grow while a hand is moved by keys.
+fn id(ui: &Ui, pane: &Pane, side: Side) -> Id {
+    ui.scope_id().with(("handle", pane.eye, side.name()))
 }
 
 /// Shows the handle of one hand, and takes its drags.

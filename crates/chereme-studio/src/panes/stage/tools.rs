@@ -12,6 +12,9 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{fill, stage as words};
 
+/// The width of the name of what was made.
+const MADE: f32 = 220.0;
+
 /// The switches for extras of the picture and for the number of views.
 pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
@@ -113,7 +116,9 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
             ui.add_space(6.0);
             let name = fill(seen.say(words::MADE_OF), &[("name", &showing.made.name)]);
             let name = RichText::new(name).color(seen.colours().accent);
-            ui.add(Label::new(name).truncate());
+            // Of one width, so that the stage keeps its place whatever the recipe.
+            let size = vec2(MADE, ui.spacing().interact_size.y);
+            ui.add_sized(size, Label::new(name).truncate());
             let keys = seen.keys.text(Action::StageRecording);
             let back = match seen.shown.recording {
                 Some(_) => words::BACK,

@@ -501,6 +501,7 @@ fn wish_points(stage: &mut Stage, look: Look, mesh: Mesh) {
             size: *size,
             // The lowest sheet is kept from picture to picture: it is empty paper.
             layers: vec![layer(std::sync::Arc::default()), layer(mesh.clone())],
+            fine: false,
         });
     }
     stage.wished += 1;
