@@ -141,6 +141,13 @@ fn scene(
     let convention = facing(job, &scene, &anatomy);
     report.understand("joints", skeleton.len());
     report.understand("frame_rate", scene.clip.rate().to_string());
+    let unit = match convention.metres_per_unit {
+        1.0 => "m",
+        0.01 => "cm",
+        0.001 => "mm",
+        _ => "of its own",
+    };
+    report.understand("unit", unit);
     report.understand("metres_per_unit", convention.metres_per_unit);
     report.understand("axes", convention.axes.to_string());
     bvh::describe_anatomy(&mut report, &skeleton, &anatomy);

@@ -14,6 +14,7 @@ mod component;
 mod curves;
 mod directory;
 mod docs;
+mod facets;
 mod finding;
 mod findings;
 pub(crate) mod index;
@@ -42,8 +43,9 @@ use crate::kept;
 use crate::progress::{Progress, Step, Unit, unheard};
 
 use answer::Ranks;
-pub use answer::{Answer, FACET_VALUES, Hit, Order};
+pub use answer::{Answer, Hit, Order};
 use compile::{Ask, Asked, Failure};
+pub use facets::FACET_VALUES;
 pub use finding::{Finding, FindingKind};
 use index::SearchIndex;
 use like::Scores;
@@ -225,7 +227,7 @@ fn answer(ask: &Ask<'_>, query: &Query, options: &SearchOptions) -> Asked<Answer
     let page = answer::page(ask, &found, options.order, &ranks, options.offset..end)?;
     let hits = answer::hits(ask, &page, scores.as_ref())?;
     let (facets, facets_left_out) = if options.facets {
-        answer::facets(ask, &found, options.facet_values)?
+        facets::facets(ask, &found, options.facet_values)?
     } else {
         Default::default()
     };
