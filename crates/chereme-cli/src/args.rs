@@ -80,9 +80,9 @@ impl SideWord {
     }
 }
 
-/// Takes `--language en` or `fr`, wherever it stands, out of the words of the command line; else the
-/// language is that of the locale. Other values of an option of this name belong to the commands.
-pub(crate) fn language(words: &mut Vec<OsString>) -> Language {
+/// Takes `--language en` or `fr`, wherever it stands, out of the words of the command line, and returns the code.
+/// Other values of an option of this name belong to the commands.
+pub(crate) fn take_language(words: &mut Vec<OsString>) -> Option<String> {
     let code = |word: &OsString| {
         word.to_str()
             .filter(|word| ["en", "fr"].contains(word))
@@ -107,12 +107,16 @@ pub(crate) fn language(words: &mut Vec<OsString>) -> Language {
             None => at += 1,
         }
     }
-    let variable = |name: &str| std::env::var(name).ok();
+    asked
+}
+
+/// Returns the language of a code, else that of the locale.
+pub(crate) fn language(asked: Option<&str>) -> Language {
     let locale = ["LC_ALL", "LC_MESSAGES", "LANG"]
         .into_iter()
-        .filter_map(variable)
+        .filter_map(|name| std::env::var(name).ok())
         .find(|locale| !locale.is_empty());
-    Language::of_locale(&asked.or(locale).unwrap_or_default())
+    Language::of_locale(asked.unwrap_or(&locale.unwrap_or_default()))
 }
 
 /// Reads a small text file that the user named; `-` is standard input.

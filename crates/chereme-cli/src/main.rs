@@ -36,12 +36,16 @@ fn actions(words: &[OsString]) -> Vec<String> {
 fn main() -> ExitCode {
     let mut words: Vec<_> = std::env::args_os().collect();
     let json = words.iter().any(|word| word == "--json");
-    let language = args::language(&mut words);
+    let asked = args::take_language(&mut words);
+    let language = args::language(asked.as_deref());
     let parsed = words::spoken(Cli::command(), language)
         .try_get_matches_from(&words)
         .and_then(|matches| Cli::from_arg_matches(&matches));
     let cli = match parsed {
-        Ok(cli) => cli,
+        Ok(cli) => Cli {
+            language: asked,
+            ..cli
+        },
         Err(error) => return output::usage(&error, json, language, &actions(&words)),
     };
     let mut output = Output::new(cli.json, cli.width, language);

@@ -90,13 +90,16 @@ impl Studio {
             author,
             folders,
             language,
+            asked_language,
         } = options;
         let usual = Settings {
             language,
             ..Settings::default()
         };
         let file = folders.settings_file();
-        let settings = file.as_deref().and_then(Settings::read).unwrap_or(usual);
+        let mut settings = file.as_deref().and_then(Settings::read).unwrap_or(usual);
+        let saved = settings.clone();
+        settings.language = asked_language.unwrap_or(settings.language);
         let ctx: Arc<OnceLock<Context>> = Arc::default();
         let waked = ctx.clone();
         let wake: Wake = Arc::new(move || {
@@ -114,7 +117,7 @@ impl Studio {
             keys: Keys::new(settings.keymap, &settings.keys),
             tree: layout::remembered(settings.layout.as_ref(), (settings.busy, false)),
             small: false,
-            saved: settings.clone(),
+            saved,
             settings,
             desk: None,
             beginning: None,

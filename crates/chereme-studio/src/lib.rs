@@ -70,6 +70,8 @@ pub struct Options {
     pub folders: Folders,
     /// The language where the settings say nothing yet.
     pub language: Language,
+    /// The language that was asked for at this start; it becomes the setting.
+    pub asked_language: Option<Language>,
 }
 
 /// Opens the window, and returns when it is closed.

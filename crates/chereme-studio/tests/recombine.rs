@@ -88,6 +88,7 @@ fn open<'a>(folder: &Path) -> Window<'a> {
             data: Some(folder.join("data")),
         },
         language: Language::English,
+        asked_language: None,
     };
     let mut window = Harness::builder()
         .with_size([1280.0, 1500.0])

@@ -254,6 +254,7 @@ fn the_tools_fit_a_narrow_pane_in_longer_words_too() {
     let mut window = common::window(Options {
         corpus: Some(common::small_corpus(folder.path())),
         language: Language::French,
+        asked_language: None,
         ..common::options(folder.path())
     });
     until(&mut window, "the corpus", |it| has(it, "escargot"));

@@ -6,12 +6,13 @@ use anyhow::Result;
 use chereme_corpus::Error;
 use chereme_studio::{Folders, Language, Options};
 
-use crate::args::Cli;
+use crate::args::{self, Cli};
 
 /// Open the workbench: annotate, search and recombine in a window
 ///
 /// Without a corpus it offers the starter corpus, recent ones, and to import a folder. Settings lie in the
-/// platform's folder for them, in chereme/studio.json. F1 shows the keys: ELAN's, Praat's or a video editor's.
+/// platform's folder for them, in chereme/studio.json; --language changes the language there. F1 shows the keys:
+/// ELAN's, Praat's or a video editor's.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus to open
@@ -30,15 +31,12 @@ pub(super) fn run(cli: &Cli, args: &Args) -> Result<()> {
         },
         None => Folders::of_platform(variable),
     };
-    let locale = ["LC_ALL", "LC_MESSAGES", "LANG"]
-        .into_iter()
-        .filter_map(variable)
-        .find(|locale| !locale.is_empty());
     let options = Options {
         corpus: args.corpus.clone(),
         author: cli.author(),
         folders,
-        language: Language::of_locale(&locale.unwrap_or_default()),
+        language: args::language(None),
+        asked_language: cli.language.as_deref().map(Language::of_locale),
     };
     chereme_studio::run(options).map_err(|error| {
         let remedy = error.remedy().to_owned();

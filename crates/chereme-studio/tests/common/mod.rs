@@ -22,6 +22,7 @@ pub fn options(folder: &Path) -> Options {
             data: Some(folder.join("data")),
         },
         language: Language::English,
+        asked_language: None,
     }
 }
 
