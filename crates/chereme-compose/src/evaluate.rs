@@ -23,7 +23,7 @@ use crate::work::{Group, Work};
 
 /// The version of the evaluator. It rises whenever the same resolved recipe gives different movement, so that a
 /// stored sign can be distinguished from one that would be generated today.
-pub const ENGINE: u32 = 10;
+pub const ENGINE: u32 = 11;
 
 /// Makes the movement of a recipe.
 ///

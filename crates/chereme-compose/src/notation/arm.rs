@@ -11,6 +11,10 @@ use chereme_sign::hamnosys::BodyLanguage;
 
 /// Share of the arm's length before full extension over which the elbow straightens softly.
 const SOFT: f64 = 0.012;
+/// A collar bone begins to rise with a wrist that is this far below its shoulder, and has risen with one
+/// that is this far above it, in arm lengths.
+const RISES: [f64; 2] = [0.0, 0.45];
+
 /// The bones of one arm, on a body that stands still.
 pub(crate) struct Rig {
     pub(crate) side: Side,
@@ -57,6 +61,8 @@ pub(crate) struct Limits {
     own: f64,
     across: f64,
     help: (f64, f64),
+    /// Turn (rad) by which a collar bone rises with a hand above the shoulder.
+    rise: f64,
     /// Largest turn of the collar bone in favour of the hand (rad), and its share downwards.
     shrug: (f64, f64),
     /// Largest deviation (rad) from the notated orientation at which it still reads as notated.
@@ -80,6 +86,7 @@ impl Limits {
             own: angle(language.elbow_own_side),
             across: angle(language.elbow_across),
             help: (language.clavicle_from, angle(language.clavicle_most)),
+            rise: angle(language.life_shoulder),
             shrug: (angle(language.shrug), language.shrug_down),
             tolerance: angle(language.tolerance).max(1e-3),
         }
@@ -441,17 +448,30 @@ impl Rig {
         };
         let far = self.shoulder.distance(wrist);
         let bone = self.shoulder - clavicle.at;
+        if bone.length() < 1e-6 {
+            return still;
+        }
+        let above = (wrist.y - self.shoulder.y) / self.length();
+        let rise = limits.rise * smooth((above + RISES[0]) / (RISES[0] + RISES[1]));
+        let rise = match bone.cross(DVec3::Y).try_normalize().filter(|_| rise > 0.0) {
+            Some(axis) => DQuat::from_axis_angle(axis, rise),
+            None => DQuat::IDENTITY,
+        };
         // Reaches towards a far wrist, and draws back from one nearer than the elbow folds.
         let near = 1.06 * self.nearest(limits).sqrt();
         let missing = (far - limits.help.0 * self.length()).max(0.0) - (near - far).max(0.0);
-        if missing == 0.0 || bone.length() < 1e-6 || limits.help.1 <= 0.0 {
+        let reach = bone
+            .cross(wrist - clavicle.at)
+            .try_normalize()
+            .filter(|_| missing != 0.0 && limits.help.1 > 0.0);
+        let turn = reach.map_or(DQuat::IDENTITY, |axis| {
+            let wanted = missing / bone.length() * bone.angle_between(wrist - clavicle.at).sin();
+            DQuat::from_axis_angle(axis, limits.help.1 * (wanted / limits.help.1).tanh())
+        });
+        if rise == DQuat::IDENTITY && turn == DQuat::IDENTITY {
             return still;
         }
-        let Some(axis) = bone.cross(wrist - clavicle.at).try_normalize() else {
-            return still;
-        };
-        let wanted = missing / bone.length() * bone.angle_between(wrist - clavicle.at).sin();
-        let turn = DQuat::from_axis_angle(axis, limits.help.1 * (wanted / limits.help.1).tanh());
+        let turn = rise * turn;
         (clavicle.at + turn * bone, turn)
     }
 

@@ -25,7 +25,16 @@ const ELBOW: f64 = 4.5;
 /// costs an eighth, so that a few degrees do not throw the elbow out.
 const TURNED: f64 = 75.0;
 /// Cost of an elbow one arm's length above the shoulder; grows with the square.
-const RAISED: f64 = 800.0;
+const RAISED: f64 = 1600.0;
+/// Angle (rad) to which an upper arm stands out beside a low hand without cost, and the cost per square
+/// radian beyond it.
+const FLARED: (f64, f64) = (0.8, 60.0);
+/// A hand is low if it is this far below its shoulder, in arm lengths.
+const LOW: f64 = 0.2;
+/// Speed (arm lengths per second) by which an elbow exceeds its wrist at the cost [`PUMPED`].
+const PUMPING: f64 = 0.5;
+/// Cost of such an elbow; grows with the square.
+const PUMPED: f64 = 2.0;
 /// Cost of a wrist one arm's length off its goal; grows with the square.
 const MISSED: f64 = 1.2e4;
 /// Cost of an upper arm one arm's length inside the trunk; grows with the square.
@@ -49,8 +58,9 @@ pub(crate) struct Choice {
     pub(crate) bearing: Bearing,
     angles: WristAngles,
     pub(crate) high: bool,
-    /// Position of the elbow, in arm lengths.
+    /// Positions of the elbow and the wrist, in arm lengths.
     elbow: DVec3,
+    wrist: DVec3,
     cost: f64,
     /// The part of the cost for deviations of the hand's orientation and place, and for an arm inside the
     /// trunk.
@@ -104,6 +114,7 @@ impl Arm<'_> {
         let missed = posed.wrist.distance(wrist) / rig.length();
         let held = 0.3 * off_rule(bearing.plane.to_degrees())
             + self.raised(&posed)
+            + self.flared(&posed)
             + self.within(&posed)
             + MISSED * missed * missed;
         if held > most {
@@ -137,6 +148,18 @@ impl Arm<'_> {
     fn raised(&self, posed: &Posed) -> f64 {
         let above = (posed.elbow.y - posed.shoulder.y) / self.rig().length();
         RAISED * above.max(0.0).powi(2)
+    }
+
+    /// Returns the cost of an elbow that stands out beside a low hand.
+    fn flared(&self, posed: &Posed) -> f64 {
+        let upper = posed.elbow - posed.shoulder;
+        let low = (posed.shoulder.y - posed.wrist.y) / self.rig().length() - LOW;
+        let outside = self.stage.left * self.rig().side.sign();
+        let out = upper.dot(outside).atan2(-upper.y) - FLARED.0;
+        if low <= 0.0 || out <= 0.0 {
+            return 0.0;
+        }
+        FLARED.1 * out * out * (low / LOW).min(1.0)
     }
 
     /// Returns the cost of an upper arm inside the trunk.
@@ -244,12 +267,14 @@ impl Arm<'_> {
             + SHRUGGED * bearing.shrug * bearing.shrug
             + 3.0 * (bend * bend + twist * twist)
             + self.raised(&hung.posed)
+            + self.flared(&hung.posed)
             + amiss;
         Choice {
             bearing,
             angles: hung.angles,
             high,
             elbow: hung.posed.elbow / self.rig().length(),
+            wrist: hung.posed.wrist / self.rig().length(),
             cost,
             amiss,
         }
@@ -346,8 +371,10 @@ fn change(from: &Choice, to: &Choice, dt: f64, most: f64) -> Option<f64> {
         return None;
     }
     let bend = to.angles.apart(&from.angles) / (0.6 * BENDING * dt);
-    let elbow = to.elbow.distance(from.elbow) / (ELBOW * dt);
-    Some(own + 150.0 * over(elbow) + 20.0 * over(shrug) + 6.0 * over(bend))
+    let far = to.elbow.distance(from.elbow);
+    let elbow = far / (ELBOW * dt);
+    let pumps = (far - to.wrist.distance(from.wrist)).max(0.0) / (PUMPING * dt);
+    Some(own + PUMPED * pumps * pumps + 150.0 * over(elbow) + 20.0 * over(shrug) + 6.0 * over(bend))
 }
 
 fn best(choices: &[Choice]) -> usize {

@@ -18,20 +18,26 @@
 //! | `arm` | elbow, collar bone, wrist |
 //! | `track` | from events to the goals of the hands in each frame |
 //! | `part` | separation of two hands that would pass through each other |
+//! | `bulk` | separation of two hands that would be within each other |
 //! | `choose` | over time: the arm's plane and its shoulder |
 //! | `solve`, `settle` | from goals to postures of an arm, without jumps |
 //! | `mend` | removal of remaining intersections with the trunk |
 //! | `perform` | one sign after another on the same body, or their first postures alone |
 //! | `warp` | time stretched where an arm would move too fast |
+//! | `life` | sway, head and eyes with the hands, blinks |
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | annotations of the synthesised movement |
 
 mod arm;
+mod bulk;
 mod choose;
 mod ease;
+mod life;
 mod lift;
 mod mend;
 mod motion;
+#[cfg(test)]
+mod natural;
 mod nonmanual;
 mod notes;
 mod pace;
@@ -61,6 +67,7 @@ use crate::made::{ChannelReport, HandReport, Made, Report, StepReport};
 use crate::sources::Material;
 use crate::work::Group;
 
+use life::Alive;
 use pace::Paces;
 pub use perform::Performer;
 use plan::{Plan, Planner};
@@ -143,8 +150,25 @@ pub fn animate(
     };
     let hands = sides.map(|side| body.hand(side));
     let [mut first, mut second] = [0, 1].map(|n| track::wanted(&body, &plan, n, &timing));
+    let alive = Alive::of(
+        &body,
+        signs,
+        &plan,
+        &settings.language,
+        [&first, &second],
+        rate,
+    );
+    for wanted in [&mut first, &mut second] {
+        alive.carry(&body, wanted);
+    }
     let parted = match hands {
         [Some(a), Some(b)] => part::part(&body, [a, b], [&mut first, &mut second], rate),
+        _ => None,
+    };
+    let cleared = match hands {
+        [Some(a), Some(b)] if !plan.laced => {
+            bulk::clear(&body, [a, b], [&mut first, &mut second], rate)
+        }
         _ => None,
     };
     let mut wanted = [Some(first), Some(second)];
@@ -185,7 +209,15 @@ pub fn animate(
         fits[n] = Some(track.fit);
         lay(&mut channels, hand, track);
     }
-    if let Some(parted) = parted {
+    if let Some(left) = cleared.and_then(|cleared| cleared.left) {
+        plan.remarks.push(format!(
+            "the hands stay {:.1} cm within each other",
+            left * 100.0
+        ));
+    }
+    let most = cleared.map(|cleared| cleared.most);
+    let parted = [parted, most].into_iter().flatten();
+    if let Some(parted) = parted.max_by(|a, b| a.by.total_cmp(&b.by)) {
         plan.remarks.push(format!(
             "the hands would go through each other at {:.2} s: each goes {:.1} cm aside",
             warp.at(parted.time),
@@ -194,11 +226,22 @@ pub fn animate(
     }
     plan.stretch(&warp);
     let language = &settings.language;
-    nonmanual::turn(&body, signs, &plan.signs, language, rate, &mut channels);
+    let planned = match warp.is_none() {
+        true => (0..total).map(|n| (n, 0.0)).collect(),
+        false => warp.frames(),
+    };
+    nonmanual::turn(&body, &alive.bents, &planned, &mut channels);
     let clip = Clip::new(Arc::clone(&body.skeleton), settings.rate, channels)?;
     let report = report(signs, &plan, sides, fits);
+    let mut curves = nonmanual::curves(signs, &plan.signs, language, rate, total);
+    let more = alive.curves(signs, &plan.signs, language, rate, &planned);
+    curves.extend(more.into_iter().map(|mut curve| {
+        let last = curve.values.last().copied().unwrap_or_default();
+        curve.values.resize(total, last);
+        curve
+    }));
     Ok(Made {
-        curves: nonmanual::curves(signs, &plan.signs, language, rate, total),
+        curves,
         notes: notes::notes(signs, &plan, sides, &clip, &warp),
         clip,
         anatomy: Arc::clone(&body.anatomy),

@@ -199,8 +199,14 @@ impl Planner<'_> {
             },
             None => Path::Line(chord),
         };
-        let end = time + self.timed(usual, path.length(), env);
-        let pace = Pace::of(manner, Pace::Targetted);
+        let mut end = time + self.timed(usual, path.length(), env);
+        let mut pace = Pace::of(manner, Pace::Targetted);
+        if directed.zigzag.is_some() {
+            // The path takes as long as its waves need.
+            let rate = l.zigzag_rate * (1.0 / env.slower).clamp(0.8, 1.25);
+            end = end.max(time + l.zigzag_waves / rate);
+            pace = Pace::of(manner, Pace::Linear);
+        }
         self.along(&path, who, [time, end], pace);
         if let Some(zigzag) = &directed.zigzag {
             let wide = sized(zigzag.size, [l.zigzag_small, l.zigzag_normal, l.zigzag_big]);

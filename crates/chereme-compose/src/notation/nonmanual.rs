@@ -44,16 +44,24 @@ impl Timed<'_> {
 
 /// Rotations of body parts at one moment, in radians about each axis (left, up, forward).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Bent {
+pub(crate) struct Bent {
     /// The rotation of the head.
-    head: DVec3,
+    pub(crate) head: DVec3,
     /// The rotation of the lowest joint of the neck.
-    neck: DVec3,
-    trunk: DVec3,
+    pub(crate) neck: DVec3,
+    /// The rotation of the trunk.
+    pub(crate) trunk: DVec3,
     /// How far the right and left collar bones are raised (rad).
     raised: [f64; 2],
     /// How far they are brought forward (rad).
     hunched: [f64; 2],
+}
+
+/// How much of each part of the body its written acts take, from 0 to 1.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Busy {
+    pub(crate) head: f64,
+    pub(crate) trunk: f64,
 }
 
 /// Returns the intensity of each non-manual in each frame.
@@ -83,32 +91,71 @@ pub(crate) fn curves(
     curves
 }
 
-/// Turns the joints of head, trunk and shoulders; the arms move with the trunk.
-pub(crate) fn turn(
-    body: &Stage,
+/// Returns the turns of the written acts in each frame, with how busy head and trunk are with them.
+pub(crate) fn bents(
     signs: &[&Notated],
     spans: &[SignSpan],
     language: &BodyLanguage,
     rate: f64,
+    total: usize,
+) -> (Vec<Bent>, Vec<Busy>) {
+    let acts = all(signs, spans, language);
+    let each = (0..total).map(|frame| {
+        let time = frame as f64 / rate;
+        (bent(&acts, time), busy(&acts, time))
+    });
+    each.unzip()
+}
+
+fn busy(acts: &[Timed<'_>], time: f64) -> Busy {
+    let mut busy = Busy::default();
+    for timed in acts {
+        match timed.act.part {
+            NonmanualPart::Head => busy.head = busy.head.max(timed.at(time)),
+            NonmanualPart::Body => busy.trunk = busy.trunk.max(timed.at(time)),
+            _ => {}
+        }
+    }
+    busy
+}
+
+/// Turns the joints of head, trunk and shoulders in stretched time; the arms move with the trunk.
+/// `frames` are the planned frames.
+pub(crate) fn turn(
+    body: &Stage,
+    bents: &[Bent],
+    frames: &[(usize, f64)],
     channels: &mut [Channel],
 ) {
-    let acts = all(signs, spans, language);
-    let moving = |part| {
-        matches!(
-            part,
-            NonmanualPart::Head | NonmanualPart::Body | NonmanualPart::Shoulders
-        )
-    };
-    if !acts.iter().any(|timed| moving(timed.act.part)) {
-        return;
-    }
     let total = channels
         .first()
         .map_or(0, |channel| channel.rotations.len());
     for frame in 0..total {
-        let bent = bent(&acts, frame as f64 / rate);
+        let (n, share) = frames
+            .get(frame)
+            .or(frames.last())
+            .copied()
+            .unwrap_or_default();
+        let at = |n: usize| bents.get(n).or(bents.last()).copied().unwrap_or_default();
+        let bent = at(n).mix(&at(n + 1), share);
         if bent != Bent::default() {
             bend(body, &bent, frame, channels);
+        }
+    }
+}
+
+impl Bent {
+    fn mix(&self, to: &Self, share: f64) -> Self {
+        if share == 0.0 || self == to {
+            return *self;
+        }
+        let pair = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|n| a[n] + (b[n] - a[n]) * share);
+        Self {
+            head: self.head.lerp(to.head, share),
+            neck: self.neck.lerp(to.neck, share),
+            trunk: self.trunk.lerp(to.trunk, share),
+            raised: pair(self.raised, to.raised),
+            hunched: pair(self.hunched, to.hunched),
         }
     }
 }

@@ -5,6 +5,9 @@ use chereme_sign::hamnosys::{BodyLanguage, Manner};
 /// The number of steps in a table.
 const STEPS: usize = 256;
 
+/// The share of an approach in which it comes up to speed, and down.
+const CALM: f64 = 0.3;
+
 /// The kinds of pace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Pace {
@@ -20,6 +23,8 @@ pub(crate) enum Pace {
     Tense,
     /// A circle: constant speed except at both ends.
     Linear,
+    /// An approach to a movement: even, so that it is not faster than what it leads to.
+    Calm,
 }
 
 impl Pace {
@@ -35,10 +40,24 @@ impl Pace {
     }
 }
 
+impl Pace {
+    /// Returns the top speed of a movement, as a multiple of its mean speed.
+    pub(crate) fn peak(self) -> f64 {
+        match self {
+            Self::Targetted | Self::Contact => 2.4,
+            Self::Lax => 1.9,
+            Self::Halt => 1.9,
+            Self::Tense => 1.43,
+            Self::Linear => 1.18,
+            Self::Calm => 1.0 / (1.0 - CALM),
+        }
+    }
+}
+
 /// The pace tables of a body language.
 #[derive(Debug, Clone)]
 pub(crate) struct Paces {
-    tables: [Vec<f64>; 6],
+    tables: [Vec<f64>; 7],
 }
 
 impl Paces {
@@ -65,6 +84,7 @@ impl Paces {
                 grown(l.halt_gain, l.halt_power, l.halt_ratio),
                 grown(l.tense_gain, l.tense_power, l.tense_ratio),
                 ramp,
+                linear(CALM),
             ],
         }
     }
@@ -139,13 +159,14 @@ fn sampled(at: impl Fn(f64) -> f64) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    const ALL: [Pace; 6] = [
+    const ALL: [Pace; 7] = [
         Pace::Targetted,
         Pace::Lax,
         Pace::Contact,
         Pace::Halt,
         Pace::Tense,
         Pace::Linear,
+        Pace::Calm,
     ];
 
     fn peak(paces: &Paces, pace: Pace) -> (f64, f64) {
@@ -189,6 +210,10 @@ mod tests {
         assert!((peak(&paces, Pace::Halt).0 - 0.91).abs() < 0.05);
         let end = (1.0 - paces.share(Pace::Halt, 0.99)) * 100.0;
         assert!((end - 1.9).abs() < 0.4, "{end}");
+        for pace in ALL {
+            let (_, top) = peak(&paces, pace);
+            assert!((top / pace.peak() - 1.0).abs() < 0.12, "{pace:?}: {top}");
+        }
         let even = paces.share(Pace::Linear, 0.6) - paces.share(Pace::Linear, 0.4);
         assert!((even - 0.2 / 0.85).abs() < 1e-3, "{even}");
     }

@@ -9,6 +9,8 @@ use chereme_motion::glam::{DQuat, DVec3};
 pub(crate) enum Path {
     /// A straight line.
     Line(DVec3),
+    /// A straight line whose speed grows evenly: added to a line, it bends that line away from its start.
+    Late(DVec3),
     /// A circular arc over a chord; `bow` is the offset of its middle.
     Arc { chord: DVec3, bow: DVec3 },
     /// To and fro across the path by the vector `side`, in corners or waves, growing from 1 to `grown`.
@@ -37,6 +39,7 @@ impl Path {
     pub(crate) fn at(&self, s: f64) -> DVec3 {
         match self {
             Self::Line(way) => *way * s,
+            Self::Late(way) => *way * (s * s),
             Self::Arc { chord, bow } => arc(*chord, *bow, s),
             Self::Wave {
                 side,
@@ -108,6 +111,7 @@ impl Path {
     pub(crate) fn map(&self, f: impl Fn(DVec3) -> DVec3) -> Self {
         match self {
             Self::Line(way) => Self::Line(f(*way)),
+            Self::Late(way) => Self::Late(f(*way)),
             Self::Arc { chord, bow } => Self::Arc {
                 chord: f(*chord),
                 bow: f(*bow),

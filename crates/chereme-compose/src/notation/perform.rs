@@ -5,11 +5,14 @@ use std::sync::Arc;
 use chereme_motion::Clip;
 use chereme_sign::hamnosys::{Notated, Sign};
 
+use super::life::Alive;
 use super::pace::Paces;
 use super::plan::Planner;
 use super::solve::Arm;
 use super::stage::Stage;
-use super::{NotationError, Settings, animate, frames, lay, part, standing, track};
+use super::{
+    NotationError, Settings, animate, bulk, frames, lay, nonmanual, part, standing, track,
+};
 use crate::made::About;
 use crate::sources::Material;
 
@@ -90,8 +93,17 @@ impl Performer {
         let mut channels = standing(body, 1);
         let hands = sides.map(|side| body.hand(side));
         let [mut first, mut second] = [0, 1].map(|n| track::wanted(body, &plan, n, &timing));
+        let own = notated(sign);
+        let language = &self.settings.language;
+        let alive = Alive::of(body, &[&own], &plan, language, [&first, &second], rate);
+        for wanted in [&mut first, &mut second] {
+            alive.carry(body, wanted);
+        }
         if let [Some(a), Some(b)] = hands {
             part::part(body, [a, b], [&mut first, &mut second], rate);
+        }
+        if let ([Some(a), Some(b)], false) = (hands, plan.laced) {
+            bulk::clear(body, [a, b], [&mut first, &mut second], rate);
         }
         for (n, (hand, wanted)) in hands.into_iter().zip([first, second]).enumerate() {
             let Some(hand) = hand else { continue };
@@ -109,6 +121,7 @@ impl Performer {
             };
             lay(&mut channels, hand, track);
         }
+        nonmanual::turn(body, &alive.bents, &[(frame, 0.0)], &mut channels);
         let (skeleton, rate) = (Arc::clone(&body.skeleton), self.settings.rate);
         Ok(Clip::new(skeleton, rate, channels)?)
     }

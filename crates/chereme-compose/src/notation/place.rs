@@ -310,6 +310,9 @@ impl Planner<'_> {
             Some(by) => self.site_points(acting, by, frame),
             None => vec![self.facing(acting, -out, Region::Arm(self.sides[other]))],
         };
+        if matches!(site.contact, Some(Contact::Interlock | Contact::Cross)) {
+            self.plan.laced = true;
+        }
         let far = match site.contact {
             Some(Contact::Close) => self.language.hands_near * self.stage.arm,
             _ => 0.0,
@@ -353,6 +356,9 @@ impl Planner<'_> {
     /// Moves the hands together, and both to a place.
     fn by_each_other(&mut self, hands: &Constellation, named: Who) {
         let hands = &self.remembered(hands);
+        if matches!(hands.contact, Some(Contact::Interlock | Contact::Cross)) {
+            self.plan.laced = true;
+        }
         for n in 0..2 {
             if !self.state[n].used {
                 self.raise(n);

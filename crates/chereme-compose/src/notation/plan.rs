@@ -138,6 +138,8 @@ pub(crate) struct Plan {
     /// Time spans (s, as planned) in which each hand moves to a named place.
     pub(crate) arrivals: [Vec<(f64, f64)>; 2],
     pub(crate) end: f64,
+    /// Whether the hands interlock or cross, so that they are within each other's bulk.
+    pub(crate) laced: bool,
     /// Warnings about approximations and omissions, without duplicates.
     pub(crate) remarks: Vec<String>,
 }
@@ -256,6 +258,7 @@ impl<'a> Planner<'a> {
                 contacts: [Vec::new(), Vec::new()],
                 arrivals: [Vec::new(), Vec::new()],
                 end: 0.0,
+                laced: false,
                 remarks: Vec::new(),
             },
         }
@@ -325,11 +328,12 @@ impl<'a> Planner<'a> {
         let length = (0..2)
             .map(|n| self.length_between(&before[n], &goal[n], n))
             .fold(0.0, f64::max);
+        let length = length.max(self.unhurried(part, who, [&before, &goal]));
         self.state = before;
         let reached = self.on_frame(time + length);
         let touching = touches(&posture);
         let pace = match (moves, touching) {
-            (true, _) => Pace::Lax,
+            (true, _) => Pace::Calm,
             (false, true) => Pace::Contact,
             (false, false) => Pace::Targetted,
         };
@@ -371,6 +375,11 @@ impl<'a> Planner<'a> {
             }
         }
         (reached, now + hold)
+    }
+
+    /// Returns the factor on the speed of the current sign.
+    pub(super) fn speed(&self) -> f64 {
+        self.speed
     }
 
     /// Rounds a time up to the next frame.
@@ -509,7 +518,7 @@ impl<'a> Planner<'a> {
         }
         let side = self.sides[n];
         let angles = hand_angles(shape, self.language);
-        let posed = thumb::met(self.stage, side, shape, &angles);
+        let posed = thumb::posed(self.stage, side, shape, &angles);
         let known = self.plan.shapes[n].iter().position(|known| *known == posed);
         let index = known.unwrap_or_else(|| {
             self.plan.shapes[n].push(posed);

@@ -21,7 +21,7 @@ const PUSHING: f64 = 5.0;
 /// Seconds before and after a sudden change over which it is spread.
 pub(super) const AROUND: f64 = 0.09;
 /// Distance that a hand's points keep from the trunk's surface, in metres.
-pub(super) const MARGIN: f64 = 0.006;
+pub(super) const MARGIN: f64 = 0.008;
 /// Largest turn (rad) of a touching hand about its reference point to leave the trunk or to come within
 /// reach.
 const MOST_TURNED: f64 = 0.7;

@@ -292,6 +292,13 @@ impl Stage {
         at + (self.faced(hand, face, bone) * out - bone * back) * hand.length
     }
 
+    /// Returns the position of the joint before the tip of a digit, in the hand's space.
+    pub(crate) fn last_joint(&self, hand: &Hand, shape: &Shape, digit: Digit) -> Option<DVec3> {
+        let joint = self.anatomy.joint(digit_joint(hand.side, digit, 3))?;
+        let n = hand.fingers.iter().position(|&known| known == joint)?;
+        Some(shape.places[n].0)
+    }
+
     /// Returns the position of the base joint (1), the middle joint (2) or the tip (3) of a digit.
     fn end(&self, hand: &Hand, shape: &Shape, digit: Digit, which: u8) -> Option<DVec3> {
         let place = |joint: usize| {

@@ -15,7 +15,7 @@ use super::*;
 use crate::About;
 use crate::testing::{Axes, skeleton};
 
-fn stage(axes: Axes) -> Material {
+pub(super) fn stage(axes: Axes) -> Material {
     let skeleton = Arc::new(skeleton(axes, 1.0));
     let anatomy = Arc::new(Anatomy::detect(&skeleton));
     Material {
@@ -31,7 +31,7 @@ fn stage(axes: Axes) -> Material {
     }
 }
 
-fn directed(direction: &str) -> Motion {
+pub(super) fn directed(direction: &str) -> Motion {
     Motion::new(MotionKind::Directed(Directed {
         direction: direction.parse().expect("a direction"),
         second: None,
@@ -42,7 +42,12 @@ fn directed(direction: &str) -> Motion {
     }))
 }
 
-fn posture(class: HandClass, extended: &str, palm: &str, place: Option<Place>) -> Posture {
+pub(super) fn posture(
+    class: HandClass,
+    extended: &str,
+    palm: &str,
+    place: Option<Place>,
+) -> Posture {
     let mut shape = Handshape::default();
     shape.form.class = class;
     Posture {
@@ -53,7 +58,7 @@ fn posture(class: HandClass, extended: &str, palm: &str, place: Option<Place>) -
     }
 }
 
-fn at(location: BodyLocation, contact: Option<Contact>) -> Place {
+pub(super) fn at(location: BodyLocation, contact: Option<Contact>) -> Place {
     Place::Body(BodyPlace {
         site: Some(Site {
             at: location,
@@ -65,7 +70,7 @@ fn at(location: BodyLocation, contact: Option<Contact>) -> Place {
     })
 }
 
-fn notated(hands: HandsUsed, posture: Posture, actions: Vec<Motion>) -> Notated {
+pub(super) fn notated(hands: HandsUsed, posture: Posture, actions: Vec<Motion>) -> Notated {
     Notated {
         gloss: "SIGN".into(),
         sign: Sign {
@@ -80,7 +85,7 @@ fn notated(hands: HandsUsed, posture: Posture, actions: Vec<Motion>) -> Notated 
     }
 }
 
-fn mirrored() -> HandsUsed {
+pub(super) fn mirrored() -> HandsUsed {
     HandsUsed::Both(Symmetry {
         left_right: true,
         ..Symmetry::default()
@@ -88,7 +93,11 @@ fn mirrored() -> HandsUsed {
 }
 
 fn made(sign: &Notated, axes: Axes) -> Made {
-    animate(&[sign], &stage(axes), &Settings::default()).expect("it can be animated")
+    let settings = Settings {
+        language: chereme_sign::hamnosys::BodyLanguage::usual().without_life(),
+        ..Settings::default()
+    };
+    animate(&[sign], &stage(axes), &settings).expect("it can be animated")
 }
 
 /// Returns the position of a landmark at a share of the sign's duration.
@@ -100,7 +109,7 @@ fn landmark(made: &Made, share: f64, name: &str) -> DVec3 {
         .expect("a landmark")
 }
 
-fn model(made: &Made, share: f64) -> ModelPose {
+pub(super) fn model(made: &Made, share: f64) -> ModelPose {
     let gloss = made.notes.iter().find(|note| note.about == About::Gloss);
     let span = gloss.expect("the gloss is noted").span;
     let from = span.start().seconds();

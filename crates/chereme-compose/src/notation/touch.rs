@@ -14,6 +14,8 @@ const BEHIND: f64 = 0.5;
 /// If the cosine between the hand part's outward normal and the skin's exceeds this, the part faces away
 /// from the skin: its normal is more than 60 degrees off the direction into the skin.
 const AWAY: f64 = -0.5;
+/// Half the thickness of a finger, in hand lengths.
+const FLESH: f64 = 0.042;
 /// Offset (m) above which the substitution is reported.
 const TOLD: f64 = 2e-3;
 /// Step of the search for that offset, in metres.
@@ -36,7 +38,8 @@ impl Planner<'_> {
         let shape = &self.plan.shapes[n][self.state[n].shape];
         let out = self.stage.outward(hand, shape, *point);
         let own = self.stage.point(hand, shape, *point).dot(out);
-        let far = shape.outline.iter().map(|at| at.dot(out));
+        let flesh = FLESH * hand.length();
+        let far = shape.outline.iter().skip(2).map(|at| at.dot(out) + flesh);
         let far = far.fold(own, f64::max);
         out * (far - own)
     }

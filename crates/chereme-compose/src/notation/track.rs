@@ -507,7 +507,7 @@ fn shape_spans(events: &[Event], rate: f64, total: usize) -> Vec<(Range<usize>, 
 /// transition.
 fn early(event: &Event, frame: usize, timing: &Timing<'_>) -> f64 {
     let time = share(event, frame, timing.rate);
-    let lax = event.pace == Pace::Lax;
+    let lax = matches!(event.pace, Pace::Lax | Pace::Calm);
     let time = if lax { time * 1.4 } else { time };
     timing.paces.share(event.pace, time)
 }

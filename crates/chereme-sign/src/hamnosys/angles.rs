@@ -244,20 +244,30 @@ fn thumb(form: &Form, shape: &Handshape, chosen: [bool; 4]) -> [f64; 5] {
             Some(Opening::Slack) => [38.0, 62.0, 62.0, 2.0, 6.0],
         },
         (Fist, Some(ThumbPosition::Out)) => [62.0, 5.0, 0.0, -5.0, -5.0],
-        (Fist, Some(ThumbPosition::Across)) => [21.0, 58.0, 12.0, 42.0, 59.0],
+        (Fist, Some(ThumbPosition::Across)) => [18.0, 40.0, -3.0, 49.0, 44.0],
         (Fist, Some(ThumbPosition::Opposed)) => [30.0, 62.0, 55.0, 5.0, 10.0],
         (Fist, None) => [15.0, 8.0, 0.0, 5.0, 10.0],
         (_, Some(ThumbPosition::Out)) => [60.0, 8.0, 0.0, 0.0, 0.0],
         (_, Some(ThumbPosition::Opposed)) => [35.0, 60.0, 60.0, 5.0, 8.0],
-        (Flat | Finger2345, Some(ThumbPosition::Across)) => [15.0, 36.0, 20.0, 56.0, 70.0],
-        (Finger2, Some(ThumbPosition::Across)) if chosen[0] => [36.0, 62.0, 14.0, 42.0, 55.0],
-        (Finger2 | Finger23 | Finger23Spread, Some(ThumbPosition::Across)) => {
-            [16.0, 58.0, 14.0, 47.0, 49.0]
+        (Flat | Finger2345, Some(ThumbPosition::Across)) if form.bend.is_none() => {
+            [8.0, 4.0, -5.0, 67.0, 74.0]
         }
+        (Flat | Finger2345, Some(ThumbPosition::Across)) => [15.0, 36.0, 20.0, 56.0, 70.0],
+        (Finger2 | Finger23 | Finger23Spread, Some(ThumbPosition::Across)) => over(chosen),
         (Finger2 | Finger23 | Finger23Spread, None) if !chosen[0] => [15.0, 8.0, 0.0, 5.0, 10.0],
         (_, None) => [12.0, 2.0, 0.0, 0.0, 0.0],
     };
     opposed(at, form.class, shape)
+}
+
+/// Returns the thumb across the folded fingers: on the middle finger, else on the first folded one.
+fn over(chosen: [bool; 4]) -> [f64; 5] {
+    match chosen {
+        [_, false, ..] => [22.0, 44.0, 0.0, 57.0, 32.0],
+        [false, true, ..] => [44.0, 44.0, -5.0, 57.0, 40.0],
+        [true, true, false, _] => [3.0, 37.0, 3.0, 58.0, 28.0],
+        [true, true, true, _] => [-16.0, 39.0, 23.0, 40.0, 26.0],
+    }
 }
 
 /// Brings the thumb of a pinch or cee over to the digit it meets.

@@ -156,6 +156,7 @@ body_language! {
     "zigzag.normal" zigzag_normal "arm" "Half the width of a zigzag."
     "zigzag.big" zigzag_big "arm" "Half the width of a big zigzag."
     "zigzag.waves" zigzag_waves "count" "How many waves a zigzag has."
+    "zigzag.rate" zigzag_rate "1/s" "How many waves a second a zigzag has at most."
     "circle.small" circle_small "arm" "The radius of a small circle."
     "circle.normal" circle_normal "arm" "The radius of a circle."
     "circle.big" circle_big "arm" "The radius of a big circle."
@@ -188,6 +189,7 @@ body_language! {
     "time.rest" time_rest "s" "A rest before a movement."
     "time.transition" time_transition "s" "A transition, before what its size adds."
     "time.transition-arm" time_transition_arm "s" "The time that each arm's length adds to a transition."
+    "time.approach-most" time_approach_most "s" "The longest approach to a movement that is slow or small."
     "time.slowest-turn" time_turn "s" "The time that each right angle of the hand adds to a transition."
     "time.body" time_body "s" "A movement of the body."
     "time.attack" time_attack "s" "A non-manual from nothing to all of it."
@@ -236,6 +238,13 @@ body_language! {
     "limit.pronation" limit_pronation "deg" "How far a forearm turns the palm down from thumb up."
     "limit.supination" limit_supination "deg" "How far a forearm turns the palm up from thumb up."
     "limit.elbow" limit_elbow "deg" "How far an elbow bends."
+    "life.sway" life_sway "deg" "How far a trunk sways to either side; 0 switches it off."
+    "life.sway-time" life_sway_time "s" "How long a trunk sways to and fro."
+    "life.head" life_head "share" "How much of the direction of the hands a head turns to; 0 switches it off."
+    "life.gaze" life_gaze "share" "How much of the direction of the hands the eyes turn to; 0 switches it off."
+    "life.shoulder" life_shoulder "deg" "How far a shoulder rises with a hand that is above it; 0 switches it off."
+    "life.blink" life_blink "s" "From one blink to the next at most, besides those at the boundaries of signs; 0 switches them off."
+    "life.seed" life_seed "count" "What the sway starts from: another number, another sway."
     "tolerance" tolerance "deg" "How far a hand may be turned from what is written and still be turned so."
     "course.targetted.gain" targetted_gain "count" "How stiffness grows in a targetted movement."
     "course.targetted.power" targetted_power "count" "With which power of the way it grows."
@@ -271,6 +280,20 @@ impl BodyLanguage {
             let text = include_str!("../../../../schema/notation/body_language.json");
             Self::parse(text).expect("the program's own body language is whole")
         })
+    }
+
+    /// Returns this body language without sway, blinks and the help of head, eyes and shoulders: nothing
+    /// moves but what is written.
+    #[must_use]
+    pub fn without_life(&self) -> Self {
+        Self {
+            life_sway: 0.0,
+            life_head: 0.0,
+            life_gaze: 0.0,
+            life_shoulder: 0.0,
+            life_blink: 0.0,
+            ..self.clone()
+        }
     }
 
     fn parse(text: &str) -> Result<Self, LanguageError> {

@@ -2,6 +2,10 @@
 
 use super::*;
 
+/// Angle (rad) between the written direction and the way to the goal above which the path bends from the
+/// one to the other.
+const BENDS: f64 = 0.45;
+
 impl Planner<'_> {
     pub(super) fn target(
         &mut self,
@@ -59,6 +63,7 @@ impl Planner<'_> {
         if contact {
             self.hasten(time, pace, who);
         }
+        let bent = posture.place.is_some() && self.bends([&before, &now, &goal], motion, who);
         if posture.place.is_some() {
             self.straighten(time, end, pace, who);
         }
@@ -72,6 +77,9 @@ impl Planner<'_> {
         }
         for (n, _) in acting(named) {
             self.go(n, &goal[n], time, end, pace);
+            if bent {
+                self.late(n, time);
+            }
             if posture.place.is_some() {
                 self.plan.arrivals[n].push((time, end));
             }
@@ -87,6 +95,41 @@ impl Planner<'_> {
             end + self.language.time_contact
         } else {
             end
+        }
+    }
+
+    /// Returns whether the rest of the way to the goal leads elsewhere than the written direction, so that
+    /// the hand starts in that direction and then turns to its goal.
+    fn bends(
+        &self,
+        [before, planned, goal]: [&[HandState; 2]; 3],
+        motion: Option<&Motion>,
+        who: Who,
+    ) -> bool {
+        let straight = |motion: &Motion| match &motion.kind {
+            MotionKind::Directed(way) => way.curve.is_none() && way.zigzag.is_none(),
+            _ => false,
+        };
+        let least = 0.5 * self.language.move_small * self.stage.arm;
+        motion.is_some_and(straight)
+            && acting(who).any(|(n, _)| {
+                let written = planned[n].point - before[n].point;
+                let whole = goal[n].point - before[n].point;
+                whole.length() > least
+                    && written.length() > 1e-6
+                    && written.angle_between(whole) > BENDS
+            })
+    }
+
+    /// Makes the last straight path of a hand, from `time` on, gather speed: the hand leaves in the
+    /// direction of the paths it is added to.
+    fn late(&mut self, n: usize, time: f64) {
+        let mut events = self.plan.events[n].iter_mut().rev();
+        let last = events.find(|event| matches!(event.act, Act::Move(_)));
+        if let Some(event) = last.filter(|event| (event.from - time).abs() < 1e-9)
+            && let Act::Move(Path::Line(way)) = event.act
+        {
+            event.act = Act::Move(Path::Late(way));
         }
     }
 

@@ -1,0 +1,204 @@
+//! The bulk of hands: keeps two hands from being within each other.
+
+use chereme_motion::glam::DVec3;
+
+use super::part::Parted;
+use super::solve::eased;
+use super::stage::{Hand, Stage};
+use super::track::Wanted;
+
+/// Half the thickness of a finger, of the thumb's root, and of a palm, in hand lengths.
+const FLESH: [f64; 3] = [0.042, 0.055, 0.07];
+/// Depth (m) to which flesh gives way.
+const SOFT: f64 = 0.003;
+/// Hands whose palms are farther apart than this (hand lengths) cannot meet.
+const FAR: f64 = 1.9;
+/// Seconds before and after over which a way aside is spread.
+const AROUND: f64 = 0.12;
+/// The number of rounds in which hands are moved apart.
+const ROUNDS: usize = 4;
+/// Remaining depth (m) above which a warning is issued.
+const LEFT: f64 = 0.008;
+
+/// The separation of two hands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Cleared {
+    /// The farthest way aside, with its time as planned.
+    pub(crate) most: Parted,
+    /// How deep the hands stay within each other, in metres, if that is reported.
+    pub(crate) left: Option<f64>,
+}
+
+/// A bone with its flesh.
+#[derive(Debug, Clone, Copy)]
+struct Tube {
+    ends: [DVec3; 2],
+    radius: f64,
+}
+
+/// Moves the goals of two hands apart, each by half, wherever they would be within each other.
+pub(crate) fn clear(
+    stage: &Stage,
+    hands: [&Hand; 2],
+    [first, second]: [&mut Wanted<'_>; 2],
+    rate: f64,
+) -> Option<Cleared> {
+    let length = hands[0].length();
+    let near = ((AROUND * rate).ceil() as usize).max(1);
+    let total = first.points.len();
+    let mut most: Option<Parted> = None;
+    let mut sums = vec![DVec3::ZERO; total];
+    let mut left = 0.0;
+    for round in 0..=ROUNDS {
+        let mut ways = vec![DVec3::ZERO; total];
+        let mut same: Option<(usize, DVec3)> = None;
+        left = 0.0_f64;
+        for (frame, out) in ways.iter_mut().enumerate() {
+            if let Some((n, way)) = same
+                && stays(first, frame, n)
+                && stays(second, frame, n)
+            {
+                *out = way;
+                continue;
+            }
+            let way = way_out(stage, length, first, second, frame);
+            left = left.max(way.length());
+            *out = way;
+            same = Some((frame, way));
+        }
+        if left <= SOFT || round == ROUNDS {
+            break;
+        }
+        for (frame, way) in eased(&ways, near).into_iter().enumerate() {
+            first.points[frame] += way * 0.5;
+            second.points[frame] -= way * 0.5;
+            sums[frame] += way * 0.5;
+        }
+    }
+    for (frame, sum) in sums.iter().enumerate() {
+        let by = sum.length();
+        if by > most.map_or(1e-3, |most| most.by) {
+            let time = frame as f64 / rate;
+            most = Some(Parted { time, by });
+        }
+    }
+    Some(Cleared {
+        most: most?,
+        left: (left > LEFT).then_some(left),
+    })
+}
+
+/// Returns whether a hand is the same in two frames.
+fn stays(wanted: &Wanted<'_>, a: usize, b: usize) -> bool {
+    wanted.points[a] == wanted.points[b]
+        && wanted.turns[a] == wanted.turns[b]
+        && wanted.offsets[a] == wanted.offsets[b]
+        && wanted.wrist[a] == wanted.wrist[b]
+        && std::ptr::eq(wanted.outlines.at(a)[1], wanted.outlines.at(b)[1])
+}
+
+/// Returns the way by which the first hand leaves the second: the depth of the deepest place, along the
+/// mean of the ways of all places.
+fn way_out(
+    stage: &Stage,
+    length: f64,
+    first: &Wanted<'_>,
+    second: &Wanted<'_>,
+    frame: usize,
+) -> DVec3 {
+    let (Some(a), Some(b)) = (tubes(first, frame, length), tubes(second, frame, length)) else {
+        return DVec3::ZERO;
+    };
+    let palms = a[0].ends[1] - b[0].ends[1];
+    if palms.length() > FAR * length {
+        return DVec3::ZERO;
+    }
+    let (mut sum, mut deepest) = (DVec3::ZERO, 0.0_f64);
+    for one in &a {
+        let middle = (one.ends[0] + one.ends[1]) * 0.5;
+        let half = one.ends[0].distance(one.ends[1]) * 0.5 + one.radius;
+        for other in &b {
+            let centre = (other.ends[0] + other.ends[1]) * 0.5;
+            let reach = half + other.ends[0].distance(other.ends[1]) * 0.5 + other.radius;
+            if middle.distance_squared(centre) > reach * reach {
+                continue;
+            }
+            let way = between(one.ends, other.ends);
+            let deep = one.radius + other.radius - way.length();
+            if deep > SOFT {
+                sum += way.normalize_or(DVec3::ZERO) * deep;
+                deepest = deepest.max(deep);
+            }
+        }
+    }
+    if deepest <= SOFT {
+        return DVec3::ZERO;
+    }
+    let usual = stage.forward * 0.8 + DVec3::Y * 0.6;
+    let way = sum.try_normalize().or(palms.try_normalize());
+    way.unwrap_or(usual) * (deepest - 0.5 * SOFT)
+}
+
+/// Returns the bones of a hand in its intended pose, the middle of the palm first; `None` if its skeleton
+/// has no fingers.
+fn tubes(wanted: &Wanted<'_>, frame: usize, length: f64) -> Option<[Tube; 18]> {
+    let [_, outline] = wanted.outlines.at(frame);
+    if outline.len() < 22 {
+        return None;
+    }
+    let (turned, offset) = match wanted.wrist[frame] {
+        Some(turn) => (
+            wanted.turns[frame] * turn,
+            turn.inverse() * wanted.offsets[frame],
+        ),
+        None => (wanted.turns[frame], wanted.offsets[frame]),
+    };
+    let wrist = wanted.points[frame] - turned * offset;
+    let at = |n: usize| wrist + turned * outline[n];
+    let [finger, root, palm] = FLESH.map(|radius| radius * length);
+    let knuckle = |digit: usize| at(2 + 3 * digit);
+    let tube = |a: DVec3, b: DVec3, radius: f64| Tube {
+        ends: [a, b],
+        radius,
+    };
+    let mut all = [tube(wrist, wrist, 0.0); 18];
+    for (n, digit) in [2, 1, 4].into_iter().enumerate() {
+        all[n] = tube(wrist.lerp(knuckle(digit), 0.3), knuckle(digit), palm);
+    }
+    all[3] = tube(wrist.lerp(knuckle(0), 0.3), knuckle(0), root);
+    all[4] = tube(knuckle(0), at(3), finger);
+    all[5] = tube(at(3), shortened(at(3), at(4), finger), finger);
+    for digit in 1..5 {
+        let [mid, tip, last] = [3 + 3 * digit, 4 + 3 * digit, 17 + digit].map(at);
+        let n = 6 + 3 * (digit - 1);
+        all[n] = tube(knuckle(digit), mid, finger);
+        all[n + 1] = tube(mid, last, finger);
+        all[n + 2] = tube(last, shortened(last, tip, finger), finger);
+    }
+    Some(all)
+}
+
+/// Returns the end of a bone whose flesh ends at the tip.
+fn shortened(from: DVec3, tip: DVec3, radius: f64) -> DVec3 {
+    tip - (tip - from).clamp_length_max(radius)
+}
+
+/// Returns the shortest way from the second line, between its ends, to the first.
+fn between(a: [DVec3; 2], b: [DVec3; 2]) -> DVec3 {
+    let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
+    let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));
+    let flat = uu * vv - uv * uv;
+    let mut s = match flat > 1e-12 {
+        true => ((uv * vw - vv * uw) / flat).clamp(0.0, 1.0),
+        false => 0.0,
+    };
+    let mut t = if vv > 1e-12 { (uv * s + vw) / vv } else { 0.0 };
+    if !(0.0..=1.0).contains(&t) {
+        t = t.clamp(0.0, 1.0);
+        s = match uu > 1e-12 {
+            true => ((t * uv - uw) / uu).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+    }
+    (a[0] + u * s) - (b[0] + v * t)
+}

@@ -1,0 +1,243 @@
+//! Movement of a living body besides its notation: sway of the trunk, head and eyes that go with the hands,
+//! blinks at the boundaries of signs.
+//!
+//! The sway is a sum of waves that a seed determines: the same notation gives the same movement. Written
+//! acts of a part take its place. Hands at the face go with the head, so that no contact is lost.
+
+use std::f64::consts::TAU;
+
+use chereme_motion::Part;
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, Notated};
+
+use super::nonmanual::{self, Bent};
+use super::plan::{Plan, SignSpan};
+use super::stage::Stage;
+use super::track::Wanted;
+use crate::made::Curve;
+
+/// Shares of the sway about the axes to the left, up and forward: mostly a turn.
+const SWAY: DVec3 = DVec3::new(0.1, 1.0, 0.12);
+/// The head's own sway, as a share of the trunk's.
+const NOD: f64 = 0.7;
+/// Largest turn of the head after the hands, in radians.
+const AFTER: f64 = 0.12;
+/// Seconds over which head and eyes average the way of the hands.
+const SLOWLY: f64 = 0.3;
+/// A hand goes with the head within the first distance of its middle, and not beyond the second, in head
+/// heights.
+const AT_HEAD: [f64; 2] = [0.62, 0.8];
+/// Seconds that lids take to close and to open.
+const BLINK: [f64; 2] = [0.08, 0.14];
+/// Seconds from a blink to the next at least.
+const APART: f64 = 0.8;
+/// Angle (rad) to which an amount of 1 of a gaze amounts.
+const EYES: f64 = 0.6;
+
+/// The turns of the body in each planned frame: written acts, and the life in between.
+pub(crate) struct Alive {
+    pub(crate) bents: Vec<Bent>,
+    /// How far the eyes turn to the left and up in each frame, from -1 to 1.
+    gaze: Vec<[f64; 2]>,
+}
+
+impl Alive {
+    /// Plans how the body moves with the goals of its hands.
+    pub(crate) fn of(
+        body: &Stage,
+        signs: &[&Notated],
+        plan: &Plan,
+        language: &BodyLanguage,
+        hands: [&Wanted<'_>; 2],
+        rate: f64,
+    ) -> Self {
+        let total = hands[0].points.len();
+        let (mut bents, busy) = nonmanual::bents(signs, &plan.signs, language, rate, total);
+        let after = after(body, hands, rate);
+        let sway = language.life_sway.to_radians();
+        let period = language.life_sway_time.max(0.5);
+        for (frame, bent) in bents.iter_mut().enumerate() {
+            let time = frame as f64 / rate;
+            let busy = busy[frame];
+            let wave = |n: f64| wave(time / period, language.life_seed + n);
+            let trunk = DVec3::new(wave(1.0), wave(2.0), wave(3.0)) * SWAY * sway;
+            let head = DVec3::new(wave(4.0), wave(5.0), wave(6.0)) * (NOD * sway);
+            bent.trunk += trunk * (1.0 - busy.trunk);
+            let turned = (after[frame] * language.life_head).clamp_length_max(AFTER);
+            bent.head += (head + turned - trunk * 0.5) * (1.0 - busy.head);
+        }
+        let gaze = after.iter().map(|after| {
+            let amount = |angle: f64| (angle * language.life_gaze / EYES).clamp(-1.0, 1.0);
+            [amount(after.y), amount(-after.x)]
+        });
+        let gaze = gaze.collect();
+        Self { bents, gaze }
+    }
+
+    /// Takes hands that are at the head along with it.
+    pub(crate) fn carry(&self, body: &Stage, wanted: &mut Wanted<'_>) {
+        let Some((middle, height)) = head(body) else {
+            return;
+        };
+        for (point, bent) in wanted.points.iter_mut().zip(&self.bents) {
+            let far = point.distance(middle) / height;
+            let share = (AT_HEAD[1] - far) / (AT_HEAD[1] - AT_HEAD[0]);
+            if share <= 0.0 || !bent.turns_head() {
+                continue;
+            }
+            let share = share.min(1.0);
+            let share = share * share * (3.0 - 2.0 * share);
+            *point = point.lerp(bent.with_head(body, *point), share);
+        }
+    }
+
+    /// Returns the curves of eyes and lids in stretched time; `frames` are the planned frames. Written
+    /// acts of either take their place.
+    pub(crate) fn curves(
+        &self,
+        signs: &[&Notated],
+        spans: &[SignSpan],
+        language: &BodyLanguage,
+        rate: f64,
+        frames: &[(usize, f64)],
+    ) -> Vec<Curve> {
+        let acts = |part: NonmanualPart| {
+            let mut all = signs.iter().flat_map(|sign| sign.nonmanual.acts());
+            all.any(|(_, act)| act.part == part)
+        };
+        let mut curves = Vec::new();
+        if language.life_blink > 0.0 && !acts(NonmanualPart::Lids) {
+            let values = blinks(spans, language, rate, frames.len());
+            curves.push(Curve {
+                name: "lids.CB".to_owned(),
+                values,
+            });
+        }
+        if language.life_gaze > 0.0 && !acts(NonmanualPart::Gaze) {
+            for (name, axis, sign) in [("LE", 0, 1.0), ("RI", 0, -1.0), ("DN", 1, -1.0)] {
+                let values = frames.iter().map(|&(frame, _)| {
+                    let gaze = self.gaze[frame.min(self.gaze.len() - 1)];
+                    (gaze[axis] * sign).max(0.0)
+                });
+                let values: Vec<f64> = values.collect();
+                if values.iter().any(|value| *value > 0.02) {
+                    let name = format!("gaze.{name}");
+                    curves.push(Curve { name, values });
+                }
+            }
+        }
+        curves
+    }
+}
+
+/// Returns the middle of the head and its height in metres, on the standing body.
+fn head(body: &Stage) -> Option<(DVec3, f64)> {
+    let height = body.anatomy.measures()?.head.max(1e-3);
+    let nose = body.landmark("nose")?;
+    body.anatomy.joint(Part::Head)?;
+    Some((nose - body.forward * (0.4 * height), height))
+}
+
+/// Returns how far the hands' goals are from straight ahead of the head in each frame, as rotation vectors
+/// (left, up, forward; rad): hands that hang do not count.
+fn after(body: &Stage, hands: [&Wanted<'_>; 2], rate: f64) -> Vec<DVec3> {
+    let total = hands[0].points.len();
+    let Some((middle, _)) = head(body) else {
+        return vec![DVec3::ZERO; total];
+    };
+    let low = body.middle().y - 0.75 * body.arm;
+    let own = (0..total).map(|frame| {
+        let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
+        for hand in hands {
+            let at = hand.points[frame];
+            let share = smooth((at.y - low) / (0.2 * body.arm));
+            sum += (at - middle) * share;
+            weight += share;
+        }
+        if weight < 1e-6 {
+            return DVec3::ZERO;
+        }
+        let way = sum / weight;
+        let ahead = way.dot(body.forward).max(0.12 * body.arm);
+        let down = (-way.y).atan2(ahead.hypot(way.dot(body.left)));
+        let aside = way.dot(body.left).atan2(ahead);
+        DVec3::new(down, aside, 0.0) * weight.min(1.0)
+    });
+    let own: Vec<DVec3> = own.collect();
+    let near = ((0.5 * SLOWLY * rate) as usize).max(1);
+    averaged(&averaged(&own, near), near)
+}
+
+/// Returns running averages over `near` frames before and after.
+fn averaged(own: &[DVec3], near: usize) -> Vec<DVec3> {
+    let mut sums = vec![DVec3::ZERO; own.len() + 1];
+    for (n, value) in own.iter().enumerate() {
+        sums[n + 1] = sums[n] + *value;
+    }
+    let each = (0..own.len()).map(|n| {
+        let (from, to) = (n.saturating_sub(near), (n + near + 1).min(own.len()));
+        (sums[to] - sums[from]) / (to - from) as f64
+    });
+    each.collect()
+}
+
+/// Returns a wave without a visible period, from -1 to 1; `turns` is the time in periods.
+fn wave(turns: f64, seed: f64) -> f64 {
+    let phase = |n: f64| (seed * 12.9898 + n * 78.233).sin() * 43_758.545_3;
+    let one = |speed: f64, n: f64| (TAU * (turns * speed + phase(n).fract())).sin();
+    0.6 * one(1.0, 1.0) + 0.3 * one(1.73, 2.0) + 0.1 * one(3.1, 3.0)
+}
+
+/// Returns how far the lids are closed in each frame: at the beginning and the end of each sign, and in
+/// between if that is long.
+fn blinks(spans: &[SignSpan], language: &BodyLanguage, rate: f64, total: usize) -> Vec<f64> {
+    let mut values = vec![0.0_f64; total];
+    let mut last = f64::NEG_INFINITY;
+    let mut blink = |at: f64| {
+        if at - last < APART {
+            return;
+        }
+        last = at;
+        let [close, open] = BLINK;
+        let frames = ((at - close) * rate).max(0.0) as usize..((at + open) * rate) as usize + 1;
+        let near = values.iter_mut().enumerate();
+        for (frame, value) in near.take(frames.end).skip(frames.start) {
+            let off = frame as f64 / rate - at;
+            let share = 1.0 - if off < 0.0 { -off / close } else { off / open };
+            *value = value.max(smooth(share));
+        }
+    };
+    for span in spans {
+        let (from, to) = (span.from - 0.12, span.to + 0.06);
+        let between = ((to - from) / language.life_blink).ceil().max(1.0);
+        for n in 0..=between as usize {
+            blink(from + (to - from) * n as f64 / between);
+        }
+    }
+    values
+}
+
+fn smooth(share: f64) -> f64 {
+    let share = share.clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
+impl Bent {
+    /// Returns whether the head is turned on the trunk.
+    fn turns_head(&self) -> bool {
+        self.head != DVec3::ZERO || self.neck != DVec3::ZERO
+    }
+
+    /// Returns where a point on the standing body's head comes to when the head is turned on the trunk.
+    fn with_head(&self, body: &Stage, at: DVec3) -> DVec3 {
+        let turned = |part: Part, by: DVec3, at: DVec3| match body.anatomy.joint(part) {
+            Some(joint) => {
+                let pivot = body.model.position(joint);
+                pivot + DQuat::from_scaled_axis(body.direction(by)) * (at - pivot)
+            }
+            None => at,
+        };
+        let at = turned(Part::Head, self.head, at);
+        turned(Part::Neck, self.neck, at)
+    }
+}

@@ -1,0 +1,269 @@
+//! Tests of what makes synthesised movement look like a person's.
+
+use chereme_motion::glam::DVec3;
+use chereme_motion::{Part, Side};
+use chereme_sign::Handedness;
+use chereme_sign::hamnosys::angles::hand_angles;
+use chereme_sign::hamnosys::sites::{Face, HandPoint};
+use chereme_sign::hamnosys::{
+    Act, BodyLanguage, BodyLocation, Contact, Digit, Digits, HandClass, HandsUsed, Handshape,
+    Motion, MotionKind, NonmanualPart, Posture, Size, ThumbPosition, Zigzag,
+};
+
+use super::plan::{Phase, PhaseKind, Planner};
+use super::stage::Stage;
+use super::tests::{at, directed, mirrored, model, notated, posture, stage};
+use super::*;
+use crate::testing::Axes;
+
+fn alive(sign: &Notated) -> Made {
+    animate(&[sign], &stage(Axes::Odd), &Settings::default()).expect("it can be animated")
+}
+
+fn phases(sign: &Notated) -> Vec<Phase> {
+    let material = stage(Axes::Plain);
+    let body = Stage::of(&material).expect("a body");
+    let planner = Planner::new(&body, BodyLanguage::usual(), Handedness::Right, 60.0);
+    planner.signs(&[sign]).phases
+}
+
+fn flat(place: Option<chereme_sign::hamnosys::Place>) -> Posture {
+    posture(HandClass::Flat, "ol", "d", place)
+}
+
+#[test]
+fn a_thumb_across_lies_on_the_finger_or_palm_that_it_crosses() {
+    let cases: [(HandClass, &[Digit], Digit); 6] = [
+        (HandClass::Fist, &[], Digit::Middle),
+        (HandClass::Finger2, &[], Digit::Middle),
+        (HandClass::Finger2, &[Digit::Middle], Digit::Index),
+        (HandClass::Finger2, &[Digit::Little], Digit::Middle),
+        (HandClass::Finger23, &[], Digit::Ring),
+        (HandClass::Finger23Spread, &[], Digit::Ring),
+    ];
+    for axes in [Axes::Plain, Axes::Odd] {
+        let material = stage(axes);
+        let body = Stage::of(&material).expect("a body");
+        for side in Side::BOTH {
+            let hand = body.hand(side).expect("a hand");
+            let flesh = 0.042 * hand.length();
+            let shaped = |shape: &Handshape| {
+                let angles = hand_angles(shape, BodyLanguage::usual());
+                thumb::posed(&body, side, shape, &angles)
+            };
+            let mut shape = Handshape::default();
+            shape.form.thumb = Some(ThumbPosition::Across);
+            for (class, special, on) in cases {
+                shape.form.class = class;
+                shape.special = Digits(special.to_vec());
+                let posed = shaped(&shape);
+                let point = |point| body.point(hand, &posed, point);
+                let tip = point(HandPoint::Tip(Digit::Thumb, Face::Middle));
+                let joint = point(HandPoint::Middle(Digit::Thumb, Face::Middle));
+                let pad = tip - (tip - joint).normalize() * flesh;
+                let near = point(HandPoint::Middle(on, Face::Middle));
+                let far = body.last_joint(hand, &posed, on).expect("a joint");
+                let share = (pad - near).dot(far - near) / near.distance_squared(far);
+                let off = pad - near.lerp(far, share.clamp(0.0, 1.0));
+                let gap = off.length() - 2.0 * flesh;
+                assert!(
+                    gap.abs() < 3e-3,
+                    "{class:?} {special:?}: {:.1} mm",
+                    gap * 1e3
+                );
+                assert!(
+                    off.dot(hand.palm) > 0.0,
+                    "{class:?}: in front of the finger"
+                );
+            }
+            shape.form.class = HandClass::Flat;
+            shape.special = Digits::default();
+            let posed = shaped(&shape);
+            let tip = body.point(hand, &posed, HandPoint::Tip(Digit::Thumb, Face::Middle));
+            let base = body.point(hand, &posed, HandPoint::Base(Digit::Middle, Face::Middle));
+            assert!(tip.dot(hand.radial) < base.dot(hand.radial) + 3e-3);
+            let height = tip.dot(hand.palm) / hand.length();
+            assert!((0.09..0.14).contains(&height), "on the palm: {height}");
+        }
+    }
+}
+
+#[test]
+fn an_approach_is_no_faster_than_the_stroke_it_leads_to() {
+    for size in [None, Some(Size::Big)] {
+        let mut up = directed("u");
+        if let MotionKind::Directed(directed) = &mut up.kind {
+            directed.size.first = size;
+        }
+        let sign = notated(
+            HandsUsed::Dominant,
+            flat(Some(at(BodyLocation::Chest, None))),
+            vec![up],
+        );
+        let made = alive(&sign);
+        let hand = made.anatomy.joint(Part::Hand(Side::Right)).expect("a hand");
+        let top = |phase: &Phase| {
+            let frames = (phase.from * 60.0) as usize..(phase.to * 60.0) as usize;
+            let at = |frame: usize| made.clip.model_pose(frame).position(hand);
+            let steps = frames.map(|frame| at(frame).distance(at(frame + 1)) * 60.0);
+            steps.fold(0.0, f64::max)
+        };
+        let phases = phases(&sign);
+        let of = |kind: PhaseKind| phases.iter().find(|phase| phase.kind == kind);
+        let approach = top(of(PhaseKind::Transition).expect("an approach"));
+        let stroke = top(of(PhaseKind::Stroke).expect("a stroke"));
+        assert!(approach < 1.1 * stroke, "{size:?}: {approach} {stroke}");
+    }
+}
+
+#[test]
+fn a_body_lives_and_can_be_kept_still() {
+    let sign = notated(
+        HandsUsed::Dominant,
+        flat(Some(at(BodyLocation::Chest, None))),
+        vec![directed("u")],
+    );
+    let turned = |made: &Made, part: Part| {
+        let joint = made.anatomy.joint(part).expect("a joint");
+        let first = made.clip.model_pose(0).rotation(joint);
+        let all = (0..made.clip.frames()).map(|frame| {
+            let now = made.clip.model_pose(frame).rotation(joint);
+            now.angle_between(first).to_degrees()
+        });
+        all.fold(0.0, f64::max)
+    };
+    let made = alive(&sign);
+    for part in [Part::Chest, Part::Head] {
+        let most = turned(&made, part);
+        assert!((0.2..10.0).contains(&most), "{part:?}: {most}");
+    }
+    let lids = made.curves.iter().find(|curve| curve.name == "lids.CB");
+    let lids = &lids.expect("blinks").values;
+    assert_eq!(lids.len(), made.clip.frames());
+    assert!(lids.iter().any(|lid| *lid > 0.9) && lids[0] == 0.0);
+    assert_eq!(made, alive(&sign), "the same again");
+    let still = Settings {
+        language: BodyLanguage::usual().without_life(),
+        ..Settings::default()
+    };
+    let still = animate(&[&sign], &stage(Axes::Odd), &still).expect("made");
+    for part in [Part::Chest, Part::Head] {
+        assert!(turned(&still, part) < 1e-6);
+    }
+    assert!(still.curves.is_empty());
+}
+
+#[test]
+fn waves_go_to_and_fro_at_most_four_times_a_second() {
+    for fast in [false, true] {
+        let mut wave = directed("l");
+        wave.manner.fast = fast;
+        if let MotionKind::Directed(directed) = &mut wave.kind {
+            directed.zigzag = Some(Zigzag {
+                wavy: true,
+                size: None,
+                growth: None,
+            });
+        }
+        let sign = notated(
+            HandsUsed::Dominant,
+            flat(Some(at(BodyLocation::Chest, None))),
+            vec![wave],
+        );
+        let phases = phases(&sign);
+        let stroke = phases.iter().find(|phase| phase.kind == PhaseKind::Stroke);
+        let stroke = stroke.expect("a stroke");
+        let rate = BodyLanguage::usual().zigzag_waves / (stroke.to - stroke.from);
+        assert!((2.5..=4.0).contains(&rate), "{rate}");
+    }
+}
+
+#[test]
+fn a_movement_with_a_target_starts_in_its_direction_and_ends_there() {
+    let goal = Posture {
+        place: Some(at(BodyLocation::Chin, Some(Contact::Touch))),
+        ..Posture::default()
+    };
+    let target = Motion::new(MotionKind::Target {
+        motion: Some(Box::new(directed("l"))),
+        posture: Box::new(goal),
+    });
+    let begin = posture(
+        HandClass::Finger2,
+        "u",
+        "l",
+        Some(at(BodyLocation::Stomach, None)),
+    );
+    let made = alive(&notated(HandsUsed::Dominant, begin, vec![target]));
+    let tip = |share: f64| {
+        let model = model(&made, share);
+        let skeleton = made.clip.skeleton();
+        made.anatomy
+            .landmark(skeleton, &model, "right-index-tip")
+            .expect("a fingertip")
+    };
+    let early = tip(0.4) - tip(0.0);
+    assert!(early.x > early.y.abs(), "to the left: {early}");
+    let model = model(&made, 0.9);
+    let chin = made.anatomy.landmark(made.clip.skeleton(), &model, "chin");
+    let off = chin.expect("a chin").distance(tip(0.9));
+    assert!(off < 0.03, "{off}");
+}
+
+#[test]
+fn a_hand_at_the_face_goes_with_the_head() {
+    let touch = at(BodyLocation::Chin, Some(Contact::Touch));
+    let mut sign = notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Finger2, "ul", "l", Some(touch)),
+        vec![],
+    );
+    let off = |made: &Made| {
+        let model = model(made, 0.5);
+        let place = |name: &str| {
+            let skeleton = made.clip.skeleton();
+            made.anatomy
+                .landmark(skeleton, &model, name)
+                .expect("a landmark")
+        };
+        let head = made.anatomy.joint(Part::Head).expect("a head");
+        let way: DVec3 = place("right-index-tip") - place("chin");
+        model.rotation(head).inverse() * way
+    };
+    let straight = off(&alive(&sign));
+    for tag in ["SL", "TR", "NF"] {
+        sign.nonmanual.tiers.clear();
+        let act = Act::new(NonmanualPart::Head, tag);
+        sign.nonmanual.push(NonmanualPart::Head.tier(), vec![act]);
+        let turned = off(&alive(&sign));
+        let apart = turned.length() - straight.length();
+        assert!(apart.abs() < 0.015, "{tag}: {apart}");
+    }
+}
+
+#[test]
+fn two_hands_do_not_merge() {
+    let begin = posture(
+        HandClass::Flat,
+        "o",
+        "d",
+        Some(at(BodyLocation::Chest, None)),
+    );
+    let mut across = directed("l");
+    if let MotionKind::Directed(directed) = &mut across.kind {
+        directed.size.first = Some(Size::Small);
+    }
+    let made = alive(&notated(mirrored(), begin, vec![across.clone(), across]));
+    let joints = |side: Side, frame: usize| {
+        let model = made.clip.model_pose(frame);
+        let digits = [1, 2].map(|n| Part::Finger(side, chereme_motion::Finger::Index, n));
+        digits.map(|part| model.position(made.anatomy.joint(part).expect("a joint")))
+    };
+    let nearest = (0..made.clip.frames()).flat_map(|frame| {
+        let [a, b] = Side::BOTH.map(|side| joints(side, frame));
+        a.into_iter()
+            .flat_map(move |a| b.into_iter().map(move |b| a.distance(b)))
+    });
+    let nearest = nearest.fold(f64::INFINITY, f64::min);
+    assert!(nearest > 0.011, "{nearest}");
+}
