@@ -121,6 +121,18 @@ fn deviations_are_read_and_told_with_their_line() {
             r#"4: <handconfig palmor="o">: the value means nothing; it was left out"#,
         ),
         (
+            r#"<handconfig extfidir="u"/><handconfig palmor="o"/>"#,
+            r#"4: palmor="o" is none of the eight directions; on a hand that points so it was read as "d""#,
+        ),
+        (
+            r#"<handconfig extfidir="l" palmor="i"/>"#,
+            r#"4: palmor="i" is none of the eight directions; on a hand that points so it was read as "l""#,
+        ),
+        (
+            r#"<handconfig handshape="flat" successivefingers="towards_pinky"/>"#,
+            r#"4: successivefingers="towards_pinky": the fingers change all at once"#,
+        ),
+        (
             r#"<handconfig palmor="d" abs_palmor="true"/>"#,
             "4: <handconfig> says what its palmor is relative to, which few programs read",
         ),

@@ -7,7 +7,8 @@
 //! `... -- blind FOLDER BODY.bvh` exports each sign as BVH, and transcribes that as any other capture;
 //! `... -- why FEATURE FOLDER BODY.bvh` prints where it is not, `... -- confusions FEATURE ...` counts what
 //! is taken for what, both in the half that is tuned on. In place of the folder a text file with a sign a line in
-//! HamNoSys characters will do. All are animated at the body's own frames a second, or at as many as stand behind it.
+//! HamNoSys characters will do. All are animated at the body's own frames a second, or at as many as stand behind it;
+//! a file of body language behind it (`.json`) replaces numbers of the animator, not of the transcriber.
 //! `... -- movement FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
 
 #![allow(clippy::print_stdout)]
@@ -21,6 +22,7 @@ mod notation;
 use std::error::Error;
 use std::path::Path;
 
+use chereme_compose::notation::Settings;
 use notation::More;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
@@ -47,11 +49,15 @@ fn main() -> Result<()> {
     }
 }
 
-fn closed(folder: &str, body: &str, rate: &[&str], more: More<'_>) -> Result<()> {
-    let rate = match rate {
-        [] => None,
-        [rate] => Some(rate.parse()?),
-        [_, more @ ..] => return Err(format!("{more:?} is too much").into()),
-    };
-    notation::table(Path::new(folder), Path::new(body), rate, more)
+fn closed(folder: &str, body: &str, words: &[&str], more: More<'_>) -> Result<()> {
+    let mut settings = Settings::default();
+    let mut rate = None;
+    for word in words {
+        if word.ends_with(".json") {
+            settings.language = settings.language.with_file(&std::fs::read_to_string(word)?)?;
+        } else {
+            rate = Some(word.parse()?);
+        }
+    }
+    notation::table(Path::new(folder), Path::new(body), (rate, settings), more)
 }

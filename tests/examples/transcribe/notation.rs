@@ -50,14 +50,19 @@ impl Counts {
 }
 
 /// Prints how often each feature is found again.
-pub(crate) fn table(folder: &Path, body: &Path, rate: Option<u32>, more: More<'_>) -> Result<()> {
+pub(crate) fn table(
+    folder: &Path,
+    body: &Path,
+    (rate, settings): (Option<u32>, Settings),
+    more: More<'_>,
+) -> Result<()> {
     let stage = bodies::stage(body)?;
     let settings = Settings {
         rate: match rate {
             Some(rate) => Rate::new(rate, 1)?,
             None => stage.clip.rate(),
         },
-        ..Settings::default()
+        ..settings
     };
     let options = match more {
         More::Blind => Options::default(),
@@ -227,6 +232,8 @@ pub(crate) struct Again {
     pub(crate) anatomy: Arc<Anatomy>,
     /// Whether the body fell short of what is written.
     pub(crate) short: bool,
+    /// The frame in which the animator reaches the first posture, if the transcriber had to find it.
+    pub(crate) begins: Option<usize>,
     /// How long it took to transcribe.
     seconds: f64,
 }
@@ -253,7 +260,7 @@ fn again(
         .find(|note| note.about == chereme_compose::About::Gloss)?
         .span;
     if more == More::Blind {
-        return blind(made, options);
+        return blind(made, span, options);
     }
     let rate = made.clip.rate();
     let (first, last) = (rate.frame_at(span.start()), rate.frame_at(span.end()));
@@ -271,13 +278,15 @@ fn again(
         clip,
         anatomy: made.anatomy,
         short,
+        begins: None,
         seconds,
     })
 }
 
 /// Exports movement as BVH, imports it without its notation, and transcribes that as a capture.
-fn blind(made: chereme_compose::Made, options: &Options) -> Option<Again> {
+fn blind(made: chereme_compose::Made, span: Span, options: &Options) -> Option<Again> {
     let short = is_short(&made);
+    let begins = made.clip.rate().frame_at(span.start());
     let (clip, anatomy) = bodies::again(&made.clip).ok()?;
     let began = Clock::now();
     let found = transcribe(&clip, &anatomy, options).ok()?;
@@ -287,6 +296,7 @@ fn blind(made: chereme_compose::Made, options: &Options) -> Option<Again> {
         clip,
         anatomy,
         short,
+        begins: Some(begins),
         seconds,
     })
 }

@@ -7,6 +7,9 @@ use glam::{DMat3, DQuat, DVec3};
 use super::shape::Known;
 use super::{MADE, Options, TranscribeError};
 
+/// The number of frames that show which arms rest.
+const LOOKED_AT: usize = 48;
+
 /// The signer, with the dominant hand first.
 ///
 /// Vectors are to the signer's left, up and forward, level with the ground, in metres from the middle of
@@ -170,24 +173,32 @@ impl<'a> Scene<'a> {
         Ok(scene)
     }
 
-    /// Returns the side of the only arm that signs: the other rests in at least two of the first, middle
-    /// and last frame.
+    /// Returns the side of the only arm that signs: the other rests in most of the frames in which an arm does not.
     fn lone_arm(&self) -> Option<Side> {
-        let last = self.clip.frames() - 1;
-        let mut resting = [0, 0];
-        for frame in [0, last / 2, last] {
+        let step = self.clip.frames().div_ceil(LOOKED_AT);
+        let (mut signing, mut both) = ([0, 0], 0);
+        for frame in (0..self.clip.frames()).step_by(step) {
             let model = self.clip.model_pose(frame);
             let axes = Axes::of(self.anatomy, None, &model, self.dominant)?;
-            for (count, side) in resting.iter_mut().zip(Side::BOTH) {
+            let mut hangs = [false; 2];
+            for (hangs, side) in hangs.iter_mut().zip(Side::BOTH) {
                 let arm = self.anatomy.arm(side)?;
                 let reach = model.position(arm.hand) - model.position(arm.upper);
-                *count += usize::from(self.hangs(axes.direction(reach)));
+                *hangs = self.hangs(axes.direction(reach));
+            }
+            match hangs {
+                [true, true] => {}
+                [false, false] => both += 1,
+                [right, _] => signing[usize::from(right)] += 1,
             }
         }
-        match resting {
-            [0 | 1, 2 | 3] => Some(Side::Right),
-            [2 | 3, 0 | 1] => Some(Side::Left),
-            _ => None,
+        let [right, left] = signing;
+        if right > 2 * (both + left) {
+            Some(Side::Right)
+        } else if left > 2 * (both + right) {
+            Some(Side::Left)
+        } else {
+            None
         }
     }
 

@@ -27,6 +27,9 @@ const SLOWLY: f64 = 0.3;
 /// A hand goes with the head within the first distance of its middle, and not beyond the second, in head
 /// heights.
 const AT_HEAD: [f64; 2] = [0.62, 0.8];
+/// A head does not go after hands within the first distance of its middle, and fully after hands beyond the
+/// second, in head heights: who touches the own face keeps it still.
+const AWAY: [f64; 2] = [1.1, 1.7];
 /// Seconds that lids take to close and to open.
 const BLINK: [f64; 2] = [0.08, 0.14];
 /// Seconds from a blink to the next at least.
@@ -142,14 +145,16 @@ fn head(body: &Stage) -> Option<(DVec3, f64)> {
 /// (left, up, forward; rad): hands that hang do not count.
 fn after(body: &Stage, hands: [&Wanted<'_>; 2], rate: f64) -> Vec<DVec3> {
     let total = hands[0].points.len();
-    let Some((middle, _)) = head(body) else {
+    let Some((middle, height)) = head(body) else {
         return vec![DVec3::ZERO; total];
     };
     let low = body.middle().y - 0.75 * body.arm;
     let own = (0..total).map(|frame| {
-        let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
+        let (mut sum, mut weight, mut away) = (DVec3::ZERO, 0.0, 1.0_f64);
         for hand in hands {
             let at = hand.points[frame];
+            let far = at.distance(middle) / height;
+            away = away.min(smooth((far - AWAY[0]) / (AWAY[1] - AWAY[0])));
             let share = smooth((at.y - low) / (0.2 * body.arm));
             sum += (at - middle) * share;
             weight += share;
@@ -161,7 +166,7 @@ fn after(body: &Stage, hands: [&Wanted<'_>; 2], rate: f64) -> Vec<DVec3> {
         let ahead = way.dot(body.forward).max(0.12 * body.arm);
         let down = (-way.y).atan2(ahead.hypot(way.dot(body.left)));
         let aside = way.dot(body.left).atan2(ahead);
-        DVec3::new(down, aside, 0.0) * weight.min(1.0)
+        DVec3::new(down, aside, 0.0) * (weight.min(1.0) * away)
     });
     let own: Vec<DVec3> = own.collect();
     let near = ((0.5 * SLOWLY * rate) as usize).max(1);

@@ -4,7 +4,7 @@ use super::raw::{Element, shown};
 use super::words::Word;
 use crate::finding::Finding;
 use crate::tally::Findings;
-use chereme_sign::hamnosys::{Bend, Compass, Digit, Digits, Direction};
+use chereme_sign::hamnosys::{Bend, Compass, Digit, Digits, Direction, orientation};
 
 /// An element whose attributes are read one by one.
 pub(super) struct Node<'e, 'f> {
@@ -158,6 +158,49 @@ impl<'e, 'f> Node<'e, 'f> {
                 });
         }
         Some(compass)
+    }
+
+    /// Like [`compass`](Self::compass), for the palm of a hand that points in a direction: a palm that only faces
+    /// out or in, towards or away from the signer, is the nearest of the eight about that direction.
+    pub(super) fn palm(&mut self, name: &str, pointing: Option<Direction>) -> Option<Compass> {
+        let text = self.text(name)?;
+        let faces = match text.trim().to_ascii_lowercase().as_str() {
+            "o" => [0.0, 0.0, 1.0],
+            "i" => [0.0, 0.0, -1.0],
+            _ => return self.compass(name),
+        };
+        let near = |compass: &Compass, along: [f64; 3]| {
+            let palm = orientation::palm(along, compass.angle());
+            palm.iter().zip(faces).map(|(a, b)| a * b).sum::<f64>()
+        };
+        let along = pointing.map(Direction::vector);
+        let nearest = along.and_then(|along| {
+            let all = Compass::ALL.into_iter().map(|it| (it, near(&it, along)));
+            let best = all.max_by(|a, b| a.1.total_cmp(&b.1));
+            best.filter(|(_, share)| *share > 0.3)
+        });
+        let Some((compass, _)) = nearest else {
+            return self.compass(name);
+        };
+        self.findings.add("palms that face out or in", || {
+            let (line, text) = (self.element.line.0, shown(text));
+            let message = format!(
+                "{name}={text:?} is none of the eight directions; on a hand that points so it was read as \"{compass}\""
+            );
+            Finding::note(line, message).with_remedy(format!("write {name}=\"{compass}\""))
+        });
+        Some(compass)
+    }
+
+    /// Reports fingers that change one after the other, which the tree of a sign does not hold.
+    pub(super) fn successive(&mut self, name: &str) {
+        let Some(text) = self.text(name) else { return };
+        self.findings.add("fingers that change one after the other", || {
+            let (line, text) = (self.element.line.0, shown(text));
+            let message = format!("{name}={text:?}: the fingers change all at once");
+            Finding::note(line, message)
+                .with_remedy("write one <changeposture> for each finger, if their order matters")
+        });
     }
 
     /// Returns a bend: a word, or three numbers from 0 to 4.

@@ -44,6 +44,9 @@ pub(in crate::transcribe) const LAP: f64 = -0.65;
 /// A hand leaves the lap if it rises by more than this (arm lengths).
 const RISE: f64 = 0.4;
 
+/// A path from or to rest ends within this time (s) of the minimum of the smoothed speed.
+const NEAR: f64 = 0.1;
+
 /// Returns the frames in which a hand signs, without its paths from and to rest.
 pub(in crate::transcribe) fn signing(scene: &Scene<'_>, track: &Track) -> RangeInclusive<usize> {
     let last = track.palm.len() - 1;
@@ -77,7 +80,7 @@ pub(in crate::transcribe) fn signing(scene: &Scene<'_>, track: &Track) -> RangeI
         while n + 1 < ways.len() && on(&ways[n], &ways[n + 1]) {
             n += 1;
         }
-        first = *ways[n].end();
+        first = stillest(scene, &speeds, *ways[n].end());
     }
     let sinks = |n: &usize| {
         let way = ways.get(*n);
@@ -89,9 +92,18 @@ pub(in crate::transcribe) fn signing(scene: &Scene<'_>, track: &Track) -> RangeI
         while n > 0 && *ways[n - 1].start() >= first && on(&ways[n - 1], &ways[n]) {
             n -= 1;
         }
-        end = *ways[n].start();
+        end = stillest(scene, &speeds, *ways[n].start());
     }
     first..=end.max(first)
+}
+
+/// Returns the frame in which the hand is slowest, near a minimum of its smoothed speed: smoothing moves the minimum
+/// away from the faster of the two paths that meet there.
+fn stillest(scene: &Scene<'_>, speeds: &[f64], at: usize) -> usize {
+    let reach = scene.frames(NEAR);
+    let near = at.saturating_sub(reach)..(at + reach + 1).min(speeds.len());
+    near.min_by(|&a, &b| speeds[a].total_cmp(&speeds[b]))
+        .unwrap_or(at)
 }
 
 /// Returns the stretches in which the hand moves, cut at minima of its speed, and the speed (m/s) in each

@@ -35,7 +35,8 @@ impl<'e> Reader<'e> {
     pub(super) fn take(&mut self, element: &Element<'_>, findings: &mut Findings) {
         match &*element.name {
             "handconfig" => {
-                let hand = Hand::read(element, findings);
+                let known = self.posture.extended.dominant().copied();
+                let hand = Hand::read(element, known, findings);
                 let own = Posture {
                     shape: shared(hand.shape),
                     extended: shared(hand.extended),
@@ -110,7 +111,12 @@ struct Hand {
 }
 
 impl Hand {
-    fn read(element: &Element<'_>, findings: &mut Findings) -> Self {
+    /// Reads an element; `known` is the direction that was read before it.
+    fn read(
+        element: &Element<'_>,
+        known: Option<Aim<Direction>>,
+        findings: &mut Findings,
+    ) -> Self {
         for child in &element.children {
             unexpected(child, element, findings);
         }
@@ -119,10 +125,12 @@ impl Hand {
             let second = node.direction("second_extfidir");
             aim_of(first, second, &mut node, "extfidir")
         });
-        let palm = node.compass("palmor").map(|first| {
+        let pointing = extended.or(known).map(|aim| aim.first);
+        let palm = node.palm("palmor", pointing).map(|first| {
             let second = node.compass("second_palmor");
             aim_of(first, second, &mut node, "palmor")
         });
+        node.successive("successivefingers");
         let hand = Self {
             shape: handshape(&mut node),
             extended,
@@ -225,7 +233,7 @@ fn split_hands(element: &Element<'_>, findings: &mut Findings) -> Posture {
     let mut hands = Vec::new();
     for child in &element.children {
         if child.name == "handconfig" && hands.len() < 2 {
-            hands.push(Hand::read(child, findings));
+            hands.push(Hand::read(child, None, findings));
         } else {
             unexpected(child, element, findings);
         }

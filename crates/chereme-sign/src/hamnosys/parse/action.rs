@@ -186,7 +186,7 @@ impl Parser<'_> {
         while let Some(Kind::Growth { .. }) = self.peek() {
             self.drop(
                 "fingers that change one after the other are not in the tree",
-                "nothing is lost in the text",
+                "write one hamreplace for each finger, if their order matters",
             );
         }
     }
