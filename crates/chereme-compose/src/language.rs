@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Language {
-    /// `measured` in the corpus, or the file; empty where everything is as usual.
+    /// `measured` in the corpus, `quiet`, or the file; empty where everything is as usual.
     #[serde(default)]
     pub from: String,
     /// Numbers by the names of [`BodyLanguage::NAMES`].
@@ -40,6 +40,31 @@ pub struct LanguageValue {
 }
 
 impl Language {
+    /// Returns the usual numbers without sway, blinks and the help of head, eyes and shoulders.
+    #[must_use]
+    pub fn quiet() -> Self {
+        let (usual, still) = (BodyLanguage::usual(), BodyLanguage::usual().without_life());
+        let names = BodyLanguage::NAMES.iter().map(|(name, _)| *name);
+        let changed = names.filter_map(|name| {
+            let value = still
+                .value(name)
+                .filter(|value| usual.value(name) != Some(*value))?;
+            let of = "a quiet body".to_owned();
+            let value = LanguageValue {
+                value,
+                quartiles: None,
+                count: 0,
+                of,
+            };
+            Some((name.to_owned(), value))
+        });
+        Self {
+            from: "quiet".to_owned(),
+            values: changed.collect(),
+            places: BTreeMap::new(),
+        }
+    }
+
     /// Returns whether every number is the usual one.
     #[must_use]
     pub fn is_usual(&self) -> bool {
@@ -94,6 +119,14 @@ impl Language {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_quiet_body_language_is_the_usual_one_without_life() {
+        let quiet = Language::quiet();
+        let whole = quiet.whole().expect("known names");
+        assert_eq!(whole, BodyLanguage::usual().without_life());
+        assert!(!quiet.is_usual() && quiet.told()[0].contains("a quiet body"));
+    }
 
     #[test]
     fn what_is_measured_is_told_with_its_spread_and_takes_the_place_of_the_usual() {

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use chereme_compose::Material;
 use chereme_formats::bvh::convert::{self, ClipBuilder};
 use chereme_formats::bvh::raw::{Block, ChannelFix, Decimal, Number, Reader, Writer};
+use chereme_formats::{Finding, Severity};
 use chereme_motion::{Anatomy, Clip};
 use chereme_sign::Handedness;
 use chereme_sign::hamnosys::Notated;
@@ -97,7 +98,7 @@ pub(crate) fn signs(folder: &Path) -> Result<Vec<(String, Notated)>> {
     Ok(all.map(|(name, notated, _)| (name, notated)).collect())
 }
 
-/// Like [`signs`], each with the number of findings of its file.
+/// Like [`signs`], each with the number of warnings about its file.
 pub(crate) fn signs_with_findings(folder: &Path) -> Result<Vec<(String, Notated, usize)>> {
     let mut paths: Vec<_> = std::fs::read_dir(folder)?
         .map(|entry| entry.map(|entry| entry.path()))
@@ -113,7 +114,9 @@ pub(crate) fn signs_with_findings(folder: &Path) -> Result<Vec<(String, Notated,
             .into_owned();
         let (entries, findings) = chereme_formats::sigml::read(&std::fs::read(&path)?)?;
         let each = entries.into_iter();
-        all.extend(each.map(|entry| (name.clone(), entry.sign, findings.len())));
+        let warning = |it: &&Finding| it.severity == Severity::Warning;
+        let warnings = findings.iter().filter(warning).count();
+        all.extend(each.map(|entry| (name.clone(), entry.sign, warnings)));
     }
     Ok(all)
 }

@@ -11,6 +11,20 @@ use chereme_figure::writer::write_png;
 
 use crate::{Result, bodies};
 
+/// Returns the names of `count` signs of a folder that a seed chooses, in the order of the folder.
+pub(crate) fn chosen(folder: &Path, count: usize, seed: u64) -> Result<Vec<String>> {
+    let mut names: Vec<String> = bodies::signs(folder)?.into_iter().map(|it| it.0).collect();
+    names.dedup();
+    let mut state = seed;
+    while names.len() > count {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        names.remove((state >> 33) as usize % names.len());
+    }
+    Ok(names)
+}
+
 /// Draws a sheet `GLOSS.png` in `out` for each of these signs.
 pub(crate) fn sheets(folder: &Path, body: &Path, out: &Path, glosses: &[&str]) -> Result<()> {
     std::fs::create_dir_all(out)?;

@@ -599,21 +599,23 @@ pub(crate) fn count(folder: &Path, body: &str, every: usize, into: Option<&Path>
             some.join(", ")
         );
     }
-    for (what, all) in &mut times {
-        all.sort_by(f64::total_cmp);
-        let at = |share: f64| all[((all.len() - 1) as f64 * share) as usize];
-        println!(
-            "{what}: median {:.2}, quartiles {:.2} and {:.2}",
-            at(0.5),
-            at(0.25),
-            at(0.75)
-        );
-    }
+    let times: Vec<String> = times.into_iter().map(spread).collect();
+    let times = times.join("; ");
+    println!("{times}");
     if let Some(path) = into {
         let text = std::fs::read_to_string(path)?;
-        std::fs::write(path, written(&text, &counts)?)?;
+        let said = format!("{signs} signs. Of those whose stroke moves the wrist: {times}.");
+        std::fs::write(path, written(&text, &said, &counts)?)?;
     }
     Ok(())
+}
+
+/// Returns the median and the quartiles of some numbers in words.
+fn spread((what, mut all): (&str, Vec<f64>)) -> String {
+    all.sort_by(f64::total_cmp);
+    let at = |share: f64| all[((all.len() - 1) as f64 * share) as usize];
+    let [low, middle, high] = [0.25, 0.5, 0.75].map(at);
+    format!("{what}: {middle:.2} ({low:.2} to {high:.2})")
 }
 
 fn see<'a>(
@@ -643,8 +645,8 @@ fn see<'a>(
     })
 }
 
-/// Returns the text with today's counts in the table between the marks.
-fn written(text: &str, counts: &[Count]) -> Result<String> {
+/// Returns the text with today's counts in the table between the marks, `said` above it.
+fn written(text: &str, said: &str, counts: &[Count]) -> Result<String> {
     let [open, close] = MARKS;
     let (head, rest) = text
         .split_once(open)
@@ -667,5 +669,5 @@ fn written(text: &str, counts: &[Count]) -> Result<String> {
         let before = known.get(what).copied().unwrap_or(now.as_str());
         table.push_str(&format!("| {what} | {before} | {now} | {} |\n", count.of));
     }
-    Ok(format!("{head}{open}\n{table}\n{close}{tail}"))
+    Ok(format!("{head}{open}\n{said}\n{table}\n{close}{tail}"))
 }

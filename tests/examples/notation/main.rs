@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p chereme-tests --example notation -- table FOLDER BODY.bvh...` animates every `.sigml`
 //! file of a folder on each body and prints the result. `... -- draw FOLDER BODY.bvh OUT GLOSS...` draws contact
-//! sheets of some. `... -- list FOLDER BODY.bvh` prints a line for each sign: its worst values, and its report.
+//! sheets of some, `... -- draw random COUNT SEED FOLDER BODY.bvh OUT` of signs that a seed chooses. `... -- list FOLDER BODY.bvh` prints a line for each sign: its worst values, and its report.
 //! `... -- faults FOLDER BODY.bvh [FILE.md]` counts faults that make movement look unlike a person's, and writes
 //! the table between the marks of a file; `sample N` after `faults` takes one sign out of N.
 
@@ -31,11 +31,24 @@ fn main() -> Result<()> {
         ["faults", "sample", every, folder, body] => {
             faults::count(Path::new(folder), body, every.parse::<usize>()?.max(1), None)
         }
+        ["faults", "sample", every, folder, body, into] => faults::count(
+            Path::new(folder),
+            body,
+            every.parse::<usize>()?.max(1),
+            Some(Path::new(into)),
+        ),
         ["faults", folder, body] => faults::count(Path::new(folder), body, 1, None),
         ["faults", folder, body, into] => {
             faults::count(Path::new(folder), body, 1, Some(Path::new(into)))
         }
         ["list", folder, body] => table::list(Path::new(folder), body),
+        ["draw", "random", count, seed, folder, body, out] => {
+            let folder = Path::new(folder);
+            let glosses = draw::chosen(folder, count.parse()?, seed.parse()?)?;
+            println!("{}", glosses.join(" "));
+            let glosses: Vec<&str> = glosses.iter().map(String::as_str).collect();
+            draw::sheets(folder, Path::new(body), Path::new(out), &glosses)
+        }
         ["draw", folder, body, out, glosses @ ..] => {
             draw::sheets(Path::new(folder), Path::new(body), Path::new(out), glosses)
         }

@@ -57,7 +57,7 @@ pub(crate) fn table(takes: &[Take]) -> String {
             let own = phases(take).strokes.into_iter();
             own.map(|it| Stroke {
                 file: &take.file,
-                path: &take.path[it.frames.start..=it.frames.end],
+                path: &take.path[it.whole.start..=it.whole.end],
             })
         })
         .filter(|it| it.path[0].distance(it.path[it.path.len() - 1]) > LEAST)

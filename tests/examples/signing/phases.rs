@@ -17,7 +17,10 @@ const FAR: f64 = 0.12;
 
 /// A stretch of movement between two minima of speed.
 pub(crate) struct Stretch {
+    /// The frames in which the speed is above a tenth of its peak.
     pub(crate) frames: Range<usize>,
+    /// The frames from the minimum of speed before to the one after.
+    pub(crate) whole: Range<usize>,
     /// Its top speed in metres per second.
     pub(crate) peak: f64,
     /// Its length in metres.
@@ -64,7 +67,12 @@ fn stretches(take: &Take) -> Vec<Stretch> {
     let mut cuts = vec![0];
     cuts.extend((1..last).filter(|&n| speeds[n] <= speeds[n - 1] && speeds[n] < speeds[n + 1]));
     cuts.push(last);
-    let peak = |range: &Range<usize>| speeds[range.start..=range.end].iter().copied().fold(0.0, f64::max);
+    let peak = |range: &Range<usize>| {
+        speeds[range.start..=range.end]
+            .iter()
+            .copied()
+            .fold(0.0, f64::max)
+    };
     let mut parts: Vec<Range<usize>> = cuts.windows(2).map(|two| two[0]..two[1]).collect();
     let mut n = 0;
     while n + 1 < parts.len() {
@@ -83,8 +91,17 @@ fn stretches(take: &Take) -> Vec<Stretch> {
         let start = (range.start..=range.end).find(moves)?;
         let end = (range.start..=range.end).rev().find(moves)?;
         let length = speeds[start..=end].iter().sum::<f64>() / RATE;
+        let falls = |n: usize, next: usize| range.contains(&next) && speeds[next] < speeds[n];
+        let (mut first, mut last) = (start, end);
+        while first > 0 && falls(first, first - 1) {
+            first -= 1;
+        }
+        while falls(last, last + 1) {
+            last += 1;
+        }
         (peak > LEAST.0 && length > LEAST.1 && end > start).then_some(Stretch {
             frames: start..end,
+            whole: first..last,
             peak,
             length,
         })
@@ -98,10 +115,18 @@ pub(crate) fn table(takes: &[Take]) -> String {
     let approaches: Vec<&Stretch> = all.iter().filter_map(|it| it.approach.as_ref()).collect();
     let backs: Vec<&Stretch> = all.iter().filter_map(|it| it.back.as_ref()).collect();
     let strokes: Vec<&Stretch> = all.iter().flat_map(|it| &it.strokes).collect();
-    let short: Vec<&Stretch> = strokes.iter().copied().filter(|it| it.length < 0.1).collect();
+    let short: Vec<&Stretch> = strokes
+        .iter()
+        .copied()
+        .filter(|it| it.length < 0.1)
+        .collect();
     let mid = |it: &&&Stretch| (0.1..0.2).contains(&it.length);
     let middle: Vec<&Stretch> = strokes.iter().filter(mid).copied().collect();
-    let long: Vec<&Stretch> = strokes.iter().copied().filter(|it| it.length >= 0.2).collect();
+    let long: Vec<&Stretch> = strokes
+        .iter()
+        .copied()
+        .filter(|it| it.length >= 0.2)
+        .collect();
     let mut text = format!(
         "{} hands of {} files; medians with quartiles.\n\n\
          | phase | count | duration, s | top speed, m/s | path, m | top speed against mean |\n\

@@ -31,7 +31,11 @@ pub(crate) struct Take {
 pub(crate) fn read(path: &Path) -> Result<Vec<Take>> {
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let is_pose = path.extension().is_some_and(|ending| ending == "pose");
-    let (rate, wrists) = if is_pose { film(path)? } else { skeleton(path)? };
+    let (rate, wrists) = if is_pose {
+        film(path)?
+    } else {
+        skeleton(path)?
+    };
     let takes = wrists.into_iter().filter_map(|wrist| {
         let path = smoothed(&resampled(&wrist, rate));
         let last = path.len().checked_sub(1)?;
@@ -69,14 +73,16 @@ fn film(path: &Path) -> Result<(f64, Vec<Vec<DVec3>>)> {
         return Err("shoulders without width".into());
     }
     let middle = pairs.iter().map(|[a, b]| (*a + *b) / 2.0).sum::<DVec3>() / pairs.len() as f64;
-    let wrists = ["LEFT_WRIST", "RIGHT_WRIST"].into_iter().filter_map(|name| {
-        let all = places(markers, name)?;
-        let level = |at: DVec3| {
-            let at = (at - middle) * (SHOULDERS / wide);
-            DVec3::new(at.x, at.y, 0.0)
-        };
-        Some(filled(&all)?.into_iter().map(level).collect())
-    });
+    let wrists = ["LEFT_WRIST", "RIGHT_WRIST"]
+        .into_iter()
+        .filter_map(|name| {
+            let all = places(markers, name)?;
+            let level = |at: DVec3| {
+                let at = (at - middle) * (SHOULDERS / wide);
+                DVec3::new(at.x, at.y, 0.0)
+            };
+            Some(filled(&all)?.into_iter().map(level).collect())
+        });
     Ok((rate, wrists.collect()))
 }
 

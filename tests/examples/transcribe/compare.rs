@@ -41,7 +41,8 @@ pub(crate) fn compare(written: &Manual, again: &Again) -> Vec<Verdict> {
     }
     held(&written.posture, &found.posture, again, &mut say);
     let moves = !written.actions.is_empty();
-    if let (Some(begins), Some(feature), true) = (again.begins, again.found.features.first(), moves) {
+    if let (Some(begins), Some(feature), true) = (again.begins, again.found.features.first(), moves)
+    {
         let off = feature.frame as i64 - begins as i64;
         let (a, b) = (begins.to_string(), format!("{off:+}"));
         say("first frame", off.abs() <= 1, a, b);

@@ -54,7 +54,9 @@ fn closed(folder: &str, body: &str, words: &[&str], more: More<'_>) -> Result<()
     let mut rate = None;
     for word in words {
         if word.ends_with(".json") {
-            settings.language = settings.language.with_file(&std::fs::read_to_string(word)?)?;
+            settings.language = settings
+                .language
+                .with_file(&std::fs::read_to_string(word)?)?;
         } else {
             rate = Some(word.parse()?);
         }

@@ -31,8 +31,9 @@ pub(crate) struct Args {
     /// Whose body signs: a signer, or a recording for its skeleton (signer:NAME, recording:NAME); else the corpus chooses
     #[arg(long, value_name = "SIGNER")]
     signer: Option<String>,
-    /// How large, how long and how deep movements are: default, measured (in the corpus's captured signs,
-    /// where eight or more show it), or a file of numbers and places in the form of the program's own; else measured
+    /// How large, how long and how deep movements are: default, quiet (default, but nothing moves that is not written:
+    /// no sway, no blinks), measured (in the corpus's captured signs, where eight or more show it), or a file of numbers
+    /// and places in the form of the program's own; else measured
     #[arg(long, value_name = "LANGUAGE")]
     language: Option<String>,
     /// The gloss of the new sign; without it nothing is stored

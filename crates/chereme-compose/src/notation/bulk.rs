@@ -9,16 +9,22 @@ use super::track::Wanted;
 
 /// Half the thickness of a finger, of the thumb's root, and of a palm, in hand lengths.
 const FLESH: [f64; 3] = [0.042, 0.055, 0.07];
-/// Depth (m) to which flesh gives way.
-const SOFT: f64 = 0.003;
+/// Depth (m) to which the flesh of two hands gives way.
+const SOFT: f64 = 0.0075;
 /// Hands whose palms are farther apart than this (hand lengths) cannot meet.
 const FAR: f64 = 1.9;
 /// Seconds before and after over which a way aside is spread.
 const AROUND: f64 = 0.12;
+/// The farthest (m) that two hands go apart that touch each other.
+const TOUCHING: f64 = 0.012;
+/// Seconds before and after a contact in which hands count as touching.
+const BESIDE: f64 = 0.08;
 /// The number of rounds in which hands are moved apart.
 const ROUNDS: usize = 4;
-/// Remaining depth (m) above which a warning is issued.
-const LEFT: f64 = 0.008;
+/// Depth (m) that remains where hands are moved apart.
+const GIVES: f64 = 0.9 * SOFT;
+/// Depth (m) beyond that one above which a warning is issued.
+const LEFT: f64 = 0.001;
 
 /// The separation of two hands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,11 +42,13 @@ struct Tube {
     radius: f64,
 }
 
-/// Moves the goals of two hands apart, each by half, wherever they would be within each other.
+/// Moves the goals of two hands apart, each by half, wherever they would be within each other. While both hands touch
+/// something, `contacts` (s), they go apart by so little that they still touch.
 pub(crate) fn clear(
     stage: &Stage,
     hands: [&Hand; 2],
     [first, second]: [&mut Wanted<'_>; 2],
+    contacts: &[Vec<(f64, f64)>; 2],
     rate: f64,
 ) -> Option<Cleared> {
     let length = hands[0].length();
@@ -70,6 +78,10 @@ pub(crate) fn clear(
             break;
         }
         for (frame, way) in eased(&ways, near).into_iter().enumerate() {
+            let way = match touch(contacts, frame as f64 / rate) {
+                true => (sums[frame] * 2.0 + way).clamp_length_max(TOUCHING) - sums[frame] * 2.0,
+                false => way,
+            };
             first.points[frame] += way * 0.5;
             second.points[frame] -= way * 0.5;
             sums[frame] += way * 0.5;
@@ -84,7 +96,15 @@ pub(crate) fn clear(
     }
     Some(Cleared {
         most: most?,
-        left: (left > LEFT).then_some(left),
+        left: (left > LEFT).then_some(left + GIVES),
+    })
+}
+
+/// Returns whether both hands touch something at a time.
+fn touch(contacts: &[Vec<(f64, f64)>; 2], time: f64) -> bool {
+    contacts.iter().all(|spans| {
+        let mut spans = spans.iter();
+        spans.any(|(from, to)| (from - BESIDE..=to + BESIDE).contains(&time))
     })
 }
 
@@ -136,7 +156,7 @@ fn way_out(
     }
     let usual = stage.forward * 0.8 + DVec3::Y * 0.6;
     let way = sum.try_normalize().or(palms.try_normalize());
-    way.unwrap_or(usual) * (deepest - 0.5 * SOFT)
+    way.unwrap_or(usual) * (deepest - GIVES)
 }
 
 /// Returns the bones of a hand in its intended pose, the middle of the palm first; `None` if its skeleton

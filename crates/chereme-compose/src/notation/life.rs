@@ -22,6 +22,8 @@ const SWAY: DVec3 = DVec3::new(0.1, 1.0, 0.12);
 const NOD: f64 = 0.7;
 /// Largest turn of the head after the hands, in radians.
 const AFTER: f64 = 0.12;
+/// Seconds in which a body at rest begins to sway, and ends: movement begins and ends in the standing posture.
+const STARTS: f64 = 0.4;
 /// Seconds over which head and eyes average the way of the hands.
 const SLOWLY: f64 = 0.3;
 /// A hand goes with the head within the first distance of its middle, and not beyond the second, in head
@@ -59,14 +61,20 @@ impl Alive {
         let after = after(body, hands, rate);
         let sway = language.life_sway.to_radians();
         let period = language.life_sway_time.max(0.5);
+        let end = total.saturating_sub(1) as f64 / rate;
+        // A left-handed signer sways like the mirror image of a right-handed one.
+        let side = -plan.sides[0].sign();
+        let mirror = DVec3::new(1.0, side, side);
         for (frame, bent) in bents.iter_mut().enumerate() {
             let time = frame as f64 / rate;
             let busy = busy[frame];
+            let moves = smooth(time / STARTS) * smooth((end - time) / STARTS);
             let wave = |n: f64| wave(time / period, language.life_seed + n);
-            let trunk = DVec3::new(wave(1.0), wave(2.0), wave(3.0)) * SWAY * sway;
-            let head = DVec3::new(wave(4.0), wave(5.0), wave(6.0)) * (NOD * sway);
+            let waves = |n: f64| DVec3::new(wave(n), wave(n + 1.0), wave(n + 2.0)) * mirror;
+            let trunk = waves(1.0) * SWAY * (sway * moves);
+            let head = waves(4.0) * (NOD * sway * moves);
             bent.trunk += trunk * (1.0 - busy.trunk);
-            let turned = (after[frame] * language.life_head).clamp_length_max(AFTER);
+            let turned = (after[frame] * language.life_head).clamp_length_max(AFTER) * moves;
             bent.head += (head + turned - trunk * 0.5) * (1.0 - busy.head);
         }
         let gaze = after.iter().map(|after| {

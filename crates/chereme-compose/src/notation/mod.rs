@@ -167,7 +167,8 @@ pub fn animate(
     };
     let cleared = match hands {
         [Some(a), Some(b)] if !plan.laced => {
-            bulk::clear(&body, [a, b], [&mut first, &mut second], rate)
+            let contacts = &plan.contacts;
+            bulk::clear(&body, [a, b], [&mut first, &mut second], contacts, rate)
         }
         _ => None,
     };

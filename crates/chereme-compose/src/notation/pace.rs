@@ -6,7 +6,7 @@ use chereme_sign::hamnosys::{BodyLanguage, Manner};
 const STEPS: usize = 256;
 
 /// The share of an approach in which it comes up to speed, and down.
-const CALM: f64 = 0.3;
+const CALM: f64 = 0.22;
 
 /// The kinds of pace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,9 +44,10 @@ impl Pace {
     /// Returns the top speed of a movement, as a multiple of its mean speed.
     pub(crate) fn peak(self) -> f64 {
         match self {
-            Self::Targetted | Self::Contact => 2.4,
-            Self::Lax => 1.9,
-            Self::Halt => 1.9,
+            Self::Targetted => 2.2,
+            Self::Contact => 3.6,
+            Self::Lax => 1.83,
+            Self::Halt => 3.7,
             Self::Tense => 1.43,
             Self::Linear => 1.18,
             Self::Calm => 1.0 / (1.0 - CALM),

@@ -9,7 +9,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 pub(crate) enum Path {
     /// A straight line.
     Line(DVec3),
-    /// A straight line whose speed grows evenly: added to a line, it bends that line away from its start.
+    /// A straight line whose speed grows with the square: added to a line, it bends that line away from its start.
     Late(DVec3),
     /// A circular arc over a chord; `bow` is the offset of its middle.
     Arc { chord: DVec3, bow: DVec3 },
@@ -39,7 +39,7 @@ impl Path {
     pub(crate) fn at(&self, s: f64) -> DVec3 {
         match self {
             Self::Line(way) => *way * s,
-            Self::Late(way) => *way * (s * s),
+            Self::Late(way) => *way * (s * s * s),
             Self::Arc { chord, bow } => arc(*chord, *bow, s),
             Self::Wave {
                 side,

@@ -7,7 +7,7 @@ use chereme_sign::hamnosys::angles::selected;
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 use chereme_sign::hamnosys::{Digit, HandClass, Handshape, ThumbPosition};
 
-use super::stage::{Shape, Stage};
+use super::stage::{Hand, Shape, Stage};
 
 /// Distance between the middles of two tips that meet, in hand lengths.
 const APART: f64 = 0.045;
@@ -27,7 +27,23 @@ const RANGE: [[f64; 2]; 5] = [
     [-15.0, 85.0],
 ];
 /// The number of rounds in which a thumb is brought across the hand.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 16;
+/// The number of steps, each shorter, that are tried in a round.
+const TRIALS: usize = 4;
+/// Where a pad may lie on the middle bone of a finger: the share of the bone from the middle joint, and the turn (rad)
+/// about it from its front towards the thumb's side. Each is tried if the one before is out of reach.
+const ON_FINGER: [(f64, f64); 6] = [
+    (0.4, 0.0),
+    (0.4, 0.5),
+    (0.2, 0.5),
+    (0.4, 0.9),
+    (0.1, 0.9),
+    (0.3, 1.2),
+];
+/// A goal is reached within this distance, in metres.
+const REACHED: f64 = 1e-3;
+/// Weight of the slope of the thumb's last bone against the distance of its pad from its goal.
+const LEVEL: f64 = 0.2;
 
 /// Returns the shape of the fingers of a handshape on this hand, with the thumb where it meets others.
 pub(crate) fn posed(
@@ -47,66 +63,102 @@ pub(crate) fn posed(
 }
 
 /// Returns the shape with the thumb across: its pad on the folded finger where it rests by nature, or on
-/// the palm below the ring finger. The last bone lies level over what it crosses.
+/// the palm below the ring finger. The last bone lies level over what it crosses. A short thumb reaches less far
+/// round that finger.
 fn across(stage: &Stage, side: Side, handshape: &Handshape, angles: &HandAngles) -> Option<Shape> {
     let hand = stage.hand(side)?;
-    let mut posed = stage.shape(side, angles);
-    let point = |shape: &Shape, at: HandPoint| stage.point(hand, shape, at);
-    let mid = |digit: Digit| HandPoint::Middle(digit, Face::Middle);
+    let posed = stage.shape(side, angles);
+    let point = |at: HandPoint| stage.point(hand, &posed, at);
     let length = hand.length();
-    let class = handshape.form.class;
-    let (goal, over) = match class {
+    let goals: Vec<DVec3> = match handshape.form.class {
         HandClass::Flat | HandClass::Finger2345 => {
             if handshape.form.bend.is_some() || !handshape.exempt.is_empty() {
                 return None;
             }
-            let base = |digit| point(&posed, HandPoint::Base(digit, Face::Middle));
+            let base = |digit| point(HandPoint::Base(digit, Face::Middle));
             let (middle, ring) = (base(Digit::Middle), base(Digit::Ring));
             let at = middle.lerp(ring, 0.4) - hand.along * (0.11 * length);
             let level = at - hand.palm * at.dot(hand.palm);
-            (level + hand.palm * ((SKIN + FLESH) * length), hand.palm)
+            vec![level + hand.palm * ((SKIN + FLESH) * length)]
         }
         HandClass::Fist | HandClass::Finger2 | HandClass::Finger23 | HandClass::Finger23Spread => {
             let on = rests_on(handshape)?;
-            let (near, far) = (point(&posed, mid(on)), stage.last_joint(hand, &posed, on)?);
+            let near = point(HandPoint::Middle(on, Face::Middle));
+            let far = stage.last_joint(hand, &posed, on)?;
             let bone = (far - near).try_normalize()?;
             let out = hand.palm.reject_from_normalized(bone).try_normalize()?;
-            (
-                near.lerp(far, 0.4) + out * (2.0 * FLESH * length),
-                hand.palm,
-            )
+            let aside = bone.cross(out) * bone.cross(out).dot(hand.radial).signum();
+            let round = |&(share, turn): &(f64, f64)| {
+                let out = out * turn.cos() + aside * turn.sin();
+                near.lerp(far, share) + out * (2.0 * FLESH * length)
+            };
+            ON_FINGER.iter().map(round).collect()
         }
         _ => return None,
     };
-    let miss = |shape: &Shape| {
-        let tip = point(shape, HandPoint::Tip(Digit::Thumb, Face::Middle));
-        let joint = point(shape, mid(Digit::Thumb));
-        let bone = (tip - joint).normalize_or(hand.along);
-        let off = goal - (tip - bone * (FLESH * length));
-        [off.x, off.y, off.z, (goal - joint).dot(over)]
-    };
     let start = values(angles);
-    let mut now = start;
-    for _ in 0..ROUNDS {
-        let off = miss(&posed);
-        if off.iter().all(|off| off.abs() < 4e-4) {
+    let mut best: Option<(f64, Shape)> = None;
+    for goal in goals {
+        let (missed, shape) = brought(stage, (side, hand), angles, (start, goal));
+        if best.as_ref().is_none_or(|(least, _)| missed < *least) {
+            best = Some((missed, shape));
+        }
+        if missed < REACHED {
             break;
         }
+    }
+    best.map(|(_, shape)| shape)
+}
+
+/// Returns the shape with the thumb's pad brought as near to a goal as it goes, and the distance left (m).
+fn brought(
+    stage: &Stage,
+    (side, hand): (Side, &Hand),
+    angles: &HandAngles,
+    (start, goal): ([f64; 5], DVec3),
+) -> (f64, Shape) {
+    let length = hand.length();
+    let miss = |shape: &Shape, level: f64| {
+        let tip = stage.point(hand, shape, HandPoint::Tip(Digit::Thumb, Face::Middle));
+        let joint = stage.point(hand, shape, HandPoint::Middle(Digit::Thumb, Face::Middle));
+        let bone = (tip - joint).normalize_or(hand.along);
+        let off = goal - (tip - bone * (FLESH * length));
+        [off.x, off.y, off.z, level * (goal - joint).dot(hand.palm)]
+    };
+    let squares = |off: [f64; 4]| off.iter().map(|off| off * off).sum::<f64>();
+    let mut now = start;
+    let mut posed = stage.shape(side, &with(angles, now));
+    let mut damping = 0.05 * length;
+    for round in 0..ROUNDS {
+        let level = if round < ROUNDS / 2 { LEVEL } else { 0.0 };
+        let off = miss(&posed, level);
         let mut columns = [[0.0; 4]; 5];
         for (n, column) in columns.iter_mut().enumerate() {
             let mut other = now;
             other[n] += 1e-3;
-            let moved = miss(&stage.shape(side, &with(angles, other)));
+            let moved = miss(&stage.shape(side, &with(angles, other)), level);
             *column = std::array::from_fn(|row| (off[row] - moved[row]) / 1e-3);
         }
-        let step = least(&columns, off, 0.05 * length);
-        for n in 0..5 {
-            let [low, high] = RANGE[n].map(f64::to_radians);
-            now[n] = (now[n] + step[n].clamp(-0.35, 0.35)).clamp(low, high);
+        for _ in 0..TRIALS {
+            let step = least(&columns, off, damping);
+            let next: [f64; 5] = std::array::from_fn(|n| {
+                let [low, high] = RANGE[n].map(f64::to_radians);
+                (now[n] + step[n].clamp(-0.5, 0.5)).clamp(low, high)
+            });
+            let tried = stage.shape(side, &with(angles, next));
+            if squares(miss(&tried, level)) < squares(off) {
+                (now, posed) = (next, tried);
+                damping *= 0.3;
+                break;
+            }
+            damping *= 5.0;
         }
-        posed = stage.shape(side, &with(angles, now));
+        let off = miss(&posed, LEVEL);
+        if off[..3].iter().all(|off| off.abs() < 4e-4) && off[3].abs() < LEVEL * 2e-3 {
+            break;
+        }
     }
-    Some(posed)
+    (squares(miss(&posed, 0.0)).sqrt(), posed)
 }
 
 /// Returns the folded finger on which a thumb across rests: the middle finger, else the first folded one.

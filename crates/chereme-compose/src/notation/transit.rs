@@ -12,7 +12,7 @@ use super::plan::{Act, Event, HandState, PhaseKind, Planner, Who};
 const ROUND: f64 = 0.42;
 
 /// Length of an approach as a multiple of the distance: hands go round, turn, and change their pivot.
-const ROUNDABOUT: f64 = 1.35;
+const ROUNDABOUT: f64 = 1.25;
 /// Movements whose top speed (m/s) is below this do not limit the approach to them: the hand turns or
 /// plays with its fingers.
 const SLOWEST: f64 = 0.12;

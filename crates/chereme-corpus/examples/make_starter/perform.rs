@@ -7,7 +7,7 @@ use chereme_compose::{Made, Material};
 use chereme_motion::glam::{DQuat, DVec3, EulerRot};
 use chereme_motion::{Anatomy, Channel, Clip, Pose, Rate, Side};
 use chereme_sign::Handedness;
-use chereme_sign::hamnosys::Notated;
+use chereme_sign::hamnosys::{BodyLanguage, Notated};
 
 use super::noise::Noise;
 use super::signer;
@@ -41,7 +41,11 @@ pub(crate) fn stage() -> Material {
 pub(crate) fn perform(stage: &Material, take: &Take) -> Made {
     let signs: Vec<Notated> = take.signs.iter().map(|sign| sign.notated()).collect();
     let signs: Vec<&Notated> = signs.iter().collect();
-    let mut settings = Settings::default();
+    // This signer sways by the noise below.
+    let mut settings = Settings {
+        language: BodyLanguage::usual().without_life(),
+        ..Settings::default()
+    };
     settings.language.time_hold = take.hold.unwrap_or(settings.language.time_hold);
     let made = animate(&signs, stage, &settings);
     let made = made.unwrap_or_else(|error| panic!("{}: {error}", take.stem));

@@ -1,4 +1,4 @@
-//! The body language that notation is animated with: the usual one, what was measured, or a file.
+//! The body language that notation is animated with: the usual one, a quiet one, what was measured, or a file.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -17,6 +17,7 @@ const MOST_BYTES: u64 = 1 << 20;
 /// The names that are no files.
 const DEFAULT: &str = "default";
 const MEASURED: &str = "measured";
+const QUIET: &str = "quiet";
 
 impl CorpusSources<'_> {
     pub(super) fn spoken(
@@ -26,6 +27,7 @@ impl CorpusSources<'_> {
     ) -> Result<Language, SourceError> {
         match named {
             Some(DEFAULT) => Ok(Language::default()),
+            Some(QUIET) => Ok(Language::quiet()),
             None | Some(MEASURED) => self.measured(signer),
             Some(file) => read(file),
         }
@@ -52,7 +54,7 @@ fn read(file: &str) -> Result<Language, SourceError> {
     };
     let path = Path::new(file);
     if !path.is_file() {
-        let meant = nearest(file, [DEFAULT, MEASURED]);
+        let meant = nearest(file, [DEFAULT, MEASURED, QUIET]);
         let hint = chereme_sign::text::did_you_mean(meant);
         return Err(fault(format!("there is no such file{hint}")));
     }
@@ -87,6 +89,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let says = |name: &str| read(name).expect_err(name).to_string();
         assert!(says("mesured").contains("measured"));
+        assert!(says("quite").contains("quiet"));
         let path = folder.path().join("mine.json");
         let file = path.display().to_string();
         for (text, said) in [

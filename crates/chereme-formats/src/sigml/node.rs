@@ -195,12 +195,14 @@ impl<'e, 'f> Node<'e, 'f> {
     /// Reports fingers that change one after the other, which the tree of a sign does not hold.
     pub(super) fn successive(&mut self, name: &str) {
         let Some(text) = self.text(name) else { return };
-        self.findings.add("fingers that change one after the other", || {
-            let (line, text) = (self.element.line.0, shown(text));
-            let message = format!("{name}={text:?}: the fingers change all at once");
-            Finding::note(line, message)
-                .with_remedy("write one <changeposture> for each finger, if their order matters")
-        });
+        self.findings
+            .add("fingers that change one after the other", || {
+                let (line, text) = (self.element.line.0, shown(text));
+                let message = format!("{name}={text:?}: the fingers change all at once");
+                Finding::note(line, message).with_remedy(
+                    "write one <changeposture> for each finger, if their order matters",
+                )
+            });
     }
 
     /// Returns a bend: a word, or three numbers from 0 to 4.

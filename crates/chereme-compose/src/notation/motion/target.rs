@@ -64,6 +64,13 @@ impl Planner<'_> {
             self.hasten(time, pace, who);
         }
         let bent = posture.place.is_some() && self.bends([&before, &now, &goal], motion, who);
+        let end = match bent {
+            true => {
+                let far = (0..2).map(|n| before[n].wrist().distance(goal[n].wrist()));
+                end.max(time + self.timed(0.0, far.fold(0.0, f64::max), env))
+            }
+            false => end,
+        };
         if posture.place.is_some() {
             self.straighten(time, end, pace, who);
         }

@@ -112,11 +112,7 @@ struct Hand {
 
 impl Hand {
     /// Reads an element; `known` is the direction that was read before it.
-    fn read(
-        element: &Element<'_>,
-        known: Option<Aim<Direction>>,
-        findings: &mut Findings,
-    ) -> Self {
+    fn read(element: &Element<'_>, known: Option<Aim<Direction>>, findings: &mut Findings) -> Self {
         for child in &element.children {
             unexpected(child, element, findings);
         }
