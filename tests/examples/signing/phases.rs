@@ -33,7 +33,7 @@ impl Stretch {
     }
 }
 
-/// What a hand does from its first rise to its last fall.
+/// The stretches of a hand's movement from its first rise to its last fall.
 pub(crate) struct Phases {
     pub(crate) approach: Option<Stretch>,
     pub(crate) strokes: Vec<Stretch>,

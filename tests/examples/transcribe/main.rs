@@ -5,8 +5,9 @@
 //! is what was written, also of the half of the signs on which thresholds are tuned and of the other half;
 //! `... -- plain FOLDER BODY.bvh` does so without proving where hands are;
 //! `... -- blind FOLDER BODY.bvh` exports each sign as BVH, and transcribes that as any other capture;
-//! `... -- why FEATURE FOLDER BODY.bvh` prints where it is not, `... -- confusions FEATURE ...` counts what
-//! is taken for what, both in the half that is tuned on. In place of the folder a text file with a sign a line in
+//! `... -- blind-why FEATURE FOLDER BODY.bvh` prints each part in which the feature differs from the notation;
+//! `... -- why FEATURE FOLDER BODY.bvh` does so with the place proven, `... -- confusions FEATURE ...` counts pairs of
+//! written and found values, both in the half that is tuned on. In place of the folder a text file with a sign a line in
 //! HamNoSys characters will do. All are animated at the body's own frames a second, or at as many as stand behind it;
 //! a file of body language behind it (`.json`) replaces numbers of the animator, not of the transcriber.
 //! `... -- movement FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
@@ -34,6 +35,9 @@ fn main() -> Result<()> {
         ["notation", folder, body, rate @ ..] => closed(folder, body, rate, More::Nothing),
         ["plain", folder, body, rate @ ..] => closed(folder, body, rate, More::Plain),
         ["blind", folder, body, rate @ ..] => closed(folder, body, rate, More::Blind),
+        ["blind-why", feature, folder, body, rate @ ..] => {
+            closed(folder, body, rate, More::BlindWhy(feature))
+        }
         ["why", feature, folder, body, rate @ ..] => {
             closed(folder, body, rate, More::Why(feature))
         }

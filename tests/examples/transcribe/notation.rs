@@ -26,6 +26,8 @@ pub(crate) enum More<'a> {
     Plain,
     /// Nothing, of the whole movement exported as BVH and read as any other capture.
     Blind,
+    /// As `Blind`, with every disagreement about a feature in the half used for tuning.
+    BlindWhy(&'a str),
     /// Every disagreement about a feature, or `all`, or `show` with each; only the half that is tuned on.
     Why(&'a str),
     /// The confusions and their counts, in the half used for tuning.
@@ -65,7 +67,7 @@ pub(crate) fn table(
         ..settings
     };
     let options = match more {
-        More::Blind => Options::default(),
+        More::Blind | More::BlindWhy(_) => Options::default(),
         _ => Options::made(),
     };
     let mut counts: BTreeMap<&'static str, Counts> = BTreeMap::new();
@@ -118,7 +120,9 @@ pub(crate) fn table(
                     let pair = (verdict.written, format!("{mark}{}", verdict.found));
                     *confusions.entry(pair).or_default() += 1;
                 }
-                More::Why(of) if !verdict.agrees && [verdict.feature, "all"].contains(&of) => {
+                More::Why(of) | More::BlindWhy(of)
+                    if !verdict.agrees && [verdict.feature, "all"].contains(&of) =>
+                {
                     println!(
                         "{}{}\t{name}: {}   <>   {}",
                         verdict.feature,
@@ -259,7 +263,7 @@ fn again(
         .iter()
         .find(|note| note.about == chereme_compose::About::Gloss)?
         .span;
-    if more == More::Blind {
+    if matches!(more, More::Blind | More::BlindWhy(_)) {
         return blind(made, span, options);
     }
     let rate = made.clip.rate();

@@ -6,6 +6,7 @@
 
 use chereme_motion::Side;
 
+use super::acts::signing;
 use super::scene::Scene;
 use super::tree::Sight;
 
@@ -23,9 +24,8 @@ const LOOKED_AT: usize = 24;
 pub(super) fn is_exact(scene: &Scene<'_>, sight: &Sight<'_>) -> bool {
     let (mut exact, mut all) = (0, 0);
     for track in scene.hands.iter().flatten() {
-        let signs: Vec<usize> = (0..track.rests.len())
-            .filter(|&n| !track.rests[n])
-            .collect();
+        // Ways from and to rest show nothing: nothing is meant on them.
+        let signs: Vec<usize> = signing(scene, track).filter(|&n| !track.rests[n]).collect();
         let step = signs.len().div_ceil(LOOKED_AT).max(1);
         for &frame in signs.iter().step_by(step) {
             all += 1;

@@ -21,6 +21,8 @@ const TOUCHING: f64 = 0.012;
 const BESIDE: f64 = 0.08;
 /// The number of rounds in which hands are moved apart.
 const ROUNDS: usize = 4;
+/// Distance (m) by which each hand goes aside that is reported.
+const ASIDE: f64 = 0.005;
 /// Depth (m) that remains where hands are moved apart.
 const GIVES: f64 = 0.9 * SOFT;
 /// Depth (m) beyond that one above which a warning is issued.
@@ -29,8 +31,8 @@ const LEFT: f64 = 0.001;
 /// The separation of two hands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cleared {
-    /// The farthest way aside, with its time as planned.
-    pub(crate) most: Parted,
+    /// The farthest way aside, with its time as planned, if that is reported.
+    pub(crate) most: Option<Parted>,
     /// How deep the hands stay within each other, in metres, if that is reported.
     pub(crate) left: Option<f64>,
 }
@@ -89,15 +91,13 @@ pub(crate) fn clear(
     }
     for (frame, sum) in sums.iter().enumerate() {
         let by = sum.length();
-        if by > most.map_or(1e-3, |most| most.by) {
+        if by > most.map_or(ASIDE, |most| most.by) {
             let time = frame as f64 / rate;
             most = Some(Parted { time, by });
         }
     }
-    Some(Cleared {
-        most: most?,
-        left: (left > LEFT).then_some(left + GIVES),
-    })
+    let left = (left > LEFT).then_some(left + GIVES);
+    (most.is_some() || left.is_some()).then_some(Cleared { most, left })
 }
 
 /// Returns whether both hands touch something at a time.

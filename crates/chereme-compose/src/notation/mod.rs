@@ -216,7 +216,7 @@ pub fn animate(
             left * 100.0
         ));
     }
-    let most = cleared.map(|cleared| cleared.most);
+    let most = cleared.and_then(|cleared| cleared.most);
     let parted = [parted, most].into_iter().flatten();
     if let Some(parted) = parted.max_by(|a, b| a.by.total_cmp(&b.by)) {
         plan.remarks.push(format!(

@@ -103,7 +103,13 @@ impl Performer {
             part::part(body, [a, b], [&mut first, &mut second], rate);
         }
         if let ([Some(a), Some(b)], false) = (hands, plan.laced) {
-            bulk::clear(body, [a, b], [&mut first, &mut second], rate);
+            bulk::clear(
+                body,
+                [a, b],
+                [&mut first, &mut second],
+                &plan.contacts,
+                rate,
+            );
         }
         for (n, (hand, wanted)) in hands.into_iter().zip([first, second]).enumerate() {
             let Some(hand) = hand else { continue };
