@@ -99,7 +99,12 @@ fn there_and_back(corpus: &mut Corpus, n: usize, names: &str) -> (Sign, Transcri
     let text = from_names(names.split(' ')).expect("names of symbols");
     let written = parse(&text).expect("HamNoSys").sign;
     let gloss = format!("S{n}");
-    let done = corpus.animate(&[names], &Staging::default(), Some(&gloss));
+    // A body that sways shifts the hand by millimetres, which is the distance between the neck and the chin's underside.
+    let staging = Staging {
+        language: Some("quiet"),
+        ..Staging::default()
+    };
+    let done = corpus.animate(&[names], &staging, Some(&gloss));
     done.expect("made");
     let address = gloss.parse().expect("an address");
     let told = corpus.transcribe(&address, &mut Progress::new(&mut { unheard }));
