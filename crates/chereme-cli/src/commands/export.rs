@@ -17,7 +17,9 @@ use crate::streams;
 /// or .TextGrid (a recording's tiers, for ELAN or Praat), .elan.txt (the same as ELAN's tab-delimited text), .srt or
 /// .vtt (its translations or glosses as subtitles), .csv or .tsv (tokens with all components), .curves.csv (how much there is of each
 /// non-manual, frame by frame), .sigml (notated signs as gestural SiGML),
-/// .hsigml (the same as HamNoSys's symbols), .hns or .txt (as HamNoSys text, a sign a line). A name
+/// .hsigml (the same as HamNoSys's symbols), .hns or .txt (as HamNoSys text, a sign a line), .parquet (tokens for pandas,
+/// polars and DuckDB), .components.parquet, .annotations.parquet and .frames.parquet (a value, an annotation, a joint of a
+/// frame a row), if the program was built with `--features parquet`. A name
 /// without an extension is a folder: with --format it gets a file of that format for each recording
 /// or token; without it, for all, the database, a data dictionary with example queries, a table a file, the
 /// recordings, the inventories, checksums and provenance. With --to - the file goes to standard output.
@@ -30,6 +32,7 @@ Examples:
   chereme export mine.chereme recording:3 --to take.bvh
   chereme export mine.chereme 'query:right.configuration=U' --to takes/ --format bvh
   chereme export mine.chereme ESCARGOT LIMACE token:41 --to takes/ --format bvh
+  chereme export mine.chereme all --to mine.frames.parquet
   chereme export mine.chereme all --to - --format csv | head")]
 pub(crate) struct Args {
     /// The corpus

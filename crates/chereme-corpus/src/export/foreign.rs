@@ -1,10 +1,11 @@
 //! Movement as glTF and VRMA, markers as C3D and TRC, tiers as TextGrid, subtitles and a table of ELAN.
 
 use std::io::Write;
+use std::ops::Range;
 
 use chereme_formats::eaf::Transcript;
 use chereme_formats::{c3d, gltf, subtitles, textgrid, trc};
-use chereme_motion::{Instant, Span};
+use chereme_motion::{Clip, Instant, Span};
 use chereme_sign::TierRole;
 use rusqlite::Connection;
 
@@ -15,19 +16,23 @@ use crate::error::{Error, Result};
 use crate::movement::{ChannelGroup, Track};
 use crate::track::{self, TrackKind};
 
-/// Writes the movement of a stretch as GLB, in metres, with the annotations that lie in it.
+/// Writes the movement of a stretch as GLB, in metres, with the annotations that lie in it, and returns how many.
 ///
 /// # Errors
 /// If the recording has no movement, or writing fails.
-pub(super) fn glb(connection: &Connection, stretch: &Stretch, out: &mut dyn Write) -> Result<()> {
+pub(super) fn glb(
+    connection: &Connection,
+    stretch: &Stretch,
+    out: &mut dyn Write,
+) -> Result<usize> {
     let track = Track::of(connection, stretch.recording.id)?;
     let frames = match stretch.token {
         Some(_) => track.frames_in(stretch.span),
         None => 0..track.frames(),
     };
     let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
-    let first = clip.rate().instant(frames.start);
-    let last = clip.rate().instant(frames.end);
+    let span = on_the_clock(&track, &clip, &frames);
+    let first = span.start();
     let name = match stretch.token {
         Some(_) => format!("{} {first}", stretch.recording.name),
         None => stretch.recording.name.clone(),
@@ -35,9 +40,19 @@ pub(super) fn glb(connection: &Connection, stretch: &Stretch, out: &mut dyn Writ
     let about = gltf::About {
         name,
         licence: stretch.recording.licence.clone(),
-        notes: notes(connection, stretch.recording.id, Span::between(first, last))?,
+        notes: notes(connection, stretch.recording.id, span)?,
     };
-    put(out, &gltf::write(&clip, &about))
+    put(out, &gltf::write(&clip, &about))?;
+    Ok(about.notes.len())
+}
+
+/// Returns when frames of a track are on the clock of its recording.
+fn on_the_clock(track: &Track, clip: &Clip, frames: &Range<usize>) -> Span {
+    let own = Span::between(
+        clip.rate().instant(frames.start),
+        clip.rate().instant(frames.end),
+    );
+    own.shifted(track.row.offset_us)
 }
 
 /// Writes the movement of a stretch as VRMA, for avatars; non-manuals are expressions.
@@ -52,10 +67,7 @@ pub(super) fn vrma(connection: &Connection, stretch: &Stretch, out: &mut dyn Wri
     };
     let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
     let anatomy = track.anatomy(connection)?;
-    let (first, last) = (
-        clip.rate().instant(frames.start),
-        clip.rate().instant(frames.end),
-    );
+    let span = on_the_clock(&track, &clip, &frames);
     let curves = crate::curves::of_track(connection, &track, frames)?;
     let expressions: Vec<gltf::vrma::Expression> = curves
         .into_iter()
@@ -67,7 +79,7 @@ pub(super) fn vrma(connection: &Connection, stretch: &Stretch, out: &mut dyn Wri
     let about = gltf::About {
         name: stretch.recording.name.clone(),
         licence: stretch.recording.licence.clone(),
-        notes: notes(connection, stretch.recording.id, Span::between(first, last))?,
+        notes: notes(connection, stretch.recording.id, span)?,
     };
     let bytes = gltf::vrma::write(&clip, &anatomy, &expressions, &about).map_err(|error| {
         Error::wrong(error).advise("say which joint is what with `chereme track`, or write .glb")

@@ -6,7 +6,10 @@ mod dictionary;
 pub(crate) mod eaf;
 mod enriched;
 mod foreign;
+mod long;
 mod notation;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod several;
 #[cfg(test)]
 mod tests;
@@ -32,6 +35,7 @@ use crate::progress::Progress;
 use crate::track::TrackKind;
 use crate::values;
 use crate::words::counted;
+use long::Long;
 
 /// What to export.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -94,6 +98,8 @@ impl Corpus {
     /// | `.TextGrid` | the tiers of one recording, for Praat |
     /// | `.elan.txt` | the same as ELAN exports tab-delimited text |
     /// | `.srt`, `.vtt` | the glosses and translations of one recording as subtitles |
+    /// | `.parquet`, `.components.parquet` | a token, or a value of a token, a row (feature `parquet`) |
+    /// | `.annotations.parquet`, `.frames.parquet` | an annotation, or a joint of a frame, a row (likewise) |
     /// | `.sigml` | notated tokens as gestural SiGML |
     /// | `.hsigml` | notated tokens as H-SiGML, HamNoSys's symbols as elements |
     /// | `.hns`, `.txt` | notated tokens as HamNoSys text, a sign a line: the gloss, a tab, the text |
@@ -218,6 +224,7 @@ enum Format {
     Bvh,
     Json,
     Glb,
+    Parquet(Long),
     Vrma,
     /// Markers as a file of their own.
     Points(foreign::Points),
@@ -238,6 +245,7 @@ impl Format {
             "bvh" => Some(Self::Bvh),
             "json" => Some(Self::Json),
             "glb" => Some(Self::Glb),
+            "parquet" => Some(Self::Parquet(Long::Tokens)),
             "vrma" => Some(Self::Vrma),
             "c3d" => Some(Self::Points(foreign::Points::C3d)),
             "trc" => Some(Self::Points(foreign::Points::Trc)),
@@ -257,6 +265,7 @@ impl Format {
             (Self::Table(delimiter), "curves") => Self::Curves(delimiter),
             (Self::Table(delimiter), "markers") => Self::Markers(delimiter),
             (Self::Notation(notation::Form::Text), "elan") => Self::ElanTable,
+            (Self::Parquet(_), inner) => Self::Parquet(Long::of(inner)),
             (other, _) => other,
         }
     }
@@ -278,6 +287,10 @@ fn inner_extension(to: &Path) -> String {
         .map(|it| it.to_string_lossy().to_lowercase())
         .unwrap_or_default()
 }
+
+/// The note on how the annotations of a GLB become markers.
+const MARKERS: &str = "annotations become markers of Blender's timeline by `exec(bpy.context.scene[\"chereme_markers\"])` \
+                       in its Python console after the import";
 
 fn write_file(
     connection: &Connection,
@@ -337,8 +350,12 @@ fn write_file(
         }
         (Format::Glb, _) => {
             let stretch = stretch(connection, what)?;
-            foreign::glb(connection, &stretch, out)
+            if foreign::glb(connection, &stretch, out)? > 0 {
+                notes.push(MARKERS.to_owned());
+            }
+            Ok(())
         }
+        (Format::Parquet(long), _) => long::write(connection, what, long, out, notes, progress),
         (Format::Vrma, _) => {
             let stretch = stretch(connection, what)?;
             foreign::vrma(connection, &stretch, out)
@@ -372,7 +389,7 @@ fn write_file(
 
 fn no_format(to: &Path, message: &str) -> Error {
     Error::wrong(message).at(to.display().to_string()).advise(
-        "end the name in .csv, .tsv, .curves.csv, .markers.csv, .eaf, .bvh, .glb, .vrma, .c3d, .trc, .TextGrid, \
+        "end the name in .csv, .tsv, .curves.csv, .markers.csv, .eaf, .bvh, .glb, .vrma, .c3d, .trc, .parquet, .TextGrid, \
          .elan.txt, .srt, .vtt, .sigml, .hsigml or .hns, an \
          inventory's in .json; a name without a dot is a folder of everything, or with --format of a file for each \
          recording or token",

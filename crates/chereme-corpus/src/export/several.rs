@@ -52,11 +52,16 @@ pub(super) fn write(
         let name = file_name(name, &mut taken);
         let path = to.join(format!("{name}.{extension}"));
         let one = ExportWhat::Address(address.clone());
-        let notes = &mut report.notes;
+        let mut notes = Vec::new();
         let file = whole(&path, options.force, &mut |out| {
-            write_file(connection, &one, format, out, notes, progress)
+            write_file(connection, &one, format, out, &mut notes, progress)
         })?;
         report.files.push(file);
+        for note in notes {
+            if !report.notes.contains(&note) {
+                report.notes.push(note);
+            }
+        }
         progress.tell(Step {
             task: "files",
             done: done as u64 + 1,

@@ -502,3 +502,92 @@ fn several_recordings_go_into_one_folder_a_file_each() {
         .expect("written");
     assert_eq!(bytes, std::fs::read(to.join("one.eaf")).expect("read"));
 }
+
+/// Returns the BVH files of a folder and the folders in it, up to a size.
+fn captures(folder: &Path, most: u64) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|it| it == "bvh")
+                && path.metadata().expect("a size").len() < most
+            {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// Returns the places of all joints in all frames, with their names as GLB has them.
+fn places(corpus: &Corpus) -> (Vec<String>, Vec<Vec<chereme_motion::glam::DVec3>>) {
+    let clip = corpus
+        .movement(&"recording:1".parse().expect("an address"))
+        .expect("movement")
+        .clip;
+    let names = clip.skeleton().joints().iter().map(|it| it.name.clone());
+    let frames = (0..clip.frames()).map(|at| clip.model_pose(at).positions().to_vec());
+    (names.collect(), frames.collect())
+}
+
+#[test]
+fn movement_goes_through_glb_and_back_to_bvh_within_a_hundredth_of_a_millimetre() {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
+    let mut files: Vec<PathBuf> = captures(&own, 1 << 20).into_iter().take(6).collect();
+    assert!(!files.is_empty());
+    match std::env::var_os("CHEREME_SHARED_DATA") {
+        Some(data) => files.extend(captures(&Path::new(&data).join("motion/bvh"), 1 << 18)),
+        None => eprintln!("CHEREME_SHARED_DATA is not set: only own files are tried"),
+    }
+    let mut place = Place::new();
+    let mut tried = 0;
+    for file in files {
+        let first = place.corpus(std::slice::from_ref(&file));
+        if first
+            .movement(&"recording:1".parse().expect("an address"))
+            .is_err()
+        {
+            continue;
+        }
+        let (joints, before) = places(&first);
+        if before.is_empty() {
+            continue;
+        }
+        let name = format!("{tried}");
+        let [glb, bvh] = ["glb", "bvh"].map(|it| place.path(&format!("{name}.{it}")));
+        export(&first, &address("recording:1"), &glb).expect("a GLB");
+        let second = place.corpus(&[glb]);
+        export(&second, &address("recording:1"), &bvh).expect("a BVH");
+        let third = place.corpus(&[bvh]);
+        let (others, after) = places(&third);
+        assert_eq!(joints.len(), others.len(), "{}", file.display());
+        assert_eq!(before.len(), after.len(), "{}", file.display());
+        let pairs = before.iter().flatten().zip(after.iter().flatten());
+        let apart = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        assert!(apart < 1e-5, "{}: {apart} m", file.display());
+        tried += 1;
+    }
+    assert!(tried > 0);
+}
+
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn a_program_without_parquet_says_what_to_do() {
+    let mut place = Place::new();
+    let corpus = place.corpus(&[]);
+    for name in [
+        "all.parquet",
+        "all.annotations.parquet",
+        "all.frames.parquet",
+    ] {
+        let refused = export(&corpus, &ExportWhat::All, &place.path(name));
+        let error = refused.expect_err("refused");
+        let remedy = error.remedy().expect("a remedy");
+        assert!(remedy.contains("--features parquet"), "{remedy}");
+        assert!(!place.path(name).exists());
+    }
+}

@@ -106,11 +106,22 @@ impl Parts {
     }
 }
 
+/// Turns the annotations into markers of Blender's timeline, run there after the import as
+/// `exec(bpy.context.scene["chereme_markers"])`.
+const MARKERS: &str = r#"import bpy, json
+scene = bpy.context.scene
+rate = scene.render.fps / scene.render.fps_base
+for note in json.loads(scene["chereme_annotations"]):
+    name = note["tier"] + (": " + note["value"] if note["value"] else "")
+    scene.timeline_markers.new(name, frame=round(note["begin"] * rate))
+"#;
+
 /// Returns a clip in metres of model space as a GLB.
 ///
 /// Joints keep their names except for characters that programs change; the node's `extras.name` holds the
 /// original name. The annotations are a JSON string in `scenes[0].extras.chereme_annotations`, where
-/// Blender keeps them, and JSON in `animations[0].extras`, where three.js does.
+/// Blender keeps them, and JSON in `animations[0].extras`, where three.js does. `chereme_markers` in the former is
+/// a script that makes them markers of Blender's timeline.
 #[must_use]
 pub fn write(clip: &Clip, about: &About) -> Vec<u8> {
     let skeleton = clip.skeleton();
@@ -133,6 +144,7 @@ pub fn write(clip: &Clip, about: &About) -> Vec<u8> {
         "scenes": [{"name": about.name, "nodes": roots, "extras": {
             "chereme_annotations": notes,
             "chereme_frames_per_second": rate.per_second(),
+            "chereme_markers": MARKERS,
         }}],
         "nodes": nodes,
         "skins": [{"joints": joints, "skeleton": 0, "inverseBindMatrices": inverse}],

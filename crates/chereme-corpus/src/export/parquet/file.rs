@@ -1,0 +1,212 @@
+//! A Parquet file, written group by group.
+//!
+//! The same table always gives the same bytes: the file holds neither a time nor a path.
+
+use std::io::{self, Write};
+use std::sync::{Arc, Mutex};
+
+use ::parquet::basic::{
+    Compression, ConvertedType, Encoding, Repetition, Type as Physical, ZstdLevel,
+};
+use ::parquet::data_type::{
+    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int64Type,
+};
+use ::parquet::errors::ParquetError;
+use ::parquet::file::metadata::KeyValue;
+use ::parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
+use ::parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use ::parquet::schema::types::{ColumnPath, Type, TypePtr};
+
+use crate::error::{Error, Result};
+
+/// The cells of a column; a gap is null.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Cells {
+    Text(Vec<Option<ByteArray>>),
+    Double(Vec<Option<f64>>),
+    Integer(Vec<Option<i64>>),
+    Flag(Vec<Option<bool>>),
+    /// Numbers of movement, without gaps.
+    Float(Vec<f32>),
+}
+
+impl Cells {
+    pub(super) fn push_text(&mut self, text: Option<&str>) {
+        if let Self::Text(cells) = self {
+            cells.push(text.map(ByteArray::from));
+        }
+    }
+
+    pub(super) fn push_integer(&mut self, number: Option<i64>) {
+        if let Self::Integer(cells) = self {
+            cells.push(number);
+        }
+    }
+
+    pub(super) fn push_double(&mut self, number: Option<f64>) {
+        if let Self::Double(cells) = self {
+            cells.push(number);
+        }
+    }
+}
+
+/// A column of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Column {
+    pub(super) name: String,
+    pub(super) cells: Cells,
+}
+
+impl Column {
+    pub(super) fn new(name: &str, cells: Cells) -> Self {
+        Self {
+            name: name.to_owned(),
+            cells,
+        }
+    }
+}
+
+/// Some rows, column by column.
+pub(super) type Table = Vec<Column>;
+
+/// A file under construction.
+pub(super) struct File<'o> {
+    held: Held,
+    out: &'o mut dyn Write,
+    file: SerializedFileWriter<Held>,
+}
+
+impl<'o> File<'o> {
+    /// Begins a file with the columns of a table; `about` describes the columns in the metadata.
+    pub(super) fn new(table: &Table, about: &str, out: &'o mut dyn Write) -> Result<Self> {
+        let held = Held::default();
+        let properties = properties(table, about)?;
+        let file = SerializedFileWriter::new(held.clone(), schema(table)?, properties);
+        Ok(Self {
+            file: file.map_err(fault)?,
+            held,
+            out,
+        })
+    }
+
+    /// Writes the rows of a table as a group.
+    pub(super) fn group(&mut self, table: &Table) -> Result<()> {
+        let mut group = self.file.next_row_group().map_err(fault)?;
+        for column in table {
+            let Some(mut writer) = group.next_column().map_err(fault)? else {
+                break;
+            };
+            let written = match &column.cells {
+                Cells::Text(cells) => with_gaps::<ByteArrayType>(&mut writer, cells),
+                Cells::Double(cells) => with_gaps::<DoubleType>(&mut writer, cells),
+                Cells::Integer(cells) => with_gaps::<Int64Type>(&mut writer, cells),
+                Cells::Flag(cells) => with_gaps::<BoolType>(&mut writer, cells),
+                Cells::Float(cells) => writer.typed::<FloatType>().write_batch(cells, None, None),
+            };
+            written.map_err(fault)?;
+            writer.close().map_err(fault)?;
+        }
+        group.close().map_err(fault)?;
+        self.drain()
+    }
+
+    /// Ends the file.
+    pub(super) fn finish(mut self) -> Result<()> {
+        self.file.finish().map_err(fault)?;
+        self.drain()
+    }
+
+    /// Passes on what was written so far.
+    fn drain(&mut self) -> Result<()> {
+        let taken = self
+            .held
+            .0
+            .lock()
+            .map(|mut held| std::mem::take(&mut *held));
+        let bytes = taken.map_err(|_| broken(&io::Error::other("the writer failed")))?;
+        self.out.write_all(&bytes).map_err(|error| broken(&error))
+    }
+}
+
+/// Writes the cells that are there, and for each row whether it is.
+fn with_gaps<T: DataType>(
+    writer: &mut SerializedColumnWriter<'_>,
+    cells: &[Option<T::T>],
+) -> std::result::Result<usize, ParquetError> {
+    let levels: Vec<i16> = cells.iter().map(|it| i16::from(it.is_some())).collect();
+    let there: Vec<T::T> = cells.iter().flatten().cloned().collect();
+    writer.typed::<T>().write_batch(&there, Some(&levels), None)
+}
+
+fn schema(table: &Table) -> Result<TypePtr> {
+    let fields: Result<Vec<TypePtr>> = table
+        .iter()
+        .map(|column| {
+            let (physical, repetition) = match column.cells {
+                Cells::Text(_) => (Physical::BYTE_ARRAY, Repetition::OPTIONAL),
+                Cells::Double(_) => (Physical::DOUBLE, Repetition::OPTIONAL),
+                Cells::Integer(_) => (Physical::INT64, Repetition::OPTIONAL),
+                Cells::Flag(_) => (Physical::BOOLEAN, Repetition::OPTIONAL),
+                Cells::Float(_) => (Physical::FLOAT, Repetition::REQUIRED),
+            };
+            let kind = if physical == Physical::BYTE_ARRAY {
+                ConvertedType::UTF8
+            } else {
+                ConvertedType::NONE
+            };
+            let field = Type::primitive_type_builder(&column.name, physical)
+                .with_repetition(repetition)
+                .with_converted_type(kind)
+                .build();
+            Ok(Arc::new(field.map_err(fault)?))
+        })
+        .collect();
+    let whole = Type::group_type_builder("chereme")
+        .with_fields(fields?)
+        .build();
+    Ok(Arc::new(whole.map_err(fault)?))
+}
+
+/// Returns how columns are packed: texts by dictionary, numbers of movement with equal bytes together.
+fn properties(table: &Table, about: &str) -> Result<WriterPropertiesPtr> {
+    let level = ZstdLevel::try_new(3).map_err(fault)?;
+    let about = KeyValue::new("chereme".to_owned(), about.to_owned());
+    let mut builder = WriterProperties::builder()
+        .set_created_by(format!("Chereme {}", env!("CARGO_PKG_VERSION")))
+        .set_key_value_metadata(Some(vec![about]))
+        .set_compression(Compression::ZSTD(level));
+    for column in table {
+        let path = ColumnPath::from(column.name.as_str());
+        if matches!(column.cells, Cells::Float(_)) {
+            builder = builder
+                .set_column_dictionary_enabled(path.clone(), false)
+                .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT);
+        }
+    }
+    Ok(Arc::new(builder.build()))
+}
+
+/// The bytes of a file under construction, until they go out.
+#[derive(Clone, Default)]
+struct Held(Arc<Mutex<Vec<u8>>>);
+
+impl Write for Held {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let held = self.0.lock();
+        let mut held = held.map_err(|_| io::Error::other("the writer failed"))?;
+        held.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+fn fault(error: ParquetError) -> Error {
+    Error::wrong(format!("the table cannot be written: {error}"))
+}
+
+fn broken(error: &io::Error) -> Error {
+    Error::wrong(format!("the table cannot be written: {error}"))
+}
