@@ -122,7 +122,7 @@ pub use kinematics::Curves;
 pub use list::{ListFilter, ListKind, Listing, cell_text, components_text};
 pub use log::{ChangeKind, Changed, FieldChange, OperationDetail};
 pub use map::{MapOptions, MapPoint, SignMap};
-pub use media::{MediaChange, MediaPlace, find_media};
+pub use media::{MediaChange, MediaPlace, find_media, is_film};
 pub use merge::{Candidate, CorpusConflict, Decision, MergeReport};
 pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};

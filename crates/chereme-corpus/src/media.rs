@@ -66,6 +66,7 @@ impl Corpus {
                         offset_us: 0,
                         media_type: media_type(url).map(str::to_owned),
                         url: said(url)?,
+                        imported: Vec::new(),
                     };
                     recordings::insert_media_track(connection, &new)?;
                 }
@@ -106,13 +107,21 @@ impl MediaTrackRow {
     }
 }
 
-/// Looks for the file of a media track of the corpus at `corpus`: at its path, then by its name next to the corpus
-/// and in folders there; also as an MP4 of the same name, since people convert films that no player here knows.
+/// Looks for the file of a media track of the corpus at `corpus`: at its path, where it was imported from, then by its
+/// name next to the corpus and in folders there; also as an MP4 of the same name, since people convert films that no player here knows.
 #[must_use]
 pub fn find_media(track: MediaTrackRow, corpus: &Path) -> MediaPlace {
     let folder = corpus.parent().unwrap_or(Path::new(""));
     let candidates = candidates(&track.url, folder);
     let there = candidates.iter().find(|path| path.is_file()).cloned();
+    let there = there.or_else(|| {
+        // An import has seen the file at its place, which annotation files rarely know.
+        let imported = track.imported.iter();
+        let imported = imported.filter(|it| is_same_film(&track, &file_name(it)));
+        imported
+            .map(|it| folder.join(it))
+            .find(|path| path.is_file())
+    });
     let there = there.or_else(|| {
         let name = candidates
             .last()?
@@ -219,8 +228,29 @@ fn decoded(text: &str) -> String {
     String::from_utf8_lossy(&out).into_owned()
 }
 
+/// Returns whether a path or URL ends as those of films do.
+#[must_use]
+pub fn is_film(url: &str) -> bool {
+    media_type(url).is_some_and(|kind| kind.starts_with("video"))
+}
+
+/// Returns the name of the file at the end of a path or URL of any system.
+pub(crate) fn file_name(url: &str) -> String {
+    decoded(url.rsplit(['/', '\\']).next().unwrap_or(url))
+}
+
+/// Returns whether a file of that name holds the film of a track; a converted film keeps its name but for the ending.
+pub(crate) fn is_same_film(track: &MediaTrackRow, name: &str) -> bool {
+    let own = file_name(&track.url);
+    let stem = |name: &str| {
+        let stem = Path::new(name).file_stem();
+        stem.map(|it| it.to_ascii_lowercase())
+    };
+    own.eq_ignore_ascii_case(name) || (track.is_film() && stem(&own) == stem(name))
+}
+
 /// Returns the media type for the extension of a file's name.
-fn media_type(url: &str) -> Option<&'static str> {
+pub(crate) fn media_type(url: &str) -> Option<&'static str> {
     let end = url.rsplit('.').next()?.to_ascii_lowercase();
     Some(match end.as_str() {
         "mp4" | "m4v" => "video/mp4",
@@ -271,6 +301,7 @@ mod tests {
             offset_us: 0,
             media_type: None,
             url: url.to_owned(),
+            imported: Vec::new(),
         };
         let looked = |url: &str| find_media(row(url), &corpus);
         assert!(!looked("file:///D:/gone/take.mpg").is_there);

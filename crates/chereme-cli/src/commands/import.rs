@@ -21,7 +21,7 @@ use crate::streams::{self, Stand};
 /// Import recordings, annotations, lexicons and inventories into a corpus
 ///
 /// Files: .bvh, .fbx, .glb, .gltf, .vrm (movement), .c3d, .trc (markers), .pose, .json of OpenPose or MediaPipe (points
-/// from film), .csv of faces, .fap, .eaf, .textgrid, .srt, .vtt (annotations), .ecv, .pfsx, .etf (ELAN's vocabularies,
+/// from film), .mp4 and other films (linked to the recording of their name or whose .eaf names them), .csv of faces, .fap, .eaf, .textgrid, .srt, .vtt (annotations), .ecv, .pfsx, .etf (ELAN's vocabularies,
 /// settings, templates), .csv or .tsv (a lexicon of codings, of HamNoSys, or both; .json where it holds signs), .sigml or
 /// .hsigml (signs as notation; .xml if it is SiGML), .hns (HamNoSys, a sign a line: the gloss, a tab, the text; .txt if it
 /// has such lines), .json (an inventory), or folders of them. Files of the same name in one folder become one recording, as
@@ -207,6 +207,14 @@ fn files(args: &Args) -> Result<(Vec<PathBuf>, Vec<Stand>)> {
             ))
             .at(format)
             .advise("write --format eaf, and --name take1")
+            .into());
+        }
+        if chereme_corpus::is_film(&format!("film.{format}")) {
+            return Err(Error::wrong(
+                "a corpus keeps the place of a film, and standard input has none",
+            )
+            .at(format)
+            .advise("name the file of the film")
             .into());
         }
         let stand = streams::input(&args.name, format)?;

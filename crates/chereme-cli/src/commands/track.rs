@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Address, Error, Name, Signal, TrackChange, TrackRow};
+use chereme_corpus::{Address, Error, MediaChange, Name, Signal, TrackChange, TrackRow};
 use serde_json::json;
 
 use crate::args::Cli;
@@ -19,6 +19,7 @@ use crate::output::Output;
 Examples:
   chereme track mine.chereme recording:3
   chereme track mine.chereme recording:3 pose --offset 0.48s
+  chereme track mine.chereme recording:3 \"media 1\" --file films/take.mp4
   chereme track mine.chereme recording:3 pose --align-to body
   chereme track mine.chereme recording:3 pose --align-to markers --channels LEFT_WRIST --with LWRA,LWRB --store")]
 pub(crate) struct Args {
@@ -33,6 +34,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME", value_parser = micros, allow_hyphen_values = true, requires = "name",
           conflicts_with_all = ["remove", "align_to"])]
     offset: Option<i64>,
+    /// The place of a film or another media file that lies elsewhere now
+    #[arg(long, value_name = "FILE", requires = "name", conflicts_with_all = ["remove", "align_to"])]
+    file: Option<String>,
     /// Give it another name
     #[arg(long, value_name = "NAME", requires = "name", conflicts_with_all = ["remove", "align_to"])]
     rename: Option<String>,
@@ -132,6 +136,13 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         }
         return output.document(found);
     }
+    if let Some(file) = &args.file {
+        let tracks = corpus.tracks(&args.recording)?;
+        let track = tracks.iter().find(|track| track.name == *name);
+        let track = track.ok_or_else(|| no_track(name))?;
+        let change = MediaChange::Move(track.id, file.clone());
+        corpus.change_media(&args.recording, &change)?;
+    }
     let changes = [
         args.offset.map(TrackChange::Offset),
         args.rename.clone().map(TrackChange::Name),
@@ -147,15 +158,18 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             let mut all = corpus.tracks(&args.recording)?;
             all.retain(|track| track.name == *name);
             if all.is_empty() {
-                return Err(Error::wrong(format!("there is no track {name:?}"))
-                    .at(name)
-                    .advise("`chereme track CORPUS RECORDING` lists its tracks")
-                    .into());
+                return Err(no_track(name).into());
             }
             all
         }
     };
     shown(&after, output)
+}
+
+fn no_track(name: &str) -> Error {
+    Error::wrong(format!("there is no track {name:?}"))
+        .at(name)
+        .advise("`chereme track CORPUS RECORDING` lists its tracks")
 }
 
 fn shown(tracks: &[TrackRow], output: &mut Output) -> Result<()> {

@@ -95,6 +95,9 @@ pub struct MediaTrackRow {
     pub url: String,
     /// Its media type.
     pub media_type: Option<String>,
+    /// Where films of its recording were imported from, seen from the corpus's folder, the newest first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub imported: Vec<String>,
 }
 
 /// Returns the row of the signer called `name`, and inserts it if it is missing.
@@ -523,9 +526,13 @@ pub(crate) fn media_tracks(connection: &Connection, recording: i64) -> Result<Ve
         "SELECT id, recording_id, name, offset_us, media_url, media_type
          FROM track WHERE recording_id = ?1 AND kind = 'media' ORDER BY id",
     )?;
+    let files = source_files(connection, recording)?.into_iter().rev();
+    let films = files.filter(|it| it.kind == "film");
+    let imported: Vec<String> = films.filter_map(|it| it.path).collect();
     let rows = statement
         .query_map([recording], |row| {
             Ok(MediaTrackRow {
+                imported: imported.clone(),
                 id: row.get(0)?,
                 recording_id: row.get(1)?,
                 name: row.get(2)?,

@@ -11,7 +11,7 @@ mod colours;
 mod helper;
 mod own;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod write;
 
 use std::collections::VecDeque;

@@ -55,7 +55,7 @@ fn painted([width, height]: [usize; 2], colour: impl Fn(usize, usize) -> [u8; 3]
 }
 
 /// Writes a film of squares, and returns where it lies.
-fn film(folder: &Path, size: [usize; 2], frames: usize) -> PathBuf {
+pub(crate) fn film(folder: &Path, size: [usize; 2], frames: usize) -> PathBuf {
     let path = folder.join(format!("{}x{}.mp4", size[0], size[1]));
     let out = std::fs::File::create(&path).expect("made");
     let mut squares = Squares { size, frames };

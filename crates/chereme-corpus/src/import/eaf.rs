@@ -21,6 +21,7 @@ use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
 use crate::db::recordings::{self, MediaTrackRow, RecordingRow};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
+use crate::media::is_same_film;
 use crate::progress::Progress;
 use crate::tokens;
 use remap::{remap, set_role};
@@ -375,16 +376,26 @@ fn media(job: &mut Job<'_>, recording: i64, transcript: &Transcript) -> Result<(
         if there.iter().any(|it| it.name == name) {
             continue;
         }
+        let url = media.relative_url.as_ref().unwrap_or(&media.url);
+        // A film that came before its annotation file is the one that the file names.
+        let film = there.iter().find(|it| {
+            it.name.starts_with("film ") && is_same_film(it, &crate::media::file_name(url))
+        });
+        let mut offset = -media.time_origin.unwrap_or_default().saturating_mul(1000);
+        if let Some(film) = film {
+            recordings::remove_media_track(job.connection, film.id)?;
+            if media.time_origin.is_none() {
+                offset = film.offset_us;
+            }
+        }
         let row = MediaTrackRow {
             id: 0,
             recording_id: recording,
             name,
-            offset_us: -media.time_origin.unwrap_or_default().saturating_mul(1000),
-            url: media
-                .relative_url
-                .clone()
-                .unwrap_or_else(|| media.url.clone()),
+            offset_us: offset,
+            url: url.clone(),
             media_type: Some(media.mime_type.clone()).filter(|text| !text.is_empty()),
+            imported: Vec::new(),
         };
         recordings::insert_media_track(job.connection, &row)?;
         job.count("tracks", 1);

@@ -8,6 +8,7 @@ mod captured;
 mod clock;
 pub(crate) mod eaf;
 mod elan;
+mod film;
 mod inventory;
 mod lexicon;
 mod notated;
@@ -122,6 +123,8 @@ struct Job<'a> {
     file_name: String,
     /// Where the file lies, seen from the folder of the corpus.
     place: String,
+    /// The folder of the corpus.
+    base: &'a Path,
     /// The word for its kind in `source_file.kind`.
     kind: &'static str,
     hash: String,
@@ -405,7 +408,11 @@ impl Import<'_> {
             file_name: text(path.file_name()),
             place: place(&absolute(path), self.base),
             kind: READERS[reader].kind,
-            hash: hash_file(path, progress)?,
+            hash: match READERS[reader].kind {
+                film::KIND => film::hash(path)?,
+                _ => hash_file(path, progress)?,
+            },
+            base: self.base,
             inventories: inventories.clone(),
             places: &mut self.places,
             counts,

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::{FileReport, Job, bvh, captured, eaf, elan, notated};
+use super::{FileReport, Job, bvh, captured, eaf, elan, film, notated};
 use crate::error::{Error, Result};
 use crate::notation::Form;
 use crate::progress::Progress;
@@ -26,7 +26,8 @@ pub(super) struct Reader {
 }
 
 /// The kinds in the order in which an import reads them: annotations come after movement, so that they find
-/// their recordings and the values that they use; templates come last, for the recordings that still lack tiers.
+/// their recordings and the values that they use; films come after
+/// these, as annotation files name theirs, and templates last, for the recordings that still lack tiers.
 pub(super) static READERS: &[Reader] = &[
     Reader {
         endings: &["json"],
@@ -158,6 +159,14 @@ pub(super) static READERS: &[Reader] = &[
         read: elan::import_settings,
     },
     Reader {
+        endings: &["mp4", "m4v", "mov", "avi", "mpg", "mpeg", "webm", "mkv"],
+        kind: film::KIND,
+        holds: "films",
+        looks: always,
+        keeps_inventories: true,
+        read: film::import,
+    },
+    Reader {
         endings: &["etf"],
         kind: "etf",
         holds: "templates of ELAN",
@@ -180,7 +189,7 @@ struct Unread {
     remedy: &'static str,
 }
 
-const MEDIA: &str = "import the .eaf that names it, or link it: chereme media";
+const MEDIA: &str = "import the .eaf that names it; its recording is linked to it then";
 
 static UNREAD: &[Unread] = &[
     Unread {
@@ -200,11 +209,6 @@ static UNREAD: &[Unread] = &[
         remedy: "open it in Blender and export .glb or .bvh",
     },
     Unread {
-        endings: &["mp4", "mov", "avi", "mpg", "mpeg", "webm", "mkv"],
-        what: "film",
-        remedy: MEDIA,
-    },
-    Unread {
         endings: &["wav", "mp3"],
         what: "sound",
         remedy: MEDIA,
@@ -217,7 +221,7 @@ static UNREAD: &[Unread] = &[
     Unread {
         endings: &["chereme"],
         what: "a corpus",
-        remedy: "export its files with `chereme export`, and import those",
+        remedy: "merge it into yours: `chereme merge CORPUS OTHER`; or export its files, and import those",
     },
 ];
 
@@ -278,7 +282,7 @@ mod tests {
         all.dedup();
         assert_eq!(all.len(), many);
         let place = |kind: &str| READERS.iter().position(|it| it.kind == kind);
-        let order = ["bvh", "pose", "ecv", "eaf", "pfsx", "etf"].map(place);
+        let order = ["bvh", "pose", "ecv", "eaf", "pfsx", "film", "etf"].map(place);
         assert!(order.is_sorted() && order[0].is_some(), "{order:?}");
         assert_eq!(reader(Path::new("A/TAKE.EAF")), place("eaf"));
         assert_eq!(reader(Path::new("a.docx")), None);

@@ -2,6 +2,7 @@
 
 mod again;
 mod captured;
+mod film;
 mod lexicon;
 
 use std::path::{Path, PathBuf};

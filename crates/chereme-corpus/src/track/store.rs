@@ -76,6 +76,7 @@ fn media_track(
     file: &MediaFile,
 ) -> Result<i64> {
     let row = MediaTrackRow {
+        imported: Vec::new(),
         id: 0,
         recording_id,
         name: name.to_owned(),

@@ -53,7 +53,11 @@ impl Films {
         *screens = wanted
             .into_iter()
             .map(|track| {
-                let own = |it: &Screen| it.track.id == track.id && it.track.url == track.url;
+                let own = |it: &Screen| {
+                    it.track.id == track.id
+                        && it.track.url == track.url
+                        && it.track.imported == track.imported
+                };
                 match before.iter().position(own) {
                     Some(at) => before.swap_remove(at).moved(track),
                     None => Screen::new(track.clone(), &self.corpus, ctx),
