@@ -10,6 +10,7 @@ use serde_json::json;
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
+use crate::streams;
 
 /// Place the signs on a map: signs that are alike lie near each other
 ///
@@ -26,7 +27,7 @@ pub(crate) struct Args {
     /// The components that count: configuration, placement, movement, orientation, nonmanual
     #[arg(long, value_name = "A,B,...", value_delimiter = ',')]
     by: Vec<Component>,
-    /// Draw the map to this file, an .svg
+    /// Draw the map to this file, an .svg; - is standard output
     #[arg(long, value_name = "FILE")]
     to: Option<PathBuf>,
     /// Replace the file
@@ -45,6 +46,13 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let map = corpus.map(&options, &mut Progress::new(&mut hear))?;
     drop(bar);
     if let Some(to) = &args.to {
+        if streams::is_standard(to) {
+            streams::not_with_json(output.is_json())?;
+            let stand = streams::output("map", "svg")?;
+            map.draw(&stand.path, false)?;
+            output.silence();
+            return streams::copy(&stand);
+        }
         let bytes = map.draw(to, args.force)?;
         output.line(format!(
             "drew {} signs to {}: {} KB",

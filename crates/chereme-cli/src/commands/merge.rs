@@ -78,6 +78,14 @@ enum Take {
 }
 
 pub(super) fn merge(cli: &Cli, args: &MergeArgs, output: &mut Output) -> Result<()> {
+    if is_corpus(&args.mine) && streams::is_standard(&args.other) {
+        return Err(Error::wrong(
+            "standard input says no name, by which a corpus knows its file again",
+        )
+        .at("-")
+        .advise("write `chereme import CORPUS - --format eaf --name NAME --merge`")
+        .into());
+    }
     match (is_corpus(&args.mine), is_corpus(&args.other)) {
         (true, true) => corpora(cli, args, output),
         (true, false) => file_into_corpus(cli, args, output),
@@ -119,7 +127,7 @@ fn print(report: &MergeReport, output: &mut Output) -> Result<()> {
     for (text, counts) in kinds {
         let counts: Vec<String> = counts
             .iter()
-            .map(|(kind, count)| format!("{count} {}", kind.replace('_', " ")))
+            .map(|(kind, count)| format!("{count} × {}", output.say(words::kind(kind))))
             .collect();
         if !counts.is_empty() {
             said = true;

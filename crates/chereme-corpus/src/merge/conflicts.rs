@@ -27,6 +27,8 @@ pub struct CorpusConflict {
     pub what: String,
     /// The place: the tier and recording of an annotation, else the name.
     pub place: String,
+    /// The row of the recording that it is in, or is.
+    pub recording: Option<i64>,
     /// The common state; nothing if it was not there.
     pub base: Option<Candidate>,
     /// The candidate of this corpus, which stands; nothing if it was removed here.
@@ -208,6 +210,10 @@ pub(crate) fn list(connection: &Connection) -> Result<Vec<CorpusConflict>> {
                 Some(known) => place(connection, &side, &open.table, known)?,
                 None => String::new(),
             },
+            recording: match known {
+                Some(known) => recording(connection, &side, (&open.table, &open.uid), known)?,
+                None => None,
+            },
             base: against(&open.base, &mine),
             mine: against(&mine, &open.theirs),
             theirs: against(&open.theirs, &mine),
@@ -276,6 +282,29 @@ fn place(connection: &Connection, side: &Side<'_>, table: &str, row: &Image) -> 
     }
     let name = ["name", "gloss", "key", "text"].into_iter().find_map(text);
     Ok(name.unwrap_or_default().to_owned())
+}
+
+/// Returns the recording of a row; nothing if the row is of none, or its recording is gone.
+fn recording(
+    connection: &Connection,
+    side: &Side<'_>,
+    (table, uid): (&str, &str),
+    row: &Image,
+) -> Result<Option<i64>> {
+    let above = |column: &str| row.get(column).and_then(Value::as_str);
+    if table == "recording" {
+        return side.id("recording", uid);
+    }
+    if let Some(tier) = above("tier_id") {
+        return match side.id("tier", tier)? {
+            Some(tier) => Ok(Some(tiers::tier(connection, tier)?.recording_id)),
+            None => Ok(None),
+        };
+    }
+    match above("recording_id") {
+        Some(uid) => side.id("recording", uid),
+        None => Ok(None),
+    }
 }
 
 impl Corpus {

@@ -2,6 +2,8 @@
 //! both wait for a decision.
 
 mod conflicts;
+#[cfg(test)]
+mod laws;
 mod rows;
 #[cfg(test)]
 mod tests;

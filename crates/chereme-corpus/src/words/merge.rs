@@ -25,9 +25,52 @@ texts! {
     TIER_REMOVED: "tier {tier} removed", "acteur {tier} supprimé";
     TIER_RENAMED: "tier {tier} renamed to {to}", "acteur {tier} renommé en {to}";
     TIER_CHANGED: "tier {tier} changed: {what}", "acteur {tier} modifié : {what}";
+    SHOW: "Show it on the stage and the timeline", "L’afficher sur la scène et la ligne de temps";
     TIP: "Your candidate stands until you choose. Undo takes a choice back.", "Votre version reste tant que vous n’avez pas choisi. Annuler revient sur un choix.";
+    ANNOTATION: "annotation", "annotation";
+    TIER: "tier", "acteur";
+    RECORDING: "recording", "enregistrement";
+    SOURCE_FILE: "source file", "fichier source";
+    TRACK: "track", "piste";
+    CHANNEL: "channel", "canal";
+    SKELETON: "skeleton", "squelette";
+    SIGNER: "signer", "signeur";
+    SIGN: "sign", "signe";
+    TOKEN: "token", "occurrence";
+    NOTATION: "notation", "notation";
+    ATTRIBUTE: "attribute", "attribut";
+    INVENTORY: "inventory", "inventaire";
+    INVENTORY_VALUE: "inventory value", "valeur d’inventaire";
+    RECIPE: "recipe", "recette";
+    SEARCH: "saved search", "recherche enregistrée";
+    ROW: "row", "ligne";
     DID_MERGE: "Merged {what}", "Fusionné {what}";
     DID_DECIDE: "Decided {what}", "Décidé {what}";
+}
+
+/// Returns the word for one thing of a kind that is merged, such as `annotation`.
+#[must_use]
+pub fn kind(table: &str) -> Text {
+    let kinds = [
+        ("annotation", ANNOTATION),
+        ("tier", TIER),
+        ("recording", RECORDING),
+        ("source_file", SOURCE_FILE),
+        ("track", TRACK),
+        ("channel", CHANNEL),
+        ("skeleton", SKELETON),
+        ("signer", SIGNER),
+        ("sign", SIGN),
+        ("token", TOKEN),
+        ("notation", NOTATION),
+        ("attribute", ATTRIBUTE),
+        ("inventory", INVENTORY),
+        ("inventory_value", INVENTORY_VALUE),
+        ("recipe", RECIPE),
+        ("kept_search", SEARCH),
+    ];
+    let found = kinds.into_iter().find(|(name, _)| *name == table);
+    found.map_or(ROW, |it| it.1)
 }
 
 /// Returns the word for a decision.
