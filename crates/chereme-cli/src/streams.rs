@@ -1,6 +1,6 @@
 //! Standard input and output in place of files, written `-`.
 
-use std::io::{self, Read, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
@@ -60,14 +60,57 @@ pub(crate) fn output(name: &str, format: &str) -> Result<Stand> {
     })
 }
 
+/// Standard output for a document. Its reader may go before the end, as `head` does; the rest is dropped then.
+pub(crate) struct Document {
+    out: BufWriter<io::StdoutLock<'static>>,
+    is_read: bool,
+}
+
+impl Document {
+    /// Returns standard output.
+    pub(crate) fn new() -> Self {
+        Self {
+            out: BufWriter::new(io::stdout().lock()),
+            is_read: true,
+        }
+    }
+
+    /// Returns what an attempt gave, or `dropped` if the reader has gone.
+    fn heard<T>(&mut self, attempt: io::Result<T>, dropped: T) -> io::Result<T> {
+        match attempt {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.is_read = false;
+                Ok(dropped)
+            }
+            other => other,
+        }
+    }
+}
+
+impl Write for Document {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if !self.is_read {
+            return Ok(bytes.len());
+        }
+        let attempt = self.out.write(bytes);
+        self.heard(attempt, bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if !self.is_read {
+            return Ok(());
+        }
+        let attempt = self.out.flush();
+        self.heard(attempt, ())
+    }
+}
+
 /// Writes a file to standard output.
 pub(crate) fn copy(stand: &Stand) -> Result<()> {
     let bytes = std::fs::read(&stand.path).map_err(|error| Error::file(&stand.path, error))?;
-    let mut out = io::stdout().lock();
-    match out.write_all(&bytes).and_then(|()| out.flush()) {
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        other => Ok(other?),
-    }
+    let mut out = Document::new();
+    out.write_all(&bytes)?;
+    Ok(out.flush()?)
 }
 
 /// Refuses `--json` where the document itself goes to standard output.

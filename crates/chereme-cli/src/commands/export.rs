@@ -65,7 +65,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 .at("-")
                 .advise("name it, as with --format csv")
         })?;
-        let mut out = io::BufWriter::new(io::stdout().lock());
+        let mut out = streams::Document::new();
         let notes = corpus.export_stream(&what, format, &mut out, progress)?;
         io::Write::flush(&mut out)?;
         drop(bar);

@@ -235,7 +235,9 @@ fn files(args: &MergeArgs, output: &mut Output) -> Result<()> {
     )?;
     if streams::is_standard(to) {
         streams::not_with_json(output.is_json())?;
-        std::io::stdout().lock().write_all(&merged.bytes)?;
+        let mut out = streams::Document::new();
+        out.write_all(&merged.bytes)?;
+        out.flush()?;
         output.silence();
         return Ok(());
     }
