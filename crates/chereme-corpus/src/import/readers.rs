@@ -291,7 +291,7 @@ mod tests {
     #[test]
     fn what_is_not_read_is_named_with_a_remedy() {
         for (name, said) in [
-            ("a.mp4", "film"),
+            ("a.wav", "sound"),
             ("a.docx", "not known"),
             ("noending", "not known"),
         ] {
