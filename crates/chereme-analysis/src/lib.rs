@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`align`](mod@align) | the shift at which two signals of one event are most alike |
 //! | [`cue`](mod@cue) | captured cued speech: models, restoration, recognisers, targets, generated sessions |
+//! | [`detect`] | detectors behind one trait: spans, fields, values and confidences |
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
 //! | [`kinematics`](mod@kinematics) | how hands move, frame by frame |
 //! | [`map`] | a map of things by likeness |
@@ -16,6 +17,7 @@
 
 pub mod align;
 pub mod cue;
+pub mod detect;
 pub mod dtw;
 pub mod kinematics;
 pub mod map;

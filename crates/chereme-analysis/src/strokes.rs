@@ -191,13 +191,13 @@ fn minimum(speeds: &[f64], top: usize, way: impl Iterator<Item = usize>) -> Opti
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use chereme_motion::{Channel, Joint, Rate, Skeleton};
     use std::sync::Arc;
 
     /// An arm whose forearm bends by `angle` at each frame.
-    fn bending(angle: impl Fn(f64) -> f64) -> (Clip, Anatomy) {
+    pub(crate) fn bending(angle: impl Fn(f64) -> f64) -> (Clip, Anatomy) {
         let mut joints = vec![Joint::new("Hips", None, DVec3::Y)];
         let chain = ["Spine", "Neck", "Head"];
         for (n, name) in chain.into_iter().enumerate() {

@@ -1,6 +1,7 @@
 //! Proposals for non-manual tiers from the curves of a face.
 
-use chereme_analysis::nonmanuals::{Curves, Proposal, proposals};
+use chereme_analysis::detect::{Detection, Detector, Nonmanuals, Observed};
+use chereme_analysis::nonmanuals::Curves;
 use chereme_formats::table::annotations::Moment;
 use chereme_motion::{Face, Instant};
 use chereme_sign::{Component, TierRole};
@@ -88,18 +89,25 @@ impl Corpus {
             head_yaw: head(1),
         };
         let end = row.duration_us;
-        let at = |frame: usize| Instant::from_seconds(frame as f64 / RATE).micros().min(end);
-        let proposal = |it: Proposal| FaceProposal {
-            tier: format!("nonmanual.{} (proposed)", it.feature),
-            start_us: at(it.frames.start),
-            end_us: at(it.frames.end),
-            value: it.value.to_owned(),
+        let observed = Observed {
+            face: Some(curves),
+            ..Observed::default()
+        };
+        let proposal = |it: Detection| FaceProposal {
+            tier: format!("{} (proposed)", it.field),
+            start_us: it.span.start().micros().min(end),
+            end_us: it.span.end().micros().min(end),
+            value: it.value,
             confidence: (it.confidence * 1000.0).round() / 1000.0,
             why: it.why,
         };
         let mut report = FaceProposals {
             recording: row.name.clone(),
-            proposals: proposals(&curves).into_iter().map(proposal).collect(),
+            proposals: Nonmanuals
+                .detect(&observed)
+                .into_iter()
+                .map(proposal)
+                .collect(),
             written: 0,
         };
         report.proposals.retain(|it| it.end_us > it.start_us);
