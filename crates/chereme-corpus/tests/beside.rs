@@ -276,6 +276,12 @@ fn a_folder_with_one_file_of_movement_and_one_of_a_face_is_one_take() {
         &[
             ("one/body.bvh", MOVEMENT),
             ("one/phone.csv", FACE),
+            ("long/body2.bvh", &MOVEMENT.replace("0 0 1", "0 0 4")),
+            (
+                "long/points.trc",
+                "PathFileType\t4\t(X/Y/Z)\ta\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n\
+                 1\t1\t2\t1\tmm\t1\t1\t2\nFrame#\tTime\tLWRA\n\t\tX1\tY1\tZ1\n\n1\t0\t1\t2\t3\n2\t1\t1\t2\t3\n",
+            ),
             ("two/x.bvh", &other),
             ("two/y.bvh", &MOVEMENT.replace("0 0 1", "0 0 3")),
             (
@@ -286,7 +292,9 @@ fn a_folder_with_one_file_of_movement_and_one_of_a_face_is_one_take() {
     );
     let mut corpus = desk.corpus("c.chereme");
     let report = import_all(&mut corpus, &[inbox], &ImportOptions::default());
-    assert_eq!(recordings(&corpus), ["body", "x", "y", "z"]);
+    let mut names = recordings(&corpus);
+    names.sort();
+    assert_eq!(names, ["body", "body2", "points", "x", "y", "z"]);
     assert_eq!(kinds(&corpus, "body").len(), 2);
     let told = report.files.iter().flat_map(|it| &it.findings);
     let told = told.filter(|it| it.message.contains("taken for the take"));

@@ -32,7 +32,7 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
         Some(recording) => recording,
         None => match clock::take_of(job, &days, report)? {
             Some(recording) => recording,
-            None => match job.folder_take.filter(|_| job.options.into.is_none()) {
+            None => match folder_take(job, &new)? {
                 Some(recording) => {
                     tell_folder(job, recording, report)?;
                     recording
@@ -67,6 +67,21 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     report.understand("tracks", rows.iter().map(shown).collect::<Vec<_>>());
     Ok(recording)
+}
+
+/// Two tracks of a folder are of one take if the longer is at most so many times as long as the other.
+const LONGER: i64 = 2;
+
+/// Returns the recording of the one file of movement in the folder, if it is about as long as the tracks.
+fn folder_take(job: &Job<'_>, new: &[NewTrack]) -> Result<Option<i64>> {
+    let Some(recording) = job.folder_take.filter(|_| job.options.into.is_none()) else {
+        return Ok(None);
+    };
+    let own = new.iter().map(|track| length_us(&track.track)).max();
+    let own = own.unwrap_or_default();
+    let theirs = recordings::recording(job.connection, recording)?.duration_us;
+    let alike = own <= theirs.saturating_mul(LONGER) && theirs <= own.saturating_mul(LONGER);
+    Ok(Some(recording).filter(|_| alike))
 }
 
 /// Reports that a file is taken for the take of its folder.
