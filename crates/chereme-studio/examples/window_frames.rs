@@ -1,4 +1,4 @@
-//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS|two|grid|wall|change] [SECONDS]`.
+//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS|two|grid|wall|change|film] [SECONDS] [FILM]`.
 //!
 //! The window opens without waiting for the screen and plays its first recording in a loop, scrolls and zooms
 //! the timeline while it plays, drags an annotation among its neighbours, and closes. Without a corpus one is
@@ -11,6 +11,9 @@
 //! each by its name, which other programs on the machine change less. At last the window is empty: frames are as far
 //! apart then as the machine has them.
 //!
+//! `film` plays a film of 1080 lines next to the signer of that recording: FILM, or one that is drawn of the recording.
+//! It prints besides how many of the window's frames showed the film's picture of that very moment.
+//!
 //! `change` imports the starter corpus and changes a placement of recipes again and again, each time when what the
 //! last change made has been drawn. Prints how long the recipe took to be made without a window, how long after the
 //! change its picture was on the stage, and in which frame: 1 is the one after that in which the change was typed.
@@ -21,7 +24,10 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
+use chereme_corpus::{
+    Address, Corpus, ImportOptions, MediaChange, Name, PictureOptions, Progress, unheard,
+    unpack_starter,
+};
 use chereme_studio::{Folders, Options, Studio};
 use eframe::egui::{
     Context, Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2,
@@ -36,6 +42,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let wall = first.as_deref() == Some("wall");
     let grid = first.as_deref() == Some("grid") || wall;
     let change = first.as_deref() == Some("change");
+    let film = first.as_deref() == Some("film");
+    let seconds = arguments.next().map_or(Ok(10), |text| text.parse())?;
     let corpus = match first {
         Some(_) if two => pair(folder.path())?,
         Some(_) if grid => starter(folder.path())?,
@@ -44,10 +52,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             without_window(&path)?;
             path
         }
+        Some(_) if film => filmed(folder.path(), arguments.next())?,
         Some(path) => PathBuf::from(path),
         None => made(folder.path())?,
     };
-    let seconds = arguments.next().map_or(Ok(10), |text| text.parse())?;
     let mut native = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_title("Chereme")
@@ -76,6 +84,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             (0..RECIPES.len()).map(Scene::Change).collect()
         } else if wall {
             VecDeque::from([Scene::Wall, Scene::Empty])
+        } else if film {
+            VecDeque::from([Scene::Film, Scene::Empty])
         } else if grid {
             VecDeque::from([Scene::Grid, Scene::Empty])
         } else {
@@ -86,6 +96,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         lasts: Duration::from_secs(seconds) / 3,
         last: None,
         frame: 0,
+        pictured: 0,
         computed: Vec::new(),
         apart: Vec::new(),
         worked: BTreeMap::new(),
@@ -114,6 +125,30 @@ fn made(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
         &options,
         &mut Progress::new(&mut hear),
     )?;
+    Ok(path)
+}
+
+/// The same with a film next to the signer.
+fn filmed(folder: &Path, film: Option<String>) -> Result<PathBuf, Box<dyn Error>> {
+    let path = made(folder)?;
+    let mut corpus = Corpus::open(&path, "A")?;
+    let recording = Name::Number(1);
+    let film = match film {
+        Some(film) => std::fs::canonicalize(film)?,
+        None => {
+            let film = folder.join("film.mp4");
+            let options = PictureOptions {
+                height: Some(1080),
+                ..PictureOptions::default()
+            };
+            let mut hear = unheard;
+            let what = Address::Recording(recording.clone());
+            corpus.draw(&what, &film, &options, &mut Progress::new(&mut hear))?;
+            film
+        }
+    };
+    let link = MediaChange::Add(film.display().to_string());
+    corpus.change_media(&recording, &link)?;
     Ok(path)
 }
 
@@ -232,6 +267,8 @@ fn many(tiers: usize, each: usize, millis: usize) -> Result<String, std::fmt::Er
 enum Scene {
     /// Playing in a loop.
     Play,
+    /// Playing in a loop next to a film.
+    Film,
     /// Playing a made sign beside what it was made from.
     Two,
     /// Scrolling through the tiers, and zooming in and out.
@@ -267,6 +304,8 @@ impl Scene {
         match self {
             Self::Grid => 900,
             Self::Wall => 3000,
+            // Until the film is open.
+            Self::Film => 200,
             Self::Change(_) => 60,
             _ => 20,
         }
@@ -289,8 +328,10 @@ impl Scene {
         };
         match (self, frame) {
             (Self::Two, 0) => vec![key(Key::PageDown, Modifiers::COMMAND)],
-            (Self::Play, 0) | (Self::Two, 1) => vec![key(Key::L, Modifiers::COMMAND)],
-            (Self::Play, 1) | (Self::Two, 2) => vec![key(Key::Space, Modifiers::COMMAND)],
+            (Self::Play | Self::Film, 0) | (Self::Two, 1) => vec![key(Key::L, Modifiers::COMMAND)],
+            (Self::Play | Self::Film, 1) | (Self::Two, 2) => {
+                vec![key(Key::Space, Modifiers::COMMAND)]
+            }
             (Self::Grid | Self::Wall, 0) => vec![key(Key::F2, Modifiers::COMMAND)],
             (Self::Grid | Self::Wall, 4) => vec![key(Key::F, Modifiers::COMMAND)],
             (Self::Grid | Self::Wall, 10) => vec![key(Key::Enter, Modifiers::NONE)],
@@ -304,7 +345,13 @@ impl Scene {
             (Self::Change(_), 6) => vec![key(Key::ArrowLeft, Modifiers::NONE); 2],
             (Self::Change(_), 40) => vec![key(Key::Space, Modifiers::COMMAND)],
             (
-                Self::Play | Self::Two | Self::Grid | Self::Wall | Self::Change(_) | Self::Empty,
+                Self::Play
+                | Self::Film
+                | Self::Two
+                | Self::Grid
+                | Self::Wall
+                | Self::Change(_)
+                | Self::Empty,
                 _,
             ) => Vec::new(),
             (Self::Scroll, frame) => {
@@ -351,6 +398,8 @@ struct Meter {
     lasts: Duration,
     last: Option<Instant>,
     frame: u64,
+    /// In how many frames the film showed the picture of that moment.
+    pictured: u64,
     computed: Vec<Duration>,
     apart: Vec<Duration>,
     drawn: Vec<Duration>,
@@ -411,6 +460,7 @@ impl eframe::App for Meter {
         if let Some(last) = self.last.replace(now) {
             self.apart.push(now - last);
             self.computed.push(now.elapsed());
+            self.pictured += u64::from(self.studio.is_filmed());
             let took = self.studio.drawing_time();
             if self.drawn.last() != Some(&took) {
                 self.drawn.push(took);
@@ -487,6 +537,11 @@ impl Meter {
         if !each.is_empty() {
             println!("{scene:?} processor time a frame: {}", each.join(", "));
         }
+        if scene == Some(&Scene::Film) {
+            let share = 100.0 * self.pictured as f64 / frames;
+            println!("{scene:?} in step: {share:.1} % of {frames} frames");
+        }
+        self.pictured = 0;
         let all = [
             ("computed", &mut self.computed),
             ("apart", &mut self.apart),

@@ -99,6 +99,7 @@ actions! {
     Import "file.import" SHOW_IMPORT File Corpus;
     ImportFiles "file.import-files" IMPORT_FILES File Corpus;
     ImportFolder "file.import-folder" IMPORT_FOLDER File Corpus;
+    MergeCorpus "file.merge" MERGE_CORPUS File Corpus;
     Export "file.export" EXPORT File Corpus;
     Close "file.close" CLOSE File Corpus;
     Check "file.check" CHECK File Corpus;
@@ -295,10 +296,10 @@ impl Action {
         use Action::{
             AddTier, BeginEndAnnotation, ChangeTier, CopyTier, CopyToTier, Cut, DeleteAnnotation,
             Duplicate, EndEarlier, EndHere, EndLater, EndToNeighbour, Import, ImportFiles,
-            ImportFolder, MergeAnnotation, MergePrevious, MoveToTier, NewAfter, NewAnnotation,
-            NewBefore, NewBelow, Paste, PasteHere, Redo, RemoveTier, ShiftEarlier, ShiftLater,
-            SplitAnnotation, StartEarlier, StartHere, StartLater, StartToNeighbour, StoreSign,
-            TierDown, TierUp, TiersByKind, TiersByName, ToSelection, Undo, UsualTiers,
+            ImportFolder, MergeAnnotation, MergeCorpus, MergePrevious, MoveToTier, NewAfter,
+            NewAnnotation, NewBefore, NewBelow, Paste, PasteHere, Redo, RemoveTier, ShiftEarlier,
+            ShiftLater, SplitAnnotation, StartEarlier, StartHere, StartLater, StartToNeighbour,
+            StoreSign, TierDown, TierUp, TiersByKind, TiersByName, ToSelection, Undo, UsualTiers,
         };
         self.row().menu == Menu::Value
             || matches!(
@@ -310,6 +311,7 @@ impl Action {
                     | Import
                     | ImportFiles
                     | ImportFolder
+                    | MergeCorpus
                     | StoreSign
                     | NewAnnotation
                     | NewBefore

@@ -28,6 +28,8 @@ pub(crate) enum Choose {
     Files,
     /// A folder to take into the open corpus.
     Folder,
+    /// A corpus to merge into the open one.
+    Merge,
     /// A media file for the recording of that row, in place of the track of that row where one is said.
     Media(i64, Option<i64>),
 }
@@ -105,7 +107,9 @@ impl TaskWake for Waking {
 impl Choose {
     fn command(self, mut paths: Vec<PathBuf>) -> Option<Command> {
         let first = match self {
-            Self::Files | Self::Folder if !paths.is_empty() => return Some(Command::Import(paths)),
+            Self::Files | Self::Folder | Self::Merge if !paths.is_empty() => {
+                return Some(Command::Import(paths));
+            }
             _ if paths.is_empty() => return None,
             Self::Media(recording, track) => {
                 return Some(Command::Media(recording, track, paths.swap_remove(0)));
@@ -127,9 +131,14 @@ fn native(what: Choose, language: Language) -> Paths {
     let one = |file: Option<FileHandle>| file.map(|it| it.path().to_owned()).into_iter().collect();
     let corpora = [words::CORPORA.of(language), "chereme"];
     match what {
-        Choose::Corpus => {
+        Choose::Corpus | Choose::Merge => {
+            let title = if what == Choose::Merge {
+                words::CHOOSE_CORPUS
+            } else {
+                words::START_OPEN
+            };
             let file = dialog
-                .set_title(words::START_OPEN.of(language))
+                .set_title(title.of(language))
                 .add_filter(corpora[0], &corpora[1..])
                 .pick_file();
             Box::pin(async move { one(file.await) })

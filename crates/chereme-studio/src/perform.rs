@@ -210,6 +210,11 @@ impl Studio {
                 let mend = !self.is_read_only();
                 self.out.work(Work::Check { mend });
             }
+            Action::MergeCorpus => {
+                // Where no chooser comes up, the path is typed there.
+                self.bring(PaneKind::Import);
+                self.out.send(Command::Choose(Choose::Merge));
+            }
             Action::UseInRecipe => self.use_in_recipe(ctx),
             Action::OpenRecipe => self.open_recipe(),
             Action::Paste | Action::PasteHere => {

@@ -152,6 +152,7 @@ impl Notices {
             Outcome::Annotated(_)
                 | Outcome::Changed
                 | Outcome::Imported(_)
+                | Outcome::Merged(_)
                 | Outcome::Recombined(_)
                 | Outcome::Undone(_)
                 | Outcome::Redone(_)

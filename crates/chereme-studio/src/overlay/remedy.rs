@@ -3,7 +3,7 @@
 use crate::words::{Language, Text, import as words, shell, spoken};
 
 /// Words of remedies for the command line, each with the remedy in the window.
-const HERE: [(&str, Text); 12] = [
+const HERE: [(&str, Text); 13] = [
     ("--roles", words::HELP_ROLES),
     ("roles file", words::HELP_ROLES),
     ("--mend-root", words::HELP_ROOT),
@@ -12,6 +12,7 @@ const HERE: [(&str, Text); 12] = [
     ("--map", words::HELP_TIERS),
     ("mapping", words::HELP_TIERS),
     ("--like", words::HELP_TEMPLATE),
+    ("--base", words::HELP_MERGE),
     ("--theirs", words::HELP_CHANGED),
     ("check --mend", shell::HELP_CHECK),
     ("transcribe", shell::HELP_NOTATION),

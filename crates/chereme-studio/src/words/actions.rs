@@ -4,6 +4,7 @@ texts! {
     STARTER: "Open the starter corpus", "Ouvrir le corpus de départ";
     OPEN: "Open a corpus…", "Ouvrir un corpus…";
     IMPORT_FILES: "Choose files to import…", "Choisir des fichiers à importer…";
+    MERGE_CORPUS: "Merge another corpus…", "Fusionner avec un autre corpus…";
     IMPORT_FOLDER: "Choose a folder to import…", "Choisir un dossier à importer…";
     NEW: "New empty corpus…", "Nouveau corpus vide…";
     CHECK: "Check the corpus", "Vérifier le corpus";

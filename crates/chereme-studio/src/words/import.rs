@@ -13,6 +13,12 @@ texts! {
     NOTHING_NEW: "Nothing here is new and can be taken in.", "Rien ici n’est nouveau et importable.";
     TAKE: "Take in", "Importer";
     NOTHING: "Type the path of a file or folder, choose it, or drop it on the window.", "Écrivez le chemin d’un fichier ou d’un dossier, choisissez-le, ou déposez-le sur la fenêtre.";
+    MERGE_ABOUT: "This is a corpus. If somebody else worked on a copy of yours, or both are copies of one, their changes come into yours. What both of you changed in different ways waits for your decision, and nothing is lost.", "C’est un corpus. Si quelqu’un d’autre a travaillé sur une copie du vôtre, ou si les deux sont des copies d’un même corpus, ses changements entrent dans le vôtre. Ce que vous avez changé tous deux différemment attend votre décision, et rien n’est perdu.";
+    MERGE: "Merge it into mine", "Fusionner avec le mien";
+    MERGE_DONE: "Nothing is left to decide. Undo takes the merge back.", "Rien ne reste à décider. Annuler revient sur la fusion.";
+    MERGE_CONFLICTS: "Changed differently by both: {n}. Yours stands until you decide.", "Changé différemment par les deux : {n}. Votre version reste jusqu’à votre décision.";
+    MERGE_DECIDE: "Decide one by one", "Décider un par un";
+    HELP_MERGE: "Export the recordings of the other corpus as .eaf files, and take these in here.", "Exportez les enregistrements de l’autre corpus en .eaf, et importez-les ici.";
     DRY: "This is what was understood; nothing is written yet.", "Voici ce qui a été compris ; rien n’est encore écrit.";
     DONE: "Taken in. Undo takes it all back.", "Importé. Annuler retire le tout.";
     IMPORTED: "understood", "compris";

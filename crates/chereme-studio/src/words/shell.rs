@@ -96,6 +96,8 @@ texts! {
     SCALE: "Interface scale", "Taille de l’interface";
     TASK_OPENING: "Opening", "Ouverture";
     TASK_IMPORT: "Importing", "Importation";
+    TASK_MERGE: "Merging", "Fusion";
+    CHOOSE_CORPUS: "Choose the corpus to merge", "Choisir le corpus à fusionner";
     TASK_LOOKING: "Looking at the files", "Examen des fichiers";
     TASK_SEARCH: "Searching", "Recherche";
     TASK_RECOMBINE: "Recombining", "Recombinaison";

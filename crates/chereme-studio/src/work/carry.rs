@@ -45,6 +45,7 @@ pub(super) fn carry(
         Work::Import(paths, options) => {
             Outcome::Imported(corpus.import(&paths, &options, progress)?)
         }
+        Work::Merge(other) => Outcome::Merged(corpus.merge(&other, None, progress)?),
         Work::Walk { back, steps } => walk(corpus, back, steps, progress)?,
         Work::ChangeRecording(name, change) => corpus
             .change_recording(&name, &change)

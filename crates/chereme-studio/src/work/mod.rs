@@ -14,10 +14,10 @@ use std::sync::Arc;
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
     Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat,
-    ImportOptions, ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier,
-    OperationRow, Picture, PictureOptions, PointsPiece, ProposeOptions, Proposed, Recombination,
-    RecordingChange, Scheme, SearchOptions, SignChange, SignMap, SignerChange, Suggestions,
-    TierChange, TierName, TrackChange, Unit,
+    ImportOptions, ImportReport, KeptSearch, MadePart, MediaChange, MergeReport, Moving, Name,
+    NewTier, OperationRow, Picture, PictureOptions, PointsPiece, ProposeOptions, Proposed,
+    Recombination, RecordingChange, Scheme, SearchOptions, SignChange, SignMap, SignerChange,
+    Suggestions, TierChange, TierName, TrackChange, Unit,
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
@@ -64,6 +64,8 @@ pub(crate) enum Work {
     },
     /// Decides a conflict of a merge.
     Decide(usize, Decision),
+    /// Merges another corpus into this one.
+    Merge(PathBuf),
     /// Takes files in.
     Import(Vec<PathBuf>, Box<ImportOptions>),
     /// Takes the newest operation back.
@@ -173,6 +175,8 @@ pub(crate) enum Outcome {
     Recombined(Box<Recombination>),
     /// Files were taken in, or looked at.
     Imported(ImportReport),
+    /// Another corpus was merged in.
+    Merged(MergeReport),
     /// An operation was taken back.
     Undone(OperationRow),
     /// An operation was done again.
@@ -288,6 +292,7 @@ impl Work {
             | Self::Recombine { .. }
             | Self::RecombineAgain { .. }
             | Self::Decide(..)
+            | Self::Merge(_)
             | Self::Import(..)
             | Self::Walk { .. }
             | Self::ChangeRecording(..)
@@ -327,6 +332,7 @@ impl Work {
         match self {
             Self::Import(_, options) if options.dry_run => shell::TASK_LOOKING,
             Self::Import(..) => shell::TASK_IMPORT,
+            Self::Merge(_) => shell::TASK_MERGE,
             Self::Check { .. } => shell::TASK_CHECK,
             Self::Propose(_) | Self::ProposeIn(_) => shell::TASK_PROPOSE,
             Self::Search(..)
@@ -360,6 +366,7 @@ impl Work {
                 | Self::Look(_)
                 | Self::Paths(_)
                 | Self::Import(..)
+                | Self::Merge(_)
                 | Self::Export(..)
                 | Self::ExportFound(..)
                 | Self::Search(..)
@@ -373,7 +380,11 @@ impl Work {
         self.lane() != Lane::Edit
             || matches!(
                 self,
-                Self::Import(..) | Self::Check { .. } | Self::Propose(_) | Self::ProposeIn(_)
+                Self::Import(..)
+                    | Self::Merge(_)
+                    | Self::Check { .. }
+                    | Self::Propose(_)
+                    | Self::ProposeIn(_)
             )
     }
 }

@@ -1,8 +1,10 @@
 //! Conflicts of merges above the history: both candidates, and a button for each decision.
 
 use chereme_corpus::{Candidate, CorpusConflict, Decision};
+use chereme_motion::{Instant, Span};
 use eframe::egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
+use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::merge as words;
 use crate::work::Work;
@@ -34,6 +36,21 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     });
 }
 
+/// Shows the recording, at the annotation if it is about one.
+fn show_there(out: &mut Outbox, recording: i64, conflict: &CorpusConflict) {
+    let sides = [&conflict.mine, &conflict.theirs].into_iter().flatten();
+    let mut spans = sides.filter_map(|it| it.start_us.zip(it.end_us));
+    let span = spans.next();
+    out.send(match span {
+        Some((start, end)) if start <= end => {
+            let [start, end] = [start, end].map(Instant::from_micros);
+            Command::Place(recording, Span::between(start, end))
+        }
+        _ => Command::Recording(recording),
+    });
+    out.send(Command::Look);
+}
+
 fn row(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, conflict: &CorpusConflict) {
     let about = format!(
         "{}. {} · {} {}",
@@ -42,7 +59,15 @@ fn row(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, conflict: &CorpusConflict
         seen.say(words::FROM),
         conflict.from
     );
-    ui.weak(about);
+    match conflict.recording {
+        Some(recording) => {
+            let link = ui.link(about).on_hover_text(seen.say(words::SHOW));
+            if link.clicked() {
+                show_there(out, recording, conflict);
+            }
+        }
+        None => drop(ui.weak(about)),
+    }
     let shown = |side: &Option<Candidate>| match side {
         Some(side) => side.to_string(),
         None => seen.say(words::GONE).to_owned(),

@@ -6,10 +6,11 @@ mod files;
 mod known;
 mod paths;
 pub(super) mod people;
+mod together;
 
 use std::path::PathBuf;
 
-use chereme_corpus::{FileStatus, ImportReport};
+use chereme_corpus::{FileStatus, ImportReport, MergeReport};
 use eframe::egui::{Align, Button, Id, Layout, ProgressBar, RichText, ScrollArea, Ui};
 
 use super::Pane;
@@ -35,6 +36,8 @@ pub(crate) struct Import {
     looked: Said,
     asked: Option<WorkId>,
     report: Option<ImportReport>,
+    /// The outcome of a merge.
+    merged: Option<MergeReport>,
     /// Why nothing could be looked at.
     wrong: Option<(String, Option<String>)>,
     /// The work was stopped.
@@ -52,7 +55,7 @@ impl Import {
             _ => String::new(),
         };
         self.dropped = paths.to_vec();
-        self.report = None;
+        (self.report, self.merged, self.wrong) = (None, None, None);
         self.fresh = !paths.is_empty();
     }
 
@@ -60,6 +63,14 @@ impl Import {
         match self.path.trim() {
             "" => self.dropped.clone(),
             path => vec![PathBuf::from(path)],
+        }
+    }
+
+    /// Returns the corpus that is named in the place of files.
+    fn other(&self) -> Option<PathBuf> {
+        match self.files().as_slice() {
+            [one] if together::is_corpus(one) => Some(one.clone()),
+            _ => None,
         }
     }
 
@@ -87,11 +98,11 @@ impl Import {
         let (entered, changed) = (typed.entered, typed.changed);
         typed.response.labelled_by(label.id);
         if changed {
-            self.report = None;
+            (self.report, self.merged) = (None, None);
         }
         // A folder that is taken from the list goes on to what is in it.
         let whole = !changed || !self.path.ends_with('/');
-        if entered && whole && !self.files().is_empty() {
+        if entered && whole && !self.files().is_empty() && self.other().is_none() {
             self.ask(true, out);
         }
         ui.horizontal_wrapped(|ui| {
@@ -202,11 +213,20 @@ impl Import {
 impl Pane for Import {
     fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         self.choosing(ui, seen, out);
-        if std::mem::take(&mut self.fresh) {
+        let other = self.other();
+        if std::mem::take(&mut self.fresh) && other.is_none() {
             self.ask(true, out);
         }
-        known::show(&mut self.said, ui, seen);
-        self.buttons(ui, seen, out);
+        if let Some(other) = &other {
+            let state = (self.asked, self.merged.as_ref());
+            if let Some(begun) = together::show(ui, seen, out, other, state) {
+                self.asked = Some(begun);
+                (self.merged, self.wrong, self.stopped) = (None, None, false);
+            }
+        } else {
+            known::show(&mut self.said, ui, seen);
+            self.buttons(ui, seen, out);
+        }
         if let Some((wrong, remedy)) = &self.wrong {
             ui.label(RichText::new(wrong).color(seen.colours().trouble));
             let remedy = remedy
@@ -219,7 +239,9 @@ impl Pane for Import {
         if self.stopped {
             ui.label(seen.say(shell::STOPPED));
         }
-        self.report(ui, seen, out);
+        if other.is_none() {
+            self.report(ui, seen, out);
+        }
     }
 
     fn hear(&mut self, id: WorkId, ended: &Ended) {
@@ -229,6 +251,7 @@ impl Pane for Import {
         }
         match ended {
             Ok(Outcome::Imported(report)) => self.report = Some(report.clone()),
+            Ok(Outcome::Merged(report)) => self.merged = Some(report.clone()),
             Err(chereme_corpus::Error::Stopped) => self.stopped = true,
             Ok(_) => {}
             Err(error) => {
