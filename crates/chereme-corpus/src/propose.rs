@@ -24,7 +24,7 @@ use crate::progress::{Progress, Step, Unit};
 use crate::search::{Hit, SearchOptions};
 use crate::transcribe::TranscribedFeature;
 
-/// What is to be proposed, and for which tokens.
+/// Options of proposals: the components, and the tokens.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ProposeOptions {
     /// The components, of [`Proposed::COMPONENTS`].
@@ -403,7 +403,7 @@ impl Corpus {
     }
 }
 
-/// Returns how sure a value is: the less the best reading is off compared with the second best, the surer. `None` if no
+/// Returns how sure a value is, from 0.5 to 1: the residual of the second best reading as a share of both. `None` if no
 /// feature of notation belongs to the value.
 fn confidence(
     features: &[TranscribedFeature],

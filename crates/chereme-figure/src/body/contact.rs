@@ -1,4 +1,4 @@
-//! The shade of hands on trunk and face: the nearer a hand lies before the skin, the darker that is.
+//! The shade of hands on trunk and face, which grows as a hand comes near the skin.
 
 use chereme_motion::{Anatomy, Finger, ModelPose, Part, Side, Skeleton};
 use glam::Vec3;

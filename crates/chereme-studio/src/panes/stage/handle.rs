@@ -130,7 +130,8 @@ pub(super) fn show(
     }
 }
 
-/// The same wherever the picture lies: what is above it may grow while a hand is moved by keys.
+/// Returns the widget's id, which does not depend on the place of the picture: the line above it may grow while keys
+/// move a hand.
 fn id(ui: &Ui, pane: &Pane, side: Side) -> Id {
     ui.scope_id().with(("handle", pane.eye, side.name()))
 }

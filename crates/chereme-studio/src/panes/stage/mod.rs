@@ -14,10 +14,12 @@
 //! | `preview` | the stroke of what was just opened |
 //! | `artist` | the thread that draws |
 //! | `ways` | what is remembered of it |
+//! | `captions` | words over the pictures |
 //! | `tools` | the line above |
 //! | `transport` | the bar and the buttons below |
 
 mod artist;
+mod captions;
 mod course;
 pub(crate) mod data;
 mod gizmo;

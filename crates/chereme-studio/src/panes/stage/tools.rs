@@ -12,7 +12,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{fill, stage as words};
 
-/// The width of the name of what was made.
+/// The width of a made sign's name.
 const MADE: f32 = 220.0;
 
 /// The switches for extras of the picture and for the number of views.

@@ -7,11 +7,13 @@ use chereme_figure::raster::Style;
 use chereme_motion::ModelPose;
 use eframe::egui::emath::GuiRounding;
 use eframe::egui::{
-    self, Align2, Button, Color32, ComboBox, PointerButton, Rect, Response, RichText, Role, Sense,
-    Stroke, StrokeKind, TextStyle, TextureOptions, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    self, Button, Color32, ComboBox, PointerButton, Rect, Response, RichText, Role, Sense, Stroke,
+    StrokeKind, TextureOptions, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use super::artist::{Artist, Figure, Pane, Sheet, Wish};
+use super::captions::{NARROW, notes, who};
+pub(super) use super::captions::{chip, chip_on};
 use super::data::{self, Compare, Inset, Look, Part, VIEWS, Who};
 use super::scene::Subject;
 use super::{
@@ -22,8 +24,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::film::Films;
 use crate::little;
-use crate::panes::timeline;
-use crate::words::{Text, fill, stage as words};
+use crate::words::{Text, stage as words};
 
 /// The most pixels that are drawn; larger stages show theirs scaled.
 const MOST_PIXELS: f32 = 1_600_000.0;
@@ -533,9 +534,6 @@ fn camera(subject: &Subject, eye: Eye, size: [usize; 2], pose: &ModelPose) -> Ca
     eye.camera(preset)
 }
 
-/// In a picture narrower than this, texts would cover the signer.
-const NARROW: f32 = 300.0;
-
 /// The view's name, which is a menu of the views, and who is seen.
 fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
     let place = Rect::from_min_size(
@@ -588,99 +586,6 @@ fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
 /// Whether that part is the first of its eye.
 fn data_first(stage: &Stage, part: &Part) -> bool {
     stage.comparing() != Some(Compare::Beside) || part.who == Who::Original
-}
-
-/// Says whose original is seen, or by what a piece without one was made.
-fn who(stage: &Stage, ui: &Ui, seen: &Seen<'_>, part: &Part) {
-    if part.who == Who::Signer {
-        return;
-    }
-    let at = seen.shown.on_stage().playhead();
-    let text = match stage.original.piece(at) {
-        Some(piece) if piece.shown.is_some() && part.rect.width() < NARROW => {
-            seen.say(words::ORIGINAL).to_owned()
-        }
-        Some(piece) if piece.shown.is_some() => {
-            fill(seen.say(words::ORIGINAL_OF), &[("name", &piece.part.gloss)])
-        }
-        Some(piece) => no_original(seen, &piece.part.from),
-        None => return,
-    };
-    // Above there is the choice of the view.
-    let (at, anchor) = if part.rect.width() < NARROW {
-        (
-            part.rect.left_bottom() + vec2(8.0, -8.0),
-            Align2::LEFT_BOTTOM,
-        )
-    } else {
-        (part.rect.right_top() + vec2(-8.0, 8.0), Align2::RIGHT_TOP)
-    };
-    chip(ui, at, anchor, &text);
-}
-
-fn no_original(seen: &Seen<'_>, made_by: &str) -> String {
-    let mut short: String = made_by.chars().take(36).collect();
-    if short.len() < made_by.len() {
-        short.push('…');
-    }
-    fill(seen.say(words::NO_ORIGINAL), &[("made", &short)])
-}
-
-pub(super) fn chip(ui: &Ui, at: egui::Pos2, anchor: Align2, text: &str) {
-    chip_on(ui.painter(), ui, at, anchor, text);
-}
-
-/// Writes a word or two on a ground of its own.
-pub(super) fn chip_on(
-    painter: &egui::Painter,
-    ui: &Ui,
-    at: egui::Pos2,
-    anchor: Align2,
-    text: &str,
-) {
-    let font = TextStyle::Small.resolve(ui.style());
-    let colour = ui.visuals().text_color();
-    let galley = painter.layout_no_wrap(text.to_owned(), font, colour);
-    let rect = anchor.anchor_size(at, galley.size() + vec2(12.0, 6.0));
-    let fill = ui.visuals().panel_fill.gamma_multiply(0.9);
-    painter.rect_filled(rect, 5.0, fill);
-    painter.galley(rect.min + vec2(6.0, 3.0), galley, colour);
-}
-
-/// Shows notes on the whole: a moment is being loaded, hands have no fingers.
-fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
-    let at = whole.center_bottom() - vec2(0.0, 8.0);
-    let whole_top = whole.center_top() + vec2(0.0, 8.0);
-    let mittens = stage
-        .signer
-        .as_ref()
-        .is_some_and(|it| it.1.is_without_fingers());
-    let points = match stage.points.note() {
-        _ if stage.signer.is_some() && !stage.points.are_in_room() => None,
-        Some("estimated from film, no depth") => Some(words::ESTIMATED_FLAT),
-        Some("no depth") => Some(words::NO_DEPTH),
-        Some(_) => Some(words::ESTIMATED),
-        None => None,
-    };
-    if let Some(at) = stage.previews {
-        let loops = seen.shown.player.previewed().is_some_and(|it| it.loops);
-        let time = timeline::data::time_text(at);
-        let text = if loops {
-            seen.say(words::PREVIEW_LOOP).to_owned()
-        } else {
-            fill(seen.say(words::PREVIEW), &[("time", &time)])
-        };
-        chip(ui, whole_top, Align2::CENTER_TOP, &seen.keys.named(&text));
-    }
-    if stage.coming {
-        chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::COMING));
-    } else if let Some(points) = points.filter(|_| stage.signer.is_none() || stage.shows.points) {
-        chip(ui, at, Align2::CENTER_BOTTOM, seen.say(points));
-    } else if mittens {
-        chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::NO_FINGERS));
-    } else if let Some(made_by) = stage.original.made_by() {
-        chip(ui, at, Align2::CENTER_BOTTOM, &no_original(seen, made_by));
-    }
 }
 
 /// Returns how a part shows the signer, in points from its corner.
