@@ -1,6 +1,7 @@
 //! Keys of cued speech from text or phones, without a corpus.
 
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use chereme_compose::recipe::{Cue, Node};
 use chereme_compose::units::{Factor, Hands};
@@ -8,7 +9,7 @@ use chereme_compose::{PhaseRule, VERSION};
 use chereme_formats::eaf::convert::{Tier, Transcript};
 use chereme_formats::{eaf, textgrid};
 use chereme_motion::Instant;
-use chereme_sign::cue::{self, Alphabet, Phone, Utterance, UtteranceError};
+use chereme_sign::cue::{self, Alphabet, CueCode, Phone, Utterance, UtteranceError};
 use serde::Serialize;
 use serde_json::json;
 
@@ -170,37 +171,95 @@ impl Corpus {
     ) -> Result<Recombination> {
         let signer = options.signer.as_deref();
         let on = signer.map(|it| self.body(it)).transpose()?;
-        let french = options.reading.french;
-        let mut variants = options.reading.variants.clone();
-        if !french.liaison {
-            variants.push("no-liaison".to_owned());
-        }
-        match french.schwa {
-            cue::french::Schwa::Usual => {}
-            cue::french::Schwa::Said => variants.push("schwa-said".to_owned()),
-            cue::french::Schwa::Dropped => variants.push("schwa-dropped".to_owned()),
-        }
-        let code = Some(options.reading.code.clone()).filter(|code| code != "french");
-        let node = Node::Cue(Cue {
-            text: text.to_owned(),
-            phones: options.reading.phones.map(|it| it.name().to_owned()),
-            code,
-            variants,
-            hand: if options.left {
-                Hands::Left
-            } else {
-                Hands::Dominant
-            },
-            phase: options.phase,
-            pace: options.reading.pace.map(Factor),
-            on,
-        });
-        let recipe = json!({"version": VERSION, "make": node}).to_string();
+        let recipe = cue_recipe(text, options, on);
         match gloss {
             Some(gloss) => self.recombine(&recipe, gloss),
             None => self.preview(&recipe),
         }
     }
+}
+
+/// Returns the phones of `text` in IPA as the program `espeak-ng` says them, if it is installed, and what of its output
+/// has no key; `code` is a code's name.
+///
+/// # Errors
+/// If the code does not exist, the text is larger than 64 KiB, or `espeak-ng` cannot be run.
+pub fn cue_phones_of_espeak(text: &str, code: &str) -> Result<(String, Vec<char>)> {
+    const MOST: usize = 1 << 16;
+    let known = cue::code(code).ok_or_else(|| unread(UtteranceError::NoCode(code.to_owned())))?;
+    if text.len() > MOST {
+        return Err(Error::wrong(format!("the text has {} bytes", text.len()))
+            .advise("give at most 64 KiB at once to espeak-ng"));
+    }
+    let voice = match known.language.as_str() {
+        "fr" => "fr-fr",
+        "en-US" => "en-us",
+        "en-GB" => "en-gb",
+        other => other,
+    };
+    let cannot = |error: std::io::Error| {
+        Error::wrong(format!("espeak-ng cannot be run: {error}")).advise(
+            "install espeak-ng, or give French text without --espeak, or phones with --phones",
+        )
+    };
+    let mut child = Command::new("espeak-ng")
+        .args(["-q", "-v", voice, "--ipa", "--stdin"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .map_err(cannot)?;
+    let mut stdin = child.stdin.take();
+    let lines = text.replace(['.', '!', '?', ';'], "\n");
+    // The text is written while the output is read, so that neither waits for the other.
+    let writer = std::thread::spawn(move || {
+        stdin
+            .as_mut()
+            .map(|stdin| std::io::Write::write_all(stdin, lines.as_bytes()))
+    });
+    let output = child.wait_with_output().map_err(cannot)?;
+    drop(writer.join());
+    if !output.status.success() {
+        return Err(Error::wrong("espeak-ng failed").advise(format!(
+            "try `espeak-ng -v {voice}` by itself: the voice may be missing"
+        )));
+    }
+    Ok(cue::of_espeak(
+        &String::from_utf8_lossy(&output.stdout),
+        known,
+    ))
+}
+
+/// Returns the recipe, as JSON, of a cuer who says `text`; `on` is the address of a body, without which the corpus
+/// chooses one.
+#[must_use]
+pub fn cue_recipe(text: &str, options: &CueOptions, on: Option<String>) -> String {
+    let french = options.reading.french;
+    let mut variants = options.reading.variants.clone();
+    if !french.liaison {
+        variants.push("no-liaison".to_owned());
+    }
+    match french.schwa {
+        cue::french::Schwa::Usual => {}
+        cue::french::Schwa::Said => variants.push("schwa-said".to_owned()),
+        cue::french::Schwa::Dropped => variants.push("schwa-dropped".to_owned()),
+    }
+    let code = Some(options.reading.code.clone()).filter(|code| code != "french");
+    let node = Node::Cue(Cue {
+        text: text.to_owned(),
+        phones: options.reading.phones.map(|it| it.name().to_owned()),
+        code,
+        variants,
+        hand: if options.left {
+            Hands::Left
+        } else {
+            Hands::Dominant
+        },
+        phase: options.phase,
+        pace: options.reading.pace.map(Factor),
+        on,
+    });
+    json!({"version": VERSION, "make": node}).to_string()
 }
 
 fn aligned(
@@ -244,22 +303,33 @@ fn aligned(
     let code = known
         .with_variants(&variants)
         .map_err(|error| unread(error.into()))?;
+    let alphabet = options
+        .phones
+        .unwrap_or_else(|| guessed_alphabet(&code, &phones));
+    let spaced = with_gaps(phones);
+    let name = tier.name.clone();
+    let findings = odd.iter().map(|finding| finding.message.clone()).collect();
+    Ok((Utterance::of_phones(code, spaced, alphabet), name, findings))
+}
+
+/// Returns the alphabet that knows most of the labels; of equals SAMPA before IPA before MFA.
+pub(crate) fn guessed_alphabet(code: &CueCode, phones: &[Phone]) -> Alphabet {
     let knows = |alphabet: &Alphabet| {
         let labels = phones.iter().map(|phone| &phone.label);
         labels
             .filter(|label| code.symbols(label, *alphabet).is_some())
             .count()
     };
-    let guess = || {
-        // The first of equals: SAMPA before IPA before MFA.
-        let rated = Alphabet::ALL.iter().rev().max_by_key(|it| knows(it));
-        rated.copied().unwrap_or_default()
-    };
-    let alphabet = options.phones.unwrap_or_else(guess);
-    let spaced = with_gaps(phones);
-    let name = tier.name.clone();
-    let findings = odd.iter().map(|finding| finding.message.clone()).collect();
-    Ok((Utterance::of_phones(code, spaced, alphabet), name, findings))
+    let rated = Alphabet::ALL.iter().rev().max_by_key(|it| knows(it));
+    rated.copied().unwrap_or_default()
+}
+
+/// Returns whether a tier is called as aligners call their phones.
+pub(crate) fn is_phone_tier(name: &str) -> bool {
+    let folded = chereme_sign::text::fold(name);
+    let plain: String = folded.chars().filter(|c| c.is_alphanumeric()).collect();
+    let fits = |known: &&str| plain == **known || plain.ends_with(*known) && *known != "mau";
+    PHONE_TIERS.iter().any(fits)
 }
 
 fn phone_tier<'a>(
@@ -297,7 +367,7 @@ fn phone_tier<'a>(
 }
 
 /// Puts a pause into every silence between two phones.
-fn with_gaps(phones: Vec<Phone>) -> Vec<Phone> {
+pub(crate) fn with_gaps(phones: Vec<Phone>) -> Vec<Phone> {
     let mut spaced: Vec<Phone> = Vec::with_capacity(phones.len());
     let mut at = Instant::ZERO;
     for phone in phones {
@@ -382,7 +452,7 @@ mod tests {
             code: code.to_owned(),
             ..KeysOptions::default()
         };
-        assert!(refuse("a", code("klingon")).contains("french and english-us"));
+        assert!(refuse("a", code("klingon")).contains("french and english-us and english-gb"));
         assert!(refuse("house", code("en-US")).contains("--phones"));
         let pace = |pace| KeysOptions {
             pace: Some(pace),

@@ -12,6 +12,7 @@ pub(crate) mod codec;
 mod compare;
 mod contents;
 mod cue;
+mod cued;
 mod curves;
 pub(crate) mod db;
 mod details;
@@ -92,7 +93,13 @@ pub use contents::{
 };
 pub use cue::{
     CueKey, CueKeys, CueOptions, KeysOptions, SpokenWord, cue_keys, cue_keys_of_file,
-    cue_phones_of_file,
+    cue_phones_of_espeak, cue_phones_of_file, cue_recipe,
+};
+pub use cued::{
+    CueConfusion, CueCosts, CuePhaseRow, CuePhaseStatistics, CueRecognition, CueSlip, CueSlips,
+    CueTargets, CuedMarkers, CuedOptions, DictionaryReport, Dikeys, FoundKey, FromDictionary,
+    MarkerSet, Misread, MissingDikey, RestoreOptions, RestoredMarker, RestoredTake, SaidPiece,
+    ScriptCoverage, SlipKind, WorthRecording, read_marker_labels,
 };
 pub use db::columns::{AnnotationOrigin, Origin, ValueState};
 pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};

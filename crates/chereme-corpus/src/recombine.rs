@@ -38,7 +38,7 @@ use crate::tokens;
 
 pub(crate) use draft::Drafted;
 pub use parts::MadePart;
-pub(crate) use phases::measured as measured_phases;
+pub(crate) use phases::{measured as measured_phases, store as store_phases};
 
 /// Decimals of the numbers of made movement: a millionth of a degree, or of the file's unit.
 const DECIMALS: u8 = 6;

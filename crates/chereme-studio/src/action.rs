@@ -279,6 +279,7 @@ actions! {
     ShowInspector "pane.inspector" SHOW_INSPECTOR Panes Corpus;
     ShowFilm "pane.film" SHOW_FILM Panes Corpus;
     ShowMap "pane.map" SHOW_MAP Panes Corpus;
+    ShowCue "pane.cue" SHOW_CUE Panes Corpus;
     ShowHistory "pane.history" SHOW_HISTORY Panes Corpus;
     OnlyPane "pane.only" ONLY_PANE Panes Corpus;
     OnlyAnnotating "pane.only-annotating" ONLY_ANNOTATING Panes Corpus;

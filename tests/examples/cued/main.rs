@@ -1,8 +1,9 @@
 //! Generated sessions of cued speech, and the table of what the models recover of their truth.
 //!
-//! `cargo run --release -p chereme-tests --example cued -- table` prints the table;
-//! `… -- session OUT [SENTENCES] [SEED]` writes a session: TRC, TextGrid and the truth as CSV, with a README that says
-//! that nothing of it was captured. `… -- fable` prints the keys of a fable of La Fontaine, line by line; the same text
+//! `cargo run --release -p chereme-tests --example cued -- table` prints the table, `… -- table FILE` writes it into a
+//! Markdown file between the lines `<!-- cued -->` and `<!-- end of cued -->`;
+//! `… -- session OUT [SENTENCES] [SEED]` writes a session, 238 sentences if no number is given: C3D with TextGrid, TRC with
+//! EAF, the truth as CSV, and a README that says that nothing of it was captured. `… -- fable` prints the keys of a fable of La Fontaine, line by line; the same text
 //! is cued with `chereme cue CORPUS "$(cat tests/examples/cued/fable.txt)"`.
 
 #![allow(
@@ -11,11 +12,15 @@
     reason = "the table is the program's result"
 )]
 
+mod exact;
+mod made;
 mod session;
 mod table;
 
 use std::path::Path;
 use std::process::ExitCode;
+
+use chereme_analysis::cue::generate::Settings;
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -23,15 +28,32 @@ fn main() -> ExitCode {
         |at: usize, usual: u64| words.get(at).map_or(Some(usual), |word| word.parse().ok());
     match words.first().map(String::as_str) {
         Some("table") => {
-            table::print();
+            let text = table::made();
+            match words.get(1).map(|path| put(Path::new(path), &text)) {
+                None => println!("{text}"),
+                Some(Ok(())) => println!("written"),
+                Some(Err(error)) => {
+                    eprintln!("{}: {error}", words[1]);
+                    return ExitCode::FAILURE;
+                }
+            }
             ExitCode::SUCCESS
         }
         Some("session") if words.len() >= 2 => {
-            let (Some(sentences), Some(seed)) = (number(2, 20), number(3, 1)) else {
+            let (Some(sentences), Some(seed)) = (number(2, 238), number(3, 1)) else {
                 eprintln!("SENTENCES and SEED are whole numbers");
                 return ExitCode::from(2);
             };
-            match session::write(Path::new(&words[1]), sentences, seed) {
+            let plan = session::Plan {
+                sentences,
+                words: session::USUAL_WORDS,
+                times: 2,
+                settings: Settings {
+                    seed,
+                    ..Settings::default()
+                },
+            };
+            match session::write(Path::new(&words[1]), &plan) {
                 Ok(told) => {
                     println!("{told}");
                     ExitCode::SUCCESS
@@ -61,8 +83,24 @@ fn main() -> ExitCode {
             ExitCode::SUCCESS
         }
         _ => {
-            eprintln!("write `table`, `fable`, or `session OUT [SENTENCES] [SEED]`");
+            eprintln!("write `table [FILE]`, `fable`, or `session OUT [SENTENCES] [SEED]`");
             ExitCode::from(2)
         }
     }
+}
+
+/// Writes the table into a Markdown file, in the place of the one from before.
+fn put(path: &Path, table: &str) -> std::io::Result<()> {
+    const BEGIN: &str = "<!-- cued -->\n";
+    const END: &str = "<!-- end of cued -->";
+    let text = std::fs::read_to_string(path)?;
+    let parts = text
+        .split_once(BEGIN)
+        .and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
+    let Some((before, after)) = parts else {
+        return Err(std::io::Error::other(format!(
+            "there are no lines {BEGIN:?} and {END:?}"
+        )));
+    };
+    std::fs::write(path, format!("{before}{BEGIN}\n{table}\n{END}{after}"))
 }

@@ -26,6 +26,8 @@ pub struct FaceModel {
     pub directions: Vec<Vec<f64>>,
     /// How much of the head's motion each marker follows: 1 but for the throat.
     pub weights: Vec<f64>,
+    /// The error of each marker on the frames of the learning: mean square of an axis.
+    missed: Vec<f64>,
 }
 
 /// Returns the coordinates that lead each component: jaw, rounding, upper lip, lower lip, corners, throat, and the
@@ -52,6 +54,9 @@ pub fn subsets() -> Vec<Vec<usize>> {
 /// Returns a share of a motion: of the turn about its own axis, and of the shift.
 #[must_use]
 pub fn share_of(motion: &Rigid, weight: f64) -> Rigid {
+    if weight == 1.0 {
+        return *motion;
+    }
     Rigid {
         rotation: DQuat::from_scaled_axis(motion.rotation.to_scaled_axis() * weight),
         translation: motion.translation * weight,
@@ -136,9 +141,11 @@ impl FaceModel {
             mean = points(&found.mean);
             directions = found.directions;
             // The weight of each marker of the throat: its motion along what the whole motion would do.
-            let parameters = free.iter().map(|row| fitted(&found.mean, &directions, row));
-            let parameters: Option<Vec<Vec<f64>>> = parameters.collect();
-            let parameters = parameters.ok_or(ModelError::Singular)?;
+            let factor = products(&directions).ok_or(ModelError::Singular)?;
+            let parameters: Vec<Vec<f64>> = free
+                .iter()
+                .map(|row| fitted(&found.mean, &directions, &factor, row))
+                .collect();
             for marker in THROAT {
                 let (mut along, mut square) = (0.0, 0.0);
                 for ((frame, motion), own) in whole.iter().zip(motions).zip(&parameters) {
@@ -156,12 +163,27 @@ impl FaceModel {
                 }
             }
         }
-        Ok(Self {
+        let mut model = Self {
             rigid,
             mean,
             directions,
             weights,
-        })
+            missed: vec![0.0; FACE],
+        };
+        let step = (whole.len() / 500).max(1);
+        let mut count: f64 = 0.0;
+        for frame in whole.iter().step_by(step) {
+            let seen: Frame = frame.iter().copied().map(Some).collect();
+            if let Some((motion, own)) = model.invert(&seen) {
+                count += 3.0;
+                let said = model.place(&motion, &own);
+                for ((missed, at), said) in model.missed.iter_mut().zip(frame).zip(said) {
+                    *missed += at.distance_squared(said);
+                }
+            }
+        }
+        model.missed.iter_mut().for_each(|it| *it /= count.max(1.0));
+        Ok(model)
     }
 
     /// Returns the head's motion and the parameters of a frame, from what is visible of it; nothing if fewer than
@@ -196,6 +218,45 @@ impl FaceModel {
         Some((motion, left.cholesky()?.solve_factored(&right)))
     }
 
+    /// Returns the head's motion, where the model has each marker of a frame, and the standard deviation that is
+    /// predicted for it in millimetres along one axis; nothing if fewer than three markers of the rigid set are seen.
+    #[must_use]
+    pub fn restore(&self, frame: &Frame) -> Option<(Rigid, Vec<DVec3>, Vec<f64>)> {
+        let (motion, parameters) = self.invert(frame)?;
+        let keep = self.directions.len();
+        let mut left = Matrix::zeros(keep, keep);
+        for (marker, at) in frame.iter().enumerate() {
+            if at.is_none_or(|at| !at.is_finite()) {
+                continue;
+            }
+            for axis in 0..3 {
+                let row = self.row(3 * marker + axis);
+                left.add_outer(&row, &row, 1.0);
+            }
+        }
+        for k in 0..keep {
+            left[(k, k)] += 1.0;
+        }
+        let factor = left.cholesky()?;
+        let sd = (0..FACE).map(|marker| {
+            let spread: f64 = (0..3)
+                .map(|axis| {
+                    let row = self.row(3 * marker + axis);
+                    let solved = factor.solve_factored(&row);
+                    row.iter().zip(&solved).map(|(a, b)| a * b).sum::<f64>()
+                })
+                .sum();
+            (spread / 3.0 + self.missed[marker]).sqrt()
+        });
+        let sd = sd.collect();
+        Some((motion, self.place(&motion, &parameters), sd))
+    }
+
+    /// Returns how one coordinate changes with each parameter.
+    fn row(&self, coordinate: usize) -> Vec<f64> {
+        self.directions.iter().map(|d| d[coordinate]).collect()
+    }
+
     /// Returns where the markers of a face are.
     #[must_use]
     pub fn place(&self, motion: &Rigid, parameters: &[f64]) -> Vec<DVec3> {
@@ -218,18 +279,25 @@ fn points(row: &[f64]) -> Vec<DVec3> {
         .collect()
 }
 
-/// Returns the parameters of a whole row by least squares.
-fn fitted(mean: &[f64], directions: &[Vec<f64>], row: &[f64]) -> Option<Vec<f64>> {
+/// Returns the factor of the products of all directions.
+fn products(directions: &[Vec<f64>]) -> Option<Matrix> {
     let keep = directions.len();
     let mut left = Matrix::zeros(keep, keep);
-    let mut right = vec![0.0; keep];
     for (i, one) in directions.iter().enumerate() {
         for (j, other) in directions.iter().enumerate() {
             left[(i, j)] = one.iter().zip(other).map(|(a, b)| a * b).sum();
         }
         left[(i, i)] += 1e-6;
-        let apart = row.iter().zip(mean).map(|(x, m)| x - m);
-        right[i] = one.iter().zip(apart).map(|(a, b)| a * b).sum();
     }
-    Some(left.cholesky()?.solve_factored(&right))
+    left.cholesky()
+}
+
+/// Returns the parameters of a whole row by least squares; `factor` is that of [`products`].
+fn fitted(mean: &[f64], directions: &[Vec<f64>], factor: &Matrix, row: &[f64]) -> Vec<f64> {
+    let apart: Vec<f64> = row.iter().zip(mean).map(|(x, m)| x - m).collect();
+    let right: Vec<f64> = directions
+        .iter()
+        .map(|one| one.iter().zip(&apart).map(|(a, b)| a * b).sum())
+        .collect();
+    factor.solve_factored(&right)
 }

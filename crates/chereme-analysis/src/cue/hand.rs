@@ -1,27 +1,32 @@
 //! The hand: joint angles from markers, their components, markers from angles, and hidden markers restored.
 //!
-//! `markers = Xᵀ · [1, cos(angles), sin(angles)]` in the space of the forearm (section 3.2 of the paper): when one
-//! joint turns, a point of the skin moves on an ellipse.
+//! `markers = Xᵀ · [1, cos(angles), sin(angles)]` (section 3.2 of the paper): when one joint turns, a point of the
+//! skin moves on an ellipse. The angles are those between each segment and the hand and between successive ones, and
+//! the wrist turns the hand as a whole in the space of the forearm.
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use super::ModelError;
 use super::labels::{BACK, FOREARM, HAND, THUMB, finger};
 use super::linear::Matrix;
 use super::pca::Pca;
 use super::rigid::Rigid;
+use super::terms::Terms;
 
 /// The places of the hand's markers in one frame, in millimetres; nothing for a hidden one.
 pub type Frame = Vec<Option<DVec3>>;
 
 /// How many angles are read off the markers: 3 of the back of the hand, 4 of each finger, 6 of the thumb.
 pub const ANGLES: usize = 25;
-/// The numbers of `[1, cos, sin]`.
-const TERMS: usize = 2 * ANGLES + 1;
-/// The error of measurement with which markers are weighed against usual postures, in millimetres.
-const SIGMA: f64 = 2.0;
-/// Steps of Gauss and Newton from the posture of the frame before.
+/// The least mean square with which a marker is weighed, in square millimetres an axis.
+const LEAST_ERROR: f64 = 0.3;
+/// Steps of Gauss and Newton from the posture of the frame before, and from one that is read off the markers.
 const STEPS: usize = 5;
+const FIRST_STEPS: usize = 12;
+/// The share of the mean diagonal that is added to the equations of the regression.
+const RIDGE: f64 = 1e-4;
+/// From this marker on, markers turn with the wrist.
+const TURNED: usize = BACK.start;
 
 /// A model of one person's hand.
 #[derive(Debug, Clone)]
@@ -30,10 +35,15 @@ pub struct HandModel {
     forearm: Vec<DVec3>,
     /// The mean places of the markers of the back, in the space of the forearm.
     back: Vec<DVec3>,
-    /// Components of the angles.
+    /// The point about which the hand turns, in the space of the forearm.
+    wrist: DVec3,
+    /// By how many millimetres one radian of each angle moves all markers.
+    levers: Vec<f64>,
+    /// Components of the angles, each in millimetres of movement.
     pub components: Pca,
-    /// For each term the 150 coordinates that it moves.
-    terms: Matrix,
+    terms: Terms,
+    /// For each term the 150 coordinates that it moves, in the space of the hand.
+    moved: Matrix,
     /// The error of each marker on the frames of the learning: mean square of an axis.
     missed: Vec<f64>,
 }
@@ -53,8 +63,14 @@ pub struct Restored {
     pub forearm: Rigid,
 }
 
+/// The places of a posture in the space of the forearm, and how each coordinate changes with each parameter.
+type Linear = (Vec<DVec3>, Vec<Vec<DVec3>>);
+
 impl HandModel {
     /// Learns a model of `keep` components from frames of a hand that nothing hides, such as one in free space.
+    ///
+    /// Components are those of the angles, each angle counting by how far it moves the markers; the wrist turns the
+    /// hand as a whole, so that no product of rotations is left to the regression.
     ///
     /// # Errors
     /// [`ModelError`] if too few frames show the forearm, or a marker is seen in none.
@@ -65,68 +81,79 @@ impl HandModel {
             if frame.len() == HAND
                 && let Ok(rigid) = Rigid::fit(&forearm, &frame[FOREARM])
             {
-                local.push(frame.iter().map(|at| at.map(|at| rigid.undo(at))).collect());
+                local.push(
+                    frame
+                        .iter()
+                        .map(|at| at.filter(|at| at.is_finite()).map(|at| rigid.undo(at)))
+                        .collect(),
+                );
             }
         }
         let back = mean_rigid(&local, BACK)?;
         let angles: Vec<Vec<f64>> = local.iter().map(|frame| angles(frame, &back)).collect();
-        let components = Pca::fit(&angles, keep, 6)?;
-        // Each coordinate is regressed on the frames in which it is seen.
-        let inputs: Vec<Vec<f64>> = angles
+        let wrist = wrist(&local, &back)?;
+        let terms = Terms::of_a_hand();
+        // A first regression on the angles themselves says how far each of them moves the markers.
+        let first = Pca::fit(&angles, 12, 6)?;
+        let step = (local.len() / 1500).max(1);
+        let some: Vec<usize> = (0..local.len()).step_by(step).collect();
+        let filled: Vec<Vec<f64>> = some.iter().map(|n| whole(&angles[*n], &first)).collect();
+        let frames: Vec<Frame> = some.iter().map(|n| local[*n].clone()).collect();
+        let moved = regress(&terms, &filled, &frames, wrist)?;
+        let levers = levers(&terms, &moved, &filled, wrist);
+        let scaled: Vec<Vec<f64>> = angles
             .iter()
-            .map(|row| terms(&components.rebuild(&components.project(&whole(row, &components)))))
+            .map(|row| {
+                row.iter()
+                    .zip(&levers)
+                    .map(|(x, lever)| x * lever)
+                    .collect()
+            })
             .collect();
-        let mut gram = Matrix::zeros(TERMS, TERMS);
-        for row in &inputs {
-            gram.add_outer(row, row, 1.0);
-        }
-        let diagonal = (0..TERMS).map(|i| gram[(i, i)]).sum::<f64>() / TERMS as f64;
-        let mut found = Matrix::zeros(TERMS, 3 * HAND);
-        let mut missed = Vec::with_capacity(HAND);
-        for marker in 0..HAND {
-            let seen: Vec<usize> = (0..local.len())
-                .filter(|n| local[*n][marker].is_some())
-                .collect();
-            if seen.is_empty() {
-                return Err(ModelError::NeverSeen(marker));
-            }
-            let mut own = Matrix::zeros(TERMS, TERMS);
-            if seen.len() == local.len() {
-                own = gram.clone();
-            } else {
-                for n in &seen {
-                    own.add_outer(&inputs[*n], &inputs[*n], 1.0);
+        let components = Pca::fit(&scaled, keep, 6)?;
+        let said: Vec<Vec<f64>> = scaled
+            .iter()
+            .map(|row| {
+                let own = components.rebuild(&components.project(&whole(row, &components)));
+                own.iter()
+                    .zip(&levers)
+                    .map(|(x, lever)| x / lever)
+                    .collect()
+            })
+            .collect();
+        let moved = regress(&terms, &said, &local, wrist)?;
+        let mut missed = vec![(0.0, 0.0); HAND];
+        for (angles, frame) in said.iter().zip(&local) {
+            let input = terms.of(angles);
+            let turn = turn_of(angles);
+            for (marker, at) in frame.iter().enumerate() {
+                if let Some(at) = at {
+                    let said = placed(point(&moved, &input, marker), marker, turn, wrist);
+                    missed[marker].0 += at.distance_squared(said);
+                    missed[marker].1 += 3.0;
                 }
             }
-            for i in 0..TERMS {
-                own[(i, i)] += 1e-3 * diagonal;
-            }
-            let factor = own.cholesky().ok_or(ModelError::Singular)?;
-            for axis in 0..3 {
-                let mut right = vec![0.0; TERMS];
-                for n in &seen {
-                    let x = local[*n][marker].map_or(0.0, |at| at[axis]);
-                    for (right, term) in right.iter_mut().zip(&inputs[*n]) {
-                        *right += term * x;
-                    }
-                }
-                for (term, value) in factor.solve_factored(&right).into_iter().enumerate() {
-                    found[(term, 3 * marker + axis)] = value;
-                }
-            }
-            let error = |n: &usize| {
-                let said = point(&found, &inputs[*n], marker);
-                local[*n][marker].map_or(0.0, |at| at.distance_squared(said))
-            };
-            missed.push(seen.iter().map(error).sum::<f64>() / (3.0 * seen.len() as f64));
         }
         Ok(Self {
             forearm,
             back,
+            wrist,
+            levers,
             components,
-            terms: found,
-            missed,
+            terms,
+            moved,
+            missed: missed
+                .into_iter()
+                .map(|(sum, count)| sum / f64::max(count, 1.0))
+                .collect(),
         })
+    }
+
+    /// Returns the share of the variance of the angles that the components have, each angle counting by how far it
+    /// moves the markers.
+    #[must_use]
+    pub fn explained(&self) -> f64 {
+        self.components.variances.iter().sum::<f64>() / self.components.total.max(1e-12)
     }
 
     /// Restores a frame from its visible markers, starting from the frame before; hidden places are not looked at.
@@ -137,27 +164,36 @@ impl HandModel {
         if frame.len() != HAND {
             return None;
         }
+        let frame: Frame = frame
+            .iter()
+            .map(|at| at.filter(|at| at.is_finite()))
+            .collect();
         let keep = self.components.directions.len();
-        let mut parameters = before.map_or_else(|| vec![0.0; keep], |it| it.parameters.clone());
+        let (mut parameters, steps) = match before {
+            Some(before) => (before.parameters.clone(), STEPS),
+            None => (self.read_off(&frame), FIRST_STEPS),
+        };
         let mut forearm = match Rigid::fit(&self.forearm, &frame[FOREARM]) {
             Ok(rigid) => rigid,
             Err(_) => before?.forearm,
         };
         let size = 6 + keep;
         let mut factor = None;
-        for _ in 0..STEPS {
+        for _ in 0..steps {
             let (points, slopes) = self.linear(&parameters);
             let mut left = Matrix::zeros(size, size);
             let mut right = vec![0.0; size];
+            let mut row = vec![0.0; size];
             for (marker, seen) in frame.iter().enumerate() {
-                let Some(seen) = seen.filter(|seen| seen.is_finite()) else {
-                    continue;
-                };
+                let Some(seen) = seen else { continue };
                 let turned = forearm.rotation * points[marker];
-                let apart = seen - turned - forearm.translation;
-                let weight = 1.0 / (SIGMA * SIGMA);
+                let apart = *seen - turned - forearm.translation;
+                let weight = 1.0 / self.missed[marker].max(LEAST_ERROR);
+                let ways = self.ways(&forearm, turned, &slopes, marker);
                 for axis in 0..3 {
-                    let row = self.row(&forearm, turned, &slopes, marker, axis, keep);
+                    for (own, way) in row.iter_mut().zip(&ways) {
+                        *own = way[axis];
+                    }
                     left.add_outer(&row, &row, weight);
                     for (right, value) in right.iter_mut().zip(&row) {
                         *right += weight * value * apart[axis];
@@ -181,14 +217,18 @@ impl HandModel {
                 *own += step;
             }
             factor = Some(own);
+            if step[6..].iter().all(|step| step.abs() < 0.01) {
+                break;
+            }
         }
         let factor = factor?;
         let (points, slopes) = self.linear(&parameters);
         let sd = (0..HAND).map(|marker| {
             let turned = forearm.rotation * points[marker];
+            let ways = self.ways(&forearm, turned, &slopes, marker);
             let spread: f64 = (0..3)
                 .map(|axis| {
-                    let row = self.row(&forearm, turned, &slopes, marker, axis, keep);
+                    let row: Vec<f64> = ways.iter().map(|way| way[axis]).collect();
                     let solved = factor.solve_factored(&row);
                     row.iter().zip(&solved).map(|(a, b)| a * b).sum::<f64>()
                 })
@@ -205,24 +245,53 @@ impl HandModel {
         })
     }
 
+    /// Returns the parameters of the angles that can be read off a frame; what is hidden is as usual.
+    fn read_off(&self, frame: &Frame) -> Vec<f64> {
+        let angles = self.angles_of(frame);
+        let scaled: Vec<f64> = angles
+            .iter()
+            .zip(&self.levers)
+            .map(|(x, lever)| x * lever)
+            .collect();
+        self.components.project(&whole(&scaled, &self.components))
+    }
+
     /// Returns the seven numbers by which shapes are distinguished, of markers in any space.
     #[must_use]
     pub fn distances(points: &[DVec3]) -> Option<[f64; 7]> {
         if points.len() != HAND {
             return None;
         }
-        let palm = (0..4).map(|n| points[BACK.start + n]).sum::<DVec3>() / 4.0;
-        let tip = |n: usize| points[finger(n) + 7];
-        let own = |n: usize| points[finger(n)].distance(tip(n));
+        let frame: Frame = points.iter().copied().map(Some).collect();
+        Self::distances_seen(&frame)
+    }
+
+    /// Returns the same of a frame whose other markers may be hidden.
+    #[must_use]
+    pub fn distances_seen(frame: &Frame) -> Option<[f64; 7]> {
+        let at = |marker: usize| frame.get(marker).copied().flatten();
+        let mut palm = DVec3::ZERO;
+        for n in 0..4 {
+            palm += at(BACK.start + n)? / 4.0;
+        }
+        let tip = |n: usize| at(finger(n) + 7);
+        let own = |n: usize| Some(at(finger(n))?.distance(tip(n)?));
         Some([
-            points[THUMB].distance(points[THUMB + 5]),
-            own(0),
-            own(1),
-            own(2),
-            own(3),
-            tip(0).distance(tip(1)),
-            points[THUMB + 5].distance(palm),
+            at(THUMB)?.distance(at(THUMB + 5)?),
+            own(0)?,
+            own(1)?,
+            own(2)?,
+            own(3)?,
+            tip(0)?.distance(tip(1)?),
+            at(THUMB + 5)?.distance(palm),
         ])
+    }
+
+    /// Returns the tip that points for a shape, if it is seen.
+    #[must_use]
+    pub fn tip_seen(frame: &Frame, shape: u8) -> Option<DVec3> {
+        let own = usize::from(!matches!(shape, 1 | 6));
+        frame.get(finger(own) + 7).copied().flatten()
     }
 
     /// Returns the tip that points: of the index finger for shapes 1 and 6, else of the middle finger.
@@ -232,52 +301,69 @@ impl HandModel {
         points.get(finger(own) + 7).copied()
     }
 
-    /// Returns the points in the space of the forearm, and how each of their coordinates changes with each parameter.
-    fn linear(&self, parameters: &[f64]) -> (Vec<DVec3>, Vec<Vec<f64>>) {
-        let angles = self.components.rebuild(parameters);
-        let input = terms(&angles);
-        let points = (0..HAND)
-            .map(|marker| point(&self.terms, &input, marker))
+    fn linear(&self, parameters: &[f64]) -> Linear {
+        let scaled = self.components.rebuild(parameters);
+        let angles: Vec<f64> = scaled
+            .iter()
+            .zip(&self.levers)
+            .map(|(x, lever)| x / lever)
+            .collect();
+        let input = self.terms.of(&angles);
+        let turn = turn_of(&angles);
+        let local: Vec<DVec3> = (0..HAND)
+            .map(|marker| point(&self.moved, &input, marker))
+            .collect();
+        let points = local
+            .iter()
+            .enumerate()
+            .map(|(marker, at)| placed(*at, marker, turn, self.wrist))
             .collect();
         let slopes = self
             .components
             .directions
             .iter()
             .map(|direction| {
-                let mut slope = vec![0.0; 3 * HAND];
-                for (n, (angle, turn)) in angles.iter().zip(direction).enumerate() {
-                    let (down, up) = (-angle.sin() * turn, angle.cos() * turn);
-                    let (cos, sin) = (self.terms.row(1 + n), self.terms.row(1 + ANGLES + n));
-                    for ((slope, cos), sin) in slope.iter_mut().zip(cos).zip(sin) {
-                        *slope += down * cos + up * sin;
-                    }
-                }
-                slope
+                let way: Vec<f64> = direction
+                    .iter()
+                    .zip(&self.levers)
+                    .map(|(x, lever)| x / lever)
+                    .collect();
+                self.slope(&angles, &way, (turn, &local))
             })
             .collect();
         (points, slopes)
     }
 
-    /// Returns how one coordinate of a marker changes with the forearm's turn and shift and with each parameter.
-    fn row(
+    /// Returns how each marker moves when the angles change by `way`.
+    fn slope(&self, angles: &[f64], way: &[f64], (turn, local): (DMat3, &[DVec3])) -> Vec<DVec3> {
+        const STEP: f64 = 1e-6;
+        let later: Vec<f64> = (0..3).map(|k| angles[k] + STEP * way[k]).collect();
+        let turning = (turn_of(&later) - turn) * (1.0 / STEP);
+        let change = self.terms.slopes(angles, way);
+        (0..HAND)
+            .map(|marker| {
+                let own = point(&self.moved, &change, marker);
+                if marker < TURNED {
+                    return own;
+                }
+                turn * own + turning * (local[marker] - self.wrist)
+            })
+            .collect()
+    }
+
+    /// Returns how a marker moves with the forearm's turn and shift and with each parameter.
+    fn ways(
         &self,
         forearm: &Rigid,
         turned: DVec3,
-        slopes: &[Vec<f64>],
+        slopes: &[Vec<DVec3>],
         marker: usize,
-        axis: usize,
-        keep: usize,
-    ) -> Vec<f64> {
-        let mut row = vec![0.0; 6 + keep];
-        for (k, unit) in [DVec3::X, DVec3::Y, DVec3::Z].into_iter().enumerate() {
-            row[k] = unit.cross(turned)[axis];
-        }
-        row[3 + axis] = 1.0;
-        for (own, slope) in row[6..].iter_mut().zip(slopes) {
-            let at = &slope[3 * marker..3 * marker + 3];
-            *own = (forearm.rotation * DVec3::new(at[0], at[1], at[2]))[axis];
-        }
-        row
+    ) -> Vec<DVec3> {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let mut ways: Vec<DVec3> = axes.iter().map(|unit| unit.cross(turned)).collect();
+        ways.extend(axes);
+        ways.extend(slopes.iter().map(|slope| forearm.rotation * slope[marker]));
+        ways
     }
 
     /// Returns the angles of a frame as the model reads them off visible markers; NaN if they cannot be read.
@@ -339,12 +425,134 @@ fn mean_rigid(frames: &[Frame], set: std::ops::Range<usize>) -> Result<Vec<DVec3
     Ok(mean)
 }
 
-fn terms(angles: &[f64]) -> Vec<f64> {
-    let mut row = Vec::with_capacity(TERMS);
-    row.push(1.0);
-    row.extend(angles.iter().map(|angle| angle.cos()));
-    row.extend(angles.iter().map(|angle| angle.sin()));
-    row
+/// Returns the turn of the hand in the space of the forearm.
+fn turn_of(angles: &[f64]) -> DMat3 {
+    DMat3::from_quat(DQuat::from_scaled_axis(DVec3::new(
+        angles[0], angles[1], angles[2],
+    )))
+}
+
+/// Returns where a point of the hand's space is in that of the forearm.
+fn placed(at: DVec3, marker: usize, turn: DMat3, wrist: DVec3) -> DVec3 {
+    if marker < TURNED {
+        at
+    } else {
+        turn * (at - wrist) + wrist
+    }
+}
+
+/// Returns the point about which the back of the hand turns: `t = c − R c` in the sense of least squares.
+fn wrist(local: &[Frame], back: &[DVec3]) -> Result<DVec3, ModelError> {
+    let (mut left, mut right) = (Matrix::zeros(3, 3), vec![0.0; 3]);
+    for frame in local {
+        let Ok(hand) = Rigid::fit(back, &frame[BACK]) else {
+            continue;
+        };
+        let still = DMat3::IDENTITY - DMat3::from_quat(hand.rotation);
+        for axis in 0..3 {
+            let row = still.row(axis).to_array();
+            left.add_outer(&row, &row, 1.0);
+            for (right, value) in right.iter_mut().zip(row) {
+                *right += value * hand.translation[axis];
+            }
+        }
+    }
+    for k in 0..3 {
+        // A wrist that hardly turns stays near the origin of the forearm's space.
+        left[(k, k)] += 1e-6 * local.len() as f64;
+    }
+    let solved = left
+        .cholesky()
+        .ok_or(ModelError::Singular)?
+        .solve_factored(&right);
+    Ok(DVec3::new(solved[0], solved[1], solved[2]))
+}
+
+/// Returns the coordinates that each term moves, by ridge regression on the frames in which each marker is seen.
+fn regress(
+    terms: &Terms,
+    angles: &[Vec<f64>],
+    frames: &[Frame],
+    wrist: DVec3,
+) -> Result<Matrix, ModelError> {
+    let inputs: Vec<Vec<f64>> = angles.iter().map(|row| terms.of(row)).collect();
+    let turns: Vec<DMat3> = angles.iter().map(|row| turn_of(row).transpose()).collect();
+    let count = terms.len();
+    let mut gram = Matrix::zeros(count, count);
+    for row in &inputs {
+        gram.add_outer(row, row, 1.0);
+    }
+    let mut found = Matrix::zeros(count, 3 * HAND);
+    let shared = ridged(gram.clone())?;
+    for marker in 0..HAND {
+        let mut own = None;
+        let mut seen = 0;
+        let mut right = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        for ((frame, input), turn) in frames.iter().zip(&inputs).zip(&turns) {
+            let Some(at) = frame[marker] else {
+                own.get_or_insert_with(|| gram.clone())
+                    .add_outer(input, input, -1.0);
+                continue;
+            };
+            seen += 1;
+            let at = if marker < TURNED {
+                at
+            } else {
+                *turn * (at - wrist) + wrist
+            };
+            for (right, x) in right.iter_mut().zip(at.to_array()) {
+                for (right, term) in right.iter_mut().zip(input) {
+                    *right += term * x;
+                }
+            }
+        }
+        if seen == 0 {
+            return Err(ModelError::NeverSeen(marker));
+        }
+        let own = own.map(ridged).transpose()?;
+        let factor = own.as_ref().unwrap_or(&shared);
+        for (axis, right) in right.iter().enumerate() {
+            for (term, value) in factor.solve_factored(right).into_iter().enumerate() {
+                found[(term, 3 * marker + axis)] = value;
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// Returns the factor of a matrix of products with the ridge added.
+fn ridged(mut gram: Matrix) -> Result<Matrix, ModelError> {
+    let count = gram.rows();
+    let diagonal = (0..count).map(|i| gram[(i, i)]).sum::<f64>() / count as f64;
+    for i in 0..count {
+        gram[(i, i)] += RIDGE * diagonal;
+    }
+    gram.cholesky().ok_or(ModelError::Singular)
+}
+
+/// Returns by how many millimetres one radian of each angle moves all markers together: root of the sum of squares.
+fn levers(terms: &Terms, moved: &Matrix, angles: &[Vec<f64>], wrist: DVec3) -> Vec<f64> {
+    let some: Vec<&Vec<f64>> = angles.iter().step_by((angles.len() / 60).max(1)).collect();
+    (0..ANGLES)
+        .map(|n| {
+            let mut way = vec![0.0; ANGLES];
+            way[n] = 1.0;
+            let mut sum = 0.0;
+            for row in &some {
+                let (input, change) = (terms.of(row), terms.slopes(row, &way));
+                for marker in 0..HAND {
+                    sum += point(moved, &change, marker).length_squared();
+                    if n < 3 && marker >= TURNED {
+                        let axis = DVec3::AXES[n];
+                        sum += axis
+                            .cross(point(moved, &input, marker) - wrist)
+                            .length_squared();
+                    }
+                }
+            }
+            (sum / some.len().max(1) as f64).sqrt().max(1.0)
+        })
+        .collect()
 }
 
 fn point(terms: &Matrix, input: &[f64], marker: usize) -> DVec3 {

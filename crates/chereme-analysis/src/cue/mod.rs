@@ -11,6 +11,7 @@
 //! | [`hand`] | angles to markers, and hidden markers restored with their error |
 //! | [`face`] | seven guided components, and the weights of the throat |
 //! | [`gauss`] | recognisers of shapes and placements, confusion tables |
+//! | [`session`] | takes of one cuer: restored, recognised, with the targets and phases of their keys |
 //! | [`targets`](mod@targets) | where keys are shown, when the hand arrives, quartiles |
 //! | [`generate`] | seeded sessions with known truth |
 
@@ -22,7 +23,9 @@ pub mod labels;
 pub mod linear;
 pub mod pca;
 pub mod rigid;
+pub mod session;
 pub mod targets;
+mod terms;
 #[cfg(test)]
 mod tests;
 

@@ -20,8 +20,6 @@ pub struct TargetOptions {
     pub apart: f64,
     /// How far from the start of the key targets usually are, in seconds.
     pub spread: f64,
-    /// The share of the peak speed below which the hand has arrived.
-    pub still: f64,
 }
 
 impl Default for TargetOptions {
@@ -30,7 +28,6 @@ impl Default for TargetOptions {
             window: 0.35,
             apart: 0.05,
             spread: 0.2,
-            still: 0.1,
         }
     }
 }
@@ -110,54 +107,128 @@ pub fn targets(
     Some(found)
 }
 
-/// Returns when the hand arrives at a target, in seconds: the first moment after the peak of speed since the key
-/// before at which it is nearly still, the bias of that share on a minimum-jerk way added back.
-#[must_use]
-pub fn arrival(speed: &[f64], before: usize, target: usize, frame_time: f64, still: f64) -> f64 {
-    let end = (target + 1).min(speed.len());
-    let start = before.min(end.saturating_sub(1));
-    let Some((peak_at, peak)) = (start..end)
-        .map(|frame| (frame, speed[frame]))
-        .reduce(|best, next| if next.1 > best.1 { next } else { best })
-    else {
-        return target as f64 * frame_time;
-    };
-    let limit = still * peak;
-    let after = peak_at..speed.len().min(target + 1 + ((0.2 / frame_time) as usize));
-    let Some(frame) = after.clone().find(|frame| speed[*frame] < limit) else {
-        return target as f64 * frame_time;
-    };
-    let (early, late) = (speed[frame.saturating_sub(1)], speed[frame]);
-    let part = if early > late {
-        (early - limit) / (early - late)
-    } else {
-        1.0
-    };
-    let crossed = (frame as f64 - 1.0 + part) * frame_time;
-    // From the peak, at half of its time, to the crossing is a fixed share of the whole way.
-    let share = crossing(still);
-    let length = (crossed - peak_at as f64 * frame_time) / (share - 0.5);
-    crossed + (1.0 - share) * length
+/// A movement of least jerk that was fitted to numbers of frames.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Way {
+    /// When it begins, in seconds.
+    pub start: f64,
+    /// When it ends, in seconds.
+    pub end: f64,
+    /// How far it goes, in the unit of the numbers.
+    pub length: f64,
+    /// The share of the numbers' variance that it explains, from 0 to 1.
+    pub explained: f64,
 }
 
-/// Returns the share of the time of a minimum-jerk way at which its speed falls below `still` of its peak.
-fn crossing(still: f64) -> f64 {
-    let speed = |w: f64| {
-        let h = 1e-4;
-        let course = Interpolation::MinimumJerk;
-        (course.share(w + h) - course.share(w - h)) / (2.0 * h)
+/// The shortest movement that is believed, in seconds.
+const SHORTEST: f64 = 0.05;
+/// How far after the last frame a movement may end, in frames.
+const AFTER: f64 = 3.0;
+
+/// Fits the movement of least jerk that explains most of the change of `row` over the frames `from..=to`: still
+/// before it, still after it. A frame without numbers counts for nothing.
+///
+/// The two ends of the way follow from its times by least squares; the times are found on a grid and refined to a
+/// twentieth of a frame. Nothing if fewer than six frames have numbers, or they do not change.
+#[must_use]
+pub fn way<'a>(
+    row: impl Fn(usize) -> Option<&'a [f64]>,
+    (from, to): (usize, usize),
+    frame_time: f64,
+) -> Option<Way> {
+    let seen: Vec<(f64, &[f64])> = (from..=to)
+        .filter_map(|frame| Some((frame as f64, row(frame)?)))
+        .collect();
+    let width = seen.first()?.1.len();
+    const LEAST: usize = 6;
+    if seen.len() < LEAST || seen.iter().any(|(_, row)| row.len() != width) {
+        return None;
+    }
+    let count = seen.len() as f64;
+    let mut mean = vec![0.0; width];
+    for (_, row) in &seen {
+        mean.iter_mut()
+            .zip(*row)
+            .for_each(|(mean, x)| *mean += x / count);
+    }
+    let apart =
+        |row: &[f64]| -> f64 { row.iter().zip(&mean).map(|(x, m)| (x - m) * (x - m)).sum() };
+    let total: f64 = seen.iter().map(|(_, row)| apart(row)).sum();
+    if total.is_nan() || total <= 1e-9 {
+        return None;
+    }
+    // The variance that a way explains, and the square of its length.
+    let gain = |start: f64, end: f64| -> (f64, f64) {
+        let share = |time: f64| {
+            Interpolation::MinimumJerk.share(((time - start) / (end - start)).clamp(0.0, 1.0))
+        };
+        let shares: Vec<f64> = seen.iter().map(|(time, _)| share(*time)).collect();
+        let middle = shares.iter().sum::<f64>() / count;
+        let spread: f64 = shares.iter().map(|s| (s - middle) * (s - middle)).sum();
+        if spread < 1e-9 {
+            return (0.0, 0.0);
+        }
+        let mut along = vec![0.0; width];
+        for (share, (_, row)) in shares.iter().zip(&seen) {
+            for ((along, x), mean) in along.iter_mut().zip(*row).zip(&mean) {
+                *along += (share - middle) * (x - mean);
+            }
+        }
+        let square: f64 = along.iter().map(|x| x * x).sum();
+        (square / spread, square / (spread * spread))
     };
-    let peak = speed(0.5);
-    let (mut low, mut high) = (0.5, 1.0 - 1e-4);
-    for _ in 0..50 {
-        let middle = (low + high) / 2.0;
-        if speed(middle) > still * peak {
-            low = middle;
-        } else {
-            high = middle;
+    let (first, last) = (from as f64, to as f64 + AFTER);
+    let shortest = SHORTEST / frame_time;
+    let mut best = (f64::NEG_INFINITY, first, last);
+    let better = |best: &mut (f64, f64, f64), start: f64, end: f64| {
+        if start >= first - 1.0 && end <= last && end - start >= shortest {
+            let own = gain(start, end).0;
+            if own > best.0 {
+                *best = (own, start, end);
+                return true;
+            }
+        }
+        false
+    };
+    let grid = ((last - first) / 24.0).max(1.0);
+    let steps = ((last - first) / grid) as usize;
+    for i in 0..=steps {
+        for j in i + 1..=steps + 1 {
+            let end = (first + j as f64 * grid).min(last);
+            better(&mut best, first + i as f64 * grid, end);
         }
     }
-    (low + high) / 2.0
+    if best.0 == f64::NEG_INFINITY {
+        return None;
+    }
+    let mut step = grid / 2.0;
+    while step > 0.05 {
+        let (_, start, end) = best;
+        let mut moved = false;
+        for (a, b) in [
+            (1.0, 0.0),
+            (-1.0, 0.0),
+            (0.0, 1.0),
+            (0.0, -1.0),
+            (1.0, 1.0),
+            (-1.0, -1.0),
+            (1.0, -1.0),
+            (-1.0, 1.0),
+        ] {
+            moved |= better(&mut best, start + a * step, end + b * step);
+        }
+        if !moved {
+            step /= 2.0;
+        }
+    }
+    let (_, start, end) = best;
+    let (explained, square) = gain(start, end);
+    Some(Way {
+        start: start * frame_time,
+        end: end * frame_time,
+        length: square.sqrt(),
+        explained: (explained / total).clamp(0.0, 1.0),
+    })
 }
 
 /// Median and quartiles of numbers.

@@ -8,7 +8,7 @@ use super::labels::{FACE, HAND, RIGID, THROAT, finger};
 use super::linear::{Matrix, eigen};
 use super::pca::{Pca, guided};
 use super::rigid::{Rigid, RigidError};
-use super::targets::{Quartiles, Sought, TargetOptions, arrival, targets};
+use super::targets::{Quartiles, Sought, TargetOptions, targets, way};
 use super::{labels, pca};
 
 fn clean() -> Settings {
@@ -345,17 +345,40 @@ fn targets_found_by_dynamic_programming_are_the_best_of_all() {
 }
 
 #[test]
-fn an_arrival_on_a_minimum_jerk_way_is_where_the_way_ends() {
+fn a_movement_of_least_jerk_is_found_in_its_numbers() {
     let course = chereme_motion::Interpolation::MinimumJerk;
     let (start, end) = (0.31, 0.56);
-    let at = |frame: usize| {
-        course.share(((frame as f64 / RATE - start) / (end - start)).clamp(0.0, 1.0))
-    };
-    let speed: Vec<f64> = (0..120)
-        .map(|frame| (at(frame + 1) - at(frame.saturating_sub(1))).abs())
-        .collect();
-    let found = arrival(&speed, 30, 70, 1.0 / RATE, 0.1);
-    assert!((found - end).abs() < 0.006, "{found}");
+    let mut random = Random::new(8);
+    for noise in [0.0, 0.4] {
+        let rows: Vec<Vec<f64>> = (0..120)
+            .map(|frame| {
+                let share = course
+                    .share(((f64::from(frame) / RATE - start) / (end - start)).clamp(0.0, 1.0));
+                let ends = [(10.0, 40.0), (-3.0, 2.0), (0.0, 0.0)];
+                ends.map(|(a, b)| a + (b - a) * share + noise * random.normal())
+                    .to_vec()
+            })
+            .collect();
+        let found = way(
+            |frame| rows.get(frame).map(Vec::as_slice),
+            (20, 80),
+            1.0 / RATE,
+        )
+        .expect("a way");
+        let off = (found.start - start).abs().max((found.end - end).abs());
+        assert!(off < if noise == 0.0 { 0.001 } else { 0.009 }, "{found:?}");
+        assert!(
+            (found.length - 30.4).abs() < 1.0 && found.explained > 0.98,
+            "{found:?}"
+        );
+    }
+    assert_eq!(
+        way(|_| Some(&[1.0][..]), (0, 50), 1.0 / RATE),
+        None,
+        "nothing moves"
+    );
+    assert_eq!(way(|_| None, (0, 50), 1.0 / RATE), None);
+    assert_eq!(way(|_| Some(&[f64::NAN][..]), (0, 50), 1.0 / RATE), None);
     assert_eq!(
         Quartiles::of(&[4.0, 1.0, 3.0, 2.0, 5.0]).map(|q| (q.low, q.median, q.high)),
         Some((2.0, 3.0, 4.0))

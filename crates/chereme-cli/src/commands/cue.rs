@@ -53,7 +53,7 @@ pub(crate) struct Args {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum RuleWord {
+pub(super) enum RuleWord {
     Paper,
     Attina,
     Sppas,
@@ -83,7 +83,11 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             reading.phones = Some(Alphabet::Sampa);
             phones
         }
-        (None, Some(text)) => text.clone(),
+        (None, Some(text)) => {
+            let (text, said) = spoken.said(text, args.pace, output)?;
+            reading = said;
+            text
+        }
         (None, None) => bail!("there is nothing to cue; write a text, or --from FILE"),
     };
     let options = CueOptions {

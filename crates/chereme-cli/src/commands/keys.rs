@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Result, bail};
-use chereme_corpus::{CueKey, KeysOptions, cue_keys, cue_keys_of_file};
+use chereme_corpus::{CueKey, KeysOptions, cue_keys, cue_keys_of_file, cue_phones_of_espeak};
 use chereme_sign::cue::Alphabet;
 use chereme_sign::cue::french::{Options, Schwa};
 use clap::ValueEnum;
@@ -53,7 +53,10 @@ pub(super) struct Spoken {
     /// Read the input as phones in this alphabet
     #[arg(long, value_enum, value_name = "ALPHABET")]
     phones: Option<AlphabetWord>,
-    /// The code: french or english-us
+    /// Let the program espeak-ng, if it is installed, say how the text is pronounced
+    #[arg(long, conflicts_with_all = ["from", "phones"])]
+    espeak: bool,
+    /// The code: french, english-us or english-gb
     #[arg(long, default_value = "french")]
     code: String,
     /// A habit of some cuers, such as schwa-as-eu; may be repeated
@@ -68,6 +71,28 @@ pub(super) struct Spoken {
 }
 
 impl Spoken {
+    /// Returns the text and how it is read, after espeak-ng has said it if that is asked for.
+    pub(super) fn said(
+        &self,
+        text: &str,
+        pace: Option<f64>,
+        output: &mut Output,
+    ) -> Result<(String, KeysOptions)> {
+        let mut options = self.options(pace);
+        if !self.espeak {
+            return Ok((text.to_owned(), options));
+        }
+        let (phones, unknown) = cue_phones_of_espeak(text, &self.code)?;
+        if !unknown.is_empty() {
+            let unknown: String = unknown.into_iter().collect();
+            output.line(format!(
+                "warning: espeak-ng prints {unknown:?}, which has no key"
+            ))?;
+        }
+        options.phones = Some(Alphabet::Ipa);
+        Ok((phones, options))
+    }
+
     pub(super) fn options(&self, pace: Option<f64>) -> KeysOptions {
         KeysOptions {
             code: self.code.clone(),
@@ -83,7 +108,7 @@ impl Spoken {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum AlphabetWord {
+pub(super) enum AlphabetWord {
     Sampa,
     Ipa,
     Mfa,
@@ -121,7 +146,10 @@ pub(super) fn run(_: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let options = spoken.options(args.pace);
     let found = match (&spoken.from, &spoken.text) {
         (Some(path), _) => cue_keys_of_file(path, spoken.tier.as_deref(), &options)?,
-        (None, Some(text)) => cue_keys(text, &options)?,
+        (None, Some(text)) => {
+            let (text, options) = spoken.said(text, args.pace, output)?;
+            cue_keys(&text, &options)?
+        }
         (None, None) => bail!("there is nothing to read; write a text, or --from FILE"),
     };
     for word in &found.words {

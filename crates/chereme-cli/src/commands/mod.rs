@@ -6,6 +6,7 @@ mod check;
 mod choose;
 mod completions;
 mod cue;
+mod cued;
 mod demo;
 mod diff;
 mod export;
@@ -70,6 +71,7 @@ pub(crate) enum Command {
     Map(map::Args),
     Transcribe(transcribe::Args),
     Cue(cue::Args),
+    Cued(cued::Args),
     Propose(propose::Args),
     Keys(keys::Args),
     Check(check::Args),
@@ -111,6 +113,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Map(args) => map::run(cli, args, output).map_err(offer_force),
         Command::Transcribe(args) => transcribe::run(cli, args, output),
         Command::Cue(args) => cue::run(cli, args, output),
+        Command::Cued(args) => cued::run(cli, args, output),
         Command::Propose(args) => propose::run(cli, args, output),
         Command::Keys(args) => keys::run(cli, args, output),
         Command::Track(args) => track::run(cli, args, output),

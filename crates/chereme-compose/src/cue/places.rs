@@ -24,6 +24,10 @@ pub(super) struct Head {
     /// The head's height in metres.
     pub(super) size: f64,
     throat: DVec3,
+    /// How far forward the front of the chest is at most.
+    chest: f64,
+    /// From the wrist to the end of the middle finger.
+    hand: f64,
 }
 
 /// A place for the tip, with how the hand comes to it.
@@ -48,7 +52,8 @@ impl Head {
         side: Side,
     ) -> Option<Self> {
         let [left, up, forward] = anatomy.head_axes(model)?;
-        let size = anatomy.measures()?.head;
+        let measures = anatomy.measures()?;
+        let size = measures.head;
         let axes = [left * side.sign(), up, forward];
         let chin = anatomy.landmark(skeleton, model, "chin")?;
         let mut head = Self {
@@ -56,10 +61,15 @@ impl Head {
             axes,
             size,
             throat: DVec3::ZERO,
+            chest: 0.0,
+            hand: measures.hand / size,
         };
         head.origin = chin - head.direction(CHIN) * size;
         let throat = anatomy.landmark(skeleton, model, "throat");
         head.throat = throat.map_or(DVec3::new(0.0, -0.23, 0.25), |at| head.local(at));
+        let fronts = ["upper-chest", "chest"].map(|name| anatomy.landmark(skeleton, model, name));
+        let fronts = fronts.into_iter().flatten().map(|at| head.local(at).z);
+        head.chest = fronts.fold(head.throat.z, f64::max);
         Some(head)
     }
 
@@ -98,14 +108,29 @@ impl Head {
             "mouth" => spot([0.16, 0.195, 0.41], 63.0, 16.0, true),
             "chin" => spot([0.045, 0.045, 0.465], 61.0, 16.0, true),
             "cheek" => spot([0.22, 0.325, 0.37], 64.0, 16.0, true),
-            "throat" => Spot {
-                // In front of a collar, the wrist well before the chest.
-                at: self.throat + DVec3::new(0.04, 0.0, 0.13),
-                ..spot([0.0; 3], 54.0, 48.0, true)
-            },
+            "throat" => self.at_throat(spot([0.0; 3], 54.0, 48.0, true)),
             "rest" => spot([0.42, -0.55, 0.85], 45.0, 4.0, false),
             _ => return None,
         })
+    }
+}
+
+/// How far before the front of the chest the wrist is while the hand is at the throat, in heights of the head: half of a
+/// forearm, and a shirt.
+const BEFORE_CHEST: f64 = 0.45;
+/// The farthest that fingers lean back towards the throat, in radians.
+const FARTHEST_LEAN: f64 = 1.2;
+
+impl Head {
+    /// Returns the spot at the throat, in front of a collar: the fingers lean so that the wrist stays before the chest,
+    /// however deep that is, and the tip comes forward where leaning is not enough.
+    fn at_throat(&self, usual: Spot) -> Spot {
+        let mut at = self.throat + DVec3::new(0.04, 0.0, 0.13);
+        let wanted = self.chest + BEFORE_CHEST - at.z;
+        let lean = (wanted / self.hand.max(0.1)).clamp(-1.0, 1.0).asin();
+        let lean = lean.clamp(usual.lean, FARTHEST_LEAN);
+        at.z += (wanted - self.hand * lean.sin()).max(0.0);
+        Spot { at, lean, ..usual }
     }
 }
 
@@ -196,6 +221,22 @@ mod tests {
             axes: [DVec3::X, DVec3::Y, DVec3::Z],
             size: 0.23,
             throat: DVec3::new(0.0, -0.23, 0.25),
+            chest: 0.5,
+            hand: 0.83,
+        }
+    }
+
+    #[test]
+    fn at_the_throat_the_wrist_is_before_the_chest_of_any_body() {
+        for chest in [0.3, 0.5, 0.7, 0.9, 1.4] {
+            let own = Head { chest, ..head() };
+            let spot = own.spot("throat").expect("a throat");
+            let wrist = spot.at.z + own.hand * spot.lean.sin();
+            assert!(wrist >= chest + BEFORE_CHEST - 1e-9, "{chest}: {wrist}");
+            assert!(
+                spot.at.z >= own.throat.z + 0.13 - 1e-9,
+                "the tip stays outside the skin"
+            );
         }
     }
 

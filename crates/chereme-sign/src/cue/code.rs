@@ -44,6 +44,9 @@ pub struct CueCode {
     pub variants: Vec<CueVariant>,
     /// Pairs of vowels that speakers and dictionaries exchange.
     pub doubtful: Vec<[String; 2]>,
+    /// A part of the code that was not compared with its source; keys of the code are found with this caution.
+    #[serde(default)]
+    pub unchecked: Option<String>,
     /// Usual durations in milliseconds, for text without a recording.
     pub durations_ms: BTreeMap<String, f64>,
 }
@@ -145,6 +148,7 @@ static CODES: LazyLock<Vec<CueCode>> = LazyLock::new(|| {
     [
         include_str!("../../../../schema/cues/french.json"),
         include_str!("../../../../schema/cues/english-us.json"),
+        include_str!("../../../../schema/cues/english-gb.json"),
     ]
     .into_iter()
     .filter_map(|text| serde_json::from_str(text).ok())

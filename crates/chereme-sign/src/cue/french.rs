@@ -58,6 +58,8 @@ pub struct Word {
     pub phones: Vec<String>,
     /// The positions of phones in `phones` that speakers say in two ways: mid vowels before the last syllable.
     pub doubtful: Vec<usize>,
+    /// Whether a hyphen joins it to the word before, as in *dit-elle*.
+    pub hyphened: bool,
 }
 
 impl Spoken {
@@ -80,9 +82,9 @@ pub fn phones(text: &str, options: Options) -> Spoken {
                 phones: vec!["#".to_owned()],
                 ..Word::default()
             }),
-            Written::Word(text) => {
+            Written::Word(text, hyphened) => {
                 let word = rules.word(text, &mut spoken.findings);
-                spoken.words.push(word);
+                spoken.words.push(Word { hyphened, ..word });
             }
             Written::Other(text) => spoken.findings.push(CueFinding::NotAWord { text }),
         }
@@ -96,7 +98,8 @@ pub fn phones(text: &str, options: Options) -> Spoken {
 }
 
 enum Written {
-    Word(String),
+    /// A word, and whether a hyphen joins it to the word before.
+    Word(String, bool),
     Pause,
     Other(String),
 }
@@ -105,6 +108,7 @@ enum Written {
 fn split(text: &str) -> Vec<Written> {
     let mut parts = Vec::new();
     let mut word = String::new();
+    let mut hyphen = false;
     let lower = text.to_lowercase();
     for letter in lower.chars().chain([' ']) {
         let letter = if letter == '’' { '\'' } else { letter };
@@ -115,7 +119,10 @@ fn split(text: &str) -> Vec<Written> {
             }
         }
         if !word.trim_matches('\'').is_empty() {
-            parts.push(Written::Word(std::mem::take(&mut word)));
+            parts.push(Written::Word(std::mem::take(&mut word), hyphen));
+            hyphen = matches!(letter, '-' | '‐' | '‑');
+        } else if !matches!(letter, '-' | '‐' | '‑') {
+            hyphen = false;
         }
         word.clear();
         if letter.is_numeric() {
@@ -157,6 +164,8 @@ struct File {
     elided: BTreeMap<String, String>,
     words: BTreeMap<String, String>,
     liaison: BTreeMap<String, Vec<String>>,
+    linked_endings: BTreeMap<String, Vec<String>>,
+    never_linked: BTreeSet<String>,
     loses_nasal: BTreeMap<String, String>,
     aspirated_h: BTreeSet<String>,
     rules: Vec<Vec<String>>,
@@ -177,6 +186,10 @@ struct Rules {
     elided: BTreeMap<String, String>,
     words: BTreeMap<String, String>,
     liaison: BTreeMap<String, String>,
+    /// Endings of verbs by the consonant that they link with.
+    linked_endings: BTreeMap<String, Vec<String>>,
+    /// Words with such an ending that are no verbs.
+    never_linked: BTreeSet<String>,
     loses_nasal: BTreeMap<String, String>,
     aspirated_h: BTreeSet<String>,
     /// By their first letter, in the order of the file.
@@ -197,6 +210,8 @@ impl Rules {
             elided: BTreeMap::new(),
             words: BTreeMap::new(),
             liaison: BTreeMap::new(),
+            linked_endings: BTreeMap::new(),
+            never_linked: BTreeSet::new(),
             loses_nasal: BTreeMap::new(),
             aspirated_h: BTreeSet::new(),
             by_letter: BTreeMap::new(),
@@ -221,6 +236,8 @@ impl Rules {
         rules.vowels = file.vowels;
         rules.elided = file.elided;
         rules.words = file.words;
+        rules.linked_endings = file.linked_endings;
+        rules.never_linked = file.never_linked;
         rules.loses_nasal = file.loses_nasal;
         rules.aspirated_h = file.aspirated_h;
         rules
@@ -232,14 +249,14 @@ impl Rules {
             return Word {
                 phones: split(phones),
                 text,
-                doubtful: Vec::new(),
+                ..Word::default()
             };
         }
         if let Some(phones) = text.strip_suffix('\'').and_then(|it| self.elided.get(it)) {
             return Word {
                 phones: split(phones),
                 text,
-                doubtful: Vec::new(),
+                ..Word::default()
             };
         }
         let phones = self.spell(&text, findings);
@@ -247,6 +264,7 @@ impl Rules {
             doubtful: doubtful(&phones),
             phones,
             text,
+            hyphened: false,
         }
     }
 
@@ -305,12 +323,12 @@ impl Rules {
             if let Some(phones) = self.loses_nasal.get(&word.text) {
                 word.phones = phones.split(' ').map(str::to_owned).collect();
             }
-            if let Some(sound) = self.liaison.get(&word.text) {
+            if let Some(sound) = self.linking(word, next) {
                 if sound == "z" && word.phones.last().is_some_and(|last| last == "s") {
                     word.phones.pop();
                 }
-                if word.phones.last() != Some(sound) {
-                    word.phones.push(sound.clone());
+                if word.phones.last().map(String::as_str) != Some(sound) {
+                    word.phones.push(sound.to_owned());
                 }
             }
             return;
@@ -331,6 +349,31 @@ impl Rules {
         if silent_e && says && !is_vowel(end) {
             word.phones.push("@".to_owned());
         }
+    }
+
+    /// Returns the consonant that links a word to the next, which begins with a vowel: that of the lists, that of a
+    /// verb before its pronoun (*dit-elle*, *allez-y*), or that of a verb's ending (*tenait en*).
+    fn linking(&self, word: &Word, next: &Word) -> Option<&str> {
+        let text = word.text.as_str();
+        if next.hyphened {
+            let ends = |letters: &[char]| text.ends_with(letters);
+            match next.text.as_str() {
+                "il" | "elle" | "on" | "ils" | "elles" if ends(&['t', 'd']) => return Some("t"),
+                "y" | "en" if ends(&['s', 'z']) => return Some("z"),
+                _ => {}
+            }
+        }
+        if let Some(sound) = self.liaison.get(text) {
+            return Some(sound);
+        }
+        if self.never_linked.contains(text) {
+            return None;
+        }
+        let longer =
+            |ending: &&String| text.len() > ending.len() && text.ends_with(ending.as_str());
+        let mut endings = self.linked_endings.iter();
+        let found = endings.find(|(_, endings)| endings.iter().any(|it| longer(&it)));
+        found.map(|(sound, _)| sound.as_str())
     }
 
     fn begins_with_vowel(&self, word: &Word) -> bool {

@@ -10,12 +10,14 @@
 //! do not.
 
 mod code;
+mod espeak;
 pub mod french;
 mod names;
 #[cfg(test)]
 mod tests;
 mod utterance;
 
+pub use espeak::of_espeak;
 pub use names::{gloss, of_gloss, placement_number, placement_of_number};
 pub use utterance::{Reading, Utterance, UtteranceError};
 
@@ -95,6 +97,12 @@ pub enum CueFinding {
         /// The word that holds it.
         word: String,
     },
+    /// The code has a part that was not compared with its source.
+    #[error("{caution}")]
+    Unchecked {
+        /// The part and the remedy.
+        caution: String,
+    },
     /// A number or another sign that text to phones does not read.
     #[error("{text:?} was left out; write it in words")]
     NotAWord {
@@ -122,7 +130,10 @@ impl CueCode {
     /// Returns the keys of phones written in `alphabet`, and the phones that have no key.
     #[must_use]
     pub fn keys(&self, phones: &[Phone], alphabet: Alphabet) -> (Vec<Key>, Vec<CueFinding>) {
-        let (heard, findings) = self.hear(phones, alphabet);
+        let (heard, mut findings) = self.hear(phones, alphabet);
+        if let Some(caution) = self.unchecked.clone().filter(|_| !phones.is_empty()) {
+            findings.push(CueFinding::Unchecked { caution });
+        }
         let mut keys = Vec::new();
         let mut at = 0;
         while let Some(first) = heard.get(at) {

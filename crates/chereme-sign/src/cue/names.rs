@@ -3,8 +3,17 @@
 //! A key is a gloss such as `cue:mouth-4`: the placement and the number of the shape. The founding paper
 //! writes the same key as two digits, the placement's number before the shape's: 24.
 
-/// The placements by the numbers of the paper: 0 is rest.
-const NUMBERS: [&str; 6] = ["rest", "side", "mouth", "chin", "cheek", "throat"];
+/// The placements by the numbers of the paper, 0 is rest; then those that only English codes have.
+const NUMBERS: [&str; 8] = [
+    "rest",
+    "side",
+    "mouth",
+    "chin",
+    "cheek",
+    "throat",
+    "side-forward",
+    "side-down",
+];
 /// Stands before the gloss of every key.
 const PREFIX: &str = "cue:";
 

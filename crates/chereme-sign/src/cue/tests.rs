@@ -16,7 +16,7 @@ fn keys_of(code_name: &str, sampa: &str) -> String {
 #[test]
 fn every_code_that_comes_with_the_program_is_read_whole() {
     let ids: Vec<&str> = codes().iter().map(|code| code.id.as_str()).collect();
-    assert_eq!(ids, ["french", "english-us"]);
+    assert_eq!(ids, ["french", "english-us", "english-gb"]);
     for code in codes() {
         assert!(code.shape(code.vowel_alone).is_some());
         assert!(code.placement(&code.consonant_alone).is_some());
@@ -280,4 +280,81 @@ fn edits(a: &[String], b: &[&str]) -> usize {
         }
     }
     row[b.len()]
+}
+
+#[test]
+fn british_keys_say_that_their_vowels_are_unchecked_and_aligners_agree() {
+    let british = code("en-GB").expect("British");
+    let keys = |labels: &str, alphabet: Alphabet| {
+        let phones: Vec<Phone> = labels.split(' ').map(Phone::new).collect();
+        let (keys, findings) = british.keys(&phones, alphabet);
+        let cautions = findings
+            .iter()
+            .filter(|it| matches!(it, CueFinding::Unchecked { .. }))
+            .count();
+        assert_eq!((findings.len(), cautions), (1, 1), "{labels}: {findings:?}");
+        let keys = keys
+            .iter()
+            .map(|key| format!("{}-{}", key.shape, key.placement));
+        keys.collect::<Vec<String>>().join(" ")
+    };
+    assert_eq!(keys("h Q t", Alphabet::Sampa), "3-side-forward 5-side");
+    assert_eq!(keys("h ɒ t", Alphabet::Ipa), "3-side-forward 5-side");
+    assert_eq!(keys("b eə", Alphabet::Ipa), "4-chin 5-side-down");
+    assert_eq!(
+        keys("HH AW1 S", Alphabet::Mfa),
+        keys("h aʊ s", Alphabet::Ipa)
+    );
+    assert!(british.keys(&[], Alphabet::Ipa).1.is_empty());
+}
+
+#[test]
+fn a_fable_has_almost_the_keys_of_a_careful_hand() {
+    let french = code("french").expect("French");
+    let text = include_str!("../../../../tests/examples/cued/fable.txt");
+    let by_hand = include_str!("../../../../tests/examples/cued/fable-phones.txt");
+    let (mut errors, mut all, mut lines) = (0, 0, Vec::new());
+    for (line, phones) in text.lines().zip(by_hand.lines()) {
+        let named = |phones: &[Phone]| -> Vec<String> {
+            let keys = french.keys(phones, Alphabet::Sampa).0;
+            let words = keys
+                .iter()
+                .map(|key| format!("{}-{}", key.shape, key.placement));
+            words.collect()
+        };
+        let expected: Vec<Phone> = phones.split(' ').map(Phone::new).collect();
+        let expected = named(&expected);
+        let spoken = french::phones(line, french::Options::default());
+        let found: Vec<Phone> = spoken.phones().map(Phone::new).collect();
+        let expected: Vec<&str> = expected.iter().map(String::as_str).collect();
+        let off = edits(&named(&found), &expected);
+        errors += off;
+        all += expected.len();
+        if off > 0 {
+            let said: Vec<&str> = spoken.phones().collect();
+            lines.push(format!("{off}: {line}\n   {}\n   {phones}", said.join(" ")));
+        }
+    }
+    assert!(
+        errors * 100 <= 2 * all,
+        "{errors} of {all} keys\n{}",
+        lines.join("\n")
+    );
+}
+
+#[test]
+fn verbs_link_to_their_pronouns_and_nouns_do_not() {
+    let usual = french::Options::default();
+    for (text, expected) in [
+        ("dit-elle", "d i t E l"),
+        ("a-t-il", "a t i l"),
+        ("prend-on", "p R A~ t O~"),
+        ("allez-y", "a l e z i"),
+        ("tenait en", "t @ n E t A~"),
+        ("le lait est", "l @ l E E"),
+        ("pas un", "p a z 9~"),
+        ("jusqu'à", "Z y s k a"),
+    ] {
+        assert_eq!(said(text, usual), expected, "{text}");
+    }
 }

@@ -190,6 +190,7 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::ShowInspector, ["Shift+F4", "=", "="]),
     (Action::ShowFilm, ["Shift+F5", "=", "="]),
     (Action::ShowMap, ["Ctrl+Alt+K", "=", "="]),
+    (Action::ShowCue, ["Ctrl+Alt+L", "=", "="]),
     (Action::ShowHistory, ["Ctrl+H", "=", "="]),
     (Action::OnlyPane, ["F11", "=", "="]),
     (Action::OnlyAnnotating, ["Shift+F11", "=", "="]),

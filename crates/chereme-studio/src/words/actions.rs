@@ -190,6 +190,7 @@ texts! {
     FILM_BACK: "One film frame back", "Reculer d’une image du film";
     FILM_FORWARD: "One film frame forward", "Avancer d’une image du film";
     SHOW_MAP: "Show the map of signs", "Afficher la carte des signes";
+    SHOW_CUE: "Cued speech", "Langue parlée complétée";
     SHOW_HISTORY: "Show the history", "Afficher l’historique";
     SHOW_IMPORT: "Import…", "Importer…";
     EXPORT: "Export…", "Exporter…";

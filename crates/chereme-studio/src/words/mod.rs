@@ -22,6 +22,7 @@ macro_rules! texts {
 }
 
 pub(crate) mod actions;
+pub(crate) mod cue;
 pub(crate) mod export;
 pub(crate) mod film;
 pub(crate) mod gestures;
@@ -43,8 +44,9 @@ pub(crate) mod timeline;
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 17] = [
+    const TABLES: [&[(&str, Text)]; 18] = [
         actions::ALL,
+        cue::ALL,
         export::ALL,
         film::ALL,
         hamnosys::ALL,

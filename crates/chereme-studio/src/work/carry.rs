@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, ChannelGroup, Corpus, Details, ExportWhat, MadePart, MapOptions, Moving, Name,
-    Performance, Progress, Result, SearchOptions, Step, Unit, draw_clip,
+    Address, ChannelGroup, Corpus, CuedOptions, Details, ExportWhat, MadePart, MapOptions, Moving,
+    Name, Performance, Progress, Result, SearchOptions, Step, Unit, draw_clip,
 };
 
 use super::{Outcome, Shared, Work};
@@ -90,6 +90,14 @@ pub(super) fn carry(
                 query: None,
             };
             Outcome::Mapped(Arc::new(corpus.map(&options, progress)?))
+        }
+        Work::CueSlips(recording, code) => {
+            let options = CuedOptions {
+                code,
+                ..CuedOptions::default()
+            };
+            let name = Name::Number(recording);
+            Outcome::CueSlips(Box::new(corpus.cue_slips(&name, None, false, &options)?))
         }
         Work::Preview(recipe) => Outcome::Previewed(Arc::new(corpus.preview(&recipe)?)),
         Work::Draft { recipe, anew } => {

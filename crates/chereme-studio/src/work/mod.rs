@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
-    Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat,
+    Copied, CueSlips, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat,
     ImportOptions, ImportReport, KeptSearch, MadePart, MediaChange, MergeReport, Moving, Name,
     NewTier, OperationRow, Picture, PictureOptions, PointsPiece, ProposeOptions, Proposed,
     Recombination, RecordingChange, Scheme, SearchOptions, SignChange, SignMap, SignerChange,
@@ -116,6 +116,8 @@ pub(crate) enum Work {
     Around(Vec<i64>, usize),
     /// Places the signs on a map by these components.
     Map(Vec<Component>),
+    /// Compares the keys of a recording with those that its phones predict by the code of that name.
+    CueSlips(i64, String),
     /// Makes the movement of a recipe and stores nothing.
     Preview(String),
     /// Makes the movement of the recipe that is worked on, of what changed in it.
@@ -200,6 +202,8 @@ pub(crate) enum Outcome {
     Around(Vec<Around>),
     /// The signs have places on a map.
     Mapped(Arc<SignMap>),
+    /// The slips of a take.
+    CueSlips(Box<CueSlips>),
     /// Movement was made.
     Previewed(Arc<Recombination>),
     /// What could be made.
@@ -313,6 +317,7 @@ impl Work {
             Self::Search(..)
             | Self::Around(..)
             | Self::Map(_)
+            | Self::CueSlips(..)
             | Self::Suggest(_)
             | Self::Look(_)
             | Self::Paths(_) => Lane::Ask,
@@ -338,6 +343,7 @@ impl Work {
             Self::Search(..)
             | Self::Around(..)
             | Self::Map(_)
+            | Self::CueSlips(..)
             | Self::Suggest(_)
             | Self::Look(_)
             | Self::Paths(_) => shell::TASK_SEARCH,
@@ -372,6 +378,7 @@ impl Work {
                 | Self::Search(..)
                 | Self::Around(..)
                 | Self::Map(_)
+                | Self::CueSlips(..)
         )
     }
 

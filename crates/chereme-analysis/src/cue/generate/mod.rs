@@ -3,13 +3,21 @@
 //! Millimetres; x to the cuer's left, y up from the tip of the chin, z forward; a right-handed cuer. Sentences are
 //! random syllables. Nothing of a session was captured: whoever writes one to a file says so in it.
 
+mod face;
+mod hand;
+mod noise;
+
 use chereme_motion::Interpolation;
 use glam::{DMat3, DQuat, DVec3};
 
-use super::face::share_of;
+use chereme_sign::cue::{self, Utterance};
+
 use super::hand::Frame;
-use super::labels::{CHEEKS, FACE, HAND, JAW, LIPS, THROAT, THUMB, finger};
 use super::rigid::Rigid;
+use hand::place_hand;
+
+pub use face::throat_weights;
+pub use hand::shape_angles;
 
 /// Frames a second.
 pub const RATE: f64 = 120.0;
@@ -76,6 +84,8 @@ pub struct Settings {
     pub phase_sd: [f64; 2],
     /// How often markers are hidden: 1 as usual, 0 never.
     pub hidden: f64,
+    /// The share of frames in which two neighbours of the hand have each other's label.
+    pub swapped: f64,
 }
 
 impl Default for Settings {
@@ -89,6 +99,7 @@ impl Default for Settings {
             phase: [0.5, 0.0, 0.0],
             phase_sd: [0.045, 0.06],
             hidden: 1.0,
+            swapped: 0.0,
         }
     }
 }
@@ -119,6 +130,10 @@ pub struct Take {
     pub face: Vec<Frame>,
     /// Where they are.
     pub true_face: Vec<Vec<DVec3>>,
+    /// The seven true parameters of the face in each frame.
+    pub true_parameters: Vec<[f64; 7]>,
+    /// The true joint angles of the hand in radians.
+    pub true_angles: Vec<[f64; JOINTS]>,
     /// The head's motion in each frame.
     pub head: Vec<Rigid>,
     /// The phones with their start and end in seconds.
@@ -178,8 +193,85 @@ const CONSONANTS: [(&str, u8, f64, f64); 16] = [
 pub fn sentence(settings: &Settings, number: u64, syllables: usize) -> Take {
     let mut random = Random::new(settings.seed.wrapping_mul(0x5851_F42D_4C95_7F2D) ^ number);
     let (phones, mut keys) = spoken(&mut random, syllables);
+    set_times(settings, &mut random, &mut keys);
+    moved(settings, &mut random, phones, keys, false)
+}
+
+/// Returns a sentence of French text, as the rules of spelling say it; nothing if it has no key.
+#[must_use]
+pub fn said(settings: &Settings, number: u64, text: &str) -> Option<Take> {
+    let mut random = Random::new(settings.seed.wrapping_mul(0x5851_F42D_4C95_7F2D) ^ number);
+    let reading = cue::Reading {
+        pace: Some(1.6),
+        ..cue::Reading::default()
+    };
+    let read = Utterance::read(text, &reading).ok()?;
+    let mut at = 0.8;
+    let mut phones = Vec::with_capacity(read.phones.len());
+    for phone in &read.phones {
+        let usual = phone.span?.micros() as f64 / 1e6;
+        let length = usual * (0.2 * random.normal()).exp();
+        phones.push((phone.label.clone(), at, at + length));
+        at += length;
+    }
+    let mut keys = Vec::with_capacity(read.keys.len());
+    for key in &read.keys {
+        let (first, last) = (
+            phones.get(*key.from.first()?)?,
+            phones.get(*key.from.last()?)?,
+        );
+        let is_vowel = key.vowel.is_some();
+        keys.push(TrueKey {
+            kind: match (key.from.len(), is_vowel) {
+                (2.., _) => 0,
+                (_, true) => 1,
+                (_, false) => 2,
+            },
+            placement: u8::try_from(cue::placement_number(&key.placement)).ok()?,
+            shape: key.shape,
+            sound: [first.1, if is_vowel { last.1 } else { last.2 }, last.2],
+            times: [0.0; 4],
+        });
+    }
+    if keys.is_empty() {
+        return None;
+    }
+    phones.retain(|phone| !read.code.is_pause(&phone.0));
+    set_times(settings, &mut random, &mut keys);
+    Some(moved(settings, &mut random, phones, keys, false))
+}
+
+/// Returns the face alone: isolated vowels, and each consonant between equal vowels a, i and u.
+#[must_use]
+pub fn sounds(settings: &Settings) -> Take {
+    let mut random = Random::new(settings.seed ^ 0xFACE);
+    let mut at = 0.5;
+    let mut phones = Vec::new();
+    let mut say = |label: &str, seconds: f64| {
+        phones.push((label.to_owned(), at, at + seconds));
+        at += seconds;
+    };
+    for vowel in VOWELS {
+        say(vowel.0, 0.35);
+        say("#", 0.25);
+    }
+    for consonant in CONSONANTS {
+        for vowel in ["a", "i", "u"] {
+            say(vowel, 0.2);
+            say(consonant.0, 0.15);
+            say(vowel, 0.2);
+            say("#", 0.15);
+        }
+    }
+    let mut take = moved(settings, &mut random, phones, Vec::new(), true);
+    take.hand.iter_mut().for_each(|frame| frame.fill(None));
+    take
+}
+
+/// Draws when the hand and the fingers move for each key.
+fn set_times(settings: &Settings, random: &mut Random, keys: &mut [TrueKey]) {
     let mut late: f64 = 0.0;
-    for key in &mut keys {
+    for key in keys {
         let [a1, a2, a3] = key.sound;
         let length = if key.kind == 0 { a2 - a1 } else { a3 - a1 };
         let sd = settings.phase_sd[usize::from(key.kind > 0)];
@@ -190,12 +282,12 @@ pub fn sentence(settings: &Settings, number: u64, syllables: usize) -> Take {
         key.times = [m1, m2, (m1 - lead).max(late), m2 - lead];
         late = m2;
     }
-    moved(settings, &mut random, phones, keys, false)
 }
 
 /// Returns all ordered pairs of the nine shapes in free space, `times` times: the hand alone.
 #[must_use]
 pub fn transitions(settings: &Settings, times: usize) -> Take {
+    // The face is not seen: nothing hides the hand.
     let mut random = Random::new(settings.seed ^ 0xC0FF_EE00);
     let mut keys = Vec::new();
     let mut at = 0.5;
@@ -215,7 +307,9 @@ pub fn transitions(settings: &Settings, times: usize) -> Take {
             }
         }
     }
-    moved(settings, &mut random, Vec::new(), keys, true)
+    let mut take = moved(settings, &mut random, Vec::new(), keys, true);
+    take.face.iter_mut().for_each(|frame| frame.fill(None));
+    take
 }
 
 /// Phones with their start and end, and the keys of them.
@@ -282,111 +376,6 @@ fn pick<'a>(random: &mut Random, of: &'a [(&'a str, u8, f64, f64)]) -> (&'a str,
     of[of.len() - 1]
 }
 
-/// The joint angles of a shape in radians.
-#[must_use]
-pub fn shape_angles(shape: u8) -> [f64; JOINTS] {
-    let straight = |finger: usize| match shape {
-        1 | 6 => finger == 0,
-        2 | 7 | 8 => finger < 2,
-        3 => finger > 0,
-        4 | 5 => true,
-        _ => false,
-    };
-    let mut row = [0.0; JOINTS];
-    for n in 0..4 {
-        let bent = if straight(n) {
-            [4.0, 4.0, 3.0]
-        } else {
-            [80.0, 100.0, 55.0]
-        };
-        let spread = match (shape, n) {
-            (8, 0) => 11.0,
-            (8, 1) => -9.0,
-            _ => 0.0,
-        };
-        for (k, degrees) in [bent[0], spread, bent[1], bent[2]].into_iter().enumerate() {
-            row[4 * n + k] = f64::to_radians(degrees);
-        }
-    }
-    let thumb = match shape {
-        5..=7 => [55.0, 10.0, 0.0, 0.0],
-        0 => [30.0, 40.0, 35.0, 40.0],
-        _ => [12.0, 50.0, 30.0, 45.0],
-    };
-    for (k, degrees) in thumb.into_iter().enumerate() {
-        row[16 + k] = f64::to_radians(degrees);
-    }
-    row
-}
-
-/// Returns where the hand's markers are in the space of the forearm, which lies along x and ends at the wrist.
-fn place_hand(angles: &[f64; JOINTS], skin: f64) -> Vec<DVec3> {
-    let mut points = Vec::with_capacity(HAND);
-    for (x, y, z) in [
-        (-200.0, 20.0, 10.0),
-        (-150.0, -25.0, 20.0),
-        (-110.0, 25.0, 22.0),
-        (-60.0, -20.0, 24.0),
-        (-30.0, 15.0, 22.0),
-    ] {
-        points.push(DVec3::new(x, y, z));
-    }
-    let wrist = DQuat::from_rotation_y(angles[20]) * DQuat::from_rotation_z(angles[21]);
-    let mut local = Vec::with_capacity(HAND);
-    const KNUCKLES: [f64; 4] = [26.0, 6.0, -13.0, -31.0];
-    const FORWARD: [f64; 4] = [90.0, 93.0, 88.0, 80.0];
-    const BONES: [[f64; 3]; 4] = [
-        [45.0, 26.0, 22.0],
-        [50.0, 30.0, 23.0],
-        [46.0, 28.0, 23.0],
-        [36.0, 20.0, 20.0],
-    ];
-    for n in 0..4 {
-        local.push(DVec3::new(FORWARD[n], KNUCKLES[n], 14.0));
-    }
-    for (x, y) in [(50.0, 15.0), (45.0, -15.0), (15.0, 0.0)] {
-        local.push(DVec3::new(x, y, 18.0));
-    }
-    for n in 0..4 {
-        let [flex, spread, middle, last] = [0, 1, 2, 3].map(|k| angles[4 * n + k]);
-        let side = DQuat::from_rotation_z(spread);
-        let mut at = DVec3::new(FORWARD[n], KNUCKLES[n], 0.0);
-        let mut bent = 0.0;
-        for (bone, joint) in [flex, middle, last].into_iter().enumerate() {
-            bent += joint;
-            let way = side * DVec3::new(bent.cos(), 0.0, -bent.sin());
-            let out = side * DVec3::new(bent.sin(), 0.0, bent.cos());
-            let places: &[f64] = if bone == 2 {
-                &[0.35, 1.0]
-            } else {
-                &[0.2, 0.5, 0.85]
-            };
-            for f in places {
-                let slide = skin * (3.0 * joint.sin() * (1.0 - f) + 1.2 * (1.0 - joint.cos()));
-                let lift = 7.0 - 2.0 * bone as f64 + skin * joint.sin() * (1.0 - f);
-                local.push(at + way * (BONES[n][bone] * f + slide) + out * lift);
-            }
-            at += way * BONES[n][bone];
-        }
-    }
-    let [mut around, down, first, second] = [16, 17, 18, 19].map(|k| angles[k]);
-    let mut at = DVec3::new(22.0, 26.0, -6.0);
-    for (length, joint) in [(42.0, 0.0), (32.0, first), (26.0, second)] {
-        around -= joint;
-        let way = DVec3::new(
-            around.cos() * down.cos(),
-            around.sin() * down.cos(),
-            -down.sin(),
-        );
-        for f in [0.3, 1.0] {
-            local.push(at + way * length * f + DVec3::Z * 5.0);
-        }
-        at += way * length;
-    }
-    points.extend(local.into_iter().map(|at| wrist * at));
-    points
-}
-
 fn moved(
     settings: &Settings,
     random: &mut Random,
@@ -394,9 +383,11 @@ fn moved(
     keys: Vec<TrueKey>,
     free: bool,
 ) -> Take {
+    let spoken = phones.last().map_or(0.5, |phone| phone.2);
     let last = keys
         .last()
-        .map_or(1.0, |key| key.sound[2].max(key.times[1]) + 0.5);
+        .map_or(spoken, |key| key.sound[2].max(key.times[1]))
+        + 0.5;
     let frames = (last * RATE).ceil() as usize;
     let scatter = settings.scatter.to_radians();
     let rest = ([0.0; JOINTS], spot(0, random), angle_of(0, random));
@@ -415,6 +406,7 @@ fn moved(
     let lags: Vec<f64> = (0..JOINTS).map(|_| 0.05 * random.normal()).collect();
     let mut true_hand = Vec::with_capacity(frames);
     let (mut head, mut true_face) = (Vec::new(), Vec::new());
+    let (mut true_parameters, mut true_angles) = (Vec::new(), Vec::new());
     let mut sway = [DVec3::ZERO; 2];
     let keep = (-1.0 / RATE).exp();
     for frame in 0..frames {
@@ -464,22 +456,27 @@ fn moved(
                 .map(|at| turn * *at + shift)
                 .collect::<Vec<DVec3>>(),
         );
-        true_face.push(place_face(&motion, &mouth(&phones, time)));
+        let own = face::mouth(&phones, time);
+        true_face.push(face::place_face(&motion, &own));
         head.push(motion);
+        true_parameters.push(own);
+        true_angles.push(angles);
     }
-    let hand = seen(&true_hand, settings.soft[0], settings.white[0], random);
-    let face = seen(&true_face, settings.soft[1], settings.white[1], random);
+    let hand = noise::seen(&true_hand, settings.soft[0], settings.white[0], random);
+    let face = noise::seen(&true_face, settings.soft[1], settings.white[1], random);
     let mut take = Take {
         hand,
         true_hand,
         face,
         true_face,
+        true_parameters,
+        true_angles,
         head,
         phones,
         keys,
     };
     if settings.hidden > 0.0 {
-        hide(&mut take, settings.hidden, random);
+        noise::hide(&mut take, (settings.hidden, settings.swapped), random);
     }
     take
 }
@@ -499,186 +496,4 @@ fn hand_turn(level: f64) -> DQuat {
     let along = DVec3::new(level.cos(), level.sin(), -0.25).normalize();
     let back = DVec3::Z.reject_from_normalized(along).normalize();
     DQuat::from_mat3(&DMat3::from_cols(along, back.cross(along), back)).normalize()
-}
-
-/// The true weights with which the throat follows the head.
-#[must_use]
-pub fn throat_weights() -> Vec<f64> {
-    (0..THROAT.len())
-        .map(|n| 0.3 + 0.5 * (n as f64) / 17.0)
-        .collect()
-}
-
-/// Returns the change of a marker of the face by one unit of a true parameter, in millimetres.
-fn face_direction(parameter: usize, marker: usize) -> DVec3 {
-    let lower = (LIPS.start + 9..LIPS.end).contains(&marker);
-    let upper = (LIPS.start + 1..LIPS.start + 8).contains(&marker);
-    let corner = marker == LIPS.start || marker == LIPS.start + 8;
-    let side = face_mean(marker).x.signum();
-    match parameter {
-        0 if JAW.contains(&marker) => DVec3::new(0.0, -6.0, -2.0),
-        0 if lower => DVec3::new(0.0, -5.0, -1.0),
-        0 if CHEEKS.contains(&marker) => DVec3::new(0.0, -1.0, 0.0),
-        1 if LIPS.contains(&marker) => DVec3::new(-3.0 * face_mean(marker).x / 25.0, 0.0, 3.0),
-        2 if upper => DVec3::new(0.0, 2.0, 0.3),
-        3 if lower => DVec3::new(0.0, 2.0, 0.4),
-        4 if corner => DVec3::new(0.5 * side, 2.0, 0.0),
-        5 if THROAT.contains(&marker) => DVec3::new(0.0, 3.0, 1.0),
-        6 if CHEEKS.contains(&marker) => DVec3::new(side, 0.5, 1.0),
-        _ => DVec3::ZERO,
-    }
-}
-
-/// Returns where a marker of a face at rest is.
-fn face_mean(marker: usize) -> DVec3 {
-    let ring = |n: usize, count: usize| std::f64::consts::TAU * n as f64 / count as f64;
-    match marker {
-        0..=4 => DVec3::new(
-            25.0 * (marker as f64 - 2.0),
-            140.0 + 4.0 * (marker % 2) as f64,
-            90.0,
-        ),
-        5 => DVec3::new(0.0, 105.0, 105.0),
-        6 => DVec3::new(0.0, 92.0, 112.0),
-        7 | 8 => DVec3::new(if marker == 7 { -75.0 } else { 75.0 }, 95.0, 0.0),
-        9..=24 => {
-            let angle = ring(marker - 9, 16);
-            DVec3::new(
-                -25.0 * angle.cos(),
-                45.0 + 10.0 * angle.sin(),
-                100.0 - 6.0 * angle.cos().powi(2),
-            )
-        }
-        25..=36 => {
-            let n = marker - 25;
-            let side = if n < 6 { -1.0 } else { 1.0 };
-            let n = (n % 6) as f64;
-            DVec3::new(side * (35.0 + 6.0 * n), 70.0 - 7.0 * n, 88.0 - 5.0 * n)
-        }
-        37..=44 => {
-            let n = marker as f64 - 40.5;
-            DVec3::new(16.0 * n, 6.0 + 1.2 * n * n, 98.0 - 2.5 * n * n)
-        }
-        _ => {
-            let n = marker - 45;
-            DVec3::new(
-                14.0 * ((n % 6) as f64 - 2.5),
-                -30.0 - 14.0 * (n / 6) as f64,
-                65.0,
-            )
-        }
-    }
-}
-
-fn place_face(motion: &Rigid, parameters: &[f64; 7]) -> Vec<DVec3> {
-    let weights = throat_weights();
-    (0..FACE)
-        .map(|marker| {
-            let mut at = face_mean(marker);
-            for (k, parameter) in parameters.iter().enumerate() {
-                at += face_direction(k, marker) * *parameter;
-            }
-            let weight = marker.checked_sub(THROAT.start).map_or(1.0, |n| weights[n]);
-            share_of(motion, weight).apply(at)
-        })
-        .collect()
-}
-
-/// Returns the true parameters of the face at a time: those of the sound, early by 60 ms.
-fn mouth(phones: &[(String, f64, f64)], time: f64) -> [f64; 7] {
-    let at = time + 0.06;
-    let n = phones.partition_point(|phone| phone.1 <= at);
-    let of = |n: Option<usize>| n.map_or([0.0; 7], |n| viseme(&phones[n].0));
-    let (before, own) = (of(n.checked_sub(2)), of(n.checked_sub(1)));
-    let start = n.checked_sub(1).map_or(0.0, |n| phones[n].1);
-    let share = Interpolation::MinimumJerk.share(((at - start) / 0.09).clamp(0.0, 1.0));
-    std::array::from_fn(|k| before[k] + (own[k] - before[k]) * share)
-}
-
-fn viseme(label: &str) -> [f64; 7] {
-    match label {
-        "a" => [2.0, -0.5, 0.8, -0.8, 0.0, -0.6, 0.0],
-        "A~" => [1.6, 0.2, 0.6, -0.5, -0.3, -1.0, 0.2],
-        "E" | "E~" => [1.2, -0.8, 0.5, -0.6, 0.5, 0.3, 0.4],
-        "e" => [0.6, -1.0, 0.3, -0.4, 0.8, 0.8, 0.5],
-        "i" => [0.2, -1.2, 0.2, -0.2, 1.2, 1.2, 0.6],
-        "o" | "O~" => [0.8, 1.4, 0.0, -0.2, -0.5, -0.4, -0.3],
-        "u" => [0.2, 2.0, -0.2, 0.2, -0.8, 0.2, -0.6],
-        "y" => [0.2, 2.1, -0.1, 0.1, -0.4, 1.0, -0.5],
-        "2" => [0.6, 1.6, 0.1, -0.1, -0.3, 0.4, -0.2],
-        "@" => [0.6, 0.6, 0.1, -0.1, 0.0, 0.0, 0.0],
-        "p" | "b" | "m" => [-0.4, 0.2, -1.0, 1.2, 0.1, 0.0, 0.7],
-        "f" | "v" => [-0.1, -0.2, 0.6, 1.4, 0.2, 0.1, -0.2],
-        "S" | "Z" => [0.1, 1.5, 0.6, -0.6, 0.0, 0.5, -0.1],
-        "s" | "t" | "d" | "n" | "l" => [0.1, -0.4, 0.2, -0.3, 0.4, 0.7, 0.1],
-        "k" | "g" | "R" | "N" => [0.5, -0.1, 0.0, -0.3, 0.0, -1.2, -0.2],
-        "j" => [0.1, -1.0, 0.1, -0.2, 1.0, 1.1, 0.9],
-        _ => [0.0; 7],
-    }
-}
-
-/// Adds slow noise of soft parts and noise of measurement.
-fn seen(points: &[Vec<DVec3>], soft: f64, white: f64, random: &mut Random) -> Vec<Frame> {
-    let keep = (-1.0 / (0.4 * RATE)).exp();
-    let markers = points.first().map_or(0, Vec::len);
-    let mut slow: Vec<DVec3> = (0..markers).map(|_| random.vector(soft)).collect();
-    points
-        .iter()
-        .map(|frame| {
-            frame
-                .iter()
-                .zip(&mut slow)
-                .map(|(at, slow)| {
-                    *slow = *slow * keep + random.vector(soft * (1.0 - keep * keep).sqrt());
-                    Some(*at + *slow + random.vector(white))
-                })
-                .collect()
-        })
-        .collect()
-}
-
-/// Hides markers in runs: neighbours of one finger, tips of bent fingers, the face behind the hand, and some at random.
-fn hide(take: &mut Take, often: f64, random: &mut Random) {
-    let frames = take.hand.len();
-    let runs = (frames as f64 / RATE * 1.2 * often) as usize;
-    for _ in 0..runs {
-        let start = random.below(frames);
-        let length = 6 + (-random.share().max(1e-9).ln() * 0.2 * RATE) as usize;
-        let own = random.below(5);
-        let first = if own == 4 { THUMB } else { finger(own) };
-        let count = if own == 4 { 6 } else { 8 };
-        let from = random.below(count - 1);
-        let many = (2 + random.below(3)).min(count - from);
-        for frame in take.hand.iter_mut().skip(start).take(length) {
-            frame[first + from..first + from + many].fill(None);
-        }
-    }
-    for own in 0..4 {
-        let mut gone = false;
-        for frame in 0..frames {
-            if frame % 24 == 0 {
-                gone = random.share() < 0.6 * often;
-            }
-            let points = &take.true_hand[frame];
-            let tip = finger(own) + 7;
-            let bent = points[tip].distance(points[finger(own)]) < 45.0;
-            if bent && gone {
-                take.hand[frame][tip] = None;
-            }
-        }
-    }
-    for frame in 0..frames {
-        let tip = take.true_hand[frame][finger(1) + 7];
-        for marker in LIPS.chain(CHEEKS) {
-            let at = take.true_face[frame][marker];
-            if at.x < 0.0 && at.distance(tip) < 40.0 {
-                take.face[frame][marker] = None;
-            }
-        }
-        for at in take.hand[frame].iter_mut().chain(&mut take.face[frame]) {
-            if random.share() < 0.02 * often {
-                *at = None;
-            }
-        }
-    }
 }

@@ -1,0 +1,603 @@
+//! Takes of one cuer: followed through their markers, with the targets, scores and phases of their keys.
+
+use glam::DVec3;
+
+use super::ModelError;
+use super::face;
+use super::gauss::Recogniser;
+use super::hand::{self, HandModel};
+use super::labels::RIGID;
+use super::rigid::Rigid;
+use super::targets::{Quartiles, Sought, TargetOptions, Way, targets, way};
+
+/// A take as it is read off its markers.
+#[derive(Debug, Clone, Default)]
+pub struct Followed {
+    /// Frames a second.
+    pub rate: f64,
+    /// The motion of the head in each frame; nothing for a frame that shows too little of it.
+    pub head: Vec<Option<Rigid>>,
+    /// The seven distances by which shapes are distinguished.
+    pub seven: Vec<Option<[f64; 7]>>,
+    /// The tip of the index finger in the space of the head.
+    pub index: Vec<Option<DVec3>>,
+    /// The tip of the middle finger in the space of the head.
+    pub middle: Vec<Option<DVec3>>,
+}
+
+impl Followed {
+    /// Returns the take of markers whose places are all known, in the head's motion of each frame.
+    #[must_use]
+    pub fn of_truth(points: &[Vec<DVec3>], heads: &[Rigid], rate: f64) -> Self {
+        let mut followed = Self {
+            rate,
+            ..Self::default()
+        };
+        for (points, head) in points.iter().zip(heads) {
+            followed.push(Some(points), Some(*head));
+            followed.head.push(Some(*head));
+        }
+        followed
+    }
+
+    /// Returns a take read off its markers alone, whose hidden ones may have been restored before: a tip or a distance
+    /// whose markers are missing is unknown, and gaps of at most a quarter of a second are bridged by straight lines.
+    ///
+    /// `rigid` is where the rigid markers of the head usually are; without them the room is the space of the head.
+    #[must_use]
+    pub fn of_seen(
+        hand: &[hand::Frame],
+        face: &[face::Frame],
+        rigid: Option<&[DVec3]>,
+        rate: f64,
+    ) -> Self {
+        let mut followed = Self {
+            rate,
+            ..Self::default()
+        };
+        for (n, frame) in hand.iter().enumerate() {
+            let head = match rigid {
+                None => Some(Rigid::default()),
+                Some(rigid) => face
+                    .get(n)
+                    .and_then(|face| face.get(RIGID))
+                    .and_then(|seen| Rigid::fit(rigid, seen).ok()),
+            };
+            followed.seven.push(HandModel::distances_seen(frame));
+            let tip = |shape: u8| {
+                let at = HandModel::tip_seen(frame, shape)?;
+                Some(head?.undo(at)).filter(|at| at.is_finite())
+            };
+            let (index, middle) = (tip(1), tip(4));
+            followed.index.push(index);
+            followed.middle.push(middle);
+            followed.head.push(head);
+        }
+        let most = (BRIDGED * rate) as usize;
+        bridge(&mut followed.seven, most, |a, b, share| {
+            std::array::from_fn(|k| a[k] + (b[k] - a[k]) * share)
+        });
+        bridge(&mut followed.index, most, |a, b, share| a.lerp(b, share));
+        bridge(&mut followed.middle, most, |a, b, share| a.lerp(b, share));
+        followed
+    }
+
+    fn push(&mut self, points: Option<&[DVec3]>, head: Option<Rigid>) {
+        self.seven.push(points.and_then(HandModel::distances));
+        let tip = |shape: u8| {
+            let tip = HandModel::tip(points?, shape)?;
+            Some(head?.undo(tip)).filter(|at| at.is_finite())
+        };
+        let (index, middle) = (tip(1), tip(4));
+        self.index.push(index);
+        self.middle.push(middle);
+    }
+
+    /// Returns how many frames there are.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.seven.len()
+    }
+
+    /// Returns the tip that points for a shape, in the space of the head.
+    #[must_use]
+    pub fn tip(&self, shape: u8, frame: usize) -> Option<DVec3> {
+        let tips = if points_with_index(shape) {
+            &self.index
+        } else {
+            &self.middle
+        };
+        tips.get(frame).copied().flatten()
+    }
+
+    /// Returns all that a dictionary keeps of a frame: the seven distances, then both tips in the space of the head.
+    #[must_use]
+    pub fn parameters(&self, frame: usize) -> Option<Vec<f64>> {
+        let mut row = (*self.seven.get(frame)?)?.to_vec();
+        row.extend((*self.index.get(frame)?)?.to_array());
+        row.extend((*self.middle.get(frame)?)?.to_array());
+        Some(row)
+    }
+}
+
+/// The longest gap that is bridged, in seconds.
+const BRIDGED: f64 = 0.25;
+
+/// Fills gaps of at most `most` frames between two frames that are known.
+pub fn bridge<T: Copy>(rows: &mut [Option<T>], most: usize, between: impl Fn(T, T, f64) -> T) {
+    let mut known: Option<usize> = None;
+    for at in 0..rows.len() {
+        let Some(own) = rows[at] else { continue };
+        if let Some((first, before)) = known.and_then(|first| Some((first, rows[first]?)))
+            && (2..=most + 1).contains(&(at - first))
+        {
+            let gap = rows.iter_mut().enumerate().take(at).skip(first + 1);
+            for (place, row) in gap {
+                let share = (place - first) as f64 / (at - first) as f64;
+                *row = Some(between(before, own, share));
+            }
+        }
+        known = Some(at);
+    }
+}
+
+/// Returns where the rigid markers of the head usually are, from frames that show all of them; nothing if fewer than two
+/// frames do.
+#[must_use]
+pub fn rigid_set<'a>(frames: impl Iterator<Item = &'a face::Frame>) -> Option<Vec<DVec3>> {
+    let whole: Vec<Vec<Option<DVec3>>> = frames
+        .filter_map(|frame| frame.get(RIGID))
+        .filter(|seen| seen.iter().all(|at| at.is_some_and(|at| at.is_finite())))
+        .map(<[Option<DVec3>]>::to_vec)
+        .collect();
+    if whole.len() < 2 {
+        return None;
+    }
+    let mut mean: Vec<DVec3> = whole[0].iter().flatten().copied().collect();
+    for _ in 0..2 {
+        let (mut sum, mut count) = (vec![DVec3::ZERO; mean.len()], 0.0);
+        for seen in &whole {
+            if let Ok(motion) = Rigid::fit(&mean, seen) {
+                count += 1.0;
+                let places = sum.iter_mut().zip(seen.iter().flatten());
+                places.for_each(|(sum, at)| *sum += motion.undo(*at));
+            }
+        }
+        if count < 2.0 {
+            return None;
+        }
+        mean = sum.into_iter().map(|sum| sum / count).collect();
+    }
+    Some(mean)
+}
+
+/// Returns whether the index finger points for a shape; else the middle finger does.
+#[must_use]
+pub fn points_with_index(shape: u8) -> bool {
+    matches!(shape, 1 | 6)
+}
+
+/// The sounds of a key: its type decides where the target is expected.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// A consonant and a vowel.
+    Pair,
+    /// A vowel alone.
+    Vowel,
+    /// A consonant alone.
+    Consonant,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 3] = [Self::Pair, Self::Vowel, Self::Consonant];
+
+    /// Returns the word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pair => "pair",
+            Self::Vowel => "vowel",
+            Self::Consonant => "consonant",
+        }
+    }
+}
+
+/// A key that a take should show, with the times of its sounds in seconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Key {
+    /// The sounds of the key.
+    pub kind: Kind,
+    /// The number of its placement.
+    pub placement: u8,
+    /// The number of its shape.
+    pub shape: u8,
+    /// The acoustic start of the key.
+    pub a1: f64,
+    /// The start of its vowel.
+    pub a2: f64,
+    /// Its end.
+    pub a3: f64,
+}
+
+/// A gesture of a key: the movement to it, its target, and for how long it is the most probable one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gesture {
+    /// The frame of the target.
+    pub frame: usize,
+    /// The movement to the target.
+    pub way: Way,
+    /// Whether the movement was long and clear enough to be measured.
+    pub measured: bool,
+    /// The class that is most probable at the target.
+    pub recognised: u8,
+    /// The log of the probability of the right class there.
+    pub log: f64,
+    /// From when until when the right class is more probable than any other, in seconds, around the target; nothing
+    /// if another one is more probable at the target.
+    pub extent: Option<[f64; 2]>,
+}
+
+/// What a take shows of a key.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shown {
+    /// The hand at its placement.
+    pub hand: Gesture,
+    /// The fingers in their shape.
+    pub fingers: Gesture,
+}
+
+/// The recognisers of one cuer.
+#[derive(Debug, Clone)]
+pub struct Recognisers {
+    /// Of shapes, from the seven distances.
+    pub shapes: Recogniser,
+    /// Of placements, from the pointing tip in the space of the head.
+    pub placements: Recogniser,
+}
+
+/// What is added to every variance of the Gaussians, in square millimetres.
+const FLOOR: f64 = 0.25;
+/// Rounds in which recognisers are learned from targets that they found.
+const ROUNDS: usize = 2;
+/// A hand's way shorter than this, in millimetres, or explained less than this, is not measured.
+const SHORT: f64 = 12.0;
+const CLEAR: f64 = 0.7;
+/// A log of a probability where there is no frame.
+const NOTHING: f64 = -50.0;
+
+/// Examples of classes: their numbers and what was measured.
+pub type Examples = Vec<(u8, Vec<f64>)>;
+
+impl Recognisers {
+    /// Learns from examples of shapes and of placements.
+    ///
+    /// # Errors
+    /// [`ModelError`] if there are too few.
+    pub fn learn(shapes: &Examples, placements: &Examples) -> Result<Self, ModelError> {
+        Ok(Self {
+            shapes: Recogniser::learn(shapes, FLOOR)?,
+            placements: Recogniser::learn(placements, FLOOR)?,
+        })
+    }
+
+    /// Returns the most probable placement and shape of a frame, the placement by the tip that points for the
+    /// shape; nothing for a frame that shows too little.
+    #[must_use]
+    pub fn read(&self, take: &Followed, frame: usize) -> Option<(u8, u8)> {
+        let shape = self.shapes.best(take.seven.get(frame)?.as_ref()?);
+        let tip = take.tip(shape, frame)?;
+        Some((self.placements.best(&tip.to_array()), shape))
+    }
+}
+
+/// Returns the examples of shapes and placements at the targets of takes.
+#[must_use]
+pub fn examples(takes: &[(&Followed, &[Key])], shown: &[Vec<Shown>]) -> (Examples, Examples) {
+    let (mut shapes, mut placements) = (Vec::new(), Vec::new());
+    for ((take, keys), shown) in takes.iter().zip(shown) {
+        for (key, shown) in keys.iter().zip(shown) {
+            if let Some(Some(seven)) = take.seven.get(shown.fingers.frame) {
+                shapes.push((key.shape, seven.to_vec()));
+            }
+            if let Some(tip) = take.tip(key.shape, shown.hand.frame) {
+                placements.push((key.placement, tip.to_array().to_vec()));
+            }
+        }
+    }
+    (shapes, placements)
+}
+
+/// Finds the gestures of all keys of takes, and the recognisers that they teach: first by speed and sound alone, then
+/// with the recognisers of the round before.
+///
+/// A take whose keys have no room in its frames gets no gestures.
+///
+/// # Errors
+/// [`ModelError`] if too few keys were found to learn from.
+pub fn find(takes: &[(&Followed, &[Key])]) -> Result<(Recognisers, Vec<Vec<Shown>>), ModelError> {
+    let mut frames: Vec<Frames> = takes
+        .iter()
+        .map(|(take, keys)| frames_of(take, keys, None))
+        .collect();
+    let mut recognisers = teach(takes, &frames)?;
+    for _ in 0..ROUNDS {
+        frames = takes
+            .iter()
+            .map(|(take, keys)| frames_of(take, keys, Some(&recognisers)))
+            .collect();
+        recognisers = teach(takes, &frames)?;
+    }
+    let shown = takes.iter().zip(&frames);
+    let shown = shown.map(|((take, keys), frames)| gestures(take, keys, frames, &recognisers));
+    let shown = shown.collect();
+    Ok((recognisers, shown))
+}
+
+/// Finds the gestures of the keys of a take with recognisers that are known; empty if the keys have no room.
+#[must_use]
+pub fn find_known(take: &Followed, keys: &[Key], recognisers: &Recognisers) -> Vec<Shown> {
+    let frames = frames_of(take, keys, Some(recognisers));
+    gestures(take, keys, &frames, recognisers)
+}
+
+/// The frames of the hand's targets and of the fingers'; nothing if the keys have no room.
+type Frames = Option<[Vec<usize>; 2]>;
+
+fn frames_of(take: &Followed, keys: &[Key], recognisers: Option<&Recognisers>) -> Frames {
+    let frame_time = 1.0 / take.rate;
+    let options = TargetOptions::default();
+    let hand: Vec<Sought> = keys
+        .iter()
+        .map(|key| Sought {
+            a1: key.a1,
+            log: recognisers.map_or_else(Vec::new, |known| {
+                logs(take, key, &options, |frame| {
+                    let tip = take.tip(key.shape, frame)?;
+                    Some(known.placements.log_of(&tip.to_array(), key.placement))
+                })
+            }),
+        })
+        .collect();
+    let fingers: Vec<Sought> = keys
+        .iter()
+        .map(|key| Sought {
+            a1: key.a1,
+            log: recognisers.map_or_else(Vec::new, |known| {
+                logs(take, key, &options, |frame| {
+                    let seven = take.seven.get(frame)?.as_ref()?;
+                    Some(known.shapes.log_of(seven, key.shape))
+                })
+            }),
+        })
+        .collect();
+    let tips = |frame: usize| {
+        let (index, middle) = ((*take.index.get(frame)?)?, (*take.middle.get(frame)?)?);
+        let both = [index.to_array(), middle.to_array()];
+        Some(both.concat())
+    };
+    let seven = |frame: usize| Some((*take.seven.get(frame)?)?.to_vec());
+    let frames = take.frames();
+    Some([
+        targets(&hand, &speed(frames, take.rate, tips), frame_time, &options)?,
+        targets(
+            &fingers,
+            &speed(frames, take.rate, seven),
+            frame_time,
+            &options,
+        )?,
+    ])
+}
+
+/// Returns the log of each frame near a key, as `of` says; frames far from it are not looked at.
+fn logs(
+    take: &Followed,
+    key: &Key,
+    options: &TargetOptions,
+    of: impl Fn(usize) -> Option<f64>,
+) -> Vec<f64> {
+    let near = |time: f64| ((time * take.rate).round().max(0.0) as usize).min(take.frames());
+    let (from, to) = (
+        near(key.a1 - options.window),
+        near(key.a1 + options.window) + 1,
+    );
+    (0..to.min(take.frames()))
+        .map(|frame| {
+            if frame < from {
+                0.0
+            } else {
+                of(frame).unwrap_or(NOTHING)
+            }
+        })
+        .collect()
+}
+
+/// Returns the speed of a row of numbers in each frame, over the two frames around it; NaN without them.
+fn speed(frames: usize, rate: f64, row: impl Fn(usize) -> Option<Vec<f64>>) -> Vec<f64> {
+    let rows: Vec<Option<Vec<f64>>> = (0..frames).map(row).collect();
+    (0..frames)
+        .map(|frame| {
+            let (a, b) = (frame.saturating_sub(1), (frame + 1).min(frames - 1));
+            match (&rows[a], &rows[b]) {
+                (Some(before), Some(after)) if b > a => {
+                    let square: f64 = before
+                        .iter()
+                        .zip(after)
+                        .map(|(x, y)| (x - y) * (x - y))
+                        .sum();
+                    square.sqrt() * rate / (b - a) as f64
+                }
+                _ => f64::NAN,
+            }
+        })
+        .collect()
+}
+
+fn teach(takes: &[(&Followed, &[Key])], frames: &[Frames]) -> Result<Recognisers, ModelError> {
+    let (mut shapes, mut placements) = (Vec::new(), Vec::new());
+    for ((take, keys), frames) in takes.iter().zip(frames) {
+        let Some([hand, fingers]) = frames else {
+            continue;
+        };
+        for (n, key) in keys.iter().enumerate() {
+            if let Some(Some(seven)) = take.seven.get(fingers[n]) {
+                shapes.push((key.shape, seven.to_vec()));
+            }
+            if let Some(tip) = take.tip(key.shape, hand[n]) {
+                placements.push((key.placement, tip.to_array().to_vec()));
+            }
+        }
+    }
+    Recognisers::learn(&shapes, &placements)
+}
+
+fn gestures(take: &Followed, keys: &[Key], frames: &Frames, known: &Recognisers) -> Vec<Shown> {
+    let Some([hand, fingers]) = frames else {
+        return Vec::new();
+    };
+    let tips = [true, false].map(|index| {
+        let of = if index { &take.index } else { &take.middle };
+        let rows = of.iter().map(|at| at.map(|at| at.to_array()));
+        rows.collect::<Vec<Option<[f64; 3]>>>()
+    });
+    keys.iter()
+        .enumerate()
+        .map(|(n, key)| {
+            let before = n.checked_sub(1);
+            let own = &tips[usize::from(!points_with_index(key.shape))];
+            let row = |frame: usize| own.get(frame)?.as_ref().map(<[f64; 3]>::as_slice);
+            let posteriors = |frame: usize| {
+                let tip = take.tip(key.shape, frame)?;
+                Some(known.placements.posteriors(&tip.to_array()))
+            };
+            let same = before.is_some_and(|n| keys[n].placement == key.placement);
+            let around = (before.map(|n| hand[n]), hand[n], hand.get(n + 1).copied());
+            let hand = gesture(take, around, key.placement, row, posteriors, (SHORT, same));
+            let row = |frame: usize| take.seven.get(frame)?.as_ref().map(<[f64; 7]>::as_slice);
+            let posteriors = |frame: usize| {
+                let seven = take.seven.get(frame)?.as_ref()?;
+                Some(known.shapes.posteriors(seven))
+            };
+            let same = before.is_some_and(|n| keys[n].shape == key.shape);
+            let around = (
+                before.map(|n| fingers[n]),
+                fingers[n],
+                fingers.get(n + 1).copied(),
+            );
+            let fingers = gesture(take, around, key.shape, row, posteriors, (SHORT, same));
+            Shown { hand, fingers }
+        })
+        .collect()
+}
+
+/// How many seconds before its target a movement may begin, for the first key.
+const LONGEST: f64 = 0.6;
+
+fn gesture<'a>(
+    take: &Followed,
+    (before, frame, after): (Option<usize>, usize, Option<usize>),
+    right: u8,
+    row: impl Fn(usize) -> Option<&'a [f64]>,
+    posteriors: impl Fn(usize) -> Option<Vec<(u8, f64)>>,
+    (short, same): (f64, bool),
+) -> Gesture {
+    let frame_time = 1.0 / take.rate;
+    let last = take.frames().saturating_sub(1);
+    let earliest = frame.saturating_sub((LONGEST * take.rate) as usize);
+    let from = before.map_or(earliest, |before| before.max(earliest));
+    let to = (frame + 2).min(after.unwrap_or(last)).min(last);
+    let found = way(row, (from, to), frame_time);
+    let still = Way {
+        start: frame as f64 * frame_time,
+        end: frame as f64 * frame_time,
+        length: 0.0,
+        explained: 0.0,
+    };
+    let measured = !same && found.is_some_and(|it| it.length >= short && it.explained >= CLEAR);
+    let at = posteriors(frame).unwrap_or_default();
+    let best = |all: &[(u8, f64)]| {
+        let most = all.iter().copied();
+        most.reduce(|best, next| if next.1 > best.1 { next } else { best })
+            .map_or(0, |it| it.0)
+    };
+    let recognised = best(&at);
+    let log = at
+        .iter()
+        .find(|it| it.0 == right)
+        .map_or(NOTHING, |it| it.1);
+    let is_right = |frame: usize| posteriors(frame).is_some_and(|all| best(&all) == right);
+    let extent = (recognised == right).then(|| {
+        let first = (before.unwrap_or(0)..frame)
+            .rev()
+            .take_while(|it| is_right(*it));
+        let end = after.unwrap_or(last);
+        let later = (frame + 1..=end).take_while(|it| is_right(*it));
+        let (first, later) = (first.last().unwrap_or(frame), later.last().unwrap_or(frame));
+        [first as f64 * frame_time, (later + 1) as f64 * frame_time]
+    });
+    Gesture {
+        frame,
+        way: found.unwrap_or(still),
+        measured,
+        recognised,
+        log,
+        extent,
+    }
+}
+
+/// The phases of keys of one kind: when the hand or the fingers begin and arrive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Phases {
+    /// The sounds of the keys.
+    pub kind: Kind,
+    /// Whether these are the fingers' movements; else the hand's.
+    pub of_fingers: bool,
+    /// The begin of the movement minus the start of the key's sound, in seconds.
+    pub begins: Quartiles,
+    /// The end of the movement minus the start of the key's sound, in seconds.
+    pub arrives: Quartiles,
+    /// The same as a share of the consonant for pairs, and of the key for others.
+    pub share: Quartiles,
+}
+
+/// Returns the phases of measured keys by kind, for the hand and the fingers; successions of the same placement, or
+/// of the same shape, do not count.
+#[must_use]
+pub fn phases<'a>(takes: impl Iterator<Item = (&'a [Key], &'a [Shown])> + Clone) -> Vec<Phases> {
+    let mut found = Vec::new();
+    for of_fingers in [false, true] {
+        for kind in Kind::ALL {
+            let (mut begins, mut arrives, mut shares) = (Vec::new(), Vec::new(), Vec::new());
+            for (keys, shown) in takes.clone() {
+                for (key, shown) in keys.iter().zip(shown) {
+                    let own = if of_fingers {
+                        shown.fingers
+                    } else {
+                        shown.hand
+                    };
+                    if key.kind != kind || !own.measured {
+                        continue;
+                    }
+                    let end = if kind == Kind::Pair { key.a2 } else { key.a3 };
+                    begins.push(own.way.start - key.a1);
+                    arrives.push(own.way.end - key.a1);
+                    shares.push((own.way.end - key.a1) / (end - key.a1).max(0.01));
+                }
+            }
+            if let (Some(begins), Some(arrives), Some(share)) = (
+                Quartiles::of(&begins),
+                Quartiles::of(&arrives),
+                Quartiles::of(&shares),
+            ) {
+                found.push(Phases {
+                    kind,
+                    of_fingers,
+                    begins,
+                    arrives,
+                    share,
+                });
+            }
+        }
+    }
+    found
+}

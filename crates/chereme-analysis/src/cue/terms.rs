@@ -1,0 +1,101 @@
+//! The numbers from which a regression places the hand's markers: cosines and sines of angles and of their sums.
+
+use super::hand::ANGLES;
+
+/// The first angle of each finger: its bend at the knuckle, its spread, and the bends of its two other joints.
+fn of_finger(finger: usize) -> usize {
+    3 + 4 * finger
+}
+
+/// The terms of a hand.
+#[derive(Debug, Clone)]
+pub(super) struct Terms {
+    /// Angles that are added: one alone, or several of one finger.
+    sums: Vec<Vec<usize>>,
+    /// An angle whose sine and a sum whose cosine are multiplied.
+    products: Vec<(usize, usize)>,
+}
+
+impl Terms {
+    /// Returns the terms of the angles of a hand: each by itself, those between a segment and the hand as sums of the
+    /// bends before it, and the spread of a finger times the length that its bends leave.
+    pub(super) fn of_a_hand() -> Self {
+        // The first three angles are the wrist's, which turns the hand as a whole.
+        let mut sums: Vec<Vec<usize>> = (3..ANGLES).map(|n| vec![n]).collect();
+        let mut products = Vec::new();
+        for finger in 0..4 {
+            let first = of_finger(finger);
+            let (middle, last) = (first + 2, first + 3);
+            products.push((first + 1, middle - 3));
+            products.push((first + 1, sums.len()));
+            sums.push(vec![middle, last]);
+            sums.push(vec![first, middle]);
+            sums.push(vec![first, middle, last]);
+        }
+        Self { sums, products }
+    }
+
+    /// Returns how many there are.
+    pub(super) fn len(&self) -> usize {
+        1 + 2 * self.sums.len() + self.products.len()
+    }
+
+    /// Returns their values.
+    pub(super) fn of(&self, angles: &[f64]) -> Vec<f64> {
+        let sums: Vec<f64> = self.added(angles);
+        let mut row = Vec::with_capacity(self.len());
+        row.push(1.0);
+        row.extend(sums.iter().map(|angle| angle.cos()));
+        row.extend(sums.iter().map(|angle| angle.sin()));
+        let both = |(angle, sum): &(usize, usize)| angles[*angle].sin() * sums[*sum].cos();
+        row.extend(self.products.iter().map(both));
+        row
+    }
+
+    /// Returns how they change when the angles change by `way`.
+    pub(super) fn slopes(&self, angles: &[f64], way: &[f64]) -> Vec<f64> {
+        let (sums, ways) = (self.added(angles), self.added(way));
+        let mut row = Vec::with_capacity(self.len());
+        row.push(0.0);
+        row.extend(
+            sums.iter()
+                .zip(&ways)
+                .map(|(angle, way)| -angle.sin() * way),
+        );
+        row.extend(sums.iter().zip(&ways).map(|(angle, way)| angle.cos() * way));
+        let both = |(angle, sum): &(usize, usize)| {
+            angles[*angle].cos() * way[*angle] * sums[*sum].cos()
+                - angles[*angle].sin() * sums[*sum].sin() * ways[*sum]
+        };
+        row.extend(self.products.iter().map(both));
+        row
+    }
+
+    fn added(&self, angles: &[f64]) -> Vec<f64> {
+        let add = |sum: &Vec<usize>| sum.iter().map(|n| angles[*n]).sum();
+        self.sums.iter().map(add).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slopes_are_those_of_small_steps() {
+        let terms = Terms::of_a_hand();
+        let angles: Vec<f64> = (0..ANGLES).map(|n| (n as f64 * 0.7).sin()).collect();
+        let way: Vec<f64> = (0..ANGLES).map(|n| (n as f64 * 1.3).cos()).collect();
+        let step = 1e-6;
+        let later: Vec<f64> = angles
+            .iter()
+            .zip(&way)
+            .map(|(x, way)| x + step * way)
+            .collect();
+        let (now, then) = (terms.of(&angles), terms.of(&later));
+        assert_eq!(now.len(), terms.len());
+        for ((slope, now), then) in terms.slopes(&angles, &way).iter().zip(now).zip(then) {
+            assert!((slope - (then - now) / step).abs() < 1e-5);
+        }
+    }
+}

@@ -1,0 +1,513 @@
+//! `chereme cued`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::recipe::PhaseRule;
+use chereme_corpus::{
+    CueConfusion, CueCosts, CueOptions, CuedOptions, FromDictionary, Name, Progress,
+    RestoreOptions, SlipKind, Step, read_marker_labels,
+};
+use clap::Subcommand;
+
+use super::cue::RuleWord;
+use super::track::recording;
+use crate::args::Cli;
+use crate::output::{Bar, Output};
+
+/// Work with captured cued speech: markers, restoration, recognition, targets, phases, dictionary, slips
+///
+/// A take is a recording of a cuer's markers (C3D, TRC) with tiers called Phones or Keys from a TextGrid or EAF file of the
+/// same name. Markers are called FA1-5 on the forearm, HB1-7 on the back of the hand, I, M, R, L 1-8 on the fingers, T1-6 on
+/// the thumb; RF1-5, RN1-2, RE1-2 on forehead, nose and ears, LP1-16 on the lips, CK1-12 on the cheeks, JW1-8 on the jaw,
+/// TH1-18 on the throat. A table maps other labels. Where no recording is named, all captured takes are meant.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme cued mine.chereme markers recording:3
+  chereme cued mine.chereme restore
+  chereme cued mine.chereme recognise
+  chereme cued mine.chereme targets --store
+  chereme cued mine.chereme phases --draw phases.svg
+  chereme cued mine.chereme dictionary --script sentences.txt
+  chereme cued mine.chereme say 'le chat dort' --as CHAT_DORT
+  chereme cued mine.chereme slips recording:3 --text 'le chat dort'")]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The code: french, english-us or english-gb
+    #[arg(long, default_value = "french", global = true)]
+    code: String,
+    /// A habit of the cuer, such as schwa-as-eu; may be repeated
+    #[arg(long = "variant", value_name = "NAME", global = true)]
+    variants: Vec<String>,
+    /// A table of two columns: the program's name of a marker, and the label in the files
+    #[arg(long, value_name = "FILE", global = true)]
+    labels: Option<PathBuf>,
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(Debug, Subcommand)]
+enum Action {
+    /// Report which markers of a recording are known, and how much of them is seen
+    Markers {
+        /// The recording
+        #[arg(value_parser = recording)]
+        recording: Name,
+    },
+    /// Restore hidden markers from models of hand and face, as a track of their own with predicted errors
+    Restore {
+        /// The recordings whose markers are restored
+        #[arg(value_parser = recording)]
+        recordings: Vec<Name>,
+        /// The recordings from which the models learn; else those of the hand alone and of the face alone, or all
+        #[arg(long, value_name = "RECORDING", value_parser = recording)]
+        train: Vec<Name>,
+        /// How many components the posture of the hand has, from 1 to 25
+        #[arg(long, default_value_t = 20, value_name = "N")]
+        components: usize,
+        /// Report the errors and store nothing
+        #[arg(long)]
+        dry_run: bool,
+    },
+    /// Recognise shapes and placements at the targets of keys, with tables of what was taken for what
+    Recognise {
+        /// The recordings from which the recognisers learn; else every second one
+        #[arg(long, value_name = "RECORDING", value_parser = recording)]
+        train: Vec<Name>,
+        /// The recordings that are recognised; else the others
+        #[arg(long, value_name = "RECORDING", value_parser = recording)]
+        test: Vec<Name>,
+    },
+    /// Find the movements, targets and gestural scores of keys
+    Targets {
+        /// The recordings
+        #[arg(value_parser = recording)]
+        recordings: Vec<Name>,
+        /// Write them as tiers
+        #[arg(long)]
+        store: bool,
+    },
+    /// Measure when hand and fingers begin and arrive against the sounds, by kind of key
+    Phases {
+        /// The recordings
+        #[arg(value_parser = recording)]
+        recordings: Vec<Name>,
+        /// Draw medians and quartiles to a picture (.svg)
+        #[arg(long, value_name = "FILE")]
+        draw: Option<PathBuf>,
+        /// Write over a picture that is there already
+        #[arg(long)]
+        force: bool,
+    },
+    /// List the movements between keys that captured takes give, and what a script lacks of them
+    Dictionary {
+        /// The recordings
+        #[arg(value_parser = recording)]
+        recordings: Vec<Name>,
+        /// A text with a sentence on each line: report its coverage, and which sentences would add most
+        #[arg(long, value_name = "FILE")]
+        script: Option<PathBuf>,
+    },
+    /// Put a sentence together from the dictionary, and read it back
+    Say {
+        /// The text, or phones with --phones
+        text: String,
+        /// Read the input as phones in this alphabet
+        #[arg(long, value_enum, value_name = "ALPHABET")]
+        phones: Option<super::keys::AlphabetWord>,
+        /// The recordings from which the dictionary is cut
+        #[arg(long = "from", value_name = "RECORDING", value_parser = recording)]
+        recordings: Vec<Name>,
+        /// Which rule says when the hand is where
+        #[arg(long, value_enum, default_value = "paper")]
+        by: RuleWord,
+        /// Sounds last FACTOR times as long as usual, from 0.1 to 10; else 1.6
+        #[arg(long, value_name = "FACTOR")]
+        pace: Option<f64>,
+        /// What a duration costs that differs by 100 ms
+        #[arg(long, default_value_t = 1.0, value_name = "COST")]
+        duration_cost: f64,
+        /// What a join costs whose ends differ by the spread within one key
+        #[arg(long, default_value_t = 1.0, value_name = "COST")]
+        join_cost: f64,
+        /// The gloss of the new recording; without it nothing is stored
+        #[arg(long = "as", value_name = "GLOSS")]
+        gloss: Option<String>,
+    },
+    /// Compare the keys of a take with those that its phones or a text predict
+    Slips {
+        /// The recording
+        #[arg(value_parser = recording)]
+        recording: Name,
+        /// The text that was cued; else the tier of phones predicts the keys
+        #[arg(long)]
+        text: Option<String>,
+        /// Read the produced keys off the markers, even if a tier has them
+        #[arg(long)]
+        recognised: bool,
+    },
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let labels = args.labels.as_deref().map(read_marker_labels).transpose()?;
+    let options = CuedOptions {
+        code: args.code.clone(),
+        variants: args.variants.clone(),
+        labels: labels.unwrap_or_default(),
+    };
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let mut progress = Progress::new(&mut hear);
+    match &args.action {
+        Action::Markers { recording } => {
+            let found = corpus.cued_markers(recording, &options)?;
+            for (name, set) in [("hand", &found.hand), ("face", &found.face)] {
+                let missing = match set.missing.len() {
+                    0 => String::new(),
+                    1..=12 => format!("; missing: {}", set.missing.join(", ")),
+                    count => format!("; {count} are missing"),
+                };
+                output.line(format!(
+                    "{name}: {} markers, {:.1} % of their places seen{missing}",
+                    set.found,
+                    set.seen * 100.0
+                ))?;
+            }
+            if !found.unused.is_empty() {
+                output.line(format!("not used: {}", found.unused.join(", ")))?;
+            }
+            output.line(format!(
+                "{} frames at {} a second; {} hidden places restored",
+                found.frames, found.rate, found.restored
+            ))?;
+            output.document(found)
+        }
+        Action::Restore {
+            recordings,
+            train,
+            components,
+            dry_run,
+        } => {
+            let how = RestoreOptions {
+                train: train.clone(),
+                components: *components,
+                dry_run: *dry_run,
+                cued: options,
+            };
+            let done = corpus.restore_markers(recordings, &how, &mut progress)?;
+            drop(bar);
+            let mm = |value: Option<f64>| value.map_or_else(String::new, |it| format!("{it:.2}"));
+            let rows: Vec<Vec<String>> = done
+                .iter()
+                .map(|it| {
+                    vec![
+                        it.recording.clone(),
+                        it.frames.to_string(),
+                        it.hidden.to_string(),
+                        it.restored.to_string(),
+                        it.uncertain.to_string(),
+                        mm(it.hand_mm),
+                        mm(it.hand_axis_mm),
+                        mm(it.face_mm),
+                    ]
+                })
+                .collect();
+            let titles = [
+                "recording",
+                "frames",
+                "hidden",
+                "restored",
+                "uncertain",
+                "hand_mm",
+                "hand_axis_mm",
+                "face_mm",
+            ];
+            output.table(&titles, &rows)?;
+            if let Some(first) = done.first() {
+                for finding in &first.findings {
+                    output.line(format!("warning: {finding}"))?;
+                }
+            }
+            if *dry_run {
+                output.line("nothing was stored")?;
+            }
+            output.document(done)
+        }
+        Action::Recognise { train, test } => {
+            let found = corpus.recognise_cues(train, test, &options)?;
+            output.line(format!(
+                "{} recognised by what {} teach",
+                output.counted(found.tested_on.len() as u64, "recordings"),
+                output.counted(found.trained_on.len() as u64, "recordings"),
+            ))?;
+            if found.same {
+                output.line(
+                    "warning: the keys that were recognised are those that were learned from",
+                )?;
+            }
+            confusion("shapes", &found.shapes, output)?;
+            confusion("placements", &found.placements, output)?;
+            output.document(found)
+        }
+        Action::Targets { recordings, store } => {
+            let found = corpus.find_cue_targets(recordings, *store, &options)?;
+            let rows: Vec<Vec<String>> = found
+                .iter()
+                .map(|it| {
+                    let hand = it.keys.iter().filter(|key| key.hand_us.is_some()).count();
+                    let fingers = it
+                        .keys
+                        .iter()
+                        .filter(|key| key.fingers_us.is_some())
+                        .count();
+                    vec![
+                        it.recording.clone(),
+                        it.keys.len().to_string(),
+                        hand.to_string(),
+                        fingers.to_string(),
+                        it.tiers.join(", "),
+                    ]
+                })
+                .collect();
+            output.table(&["recording", "keys", "hand", "fingers", "tiers"], &rows)?;
+            if !store {
+                output.line("nothing was stored; --store writes tiers")?;
+            }
+            output.document(found)
+        }
+        Action::Phases {
+            recordings,
+            draw,
+            force,
+        } => {
+            let found = corpus.cue_phases(recordings, &options)?;
+            let told = |it: [f64; 3]| format!("{:+.0} ({:+.0} to {:+.0})", it[1], it[0], it[2]);
+            let rows: Vec<Vec<String>> = found
+                .rows
+                .iter()
+                .map(|it| {
+                    vec![
+                        it.part.to_owned(),
+                        it.kind.to_owned(),
+                        it.n.to_string(),
+                        told(it.begins_ms),
+                        told(it.arrives_ms),
+                        format!(
+                            "{:.2} ({:.2} to {:.2})",
+                            it.share[1], it.share[0], it.share[2]
+                        ),
+                    ]
+                })
+                .collect();
+            let titles = [
+                "part",
+                "kind",
+                "n",
+                "begins ms: median (quartiles)",
+                "arrives ms",
+                "share",
+            ];
+            output.table(&titles, &rows)?;
+            if let Some(path) = draw {
+                found.draw(path, *force)?;
+                output.line(format!("drew {}", path.display()))?;
+            }
+            output.document(found)
+        }
+        Action::Dictionary { recordings, script } => {
+            let text = script
+                .as_ref()
+                .map(|path| {
+                    std::fs::read_to_string(path)
+                        .map_err(|error| chereme_corpus::Error::file(path, error))
+                })
+                .transpose()?;
+            let found =
+                corpus.cue_dictionary(recordings, text.as_deref(), &options, &mut progress)?;
+            drop(bar);
+            output.line(format!(
+                "{} movements from {}: {} of {} pairs of keys; components miss markers by {:.2} mm",
+                found.dikeys,
+                output.counted(found.recordings.len() as u64, "recordings"),
+                found.kinds,
+                found.of,
+                found.missed_mm
+            ))?;
+            for left in &found.left_out {
+                output.line(format!("left out: {left}"))?;
+            }
+            if let Some(script) = &found.script {
+                output.line(format!(
+                    "the script: {} sentences, {} pairs, {:.1} % of them in the dictionary; {} different ones are missing",
+                    script.sentences,
+                    script.pairs,
+                    script.covered * 100.0,
+                    script.missing.len()
+                ))?;
+                let rows: Vec<Vec<String>> = script
+                    .worth
+                    .iter()
+                    .map(|it| vec![it.line.to_string(), it.adds.to_string(), it.text.clone()])
+                    .collect();
+                output.table(&["line", "adds", "sentence"], &rows)?;
+            } else {
+                let rows: Vec<Vec<String>> = found
+                    .pairs
+                    .iter()
+                    .map(|it| {
+                        let first = it.sources.first().cloned().unwrap_or_default();
+                        vec![it.pair.clone(), it.count.to_string(), first]
+                    })
+                    .collect();
+                output.table(&["pair", "count", "first source"], &rows)?;
+            }
+            output.document(found)
+        }
+        Action::Say {
+            text,
+            phones,
+            recordings,
+            by,
+            pace,
+            duration_cost,
+            join_cost,
+            gloss,
+        } => {
+            let mut how = CueOptions {
+                phase: PhaseRule::from(*by),
+                ..CueOptions::default()
+            };
+            how.reading.phones = phones.map(Into::into);
+            how.reading.pace = *pace;
+            how.reading.code.clone_from(&options.code);
+            how.reading.variants.clone_from(&options.variants);
+            let costs = CueCosts {
+                duration: *duration_cost,
+                join: *join_cost,
+            };
+            let said = corpus.cue_from_dictionary(
+                text,
+                (&how, &options),
+                (costs, recordings),
+                gloss.as_deref(),
+                &mut progress,
+            )?;
+            drop(bar);
+            tell(&said, output)?;
+            output.document(said)
+        }
+        Action::Slips {
+            recording,
+            text,
+            recognised,
+        } => {
+            let found = corpus.cue_slips(recording, text.as_deref(), *recognised, &options)?;
+            output.line(format!(
+                "{} keys predicted by {}, {} produced ({}); {} as predicted",
+                found.predicted, found.predicted_by, found.produced, found.produced_by, found.right
+            ))?;
+            for kind in [
+                SlipKind::Insertion,
+                SlipKind::Deletion,
+                SlipKind::Placement,
+                SlipKind::Shape,
+                SlipKind::Both,
+            ] {
+                let count = found.count(kind);
+                if count > 0 {
+                    output.line(format!("{}: {count}", kind.name()))?;
+                }
+            }
+            let rows: Vec<Vec<String>> = found
+                .slips
+                .iter()
+                .map(|it| {
+                    let seconds = it.at_us.map(|at| format!("{:.2}", at as f64 / 1e6));
+                    vec![
+                        seconds.unwrap_or_default(),
+                        it.kind.name().to_owned(),
+                        it.predicted.clone().unwrap_or_default(),
+                        it.produced.clone().unwrap_or_default(),
+                    ]
+                })
+                .collect();
+            output.table(&["seconds", "slip", "predicted", "produced"], &rows)?;
+            output.document(found)
+        }
+    }
+}
+
+fn confusion(name: &str, of: &CueConfusion, output: &mut Output) -> Result<()> {
+    output.line(format!(
+        "{name}: {:.1} % right; shown in rows, recognised in columns",
+        of.rate * 100.0
+    ))?;
+    let titles: Vec<&str> = std::iter::once("")
+        .chain(of.classes.iter().map(String::as_str))
+        .collect();
+    let rows: Vec<Vec<String>> = of
+        .classes
+        .iter()
+        .zip(&of.counts)
+        .map(|(class, counts)| {
+            std::iter::once(class.clone())
+                .chain(counts.iter().map(u64::to_string))
+                .collect()
+        })
+        .collect();
+    output.table(&titles, &rows)
+}
+
+fn tell(said: &FromDictionary, output: &mut Output) -> Result<()> {
+    let rows: Vec<Vec<String>> = said
+        .pieces
+        .iter()
+        .map(|it| {
+            vec![
+                format!("{:.2}", it.at_us as f64 / 1e6),
+                it.wanted.clone(),
+                it.instead.clone().unwrap_or_default(),
+                it.source.clone(),
+                format!("{:.2}", it.duration_cost),
+                format!("{:.2}", it.join_cost),
+                it.read.clone().unwrap_or_default(),
+            ]
+        })
+        .collect();
+    let titles = [
+        "seconds",
+        "wanted",
+        "instead",
+        "source",
+        "duration",
+        "join",
+        "read back",
+    ];
+    output.table(&titles, &rows)?;
+    output.line(format!(
+        "{} keys in {:.2} s: {} exact, {} stand in for others, {} synthetic; cost {:.2}",
+        said.keys,
+        said.duration_us as f64 / 1e6,
+        said.exact,
+        said.backed_off,
+        said.synthetic,
+        said.cost
+    ))?;
+    if let (Some(shapes), Some(placements)) = (said.shapes_read, said.placements_read) {
+        output.line(format!(
+            "read back: {:.1} % of shapes, {:.1} % of placements",
+            shapes * 100.0,
+            placements * 100.0
+        ))?;
+    }
+    for finding in &said.findings {
+        output.line(format!("warning: {finding}"))?;
+    }
+    match &said.recording {
+        Some(name) => output.line(format!("stored as {name}")),
+        None => output.line("nothing was stored; --as GLOSS stores it"),
+    }
+}

@@ -1,0 +1,453 @@
+//! Movements between keys cut from captured takes, and what a script lacks of them.
+
+use std::collections::BTreeMap;
+
+use chereme_analysis::cue::pca::Pca;
+use chereme_analysis::cue::rigid::Rigid;
+use chereme_analysis::cue::session::{Recognisers, Shown, bridge, rigid_set};
+use chereme_compose::cue::dikey::{Dictionary, Dikey, DikeyEnd};
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_sign::cue::{self, Utterance};
+use rusqlite::Connection;
+use serde::Serialize;
+
+use super::capture::{Cued, cued};
+use super::recognise::learned;
+use super::{CuedOptions, placement_name, rounded};
+use crate::Corpus;
+use crate::address::Name;
+use crate::cue::KeysOptions;
+use crate::error::{Error, Result};
+use crate::progress::{Progress, Step, Unit};
+
+/// How many components the places of the hand's markers keep.
+const KEEP: usize = 40;
+/// From how many frames the components are found at most.
+const MOST_LEARNED: usize = 3000;
+/// The lever arm by which turns of the head are weighed, in millimetres.
+const LEVER: f64 = 100.0;
+/// How many frames a dictionary holds at most.
+const MOST_FRAMES: usize = 1_000_000;
+/// How many different dikeys 41 keys have.
+const ALL_KINDS: u64 = 1680;
+
+/// A dictionary of movements between keys.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DictionaryReport {
+    /// The recordings that it was cut from.
+    pub recordings: Vec<String>,
+    /// How many movements it has.
+    pub dikeys: u64,
+    /// How many different pairs of keys these are.
+    pub kinds: u64,
+    /// How many different pairs the keys of French have.
+    pub of: u64,
+    /// The mean distance by which its components miss the places of markers, in millimetres.
+    pub missed_mm: f64,
+    /// The pairs of keys with how often each is there and where it was cut, the most frequent first.
+    pub pairs: Vec<Dikeys>,
+    /// Recordings that were left out, with the reason.
+    pub left_out: Vec<String>,
+    /// What a script lacks, if one was given.
+    pub script: Option<ScriptCoverage>,
+}
+
+/// The movements between two keys.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Dikeys {
+    /// The keys, such as `side-5>mouth-4`.
+    pub pair: String,
+    /// How many movements there are.
+    pub count: u64,
+    /// The recordings and frames that they were cut from.
+    pub sources: Vec<String>,
+}
+
+/// What a dictionary has of a script.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ScriptCoverage {
+    /// How many sentences the script has.
+    pub sentences: u64,
+    /// How many pairs of keys they have.
+    pub pairs: u64,
+    /// The share of them that the dictionary has.
+    pub covered: f64,
+    /// The pairs that it lacks, the most frequent first.
+    pub missing: Vec<MissingDikey>,
+    /// The sentences that would add most, the best first.
+    pub worth: Vec<WorthRecording>,
+}
+
+/// A pair of keys that a dictionary lacks.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct MissingDikey {
+    /// The keys.
+    pub pair: String,
+    /// How often it occurs in the script.
+    pub count: u64,
+}
+
+/// A sentence that would add to a dictionary.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct WorthRecording {
+    /// The line of the script, from 1.
+    pub line: u64,
+    /// The sentence.
+    pub text: String,
+    /// How many new pairs it adds after the sentences before it.
+    pub adds: u64,
+}
+
+/// Returns a key as the parts of a dictionary name it.
+pub(super) fn named(end: DikeyEnd) -> String {
+    format!("{}-{}", placement_name(end.placement), end.shape)
+}
+
+/// Returns two keys as the parts of a dictionary name them.
+pub(super) fn pair_name((from, to): (DikeyEnd, DikeyEnd)) -> String {
+    format!("{}>{}", named(from), named(to))
+}
+
+/// The key at rest.
+pub(super) const REST: DikeyEnd = DikeyEnd {
+    placement: 0,
+    shape: 0,
+};
+
+/// A dictionary with all that is needed to make movement of it and to read it back.
+pub(super) struct Book {
+    pub(super) dictionary: Dictionary,
+    pub(super) components: Pca,
+    pub(super) known: Recognisers,
+    pub(super) rate: f64,
+    /// Where the rigid markers of the head usually are; empty if takes show no face.
+    pub(super) rigid: Vec<DVec3>,
+    recordings: Vec<String>,
+    left_out: Vec<String>,
+    missed_mm: f64,
+}
+
+impl Book {
+    /// Returns the hand's markers in the space of the head and the head's motion, as a row of parameters has them.
+    pub(super) fn places(&self, row: &[f64]) -> (Vec<DVec3>, Rigid) {
+        let keep = self.components.directions.len();
+        let flat = self.components.rebuild(&row[..keep]);
+        let points = flat
+            .chunks_exact(3)
+            .map(|at| DVec3::new(at[0], at[1], at[2]));
+        let own = &row[keep..];
+        let head = Rigid {
+            rotation: DQuat::from_scaled_axis(DVec3::new(own[0], own[1], own[2]) / LEVER),
+            translation: DVec3::new(own[3], own[4], own[5]),
+        };
+        (points.collect(), head)
+    }
+}
+
+impl Corpus {
+    /// Returns the dictionary of movements between keys that captured takes give, and what a script lacks of it: a text
+    /// with a sentence on each line.
+    ///
+    /// # Errors
+    /// If no recording has a cuer's markers and keys, they are too few, the script cannot be read, or `progress` stops
+    /// the work.
+    pub fn cue_dictionary(
+        &self,
+        recordings: &[Name],
+        script: Option<&str>,
+        options: &CuedOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<DictionaryReport> {
+        let book = book(self.store.read(), recordings, options, progress)?;
+        let mut pairs: BTreeMap<(DikeyEnd, DikeyEnd), Vec<String>> = BTreeMap::new();
+        for dikey in book.dictionary.dikeys() {
+            pairs
+                .entry((dikey.from, dikey.to))
+                .or_default()
+                .push(dikey.source.clone());
+        }
+        let mut pairs: Vec<Dikeys> = pairs
+            .into_iter()
+            .map(|(ends, sources)| Dikeys {
+                pair: pair_name(ends),
+                count: sources.len() as u64,
+                sources,
+            })
+            .collect();
+        pairs.sort_by(|a, b| b.count.cmp(&a.count).then(a.pair.cmp(&b.pair)));
+        Ok(DictionaryReport {
+            dikeys: book.dictionary.dikeys().len() as u64,
+            kinds: book.dictionary.kinds() as u64,
+            of: ALL_KINDS,
+            missed_mm: rounded(book.missed_mm, 2),
+            script: script
+                .map(|script| coverage(&book.dictionary, script, options))
+                .transpose()?,
+            pairs,
+            recordings: book.recordings,
+            left_out: book.left_out,
+        })
+    }
+}
+
+/// How many sentences are named as worth recording.
+const MOST_WORTH: usize = 20;
+
+fn coverage(
+    dictionary: &Dictionary,
+    script: &str,
+    options: &CuedOptions,
+) -> Result<ScriptCoverage> {
+    let reading = KeysOptions {
+        code: options.code.clone(),
+        variants: options.variants.clone(),
+        ..KeysOptions::default()
+    };
+    let mut lines = Vec::new();
+    for (line, text) in (1u64..).zip(script.lines()) {
+        let text = text.trim();
+        if text.is_empty() {
+            continue;
+        }
+        let read = Utterance::read(text, &reading).map_err(|error| {
+            Error::wrong(error.to_string())
+                .at(format!("line {line}"))
+                .advise(error.remedy())
+        })?;
+        if read.keys.is_empty() {
+            continue;
+        }
+        let keys = read.keys.iter().filter_map(|key| {
+            let placement = u8::try_from(cue::placement_number(&key.placement)).ok()?;
+            Some(DikeyEnd {
+                placement,
+                shape: key.shape,
+            })
+        });
+        let keys: Vec<DikeyEnd> = [REST].into_iter().chain(keys).collect();
+        lines.push((line, text, keys));
+    }
+    let keys: Vec<Vec<DikeyEnd>> = lines.iter().map(|it| it.2.clone()).collect();
+    let pairs: u64 = keys.iter().map(|keys| keys.len() as u64 - 1).sum();
+    let missing = dictionary.missing(&keys);
+    let lacking: usize = missing.values().sum();
+    let mut missing: Vec<MissingDikey> = missing
+        .into_iter()
+        .map(|(ends, count)| MissingDikey {
+            pair: pair_name(ends),
+            count: count as u64,
+        })
+        .collect();
+    missing.sort_by(|a, b| b.count.cmp(&a.count).then(a.pair.cmp(&b.pair)));
+    let worth = dictionary.worth_recording(&keys, MOST_WORTH);
+    Ok(ScriptCoverage {
+        sentences: lines.len() as u64,
+        pairs,
+        covered: rounded(1.0 - lacking as f64 / pairs.max(1) as f64, 4),
+        missing,
+        worth: worth
+            .into_iter()
+            .map(|(n, adds)| WorthRecording {
+                line: lines[n].0,
+                text: lines[n].1.to_owned(),
+                adds: adds as u64,
+            })
+            .collect(),
+    })
+}
+
+/// Cuts the dictionary of captured takes.
+pub(super) fn book(
+    connection: &Connection,
+    recordings: &[Name],
+    options: &CuedOptions,
+    progress: &mut Progress<'_>,
+) -> Result<Book> {
+    let mut takes = cued(connection, recordings, options)?;
+    let rate = takes[0].take.rate;
+    let mut left_out = Vec::new();
+    takes.retain(|own| {
+        let same = (own.take.rate / rate - 1.0).abs() < 1e-3;
+        if !same {
+            left_out.push(format!(
+                "{}: {} frames a second, others have {rate}",
+                own.take.row.name, own.take.rate
+            ));
+        }
+        same
+    });
+    let total: usize = takes.iter().map(|own| own.take.frames()).sum();
+    if total > MOST_FRAMES {
+        return Err(Error::wrong(format!(
+            "the takes have {total} frames; a dictionary holds {MOST_FRAMES}"
+        ))
+        .advise("name fewer recordings"));
+    }
+    let (known, shown) = learned(&takes)?;
+    let faces = takes.iter().filter(|own| own.take.has_face());
+    let rigid = rigid_set(faces.flat_map(|own| own.take.face.iter())).unwrap_or_default();
+    let mut all = Vec::new();
+    for (n, own) in takes.iter().enumerate() {
+        progress.tell(Step {
+            task: &own.take.row.name,
+            done: n as u64,
+            total: Some(takes.len() as u64),
+            unit: Unit::Items,
+        })?;
+        all.push(in_head(own));
+    }
+    let flat: Vec<&Vec<f64>> = all
+        .iter()
+        .flatten()
+        .flatten()
+        .map(|(hand, _)| hand)
+        .collect();
+    if flat.len() < 20 {
+        return Err(
+            Error::wrong("too few frames show every marker of the hand and the head")
+                .advise("restore the hidden markers first: chereme cued CORPUS restore"),
+        );
+    }
+    let step = flat.len().div_ceil(MOST_LEARNED).max(1);
+    let some: Vec<Vec<f64>> = flat
+        .iter()
+        .step_by(step)
+        .map(|row| (*row).clone())
+        .collect();
+    let components = Pca::fit(&some, KEEP, 0).map_err(|error| Error::wrong(error.to_string()))?;
+    let missed = some.iter().map(|row| missed(&components, row)).sum::<f64>() / some.len() as f64;
+    let mut dikeys: Vec<Dikey> = Vec::new();
+    let (mut sums, mut used) = (BTreeMap::new(), Vec::new());
+    for ((own, rows), shown) in takes.iter().zip(&all).zip(&shown) {
+        if shown.is_empty() {
+            left_out.push(format!(
+                "{}: its keys have no room in its frames",
+                own.take.row.name
+            ));
+            continue;
+        }
+        let parameters: Vec<Vec<f64>> = rows
+            .iter()
+            .map(|row| match row {
+                Some((hand, head)) => {
+                    let mut parameters = components.project(hand);
+                    parameters.extend(head);
+                    parameters
+                }
+                None => Vec::new(),
+            })
+            .collect();
+        let goals = goals(own, shown);
+        for (key, frame) in &goals {
+            if let Some(tip) = own.followed.tip(key.shape, *frame) {
+                let sum = sums.entry(key.placement).or_insert((DVec3::ZERO, 0.0));
+                sum.0 += tip;
+                sum.1 += 1.0;
+            }
+        }
+        dikeys.extend(Dictionary::cut(&parameters, &goals, &own.take.row.name));
+        used.push(own.take.row.name.clone());
+    }
+    let places = sums
+        .into_iter()
+        .map(|(place, (sum, count)): (u8, (DVec3, f64))| (place, (sum / count).to_array()));
+    let mut weights = components.variances.clone();
+    weights.extend(head_variances(&all));
+    Ok(Book {
+        dictionary: Dictionary::new(dikeys, rate, &weights, places.collect()),
+        components,
+        known,
+        rate,
+        rigid,
+        recordings: used,
+        left_out,
+        missed_mm: missed,
+    })
+}
+
+/// The places of the hand's markers in the space of the head, one coordinate after another, and the head's motion.
+type HeadRow = Option<(Vec<f64>, [f64; 6])>;
+
+fn in_head(own: &Cued) -> Vec<HeadRow> {
+    let frames = own.take.frames();
+    let heads = &own.followed.head;
+    let markers = own.take.hand_points.len();
+    let most = (0.25 * own.take.rate) as usize;
+    let mut columns: Vec<Vec<Option<DVec3>>> = (0..markers)
+        .map(|marker| {
+            let places = own.take.hand.iter().zip(heads);
+            places
+                .map(|(frame, head)| Some(head.as_ref()?.undo(frame[marker]?)))
+                .collect()
+        })
+        .collect();
+    for column in &mut columns {
+        bridge(column, most, |a: DVec3, b: DVec3, share| a.lerp(b, share));
+    }
+    (0..frames)
+        .map(|frame| {
+            let mut row = Vec::with_capacity(3 * markers);
+            for column in &columns {
+                row.extend(column[frame]?.to_array());
+            }
+            let head = heads[frame]?;
+            let turn = head.rotation.to_scaled_axis() * LEVER;
+            let [a, b, c] = turn.to_array();
+            let [x, y, z] = head.translation.to_array();
+            Some((row, [a, b, c, x, y, z]))
+        })
+        .collect()
+}
+
+fn head_variances(all: &[Vec<HeadRow>]) -> [f64; 6] {
+    let rows: Vec<[f64; 6]> = all
+        .iter()
+        .flatten()
+        .flatten()
+        .map(|(_, head)| *head)
+        .collect();
+    let count = rows.len().max(1) as f64;
+    std::array::from_fn(|k| {
+        let mean = rows.iter().map(|row| row[k]).sum::<f64>() / count;
+        rows.iter().map(|row| (row[k] - mean).powi(2)).sum::<f64>() / count
+    })
+}
+
+fn missed(components: &Pca, row: &[f64]) -> f64 {
+    let said = components.rebuild(&components.project(row));
+    let apart = row.chunks_exact(3).zip(said.chunks_exact(3));
+    let sum: f64 = apart
+        .map(|(a, b)| {
+            a.iter()
+                .zip(b)
+                .map(|(x, y)| (x - y) * (x - y))
+                .sum::<f64>()
+                .sqrt()
+        })
+        .sum();
+    sum / (row.len() / 3).max(1) as f64
+}
+
+/// Returns the keys of a take with the frames at which the hand arrives, the rest before the first movement among them.
+fn goals(own: &Cued, shown: &[Shown]) -> Vec<(DikeyEnd, usize)> {
+    let frame_of = |seconds: f64| (seconds * own.take.rate).round().max(0.0) as usize;
+    let last = own.take.frames().saturating_sub(1);
+    let mut goals: Vec<(DikeyEnd, usize)> = Vec::with_capacity(shown.len() + 1);
+    if let Some(first) = shown.first().filter(|first| first.hand.measured) {
+        goals.push((REST, frame_of(first.hand.way.start).min(last)));
+    }
+    for (key, shown) in own.keys.iter().zip(shown) {
+        let arrived = if shown.hand.measured {
+            frame_of(shown.hand.way.end)
+        } else {
+            shown.hand.frame
+        };
+        let least = goals.last().map_or(0, |(_, frame)| frame + 2);
+        let end = DikeyEnd {
+            placement: key.placement,
+            shape: key.shape,
+        };
+        goals.push((end, arrived.max(least).min(last)));
+    }
+    goals
+}

@@ -1,0 +1,354 @@
+//! Produced against predicted keys of a take: insertions, deletions, and substitutions of shape or placement.
+
+use chereme_analysis::cue::session::Key;
+use chereme_compose::CueTier;
+use chereme_sign::cue::{self, Phone, Utterance, UtteranceError};
+use serde::Serialize;
+
+use super::capture::{cued, phones, predicted, take, tier};
+use super::recognise::learned;
+use super::{CuedOptions, key_name};
+use crate::Corpus;
+use crate::address::{self, Name};
+use crate::cue::KeysOptions;
+use crate::error::{Error, Result};
+
+/// The slips of a take.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CueSlips {
+    /// The recording.
+    pub recording: String,
+    /// The source of the produced keys: `tier` if somebody annotated them, `recognised` from markers.
+    pub produced_by: &'static str,
+    /// The source of the predicted keys: `phones` or `text`.
+    pub predicted_by: &'static str,
+    /// How many keys were produced.
+    pub produced: u64,
+    /// How many keys were predicted.
+    pub predicted: u64,
+    /// How many are as predicted.
+    pub right: u64,
+    /// The differences, in order.
+    pub slips: Vec<CueSlip>,
+}
+
+/// The kind of a slip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SlipKind {
+    /// A key that should not be there.
+    Insertion,
+    /// A key that is missing.
+    Deletion,
+    /// The hand is at another placement.
+    Placement,
+    /// The fingers have another shape.
+    Shape,
+    /// Both differ.
+    Both,
+}
+
+impl SlipKind {
+    /// Returns the word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Insertion => "insertion",
+            Self::Deletion => "deletion",
+            Self::Placement => "placement",
+            Self::Shape => "shape",
+            Self::Both => "both",
+        }
+    }
+}
+
+/// A difference between produced and predicted keys.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct CueSlip {
+    /// The kind.
+    pub kind: SlipKind,
+    /// When it is, in microseconds; nothing for a missing key whose time is unknown.
+    pub at_us: Option<i64>,
+    /// The key that was predicted; nothing for an insertion.
+    pub predicted: Option<String>,
+    /// The key that was produced; nothing for a deletion.
+    pub produced: Option<String>,
+}
+
+/// The longest sequences that are compared.
+const MOST: usize = 5_000;
+
+impl Corpus {
+    /// Compares the keys that a take shows with those that its phones, or a text, predict.
+    ///
+    /// Produced keys are those of its tier of keys; without one, or with `recognised`, those that the recognisers read at
+    /// the targets of the predicted keys, which finds substitutions only.
+    ///
+    /// # Errors
+    /// If there is no such recording, neither phones nor a text predict keys, or no keys can be read.
+    pub fn cue_slips(
+        &self,
+        recording: &Name,
+        text: Option<&str>,
+        recognised: bool,
+        options: &CuedOptions,
+    ) -> Result<CueSlips> {
+        let connection = self.store.read();
+        let row = address::recording(connection, recording)?;
+        let name = row.name.clone();
+        let code = options.code()?;
+        let (expected, predicted_by) = match text {
+            Some(text) => {
+                let reading = KeysOptions {
+                    code: options.code.clone(),
+                    variants: options.variants.clone(),
+                    ..KeysOptions::default()
+                };
+                let fault =
+                    |error: UtteranceError| Error::wrong(error.to_string()).advise(error.remedy());
+                let read = Utterance::read(text, &reading).map_err(fault)?;
+                (untimed(&read), "text")
+            }
+            None => {
+                let found: Option<(Vec<Phone>, _)> = phones(connection, row.id, &code)?;
+                let Some((phones, alphabet)) = found else {
+                    return Err(Error::wrong(format!("{name:?} has no tier of phones"))
+                        .at(name)
+                        .advise("give the text with --text, or import an alignment with a tier called Phones"));
+                };
+                let read = Utterance::of_phones(code.clone(), phones, alphabet);
+                (
+                    predicted(&read, 0.0)
+                        .into_iter()
+                        .map(Expected::of)
+                        .collect(),
+                    "phones",
+                )
+            }
+        };
+        let own = tier(connection, row.id, |tier| tier == CueTier::Keys.name())?;
+        let annotated = own.filter(|rows| !recognised && !rows.is_empty());
+        let mut report = CueSlips {
+            recording: name.clone(),
+            produced_by: "tier",
+            predicted_by,
+            produced: 0,
+            predicted: expected.len() as u64,
+            right: 0,
+            slips: Vec::new(),
+        };
+        if let Some(rows) = annotated {
+            let produced: Vec<Produced> = rows
+                .iter()
+                .filter_map(|row| {
+                    let (placement, shape) = cue::of_gloss(&row.value)?;
+                    let placement = u8::try_from(cue::placement_number(placement)).ok()?;
+                    Some((placement, shape, row.start_us))
+                })
+                .collect();
+            if produced.len() > MOST || expected.len() > MOST {
+                return Err(Error::wrong(format!(
+                    "{} keys are too many to compare",
+                    produced.len()
+                ))
+                .at(name)
+                .advise("cut the recording into shorter takes"));
+            }
+            report.produced = produced.len() as u64;
+            (report.right, report.slips) = compared(&expected, &produced);
+            return Ok(report);
+        }
+        report.produced_by = "recognised";
+        take(connection, row, options)?;
+        let takes = cued(connection, &[], options)?;
+        let (_, shown) = learned(&takes)?;
+        let found = takes
+            .iter()
+            .zip(&shown)
+            .find(|(own, _)| own.take.row.name == name);
+        let Some((own, shown)) = found else {
+            return Err(
+                Error::wrong(format!("{name:?} has no keys or phones to look for"))
+                    .at(name)
+                    .advise("import an alignment with a tier called Phones"),
+            );
+        };
+        report.predicted = own.keys.len() as u64;
+        report.produced = shown.len() as u64;
+        for (key, shown) in own.keys.iter().zip(shown) {
+            let (place, shape) = (shown.hand.recognised, shown.fingers.recognised);
+            match kind((key.placement, key.shape), (place, shape)) {
+                None => report.right += 1,
+                Some(kind) => report.slips.push(CueSlip {
+                    kind,
+                    at_us: Some(own.take.micros(shown.hand.frame as f64 / own.take.rate)),
+                    predicted: Some(key_name(key.placement, key.shape)),
+                    produced: Some(key_name(place, shape)),
+                }),
+            }
+        }
+        Ok(report)
+    }
+}
+
+/// A predicted key: placement, shape, and its start in microseconds if it is known.
+struct Expected {
+    placement: u8,
+    shape: u8,
+    at: Option<i64>,
+}
+
+impl Expected {
+    fn of(key: Key) -> Self {
+        Self {
+            placement: key.placement,
+            shape: key.shape,
+            at: Some((key.a1 * 1e6).round() as i64),
+        }
+    }
+}
+
+fn untimed(read: &Utterance) -> Vec<Expected> {
+    let keys = read.keys.iter().filter_map(|key| {
+        Some(Expected {
+            placement: u8::try_from(cue::placement_number(&key.placement)).ok()?,
+            shape: key.shape,
+            at: None,
+        })
+    });
+    keys.collect()
+}
+
+/// A produced key: placement, shape, and its start in microseconds.
+type Produced = (u8, u8, i64);
+
+fn kind(expected: (u8, u8), produced: (u8, u8)) -> Option<SlipKind> {
+    match (expected.0 == produced.0, expected.1 == produced.1) {
+        (true, true) => None,
+        (false, true) => Some(SlipKind::Placement),
+        (true, false) => Some(SlipKind::Shape),
+        (false, false) => Some(SlipKind::Both),
+    }
+}
+
+/// Aligns both sequences at the least cost: half for each part of a key that differs, 0.7 for a key too many or too few.
+fn compared(expected: &[Expected], produced: &[Produced]) -> (u64, Vec<CueSlip>) {
+    const GAP: f32 = 0.7;
+    let width = produced.len() + 1;
+    let mut costs = vec![0.0f32; (expected.len() + 1) * width];
+    let differs = |i: usize, j: usize| {
+        let (own, other) = (&expected[i], produced[j]);
+        0.5 * f32::from(u8::from(own.placement != other.0) + u8::from(own.shape != other.1))
+    };
+    for i in 0..=expected.len() {
+        for j in 0..=produced.len() {
+            costs[i * width + j] = match (i, j) {
+                (0, _) => j as f32 * GAP,
+                (_, 0) => i as f32 * GAP,
+                _ => {
+                    let both = costs[(i - 1) * width + j - 1] + differs(i - 1, j - 1);
+                    let gap = costs[(i - 1) * width + j].min(costs[i * width + j - 1]) + GAP;
+                    both.min(gap)
+                }
+            };
+        }
+    }
+    let (mut i, mut j) = (expected.len(), produced.len());
+    let (mut right, mut slips) = (0, Vec::new());
+    while i > 0 || j > 0 {
+        let here = costs[i * width + j];
+        let near = |value: f32| (here - value).abs() < 1e-4;
+        if i > 0 && j > 0 && near(costs[(i - 1) * width + j - 1] + differs(i - 1, j - 1)) {
+            (i, j) = (i - 1, j - 1);
+            let (own, other) = (&expected[i], produced[j]);
+            match kind((own.placement, own.shape), (other.0, other.1)) {
+                None => right += 1,
+                Some(kind) => slips.push(CueSlip {
+                    kind,
+                    at_us: Some(other.2),
+                    predicted: Some(key_name(own.placement, own.shape)),
+                    produced: Some(key_name(other.0, other.1)),
+                }),
+            }
+        } else if i > 0 && near(costs[(i - 1) * width + j] + GAP) {
+            i -= 1;
+            slips.push(CueSlip {
+                kind: SlipKind::Deletion,
+                at_us: expected[i].at,
+                predicted: Some(key_name(expected[i].placement, expected[i].shape)),
+                produced: None,
+            });
+        } else {
+            j -= 1;
+            slips.push(CueSlip {
+                kind: SlipKind::Insertion,
+                at_us: Some(produced[j].2),
+                predicted: None,
+                produced: Some(key_name(produced[j].0, produced[j].1)),
+            });
+        }
+    }
+    slips.reverse();
+    (right, slips)
+}
+
+impl CueSlips {
+    /// Returns how many slips there are of a kind.
+    #[must_use]
+    pub fn count(&self, kind: SlipKind) -> usize {
+        self.slips.iter().filter(|slip| slip.kind == kind).count()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_analysis::cue::session::Kind;
+
+    use super::*;
+
+    fn keys(text: &str) -> Vec<(u8, u8)> {
+        let digit = |letter: Option<char>| letter.and_then(|it| it.to_digit(10)).unwrap_or(0) as u8;
+        text.split(' ')
+            .map(|word| (digit(word.chars().next()), digit(word.chars().nth(1))))
+            .collect()
+    }
+
+    #[test]
+    fn slips_are_what_was_left_out_put_in_or_exchanged() {
+        let expected: Vec<Expected> = keys("16 16 31 13 24 55")
+            .into_iter()
+            .map(|(placement, shape)| Expected {
+                placement,
+                shape,
+                at: Some(0),
+            })
+            .collect();
+        let produced: Vec<Produced> = keys("16 31 53 24 22 55")
+            .into_iter()
+            .map(|(a, b)| (a, b, 7))
+            .collect();
+        let (right, slips) = compared(&expected, &produced);
+        assert_eq!(right, 4);
+        let kinds: Vec<SlipKind> = slips.iter().map(|slip| slip.kind).collect();
+        assert_eq!(
+            kinds,
+            [SlipKind::Deletion, SlipKind::Placement, SlipKind::Insertion]
+        );
+        assert_eq!(compared(&[], &[]), (0, Vec::new()));
+        assert_eq!(compared(&expected, &[]).1.len(), 6);
+    }
+
+    #[test]
+    fn kinds_have_words() {
+        let all = [
+            SlipKind::Insertion,
+            SlipKind::Deletion,
+            SlipKind::Placement,
+            SlipKind::Shape,
+            SlipKind::Both,
+        ];
+        let words: std::collections::BTreeSet<&str> = all.iter().map(|kind| kind.name()).collect();
+        assert_eq!(words.len(), all.len());
+        assert_eq!(Kind::ALL.map(Kind::name), ["pair", "vowel", "consonant"]);
+    }
+}

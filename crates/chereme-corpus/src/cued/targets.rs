@@ -1,0 +1,367 @@
+//! Movements and targets of captured keys found and written as tiers, and the statistics of their phases.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use chereme_analysis::cue::session::{Gesture, Kind, Shown, phases};
+use chereme_analysis::cue::targets::Quartiles;
+use chereme_compose::CueTier;
+use chereme_sign::TierRole;
+use rusqlite::Connection;
+use serde::Serialize;
+
+use super::capture::{Cued, cued};
+use super::recognise::learned;
+use super::{CuedOptions, key_name, rounded};
+use crate::Corpus;
+use crate::address::Name;
+use crate::db::columns::{AnnotationOrigin, ValueState};
+use crate::db::edits;
+use crate::db::tiers::{self, AnnotationRow, TierRow};
+use crate::error::{Error, Result};
+use crate::picture;
+
+/// The targets of the keys of a take.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CueTargets {
+    /// The recording.
+    pub recording: String,
+    /// The keys in order; empty if they have no room in the frames.
+    pub keys: Vec<FoundKey>,
+    /// The tiers that were written.
+    pub tiers: Vec<String>,
+}
+
+/// A key with its movements, in microseconds of the recording's clock.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FoundKey {
+    /// The key, such as `mouth-4`.
+    pub key: String,
+    /// Its sounds: `pair`, `vowel` or `consonant`.
+    pub kind: &'static str,
+    /// The start of its first sound.
+    pub a1_us: i64,
+    /// The hand's movement to the target; nothing if it is too short or unclear, or the placement is the same.
+    pub hand_us: Option<[i64; 2]>,
+    /// The fingers' movement.
+    pub fingers_us: Option<[i64; 2]>,
+    /// The frame of the target.
+    pub target_us: i64,
+    /// The log of the probability of the right placement at the target.
+    pub placement_log: f64,
+    /// The log of the probability of the right shape.
+    pub shape_log: f64,
+    /// For how long the right placement is the most probable one.
+    pub placement_extent_us: Option<[i64; 2]>,
+    /// For how long the right shape is the most probable one.
+    pub shape_extent_us: Option<[i64; 2]>,
+}
+
+/// When hands and fingers begin and arrive against the sounds of keys.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CuePhaseStatistics {
+    /// The recordings.
+    pub recordings: Vec<String>,
+    /// How many keys they have.
+    pub keys: u64,
+    /// The statistics, by kind of key.
+    pub rows: Vec<CuePhaseRow>,
+}
+
+/// When the hand or the fingers begin and arrive for keys of one kind.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CuePhaseRow {
+    /// `hand` or `fingers`.
+    pub part: &'static str,
+    /// The sounds of the keys: `pair`, `vowel` or `consonant`.
+    pub kind: &'static str,
+    /// How many movements were measured.
+    pub n: u64,
+    /// Begin minus the start of the sound, in milliseconds: first quartile, median, third quartile.
+    pub begins_ms: [f64; 3],
+    /// Arrival minus the start of the sound, in milliseconds.
+    pub arrives_ms: [f64; 3],
+    /// The same as a share of the consonant for pairs, of the key for others.
+    pub share: [f64; 3],
+}
+
+impl Corpus {
+    /// Finds the movements and targets of keys in captured takes; with `store` they are written as tiers of their
+    /// recordings, one operation for all. A tier that a person wrote or changed stays, and the new one has another name.
+    ///
+    /// # Errors
+    /// If no recording has a cuer's markers and keys, or they are too few.
+    pub fn find_cue_targets(
+        &mut self,
+        recordings: &[Name],
+        store: bool,
+        options: &CuedOptions,
+    ) -> Result<Vec<CueTargets>> {
+        let takes = cued(self.store.read(), recordings, options)?;
+        let (_, shown) = learned(&takes)?;
+        let mut found: Vec<CueTargets> = takes
+            .iter()
+            .zip(&shown)
+            .map(|(own, shown)| CueTargets {
+                recording: own.take.row.name.clone(),
+                keys: found_keys(own, shown),
+                tiers: Vec::new(),
+            })
+            .collect();
+        if !store {
+            return Ok(found);
+        }
+        let summary = format!(
+            "{} keys of {} recordings",
+            found.iter().map(|it| it.keys.len()).sum::<usize>(),
+            found.len()
+        );
+        let names = self.store.operation("find targets", |connection| {
+            edits::defer_references(connection)?;
+            let mut names = Vec::new();
+            for (own, found) in takes.iter().zip(&found) {
+                names.push(written(connection, own.take.row.id, &found.keys)?);
+            }
+            Ok((names, summary))
+        })?;
+        for (found, names) in found.iter_mut().zip(names) {
+            found.tiers = names;
+        }
+        Ok(found)
+    }
+
+    /// Returns when hands and fingers begin and arrive against the sounds of keys, by kind of key; successions of the
+    /// same placement, or of the same shape, do not count.
+    ///
+    /// # Errors
+    /// If no recording has a cuer's markers and keys, or they are too few.
+    pub fn cue_phases(
+        &self,
+        recordings: &[Name],
+        options: &CuedOptions,
+    ) -> Result<CuePhaseStatistics> {
+        let takes = cued(self.store.read(), recordings, options)?;
+        let (_, shown) = learned(&takes)?;
+        let pairs = takes.iter().zip(&shown);
+        let rows = phases(pairs.map(|(own, shown)| (own.keys.as_slice(), shown.as_slice())));
+        let ms = |it: &Quartiles| [it.low, it.median, it.high].map(|x| rounded(x * 1000.0, 1));
+        Ok(CuePhaseStatistics {
+            recordings: takes.iter().map(|it| it.take.row.name.clone()).collect(),
+            keys: takes.iter().map(|it| it.keys.len() as u64).sum(),
+            rows: rows
+                .iter()
+                .map(|row| CuePhaseRow {
+                    part: if row.of_fingers { "fingers" } else { "hand" },
+                    kind: row.kind.name(),
+                    n: row.arrives.n as u64,
+                    begins_ms: ms(&row.begins),
+                    arrives_ms: ms(&row.arrives),
+                    share: [row.share.low, row.share.median, row.share.high].map(|x| rounded(x, 3)),
+                })
+                .collect(),
+        })
+    }
+}
+
+impl CuePhaseStatistics {
+    /// Draws the phases to an SVG: for each part and kind a box from the first to the third quartile of begin and arrival,
+    /// with its median, on an axis from -600 to 600 ms.
+    ///
+    /// # Errors
+    /// If the file is there already and `force` is not set, or it cannot be written.
+    pub fn draw(&self, to: &Path, force: bool) -> Result<()> {
+        let text = self.svg();
+        let fill = |out: &mut std::io::BufWriter<std::fs::File>| {
+            std::io::Write::write_all(out, text.as_bytes()).map_err(|error| Error::file(to, error))
+        };
+        picture::write(to, force, fill).map(drop)
+    }
+
+    fn svg(&self) -> String {
+        const ROW: usize = 34;
+        const LEFT: f64 = 210.0;
+        const WIDTH: f64 = 600.0;
+        const EDGE: f64 = 600.0;
+        let height = 70 + ROW * self.rows.len();
+        let x = |ms: f64| LEFT + (ms.clamp(-EDGE, EDGE) + EDGE) / (2.0 * EDGE) * WIDTH;
+        let mut text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"12\">\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
+             <text x=\"{LEFT}\" y=\"20\">begin (light) and arrival (dark) against the start of the sound [ms]</text>\n",
+            LEFT + WIDTH + 40.0
+        );
+        for mark in [-600.0, -400.0, -200.0, 0.0, 200.0, 400.0, 600.0] {
+            let dash = if mark == 0.0 {
+                ""
+            } else {
+                " stroke-dasharray=\"2 4\""
+            };
+            let _ = writeln!(
+                text,
+                "<line x1=\"{0:.1}\" y1=\"30\" x2=\"{0:.1}\" y2=\"{1}\" stroke=\"#888\"{dash}/>\
+                 <text x=\"{0:.1}\" y=\"{2}\" text-anchor=\"middle\">{mark:.0}</text>",
+                x(mark),
+                height - 22,
+                height - 6
+            );
+        }
+        for (n, row) in self.rows.iter().enumerate() {
+            let y = 38 + n * ROW;
+            for (of, fill, down) in [
+                (row.begins_ms, "#c6dbef", 0),
+                (row.arrives_ms, "#3182bd", 12),
+            ] {
+                let [low, median, high] = of.map(x);
+                let _ = writeln!(
+                    text,
+                    "<rect x=\"{low:.1}\" y=\"{0}\" width=\"{1:.1}\" height=\"10\" fill=\"{fill}\" stroke=\"#08306b\"/>\
+                     <line x1=\"{median:.1}\" y1=\"{0}\" x2=\"{median:.1}\" y2=\"{2}\" stroke=\"#000\" stroke-width=\"2\"/>",
+                    y + down,
+                    (high - low).max(1.0),
+                    y + down + 10
+                );
+            }
+            let _ = writeln!(
+                text,
+                "<text x=\"8\" y=\"{}\">{}, {} (n = {})</text>",
+                y + 14,
+                row.part,
+                row.kind,
+                row.n
+            );
+        }
+        text.push_str("</svg>\n");
+        text
+    }
+}
+
+fn found_keys(own: &Cued, shown: &[Shown]) -> Vec<FoundKey> {
+    let take = &own.take;
+    let span = |times: [f64; 2]| times.map(|time| take.micros(time));
+    let way = |it: &Gesture| it.measured.then(|| span([it.way.start, it.way.end]));
+    let keys = own.keys.iter().zip(shown);
+    keys.map(|(key, shown)| FoundKey {
+        key: key_name(key.placement, key.shape),
+        kind: Kind::name(key.kind),
+        a1_us: take.micros(key.a1),
+        hand_us: way(&shown.hand),
+        fingers_us: way(&shown.fingers),
+        target_us: take.micros(shown.hand.frame as f64 / take.rate),
+        placement_log: rounded(shown.hand.log, 3),
+        shape_log: rounded(shown.fingers.log, 3),
+        placement_extent_us: shown.hand.extent.map(span),
+        shape_extent_us: shown.fingers.extent.map(span),
+    })
+    .collect()
+}
+
+/// Writes the tiers of a recording: movements of hand and fingers, and the extents of gestures; returns their names.
+fn written(connection: &Connection, recording: i64, keys: &[FoundKey]) -> Result<Vec<String>> {
+    let mut hand = Vec::new();
+    let mut fingers = Vec::new();
+    let (mut places, mut shapes) = (Vec::new(), Vec::new());
+    let mut before = "rest-0".to_owned();
+    for key in keys {
+        let shape = |key: &str| key.rsplit('-').next().unwrap_or_default().to_owned();
+        let place = |key: &str| {
+            key.rsplit_once('-')
+                .map_or_else(String::new, |(place, _)| place.to_owned())
+        };
+        if let Some([from, to]) = key.hand_us {
+            hand.push((from, to, format!("{before}>{}", key.key), key.placement_log));
+        }
+        if let Some([from, to]) = key.fingers_us {
+            fingers.push((
+                from,
+                to,
+                format!("{}>{}", shape(&before), shape(&key.key)),
+                key.shape_log,
+            ));
+        }
+        if let Some([from, to]) = key.placement_extent_us {
+            places.push((from, to, place(&key.key), key.placement_log));
+        }
+        if let Some([from, to]) = key.shape_extent_us {
+            shapes.push((from, to, shape(&key.key), key.shape_log));
+        }
+        before.clone_from(&key.key);
+    }
+    let mut names = Vec::new();
+    for (name, rows) in [
+        (CueTier::Hand.name(), hand),
+        (CueTier::Fingers.name(), fingers),
+        ("Placement score", places),
+        ("Shape score", shapes),
+    ] {
+        names.push(write_tier(connection, recording, name, &rows)?);
+    }
+    Ok(names)
+}
+
+/// A row of a tier: begin, end, value, and the log of its probability.
+pub(super) type Row = (i64, i64, String, f64);
+
+/// Writes a tier of a detector in the place of one from before; a tier of that name that a person or a file wrote stays.
+pub(super) fn write_tier(
+    connection: &Connection,
+    recording: i64,
+    name: &str,
+    rows: &[Row],
+) -> Result<String> {
+    let all = tiers::tiers(connection, recording)?;
+    let mut own = name.to_owned();
+    if let Some(old) = all.iter().find(|tier| tier.name == name) {
+        let written = tiers::annotations(connection, old.id)?;
+        if written
+            .iter()
+            .any(|row| row.origin != AnnotationOrigin::Detector)
+        {
+            own = format!("{name} (found)");
+        }
+    }
+    let mut position = all.iter().map(|tier| tier.position + 1).max().unwrap_or(0);
+    if let Some(old) = all.iter().find(|tier| tier.name == own) {
+        position = old.position;
+        edits::delete_annotations(connection, old.id)?;
+        tiers::delete_tier(connection, old.id)?;
+    }
+    let tier = TierRow {
+        recording_id: recording,
+        name: own.clone(),
+        position,
+        role: TierRole::Free,
+        ..TierRow::default()
+    };
+    insert(connection, &tier, AnnotationOrigin::Detector, rows)?;
+    Ok(own)
+}
+
+/// Inserts a tier with its annotations, one after another.
+pub(super) fn insert(
+    connection: &Connection,
+    tier: &TierRow,
+    origin: AnnotationOrigin,
+    rows: &[Row],
+) -> Result<()> {
+    let tier = tiers::insert_tier(connection, tier)?;
+    let mut free_from = i64::MIN;
+    for (start, end, value, log) in rows {
+        let start = (*start).max(free_from).max(0);
+        if start >= *end {
+            continue;
+        }
+        free_from = *end;
+        let row = AnnotationRow {
+            tier_id: tier,
+            start_us: start,
+            end_us: *end,
+            state: ValueState::Value,
+            value: value.clone(),
+            origin,
+            confidence: (origin == AnnotationOrigin::Detector).then(|| log.exp().clamp(0.0, 1.0)),
+            ..AnnotationRow::default()
+        };
+        tiers::insert_annotation(connection, &row)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,54 @@
+//! Cued speech.
+
+texts! {
+    TITLE: "Cueing", "LfPC";
+    TEXT: "Text to cue", "Texte à coder";
+    PHONES_HINT: "phones in SAMPA, such as k { t", "phones en SAMPA, par exemple k { t";
+    TEXT_HINT: "a sentence, such as: le chat dort", "une phrase, par exemple : le chat dort";
+    CODE: "Code", "Code";
+    RULE: "Timing of the hand", "Rythme de la main";
+    PACE: "Pace", "Allure";
+    LIAISON: "Liaisons", "Liaisons";
+    SCHWA: "Say every e", "Dire tous les e";
+    LEFT: "Left hand", "Main gauche";
+    WORDS: "Words and how they are said", "Les mots et leur prononciation";
+    WORD: "Change how {word} is said: {phones}", "Changer la prononciation de {word} : {phones}";
+    SAID: "Phones of {word}", "Phones de {word}";
+    USUAL: "As the rules say", "Selon les règles";
+    KEYS: "Keys", "Clés";
+    KEY: "{key} for {phones}", "{key} pour {phones}";
+    DOUBT: "{key} for {phones}; some say the vowel otherwise: a click takes {other}", "{key} pour {phones} ; certains disent la voyelle autrement : un clic choisit {other}";
+    AT_SIDE: "side", "côté";
+    AT_MOUTH: "mouth", "bouche";
+    AT_CHIN: "chin", "menton";
+    AT_CHEEK: "cheek", "pommette";
+    AT_THROAT: "throat", "cou";
+    AT_SIDE_FORWARD: "side, forward", "côté, en avant";
+    AT_SIDE_DOWN: "side, down", "côté, en bas";
+    SHOW: "Show the cuer", "Montrer le codeur";
+    MAKING: "The cuer is on the way", "Le codeur arrive";
+    GLOSS: "Gloss of the new sign", "Glose du nouveau signe";
+    STORE: "Store", "Enregistrer";
+    STORED: "Stored as {name}: export it as a film, subtitles, TextGrid or EAF with {key}", "Enregistré sous {name} : exportez-le en film, sous-titres, TextGrid ou EAF avec {key}";
+    PRACTISE: "Practise reading", "S’entraîner à lire";
+    SET: "Words that look alike", "Mots qui se ressemblent sur les lèvres";
+    OWN_SET: "Own words, separated by commas", "Mots à soi, séparés par des virgules";
+    NEXT: "Next word", "Mot suivant";
+    AGAIN: "Once more", "Encore une fois";
+    SPEED: "Speed", "Vitesse";
+    FROM_SIDE: "From the side", "De côté";
+    FROM_FRONT: "From the front", "De face";
+    REVEAL: "Reveal the word", "Révéler le mot";
+    WHICH: "Which word was cued?", "Quel mot a été codé ?";
+    RIGHT: "Right: {word}", "Juste : {word}";
+    WRONG: "No, it was {word}", "Non, c’était {word}";
+    SCORE: "{right} of {all} right", "{right} sur {all} justes";
+    SLIPS: "Slips in a take", "Erreurs dans une prise";
+    SLIPS_HINT: "Compares the keys of the recording that is open with those that its phones predict.", "Compare les clés de l’enregistrement ouvert à celles que prédisent ses phones.";
+    COMPARE: "Compare the keys of the recording", "Comparer les clés de l’enregistrement";
+    SLIPS_FOUND: "{right} of {all} keys as predicted", "{right} clés sur {all} comme prévu";
+    INSERTION: "{time} s: {produced} is too many", "{time} s : {produced} est de trop";
+    DELETION: "{time} s: {predicted} is missing", "{time} s : {predicted} manque";
+    OTHER: "{time} s: {produced} instead of {predicted}", "{time} s : {produced} au lieu de {predicted}";
+    NEEDS_RECORDING: "Open a recording first", "Ouvrez d’abord un enregistrement";
+}
