@@ -234,6 +234,7 @@ actions! {
     StageGhosts "stage.ghosts" STAGE_GHOSTS Stage Corpus;
     StagePlaces "stage.places" STAGE_PLACES Stage Corpus;
     StageGrid "stage.grid" STAGE_GRID Stage Corpus;
+    StageFace "stage.face" STAGE_FACE Stage Corpus;
     StageCompare "stage.compare" STAGE_COMPARE Stage Corpus;
     StageRecording "stage.recording" STAGE_RECORDING Stage Corpus;
     OrbitLeft "stage.orbit-left" ORBIT_LEFT Stage Corpus repeats;
@@ -272,6 +273,7 @@ actions! {
     ShowInspector "pane.inspector" SHOW_INSPECTOR Panes Corpus;
     ShowFilm "pane.film" SHOW_FILM Panes Corpus;
     ShowMap "pane.map" SHOW_MAP Panes Corpus;
+    ShowFaces "pane.faces" SHOW_FACES Panes Corpus;
     ShowHistory "pane.history" SHOW_HISTORY Panes Corpus;
     OnlyPane "pane.only" ONLY_PANE Panes Corpus;
     OnlyAnnotating "pane.only-annotating" ONLY_ANNOTATING Panes Corpus;

@@ -345,6 +345,7 @@ impl Studio {
             Action::ShowRecombine => self.bring(PaneKind::Recombine),
             Action::ShowInspector => self.bring(PaneKind::Inspector),
             Action::ShowMap => self.bring(PaneKind::Map),
+            Action::ShowFaces => self.bring(PaneKind::Faces),
             Action::ShowHistory => self.bring(PaneKind::History),
             Action::ShowFilm => self.bring(PaneKind::Film),
             _ => return false,

@@ -7,6 +7,7 @@ pub(crate) mod bare;
 pub(crate) mod carry;
 pub(crate) mod combo;
 pub(crate) mod complete;
+pub(crate) mod faces;
 pub(crate) mod film;
 pub(crate) mod history;
 pub(crate) mod import;
@@ -37,6 +38,7 @@ use crate::work::{Ended, WorkId};
 pub(crate) enum PaneKind {
     Library,
     Map,
+    Faces,
     Stage,
     Timeline,
     Search,
@@ -48,9 +50,10 @@ pub(crate) enum PaneKind {
 }
 
 impl PaneKind {
-    pub(crate) const ALL: [Self; 10] = [
+    pub(crate) const ALL: [Self; 11] = [
         Self::Library,
         Self::Map,
+        Self::Faces,
         Self::Stage,
         Self::Timeline,
         Self::Search,
@@ -65,6 +68,7 @@ impl PaneKind {
         match self {
             Self::Library => words::library::TITLE,
             Self::Map => words::map::TITLE,
+            Self::Faces => words::faces::TITLE,
             Self::Stage => words::stage::TITLE,
             Self::Timeline => words::timeline::TITLE,
             Self::Search => words::search::TITLE,
@@ -120,6 +124,7 @@ pub(crate) trait Pane {
 pub(crate) struct Panes {
     pub(crate) library: library::Library,
     pub(crate) map: map::Map,
+    pub(crate) faces: faces::Faces,
     pub(crate) stage: stage::Stage,
     pub(crate) timeline: timeline::Timeline,
     pub(crate) search: search::Search,
@@ -135,6 +140,7 @@ impl Panes {
         match kind {
             PaneKind::Library => &mut self.library,
             PaneKind::Map => &mut self.map,
+            PaneKind::Faces => &mut self.faces,
             PaneKind::Stage => &mut self.stage,
             PaneKind::Timeline => &mut self.timeline,
             PaneKind::Search => &mut self.search,

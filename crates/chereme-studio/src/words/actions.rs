@@ -130,6 +130,7 @@ texts! {
     STAGE_TRAILS: "Trails of the hands", "Traces des mains";
     STAGE_GHOSTS: "Ghosts of other moments", "Fantômes d’autres instants";
     STAGE_PLACES: "Places on the body", "Lieux du corps";
+    STAGE_FACE: "Face from close by in the corner", "Visage de près dans le coin";
     STAGE_GRID: "Grid of the signing space", "Grille de l’espace de signation";
     STAGE_COMPARE: "Original: beside, over, away", "Original : à côté, dessus, masqué";
     STAGE_RECORDING: "Back from the made sign to the recording", "Revenir du signe composé à l’enregistrement";
@@ -183,6 +184,7 @@ texts! {
     FILM_BACK: "One film frame back", "Reculer d’une image du film";
     FILM_FORWARD: "One film frame forward", "Avancer d’une image du film";
     SHOW_MAP: "Show the map of signs", "Afficher la carte des signes";
+    SHOW_FACES: "Show the faces", "Afficher les visages";
     SHOW_HISTORY: "Show the history", "Afficher l’historique";
     SHOW_IMPORT: "Import…", "Importer…";
     EXPORT: "Export…", "Exporter…";

@@ -23,6 +23,7 @@ macro_rules! texts {
 
 pub(crate) mod actions;
 pub(crate) mod export;
+pub(crate) mod faces;
 pub(crate) mod film;
 pub(crate) mod gestures;
 pub(crate) mod hamnosys;
@@ -43,9 +44,10 @@ pub(crate) mod timeline;
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 17] = [
+    const TABLES: [&[(&str, Text)]; 18] = [
         actions::ALL,
         export::ALL,
+        faces::ALL,
         film::ALL,
         hamnosys::ALL,
         import::ALL,

@@ -23,6 +23,8 @@ texts! {
     PLACES: "Places", "Lieux";
     PLACES_HINT: "Landmarks and zones of placement; click one to choose it", "Repères et zones d’emplacement ; cliquez pour en choisir une";
     GRID: "Grid", "Grille";
+    INSET: "Face", "Visage";
+    INSET_HINT: "The face from close by in the corner of each view", "Le visage de près dans le coin de chaque vue";
     GRID_HINT: "Signing space in squares of 10 cm", "Espace de signation en carrés de 10 cm";
     POINTS: "Markers", "Marqueurs";
     POINTS_HINT: "Optical markers and points from film, next to the signer", "Marqueurs optiques et points tirés du film, à côté de la personne";

@@ -13,11 +13,11 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
-    Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat,
-    ImportOptions, ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier,
-    OperationRow, Picture, PictureOptions, PointsPiece, Proposed, Recombination, RecordingChange,
-    Scheme, SearchOptions, SignChange, SignMap, SignerChange, Suggestions, TierChange, TierName,
-    TrackChange, Unit,
+    Choice, ChooseOptions, Copied, Curves, Decision, Details, Error, ExportOptions, ExportReport,
+    ExportWhat, Expressions, Function, ImportOptions, ImportReport, KeptSearch, MadePart,
+    MediaChange, Moving, Name, NewTier, Onsets, OperationRow, Picture, PictureOptions, PointsPiece,
+    Proposed, Recombination, RecordingChange, Scheme, SearchOptions, SignChange, SignMap,
+    SignerChange, Suggestions, TierChange, TierName, TrackChange, Unit,
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
@@ -110,6 +110,23 @@ pub(crate) enum Work {
     Around(Vec<i64>, usize),
     /// Places the signs on a map by these components.
     Map(Vec<Component>),
+    /// Finds the expressions of faces, with their milestones.
+    Expressions,
+    /// Writes the milestones of every expression of a function onto tiers.
+    Milestones(Function),
+    /// Ranks the performances of a function for a sentence.
+    ChooseFace {
+        /// The function.
+        function: Function,
+        /// The sentence.
+        target: Address,
+        /// How they are compared.
+        options: Box<ChooseOptions>,
+    },
+    /// Measures when non-manuals begin and end, of a function or of all.
+    Onsets(Option<Function>),
+    /// Writes what the face of a recording seems to do onto tiers of proposals.
+    ProposeNonmanuals(Address),
     /// Makes the movement of a recipe and stores nothing.
     Preview(String),
     /// Makes the movement of the recipe that is worked on, of what changed in it.
@@ -192,6 +209,12 @@ pub(crate) enum Outcome {
     Around(Vec<Around>),
     /// The signs have places on a map.
     Mapped(Arc<SignMap>),
+    /// The expressions of faces.
+    Expressions(Arc<Expressions>),
+    /// Performances were ranked.
+    Chosen(Arc<Choice>),
+    /// Begin and end of non-manuals were measured.
+    Onsets(Arc<Onsets>),
     /// Movement was made.
     Previewed(Arc<Recombination>),
     /// What could be made.
@@ -297,11 +320,16 @@ impl Work {
             | Self::ForgetSearch(_)
             | Self::Check { .. }
             | Self::Propose(_)
+            | Self::Milestones(_)
+            | Self::ProposeNonmanuals(_)
             | Self::Undo
             | Self::Redo => Lane::Edit,
             Self::Search(..)
             | Self::Around(..)
             | Self::Map(_)
+            | Self::Expressions
+            | Self::ChooseFace { .. }
+            | Self::Onsets(_)
             | Self::Suggest(_)
             | Self::Look(_)
             | Self::Paths(_) => Lane::Ask,
@@ -322,10 +350,13 @@ impl Work {
             Self::Import(_, options) if options.dry_run => shell::TASK_LOOKING,
             Self::Import(..) => shell::TASK_IMPORT,
             Self::Check { .. } => shell::TASK_CHECK,
-            Self::Propose(_) => shell::TASK_PROPOSE,
+            Self::Propose(_) | Self::ProposeNonmanuals(_) => shell::TASK_PROPOSE,
             Self::Search(..)
             | Self::Around(..)
             | Self::Map(_)
+            | Self::Expressions
+            | Self::ChooseFace { .. }
+            | Self::Onsets(_)
             | Self::Suggest(_)
             | Self::Look(_)
             | Self::Paths(_) => shell::TASK_SEARCH,
@@ -359,6 +390,9 @@ impl Work {
                 | Self::Search(..)
                 | Self::Around(..)
                 | Self::Map(_)
+                | Self::Expressions
+                | Self::ChooseFace { .. }
+                | Self::Onsets(_)
         )
     }
 

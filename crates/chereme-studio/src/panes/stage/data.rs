@@ -3,7 +3,7 @@
 use chereme_figure::View;
 use chereme_figure::camera::Camera;
 use chereme_motion::Instant;
-use eframe::egui::Rect;
+use eframe::egui::{Rect, pos2, vec2};
 use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -152,6 +152,22 @@ pub(crate) struct Part {
     pub(crate) rect: Rect,
     pub(crate) eye: usize,
     pub(crate) who: Who,
+}
+
+/// The share of the lower side of a part that a face in its corner takes.
+const INSET: f32 = 0.4;
+
+/// Returns a face in the upper right corner of each part, seen by the eye of that number.
+pub(crate) fn insets(parts: &[Part], eye: usize) -> Vec<Part> {
+    let corner = |part: &Part| {
+        let side = part.rect.size().min_elem() * INSET;
+        let rect = Rect::from_min_size(
+            pos2(part.rect.right() - side, part.rect.top()),
+            vec2(side, side),
+        );
+        Part { rect, eye, ..*part }
+    };
+    parts.iter().map(corner).collect()
 }
 
 /// The line between panes.

@@ -70,6 +70,8 @@ pub(crate) struct Stage {
     /// How far trails reach when they are shown, in seconds.
     reach: f64,
     places: bool,
+    /// Whether the face stands in the corner of each view.
+    inset: bool,
     zones: Option<(Arc<Overview>, Vec<Zone>)>,
     textures: Vec<TextureHandle>,
     /// The signer's posture in the pictures that are shown.
@@ -113,6 +115,7 @@ impl Default for Stage {
             },
             reach: REACH,
             places: false,
+            inset: false,
             zones: None,
             textures: Vec::new(),
             drawn: None,
@@ -280,6 +283,7 @@ impl Pane for Stage {
             Action::StageGhosts => self.shows.ghosts = !self.shows.ghosts,
             Action::StagePlaces => self.places = !self.places,
             Action::StageGrid => self.shows.grid = !self.shows.grid,
+            Action::StageFace => self.inset = !self.inset,
             Action::StageCompare => self.compare = self.compare.next(),
             Action::StageRecording => out.send(Command::Made(None)),
             other if self.look_from(other) => {}

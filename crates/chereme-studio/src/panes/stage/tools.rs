@@ -53,6 +53,12 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
                 Action::StageGrid,
                 stage.shows.grid,
             ),
+            (
+                words::INSET,
+                words::INSET_HINT,
+                Action::StageFace,
+                stage.inset,
+            ),
         ];
         for (text, hint, action, on) in toggles {
             let hint = format!("{} ({})", seen.say(hint), seen.keys.text(action));

@@ -1,9 +1,9 @@
 //! The stage's widgets: the extras, the pictures, and the gestures of the mouse on them.
 
-use chereme_figure::Theme;
 use chereme_figure::camera::{Camera, Projection};
 use chereme_figure::mesh::Mesh;
 use chereme_figure::raster::Style;
+use chereme_figure::{Theme, View};
 use chereme_motion::ModelPose;
 use eframe::egui::emath::GuiRounding;
 use eframe::egui::{
@@ -178,7 +178,18 @@ fn panes(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, whol
         turn(stage, ui, &response, part);
         dragged |= response.dragged();
     }
-    let poses = pictures(stage, ui, seen, &parts, dragged);
+    // The eyes of the stage come first, then that of the insets.
+    let insets = match stage.inset {
+        true => data::insets(&parts, stage.eyes.len()),
+        false => Vec::new(),
+    };
+    let all = [parts.clone(), insets.clone()].concat();
+    let poses = pictures(stage, ui, seen, &all, dragged);
+    for inset in &insets {
+        let stroke = Stroke::new(1.0, seen.colours().rule);
+        ui.painter()
+            .rect_stroke(inset.rect, 0.0, stroke, StrokeKind::Inside);
+    }
     let many = stage.eyes.len() > 1;
     stage.holding.begin();
     for part in &parts {
@@ -265,7 +276,7 @@ fn pictures(
     let moving = player.is_playing() || dragged || changing.is_some();
     let look = Look {
         at,
-        eyes: stage.eyes.clone(),
+        eyes: [&stage.eyes[..], &[Eye::of(View::Face)]].concat(),
         parts: parts
             .iter()
             .map(|it| {

@@ -18,6 +18,7 @@ pub(crate) struct StageWays {
     grid: bool,
     points: bool,
     places: bool,
+    inset: bool,
     compare: Compare,
 }
 
@@ -31,6 +32,7 @@ impl Default for StageWays {
             grid: false,
             points: true,
             places: false,
+            inset: false,
             compare: Compare::default(),
         }
     }
@@ -51,6 +53,7 @@ impl StageWays {
             grid: stage.shows.grid,
             points: stage.shows.points,
             places: stage.places,
+            inset: stage.inset,
             compare: stage.compare,
         }
     }
@@ -82,7 +85,7 @@ impl StageWays {
             grid: self.grid,
             points: self.points,
         };
-        (stage.places, stage.compare) = (self.places, self.compare);
+        (stage.places, stage.inset, stage.compare) = (self.places, self.inset, self.compare);
     }
 }
 
@@ -96,6 +99,7 @@ mod tests {
         assert_eq!(StageWays::of(&stage), StageWays::default());
         stage.split(4);
         (stage.places, stage.compare, stage.reach) = (true, Compare::Over, 1.5);
+        stage.inset = true;
         let ways = StageWays::of(&stage);
         let text = serde_json::to_string(&ways).expect("written");
         let read: StageWays = serde_json::from_str(&text).expect("read");
