@@ -113,6 +113,9 @@ fn opened<'a>(folder: &Path, language: Language) -> Window<'a> {
     });
     until(&mut window, "the corpus", |it| contains(it, "W1"));
     idle(&mut window);
+    // The layout for searching gives the pane half of the window.
+    window.key_press_modifiers(CTRL, Key::F2);
+    window.run_steps(2);
     window.key_press_modifiers(CTRL | ALT, Key::V);
     window.run_steps(3);
     window

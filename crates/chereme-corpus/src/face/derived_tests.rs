@@ -10,7 +10,9 @@ use chereme_sign::TierRole;
 use crate::address::{Address, Name};
 use crate::annotate::{AnnotateOptions, AnnotationAction, NewTier, TierName};
 use crate::edit::RecordingChange;
-use crate::{ChooseOptions, Corpus, ImportOptions, Progress, SearchOptions, unheard};
+use crate::{
+    ChooseOptions, Corpus, ImportOptions, PictureOptions, Progress, SearchOptions, unheard,
+};
 
 fn import(corpus: &mut Corpus, path: &Path) {
     let mut hear = unheard;
@@ -243,4 +245,36 @@ fn points_on_film_are_faces_for_every_use() {
             found.iter().map(|it| &it.value).collect::<Vec<_>>()
         );
     }
+}
+
+#[test]
+fn the_face_stands_next_to_the_signer_in_sheets_and_animations_by_option() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+    let path = folder.path().join("W1.csv");
+    write_brows(&path, 0.8);
+    import(&mut corpus, &path);
+    let mut draw = |name: &str, face: bool| {
+        let to = folder.path().join(name);
+        let options = PictureOptions {
+            frames: 2,
+            hands: false,
+            face,
+            height: Some(64),
+            speed: 10.0,
+            force: true,
+            ..PictureOptions::default()
+        };
+        let mut hear = unheard;
+        let progress = &mut Progress::new(&mut hear);
+        corpus
+            .draw(&recording("W1"), &to, &options, progress)
+            .expect("drawn");
+        std::fs::read(&to).expect("read")
+    };
+    let height = |png: &[u8]| u32::from_be_bytes(png[20..24].try_into().expect("four bytes"));
+    let width = |gif: &[u8]| u16::from_le_bytes(gif[6..8].try_into().expect("two bytes"));
+    assert!(height(&draw("b.png", true)) >= height(&draw("a.png", false)) + 60);
+    assert!(width(&draw("b.gif", true)) >= width(&draw("a.gif", false)) + 55);
+    assert_ne!(draw("b.mp4", true), draw("a.mp4", false));
 }

@@ -214,7 +214,8 @@ pub(crate) fn numbers(
         return Ok(None);
     };
     let around = Span::between(first.shifted(-AROUND), last.shifted(AROUND));
-    let captured = captured_with(connection, recording, Some(around), fits)?;
+    // Whether a head was recorded at all shows in the whole capture only.
+    let captured = captured_with(connection, recording, None, fits)?;
     let body = match recordings::body_track(connection, recording)? {
         Some(_) => Some(Track::of(connection, recording)?),
         None => None,
