@@ -79,7 +79,7 @@ pub use annotate::{
 pub use around::Around;
 pub use check::{CheckReport, Fault};
 pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
-pub use chereme_analysis::phases::NoPath;
+pub use chereme_analysis::phases::{NoPath, PhaseScore};
 pub use chereme_analysis::{Score, ScoreOptions};
 pub use chereme_compose::Curve;
 pub use chereme_figure::SPEEDS;
@@ -114,8 +114,8 @@ pub use error::{Cause, Error, Result};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
 pub use face::{
     CHANNELS as FACE_CHANNELS, Choice, ChooseOptions, Expressions, FaceChannel, FaceFinding,
-    FaceNumber, FaceProposal, FaceProposals, FaceReport, FaceScore, FoundExpression,
-    MilestoneOptions, OnsetRow, Onsets, Quartiles, Rank, Ranked, ScoredChannel,
+    FaceFit, FaceNumber, FaceProposal, FaceProposals, FaceReport, FaceScore, FittedNumber,
+    FoundExpression, MilestoneOptions, OnsetRow, Onsets, Quartiles, Rank, Ranked, ScoredChannel,
 };
 pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};
 pub use import::{

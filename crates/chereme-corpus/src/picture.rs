@@ -57,6 +57,8 @@ pub struct PictureOptions {
     pub frames: usize,
     /// Whether the contact sheet shows the hands from close by, and the face if it is active.
     pub hands: bool,
+    /// Whether the face stands next to the signer from close by, in every picture.
+    pub face: bool,
     /// How high one picture is, in pixels; without a number 260 for movement, 540 for a film, 128 for a handshape, 160
     /// for a face.
     pub height: Option<usize>,
@@ -75,6 +77,7 @@ impl Default for PictureOptions {
         Self {
             frames: 8,
             hands: true,
+            face: false,
             height: None,
             speed: 1.0,
             rate: FILM_RATE,
@@ -229,7 +232,10 @@ impl Corpus {
         };
         let from = stretch.span.start();
         let span = Span::between(from, from.shifted(stretch.span.micros().min(LONGEST)));
-        if recordings::body_track(connection, stretch.recording.id)?.is_none()
+        // The face of points on film is looked at on the program's own body.
+        let own = options.face && face::has_face(connection, stretch.recording.id)?;
+        if !own
+            && recordings::body_track(connection, stretch.recording.id)?.is_none()
             && let Some(points) = points::of(connection, &stretch, span)?
         {
             return points::draw(&points, &title(&stretch), to, options, progress);
@@ -586,6 +592,9 @@ fn sheet(
     } else {
         sheet.faces = faces.to_vec();
     }
+    if options.face {
+        sheet = sheet.with_face_row();
+    }
     let image = contact_sheet(clip, anatomy, &sheet, hear).map_err(figure)?;
     let bytes = write(to, options.force, |out| {
         write_png(&image, out).map_err(figure)
@@ -599,10 +608,13 @@ fn strip<'a>(
     options: &PictureOptions,
     (height, rate): (usize, Option<u32>),
 ) -> Result<Strip<'a>> {
-    let views = match scenes {
+    let mut views = match scenes {
         [_] => vec![View::Addressee, View::Left],
         _ => vec![View::Addressee],
     };
+    if options.face {
+        views.push(View::Face);
+    }
     let mut cells = Vec::with_capacity(scenes.len());
     for scene in scenes {
         let Performance {

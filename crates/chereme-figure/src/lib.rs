@@ -78,7 +78,7 @@ pub use image::Image;
 pub use palette::{Colour, Palette, Theme};
 pub use points::{PointCloud, points_sheet};
 pub use points_film::{PointsAnimation, PointsOptions};
-pub use sheet::{Frames, Progress, SheetOptions, contact_sheet, thumbnail};
+pub use sheet::{Frames, Progress, SheetOptions, contact_sheet, thumbnail, thumbnail_with_face};
 pub use strip::{Caption, Strip};
 pub use view::{Framing, View, has_hand_up, signed, stroke};
 pub use writer::write_png;

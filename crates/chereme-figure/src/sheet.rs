@@ -64,12 +64,21 @@ impl SheetOptions {
         self
     }
 
+    /// Returns the options with a row for the face from near, whether it moves or not.
+    #[must_use]
+    pub fn with_face_row(mut self) -> Self {
+        if !self.views.contains(&View::Face) {
+            self.views.push(View::Face);
+        }
+        self
+    }
+
     /// Returns the options with facial expressions, and with a row for the face from near if it moves at
     /// all.
     #[must_use]
     pub fn with_faces(mut self, faces: Vec<Face>) -> Self {
         if faces.iter().any(|face| !face.is_at_rest()) {
-            self.views.push(View::Face);
+            self = self.with_face_row();
         }
         self.faces = faces;
         self
@@ -174,6 +183,48 @@ pub fn thumbnail(
     let aspect = size[0] as f32 / size[1] as f32;
     let camera = framing.camera(View::Addressee, aspect, &pose, anatomy);
     Ok(Raster::default().draw(&mesh, &camera, size, style))
+}
+
+/// The share of a small picture's height that a face in its corner takes.
+const INSET: f32 = 0.45;
+
+/// Draws one small picture as [`thumbnail`] does, with the face from near in its upper right corner: `faces` are those of
+/// the clip's frames, at rest beyond them.
+///
+/// # Errors
+/// As there.
+pub fn thumbnail_with_face(
+    clip: &Clip,
+    anatomy: &Anatomy,
+    faces: &[Face],
+    size: [usize; 2],
+    style: &Style,
+) -> Result<Image, FigureError> {
+    let framing = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
+    let size = checked_view(size[0], size[1])?;
+    let frame = stroke(clip, anatomy);
+    let pose = clip.model_pose(frame);
+    let body = Body::new(clip.skeleton(), anatomy);
+    let mut mesh = body.mesh(&pose);
+    if let Some(face) = faces.get(frame) {
+        body.express(&pose, face, &mut mesh);
+    }
+    let mut raster = Raster::default();
+    let mut draw = |view: View, size: [usize; 2]| {
+        let aspect = size[0] as f32 / size[1] as f32;
+        let camera = framing.camera(view, aspect, &pose, anatomy);
+        raster.draw(&mesh, &camera, size, style)
+    };
+    let mut image = draw(View::Addressee, size);
+    let side = (size[1].min(size[0]) as f32 * INSET) as usize;
+    if side >= 8 {
+        let near = draw(View::Face, [side - 1, side - 1]);
+        let left = size[0] - side;
+        let rule = style.theme.rule();
+        image.fill([left as i64, 0], [side as i64, side as i64], rule);
+        image.paste(&near, [left + 1, 0]);
+    }
+    Ok(image)
 }
 
 /// Returns time and number of a frame for its label.

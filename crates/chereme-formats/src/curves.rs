@@ -1,10 +1,11 @@
-//! Tables of scalar channels: Live Link Face, OpenFace, MediaPipe blendshapes, FAP text, and plain CSV.
+//! Scalar channels: Live Link Face (tables and packets), OpenFace, MediaPipe blendshapes, FAP text, and plain CSV.
 //!
 //! Every column becomes a curve under its own name with its exact decimals. Times are those of the file:
 //! timecodes, timestamps, frame numbers or seconds.
 
 mod fap;
 mod mediapipe;
+mod packets;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -33,6 +34,8 @@ pub enum Kind {
     MediaPipe,
     /// MPEG-4 facial animation parameters as text.
     Fap,
+    /// Packets of Live Link Face as they came over the network.
+    Packets,
     /// A table whose first column is a time or a frame number.
     Plain,
 }
@@ -41,6 +44,9 @@ impl Kind {
     /// Returns the kind of file that begins with these bytes; `None` if it holds no channels.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Option<Self> {
+        if packets::is_recording(bytes) {
+            return Some(Self::Packets);
+        }
         let start = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 14)]);
         let start = start.trim_start_matches('\u{feff}').trim_start();
         if start.starts_with(['{', '[']) {
@@ -134,6 +140,10 @@ impl Error {
 pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     let mut findings = Findings::default();
     let kind = Kind::of(bytes).ok_or(Error::Unknown)?;
+    if kind == Kind::Packets {
+        let channels = packets::read(bytes, &mut findings)?;
+        return Ok((channels.tracks(kind, &mut findings)?, findings.finish()));
+    }
     let text = decode(bytes, &mut findings).map_err(|error| match error {
         TableError::NotText { line } => Error::NotText { line },
         _ => Error::Unknown,
@@ -144,6 +154,7 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
         Kind::Plain => table::plain(&text)?,
         Kind::MediaPipe => mediapipe::read(&text, &mut findings)?,
         Kind::Fap => fap::read(&text)?,
+        Kind::Packets => return Err(Error::Unknown),
     };
     Ok((channels.tracks(kind, &mut findings)?, findings.finish()))
 }
@@ -218,10 +229,10 @@ fn times(clock: Clock, kind: Kind, findings: &mut Findings) -> Result<(Times, In
     let first = seconds.first().copied().unwrap_or_default();
     // A timecode is the time of day; the track begins with its first row.
     let offset = match kind {
-        Kind::LiveLink => Instant::ZERO,
+        Kind::LiveLink | Kind::Packets => Instant::ZERO,
         _ => Instant::from_seconds(first),
     };
-    if kind == Kind::LiveLink {
+    if matches!(kind, Kind::LiveLink | Kind::Packets) {
         findings.push(Finding::note(
             None,
             format!("its first row has the time {first:.3} s of the day; that is 0 s here"),

@@ -280,6 +280,7 @@ actions! {
     ShowFilm "pane.film" SHOW_FILM Panes Corpus;
     ShowMap "pane.map" SHOW_MAP Panes Corpus;
     ShowCue "pane.cue" SHOW_CUE Panes Corpus;
+    ShowFaces "pane.faces" SHOW_FACES Panes Corpus;
     ShowHistory "pane.history" SHOW_HISTORY Panes Corpus;
     OnlyPane "pane.only" ONLY_PANE Panes Corpus;
     OnlyAnnotating "pane.only-annotating" ONLY_ANNOTATING Panes Corpus;

@@ -359,6 +359,7 @@ impl Studio {
             Action::ShowInspector => self.bring(PaneKind::Inspector),
             Action::ShowMap => self.bring(PaneKind::Map),
             Action::ShowCue => self.bring(PaneKind::Cue),
+            Action::ShowFaces => self.bring(PaneKind::Faces),
             Action::ShowHistory => self.bring(PaneKind::History),
             Action::ShowFilm => self.bring(PaneKind::Film),
             _ => return false,

@@ -11,7 +11,8 @@ use crate::output::{Bar, Output};
 
 /// Show a captured face as numbers of the house's face, or the face systems that are understood
 ///
-/// Captured channels stay as their file has them; the house's face is derived from them. Without a recording the command
+/// Captured channels stay as their file has them; the house's face is derived from them, also from the points of a face on
+/// film (.pose), which is an estimate. Without a recording the command
 /// lists the systems (ARKit, MediaPipe, OpenFace, MPEG-4, SiGML), and with --system what the mapping of one loses.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -20,19 +21,24 @@ Examples:
   chereme face mine.chereme --system arkit        (its channels, formulas and losses)
   chereme face mine.chereme recording:3           (the face of a recording)
   chereme face mine.chereme recording:3 --propose --store   (brows, blinks, gaze, mouth, shakes and nods as tiers)
-  chereme render mine.chereme recording:3 --to face.gif")]
+  chereme face mine.chereme recording:4 --fit --store       (weights for this signer, from a range of motion)
+  chereme render mine.chereme recording:3 --to face.gif --face")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
     /// The recording, or a token in it
     recording: Option<String>,
     /// Propose what brows, lids, gaze, mouth and head do, with the confidence of each and the rule that found it
-    #[arg(long, requires = "recording")]
+    #[arg(long, requires = "recording", group = "finds")]
     propose: bool,
-    /// Write the proposals onto tiers such as "nonmanual.brows (proposed)"; `undo` takes them back
-    #[arg(long, requires = "propose")]
+    /// Fit the weights of the mapping to the signer, on a take in which each part of the face goes as far as it can
+    #[arg(long, requires = "recording", group = "finds")]
+    fit: bool,
+    /// Keep it: proposals as tiers such as "nonmanual.brows (proposed)", fitted weights for every face of the signer;
+    /// `undo` takes it back
+    #[arg(long, requires = "finds")]
     store: bool,
-    /// A face system: arkit, mediapipe, openface, fap, sigml or house
+    /// A face system: arkit, mediapipe, openface, fap, mesh, sigml or house
     #[arg(long, conflicts_with = "recording")]
     system: Option<String>,
 }
@@ -42,6 +48,9 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let Some(recording) = &args.recording else {
         return systems(args.system.as_deref(), output);
     };
+    if args.fit {
+        return fit(&mut corpus, &recording.parse()?, args.store, output);
+    }
     if args.propose {
         return propose(&mut corpus, &recording.parse()?, args.store, output);
     }
@@ -64,6 +73,9 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         })
         .collect();
     output.table(&["number", "least", "mean", "most"], &rows)?;
+    if let Some(on) = &face.fitted_on {
+        output.line(format!("the weights were fitted on {on}"))?;
+    }
     if face.bridged > 0 {
         output.line(format!("{} frames with gaps were bridged", face.bridged))?;
     }
@@ -101,6 +113,37 @@ fn propose(corpus: &mut Corpus, address: &Address, store: bool, output: &mut Out
         output.line(format!("{} annotations written", found.written))?;
     }
     output.document(found)
+}
+
+fn fit(corpus: &mut Corpus, address: &Address, store: bool, output: &mut Output) -> Result<()> {
+    let fit = corpus.fit_face(address, store)?;
+    let whose = fit.signer.as_deref().unwrap_or(&fit.recording);
+    output.line(format!(
+        "{} of {whose}, fitted on {} frames of {}",
+        fit.system, fit.frames, fit.recording
+    ))?;
+    let factor = |it: f64| match it == 1.0 {
+        true => "-".to_owned(),
+        false => format!("{it:.2}"),
+    };
+    let rows: Vec<Vec<String>> = fit
+        .numbers
+        .iter()
+        .map(|it| {
+            let rest = format!("{:.3}", it.rest);
+            let (up, down) = (factor(it.up), factor(it.down));
+            vec![it.name.clone(), rest, up, down, it.formula.clone()]
+        })
+        .collect();
+    let titles = ["number", "rest", "times above", "times below", "weights"];
+    output.table(&titles, &rows)?;
+    findings(&fit.findings, output)?;
+    if fit.stored {
+        output.line(format!(
+            "stored: faces of {whose} are taken by it from now on"
+        ))?;
+    }
+    output.document(fit)
 }
 
 fn findings(all: &[FaceFinding], output: &mut Output) -> Result<()> {

@@ -24,6 +24,7 @@ Examples:
   chereme render ngt.chereme BABYSITTEN --to babysitten.gif --speed 0.5
   chereme render mine.chereme ESCARGOT LIMACE --to both.mp4 --captions
   chereme render ngt.chereme recording:3 --to take.mp4 --captions --height 720
+  chereme render mine.chereme ESCARGOT --to escargot.mp4 --face
   chereme render ngt.chereme BABYSITTEN --to notation.svg
   chereme render mine.chereme inventory:configurations --to handshapes.png
   chereme render mine.chereme inventory:faces --to faces.png")]
@@ -57,6 +58,9 @@ pub(crate) struct Args {
     /// Leave out the pictures of hands and face from close by
     #[arg(long)]
     no_hands: bool,
+    /// Show the face from close by next to the signer, in every picture
+    #[arg(long)]
+    face: bool,
     /// Which hand a handshape is drawn on
     #[arg(long, value_enum, default_value_t = SideWord::Right)]
     hand: SideWord,
@@ -82,6 +86,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let options = PictureOptions {
         frames: usize::from(args.frames),
         hands: !args.no_hands,
+        face: args.face,
         height: args.height.map(usize::from),
         speed: args.speed,
         rate: args.rate,

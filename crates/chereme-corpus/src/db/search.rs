@@ -79,7 +79,8 @@ pub(crate) fn begin_reading(connection: &Connection) -> Result<Transaction<'_>> 
 
 /// Returns the names of the index's files.
 pub(crate) fn file_names(connection: &Connection) -> Result<Vec<String>> {
-    let mut statement = connection.prepare_cached("SELECT path FROM search_file")?;
+    let mut statement =
+        connection.prepare_cached("SELECT path FROM search_file WHERE path NOT LIKE 'faces/%'")?;
     let names = statement
         .query_map([], |row| row.get(0))?
         .collect::<rusqlite::Result<_>>()?;

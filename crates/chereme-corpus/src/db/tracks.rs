@@ -1,5 +1,6 @@
 //! Rows of tracks of every kind, and of their channels.
 
+use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use chereme_motion::{Instant, Rate, Span};
@@ -330,6 +331,26 @@ pub(crate) fn remove(connection: &Connection, track: i64) -> Result<()> {
         connection.prepare_cached(sql)?.execute([track])?;
     }
     Ok(())
+}
+
+/// Returns what tracks of curves hold besides their numbers, with their recording and its signer, oldest first.
+pub(crate) fn layouts_of_curves(
+    connection: &Connection,
+) -> Result<Vec<(i64, Option<i64>, String)>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT t.recording_id, r.signer_id, t.layout FROM track t JOIN recording r ON r.id = t.recording_id
+         WHERE t.kind = 'curves' AND t.layout IS NOT NULL ORDER BY t.id",
+    )?;
+    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the signer of each recording that has one.
+pub(crate) fn signers_of_recordings(connection: &Connection) -> Result<BTreeMap<i64, i64>> {
+    let mut statement = connection
+        .prepare_cached("SELECT id, signer_id FROM recording WHERE signer_id IS NOT NULL")?;
+    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
 /// Writes down how a skeleton track holds its numbers, and how long it lasts.

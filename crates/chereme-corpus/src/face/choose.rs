@@ -4,15 +4,16 @@ use std::thread;
 
 use chereme_analysis::dtw::Made;
 use chereme_analysis::phases::{self, NoPath, Phased, PhasedScore};
+use chereme_motion::{Instant, Span};
 use chereme_sign::milestones::{Function, Milestones};
 use chereme_sign::text::did_you_mean;
 use serde::Serialize;
 
 use super::expressions::{self, Expression};
 use super::performances::{CHANNELS, FaceChannel, Performance, of_expression};
-use super::{recording_of, stage};
+use super::{Fits, recording_of, stage};
 use crate::Corpus;
-use crate::address::{self, Address, Name, Stretch};
+use crate::address::{self, Address, Name};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 use crate::recombine::Recombination;
@@ -70,6 +71,8 @@ pub struct Choice {
     pub function: Function,
     /// The sentence's expression.
     pub target: String,
+    /// The row of the sentence's recording.
+    pub recording_id: i64,
     /// The milestones of that expression, on its recording's clock.
     pub milestones: Milestones,
     /// By what the performances are ranked: by the medoid if the sentence has no face of its own.
@@ -97,6 +100,12 @@ pub struct Ranked {
     pub token: String,
     /// Its recording's name.
     pub recording: String,
+    /// The row of its recording.
+    pub recording_id: i64,
+    /// Its milestones, on the clock of its recording.
+    pub milestones: Milestones,
+    /// The recipe by which the sentence gets this face.
+    pub recipe: String,
     /// The score by which it is ranked; smaller is more alike.
     pub score: f64,
     /// The score's parts; of a medoid against the most usual performance, of that one against the second.
@@ -233,11 +242,12 @@ impl Corpus {
     ) -> Result<FaceScore> {
         let connection = self.store.read();
         let asked = options.places()?;
+        let fits = Fits::of(connection)?;
         let mut both = Vec::new();
         for address in [a, b] {
             let it = expressions::at(connection, address, function)?;
             let name = address.to_string();
-            let found = of_expression(connection, &it, name, "", &asked)?;
+            let found = of_expression(connection, &it, name, "", &asked, &fits)?;
             both.push(found.ok_or_else(|| faceless(address))?);
         }
         let known = |at: &usize| both.iter().all(|it| it.columns[*at].is_some());
@@ -276,7 +286,9 @@ impl Corpus {
             .faces
             .borrow_mut()
             .of(connection, function, &asked, progress)?;
-        let gold = match of_expression(connection, &own, target.to_string(), "", &asked)? {
+        let fits = Fits::of(connection)?;
+        let gold = of_expression(connection, &own, target.to_string(), "", &asked, &fits)?;
+        let gold = match gold {
             Some(gold) if options.rank != Rank::Medoid => Some(gold),
             _ => None,
         };
@@ -299,6 +311,7 @@ impl Corpus {
             asked: &asked,
             own: &own,
             target,
+            start: self.start_of(own.recording)?,
         };
         asked_for.ranked(gold.as_ref(), &others)
     }
@@ -322,25 +335,24 @@ impl Corpus {
     /// # Errors
     /// If the sentence is not there any more.
     pub fn recipe_of_choice(&self, choice: &Choice, token: &str) -> Result<String> {
-        let connection = self.store.read();
         let target: Address = choice.target.parse()?;
-        let recording = recording_of(connection, &target)?;
-        let row = address::recording(connection, &Name::Number(recording))?;
-        let whole = Stretch {
-            span: chereme_motion::Span::between(
-                chereme_motion::Instant::ZERO,
-                chereme_motion::Instant::from_micros(row.duration_us),
-            ),
-            recording: row,
-            token: None,
-        };
-        let start = stage::first_frame(connection, recording, whole.span)?;
-        let times = choice.milestones.shifted(-start).times();
-        let times = times.map(|at| format!("{}s", at.seconds())).join(", ");
-        let function = &choice.function;
-        Ok(format!(
-            "recording:{recording} | nonmanual \"{function}\" from {token} over {times} by phases"
+        let recording = recording_of(self.store.read(), &target)?;
+        let start = self.start_of(recording)?;
+        Ok(carried(
+            recording,
+            &choice.function,
+            &choice.milestones,
+            start,
+            token,
         ))
+    }
+
+    /// Returns where the movement of a recording begins on its clock, in microseconds.
+    fn start_of(&self, recording: i64) -> Result<i64> {
+        let connection = self.store.read();
+        let row = address::recording(connection, &Name::Number(recording))?;
+        let whole = Span::between(Instant::ZERO, Instant::from_micros(row.duration_us));
+        stage::first_frame(connection, recording, whole)
     }
 
     /// Returns the expression of a sentence for a function.
@@ -367,6 +379,8 @@ struct Asked<'a> {
     asked: &'a [usize],
     own: &'a Expression,
     target: &'a Address,
+    /// Where the sentence's movement begins on its recording's clock, in microseconds.
+    start: i64,
 }
 
 impl Asked<'_> {
@@ -448,9 +462,19 @@ impl Asked<'_> {
                 (None, true) => &ready[order.get(1).map_or(*best, |(_, second)| *second)].1,
             };
             let parts = phases::explained(against, &ready[at].1, seconds, &scoring);
+            let it = ready[at].0;
             Ok(Ranked {
-                token: ready[at].0.address.clone(),
-                recording: ready[at].0.name.clone(),
+                token: it.address.clone(),
+                recording: it.name.clone(),
+                recording_id: it.expression.recording,
+                milestones: it.expression.milestones,
+                recipe: carried(
+                    self.own.recording,
+                    &self.own.function,
+                    &self.own.milestones,
+                    self.start,
+                    &it.address,
+                ),
                 score,
                 parts: FaceScore::of(parts.map_err(|error| refused(&error))?, &channels),
             })
@@ -458,6 +482,7 @@ impl Asked<'_> {
         Ok(Choice {
             function: self.own.function.clone(),
             target: self.target.to_string(),
+            recording_id: self.own.recording,
             milestones: self.own.milestones,
             rank: if query.is_some() {
                 self.options.rank
@@ -500,6 +525,20 @@ impl Asked<'_> {
         }
         Ok((sum / f64::from(count.max(1)), made))
     }
+}
+
+/// Returns the recipe that carries the expression of `token` onto the milestones of a recording whose movement begins at
+/// `start` microseconds of its clock.
+fn carried(
+    recording: i64,
+    function: &Function,
+    milestones: &Milestones,
+    start: i64,
+    token: &str,
+) -> String {
+    let times = milestones.shifted(-start).times();
+    let times = times.map(|at| format!("{}s", at.seconds())).join(", ");
+    format!("recording:{recording} | nonmanual \"{function}\" from {token} over {times} by phases")
 }
 
 fn adapted(score: &PhasedScore) -> u64 {

@@ -1,9 +1,9 @@
-//! The turns of a head: pitch (down), yaw (to the signer's left) and roll (to the right), in radians.
+//! The turns of head and trunk: pitch (down), yaw (to the signer's left) and roll (to the right), in radians.
 
 use chereme_motion::glam::{DQuat, EulerRot};
 use chereme_motion::{Anatomy, Clip, Part};
 
-/// A head that turns less than this, in radians, was not captured.
+/// A part that turns less than this, in radians, was not captured.
 const STILL: f64 = 0.008;
 
 /// Returns the rotation in model space of these turns.
@@ -17,25 +17,46 @@ pub(crate) fn turns(rotation: DQuat) -> [f64; 3] {
     [pitch, yaw, roll]
 }
 
-/// Returns the turns of the head against the chest in each frame, from the skeleton's rest posture on; `None` if the
-/// skeleton has no head, or it never turns.
-pub(crate) fn of_clip(clip: &Clip, anatomy: &Anatomy) -> Option<Vec<[f64; 3]>> {
-    let head = anatomy.joint(Part::Head).or(anatomy.joint(Part::Neck))?;
-    let trunk = anatomy.joint(Part::Chest).or(anatomy.joint(Part::Spine));
-    let trunk = trunk.or(anatomy.joint(Part::Hips));
+/// The turns of head and trunk in each frame of a clip.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Turns {
+    /// Of the head against the chest; `None` if the skeleton has no head, or it never turns.
+    pub(crate) head: Option<Vec<[f64; 3]>>,
+    /// Of the chest against the hips; `None` if the skeleton has no chest, or it never turns.
+    pub(crate) trunk: Option<Vec<[f64; 3]>>,
+}
+
+/// Returns the turns of head and trunk in each frame, from the skeleton's rest posture on.
+pub(crate) fn of_clip(clip: &Clip, anatomy: &Anatomy) -> Turns {
+    let head = anatomy.joint(Part::Head).or(anatomy.joint(Part::Neck));
+    let chest = anatomy.joint(Part::Chest).or(anatomy.joint(Part::Spine));
+    let hips = anatomy.joint(Part::Hips);
     let rest = clip.skeleton().rest_model_pose();
-    let turned = |frame: usize| {
+    let (mut heads, mut trunks) = (Vec::new(), Vec::new());
+    for frame in 0..clip.frames() {
         let pose = clip.model_pose(frame);
         let from_rest = |joint: usize| pose.rotation(joint) * rest.rotation(joint).inverse();
-        let below = trunk.map_or(DQuat::IDENTITY, from_rest);
-        turns(below.inverse() * from_rest(head))
-    };
-    let all: Vec<[f64; 3]> = (0..clip.frames()).map(turned).collect();
-    let first = all.first()?;
-    let moves = all
-        .iter()
-        .any(|turn| turn.iter().zip(first).any(|(a, b)| (a - b).abs() > STILL));
-    moves.then_some(all)
+        let against = |own: usize, below: Option<usize>| {
+            turns(below.map_or(DQuat::IDENTITY, from_rest).inverse() * from_rest(own))
+        };
+        heads.extend(head.map(|own| against(own, chest.or(hips))));
+        trunks.extend(
+            chest
+                .filter(|own| Some(*own) != hips)
+                .map(|own| against(own, hips)),
+        );
+    }
+    Turns {
+        head: moving(heads),
+        trunk: moving(trunks),
+    }
+}
+
+/// Returns turns that are not the same throughout; those of a part that was not captured are.
+fn moving(all: Vec<[f64; 3]>) -> Option<Vec<[f64; 3]>> {
+    let first = *all.first()?;
+    let away = |turn: &[f64; 3]| turn.iter().zip(first).any(|(a, b)| (a - b).abs() > STILL);
+    all.iter().any(away).then_some(all)
 }
 
 #[cfg(test)]

@@ -3,27 +3,34 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`stage`] | a recording of a face alone as movement of the program's own body |
-//! | [`head`] | the turns of a head, from a skeleton or from the face's capture |
+//! | [`captured`] | the captured face of a recording: channels of a face system, or points on film |
+//! | [`fit`] | the weights of a mapping fitted to a signer |
+//! | [`head`] | the turns of head and trunk, from a skeleton or from the face's capture |
 //! | [`expressions`] | where expressions of a function are, with their milestones |
 //! | [`milestones`] | milestones derived from glosses and written as tiers |
 //! | [`performances`] | expressions as numbers at one rate, kept while the corpus does not change |
+//! | [`shelf`] | many performances kept in the corpus file, derived |
 //! | [`onsets`] | when non-manuals begin and end against the signs that they span |
 //! | [`propose`] | proposals for brows, lids, gaze, mouth and head |
 //! | [`choose`] | performances ranked for a sentence |
 
+mod captured;
 mod choose;
+#[cfg(test)]
+mod derived_tests;
 mod expressions;
+mod fit;
 mod head;
 mod milestones;
 mod onsets;
 mod performances;
 mod propose;
+mod shelf;
 pub(crate) mod stage;
 #[cfg(test)]
 mod tests;
 
-use chereme_compose::{Curve, NUMBER};
-use chereme_formats::faces::{System, View};
+use chereme_compose::Curve;
 use chereme_formats::{Finding, Severity};
 use chereme_motion::{Face, Instant, Span};
 use rusqlite::Connection;
@@ -31,13 +38,13 @@ use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, Address, Name};
-use crate::db::tracks::{self, TrackKind, TrackRow};
-use crate::db::upgrade::NONMANUALS;
 use crate::error::{Error, Result};
-use crate::track;
 
+pub(crate) use captured::{captured, captured_with};
 pub use choose::{Choice, ChooseOptions, FaceScore, Rank, Ranked, ScoredChannel};
 pub(crate) use expressions::at as expression_at;
+pub(crate) use fit::Fits;
+pub use fit::{FaceFit, FittedNumber};
 pub use milestones::{Expressions, FoundExpression, MilestoneOptions};
 pub use onsets::{OnsetRow, Onsets, Quartiles};
 pub use performances::{CHANNELS, FaceChannel};
@@ -61,6 +68,8 @@ pub struct FaceReport {
     pub numbers: Vec<FaceNumber>,
     /// How many frames had gaps that were bridged.
     pub bridged: u64,
+    /// The recording on whose take the weights were fitted; `None` if they are those of the mapping.
+    pub fitted_on: Option<String>,
     /// The losses of the mapping, and oddities of the capture.
     pub findings: Vec<FaceFinding>,
 }
@@ -150,6 +159,10 @@ impl Corpus {
             duration_us: captured.row.duration_us.unwrap_or_default(),
             numbers,
             bridged: view.bridged as u64,
+            fitted_on: match captured.fitted {
+                Some(id) => Some(address::recording(connection, &Name::Number(id))?.name),
+                None => None,
+            },
             findings: view.findings.into_iter().map(FaceFinding::from).collect(),
         })
     }
@@ -169,100 +182,15 @@ pub(crate) fn recording_of(connection: &Connection, address: &Address) -> Result
     })
 }
 
+/// Returns whether a recording has a captured face.
+pub(crate) fn has_face(connection: &Connection, recording: i64) -> Result<bool> {
+    Ok(captured(connection, recording, None)?.is_some())
+}
+
 fn no_face(recording: &str) -> Error {
     Error::wrong(format!("the recording {recording:?} has no captured face"))
         .at(recording)
         .advise("import its face file (Live Link CSV, OpenFace CSV, MediaPipe JSON, .fap) under the same name")
-}
-
-/// The captured face of a recording.
-pub(crate) struct Captured {
-    pub(crate) row: TrackRow,
-    pub(crate) times: chereme_motion::Times,
-    pub(crate) view: View,
-}
-
-/// Returns the captured face of a recording, whole or of the frames in a span of the recording's clock: the first track of
-/// curves that is of a face system. Curves that a recipe made do not count.
-pub(crate) fn captured(
-    connection: &Connection,
-    recording: i64,
-    span: Option<Span>,
-) -> Result<Option<Captured>> {
-    for row in tracks::tracks(connection, recording)? {
-        if row.kind != TrackKind::Curves || row.name == NONMANUALS {
-            continue;
-        }
-        let first = track::read::curves(connection, &row, Some(Span::default()));
-        let known = match first {
-            Ok(names) => System::of(&names),
-            Err(error) => return Err(error),
-        };
-        let Some(system) = known.filter(|system| !system.expressions) else {
-            continue;
-        };
-        let curves = track::read::curves(connection, &row, span)?;
-        return Ok(Some(Captured {
-            times: curves.times().clone(),
-            view: system.view(&curves),
-            row,
-        }));
-    }
-    Ok(None)
-}
-
-impl Captured {
-    /// Returns the face, the known numbers and the turns of the head at a moment of the recording's clock, blended between
-    /// frames; before the first frame and after the last one the nearest frame's.
-    pub(crate) fn at(&self, moment: Instant) -> (Face, Option<[f64; 3]>) {
-        let own = moment.shifted(-self.row.offset_us).seconds();
-        let last = self.view.faces.len().saturating_sub(1);
-        let at = match self.times.rate() {
-            Some(rate) => (own * rate.per_second()).clamp(0.0, last as f64),
-            None => self.listed(own, last),
-        };
-        let (first, share) = (at.floor() as usize, at.fract());
-        let second = (first + 1).min(last);
-        let face = match self.view.faces.get(first) {
-            Some(face) if share == 0.0 => *face,
-            Some(face) => face.towards(&self.view.faces[second], share),
-            None => Face::default(),
-        };
-        let head = self.view.head.as_ref().and_then(|all| {
-            let (a, b) = (all.get(first)?, all.get(second)?);
-            Some(std::array::from_fn(|n| a[n] + (b[n] - a[n]) * share))
-        });
-        (face, head)
-    }
-
-    fn listed(&self, seconds: f64, last: usize) -> f64 {
-        let at = |frame: usize| self.times.instant(frame).seconds();
-        let moment = Instant::from_seconds(seconds);
-        let first = self.times.frame_at(moment, last + 1).unwrap_or(0).min(last);
-        let second = (first + 1).min(last);
-        let share = (seconds - at(first)) / (at(second) - at(first));
-        first as f64
-            + if share.is_nan() {
-                0.0
-            } else {
-                share.clamp(0.0, 1.0)
-            }
-    }
-
-    /// Returns a curve for each number that the capture gives, at these moments of the recording's clock.
-    pub(crate) fn curves(&self, moments: impl Iterator<Item = Instant>) -> Vec<Curve> {
-        let faces: Vec<[f64; Face::LEN]> = moments.map(|at| self.at(at).0.numbers()).collect();
-        let known = Face::NAMES
-            .iter()
-            .enumerate()
-            .filter(|(n, _)| self.view.known[*n]);
-        known
-            .map(|(n, name)| Curve {
-                name: format!("{NUMBER}{name}"),
-                values: faces.iter().map(|numbers| numbers[n]).collect(),
-            })
-            .collect()
-    }
 }
 
 /// Returns a curve for each number of the captured face of a recording, at these moments of its clock; empty without one.
@@ -277,19 +205,5 @@ pub(crate) fn curves_at(
     const AROUND: i64 = 200_000;
     let span = Span::between(first.shifted(-AROUND), last.shifted(AROUND));
     let found = captured(connection, recording, Some(span))?;
-    Ok(match found {
-        // The times of an even track count from its first frame, which a part does not begin with.
-        Some(part) if part.times.rate().is_some() => {
-            let mut part = part;
-            let skipped = part.times.frames_in(
-                span.shifted(-part.row.offset_us),
-                usize::try_from(part.row.frames.unwrap_or_default()).unwrap_or(usize::MAX),
-            );
-            let moved = part.times.instant(skipped.start);
-            part.row.offset_us = part.row.offset_us.saturating_add(moved.micros());
-            part.curves(moments)
-        }
-        Some(part) => part.curves(moments),
-        None => Vec::new(),
-    })
+    Ok(found.map_or(Vec::new(), |face| face.curves(moments)))
 }

@@ -8,8 +8,8 @@ use chereme_motion::Instant;
 use chereme_sign::milestones::{EDGE, Function};
 use serde::Serialize;
 
-use super::expressions;
 use super::performances::{CHANNELS, numbers};
+use super::{Fits, expressions};
 use crate::Corpus;
 use crate::db::recordings;
 use crate::error::{Error, Result};
@@ -99,6 +99,7 @@ impl Corpus {
             rows: Vec::new(),
         };
         let channels: Vec<usize> = (0..CHANNELS.len()).collect();
+        let fits = Fits::of(connection)?;
         let all = recordings::recordings(connection)?;
         for (done, row) in all.iter().enumerate() {
             progress.tell(Step {
@@ -118,7 +119,7 @@ impl Corpus {
                 let moments: Vec<Instant> = (0..((to - from) * RATE) as usize)
                     .map(|n| Instant::from_seconds(from + n as f64 / RATE))
                     .collect();
-                let Some(columns) = numbers(connection, row.id, &moments, &channels)? else {
+                let Some(columns) = numbers(connection, row.id, &moments, &channels, &fits)? else {
                     report.without_face += 1;
                     continue;
                 };

@@ -1,16 +1,18 @@
 //! Expressions as numbers at one rate, cut into phases, kept while the corpus does not change.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use chereme_analysis::phases::Phased;
 use chereme_compose::faces;
 use chereme_motion::{Face, Instant, Span};
-use chereme_sign::milestones::Function;
+use chereme_sign::milestones::{Function, Milestones};
 use rusqlite::Connection;
 use serde::Serialize;
 
 use super::expressions::{self, Expression};
-use super::{captured, head};
+use super::head::{self, Turns};
+use super::{Fits, captured_with, shelf};
 use crate::curves;
 use crate::db::{history, recordings};
 use crate::error::{Error, Result};
@@ -19,22 +21,27 @@ use crate::progress::{Progress, Step, Unit};
 
 /// Frames a second at which performances are compared; the window of 10 frames is then a third of a second.
 pub(crate) const RATE: f64 = 30.0;
+/// The stretch that is read before and after the asked moments, in microseconds.
+const AROUND: i64 = 200_000;
 /// Performances with more frames than this are cut short of comparison.
 const LONGEST: usize = 3_600;
 
 /// A channel by which performances are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FaceChannel {
-    /// The name, one of [`Face::NAMES`], or `head_pitch`, `head_yaw`, `head_roll`.
+    /// The name, one of [`Face::NAMES`], `head_pitch`, `head_yaw`, `head_roll`, or the same of the `trunk`.
     pub name: &'static str,
-    /// What counts as 1: of head turns degrees, else a share of the usual reach.
+    /// What counts as 1: of turns degrees, else a share of the usual reach.
     pub counts_as_one: f64,
     /// Whether it is compared if nothing else is asked for.
     pub usual: bool,
 }
 
-/// The channels, those that the paper compares first: head, brows, and brows drawn together.
-pub const CHANNELS: [FaceChannel; 24] = {
+/// The turns of the trunk come after head and face.
+const TRUNK: usize = 3 + Face::LEN;
+
+/// The channels, those that the paper compares first: head, brows, and brows drawn together; the trunk comes last.
+pub const CHANNELS: [FaceChannel; 27] = {
     const fn channel(name: &'static str, counts_as_one: f64, usual: bool) -> FaceChannel {
         FaceChannel {
             name,
@@ -42,7 +49,7 @@ pub const CHANNELS: [FaceChannel; 24] = {
             usual,
         }
     }
-    let mut all = [channel("head_pitch", 10.0, true); 24];
+    let mut all = [channel("head_pitch", 10.0, true); 27];
     all[1] = channel("head_yaw", 10.0, true);
     all[2] = channel("head_roll", 10.0, true);
     let mut at = 0;
@@ -50,6 +57,9 @@ pub const CHANNELS: [FaceChannel; 24] = {
         all[at + 3] = channel(Face::NAMES[at], 0.25, at < 3);
         at += 1;
     }
+    all[TRUNK] = channel("trunk_pitch", 10.0, false);
+    all[TRUNK + 1] = channel("trunk_yaw", 10.0, false);
+    all[TRUNK + 2] = channel("trunk_roll", 10.0, false);
     all
 };
 
@@ -114,7 +124,18 @@ impl Pool {
         if self.newest == newest && newest.is_some() && self.key.as_ref() == Some(&key) {
             return Ok(Arc::clone(&self.all));
         }
+        if let Some(newest) = newest
+            && let Some(kept) = shelf::read(connection, function, channels, newest)
+        {
+            *self = Self {
+                newest: Some(newest),
+                key: Some(key),
+                all: Arc::new(kept),
+            };
+            return Ok(Arc::clone(&self.all));
+        }
         let mut all = Vec::new();
+        let fits = Fits::of(connection)?;
         let recordings = recordings::recordings(connection)?;
         for (done, row) in recordings.iter().enumerate() {
             if done % 64 == 0 {
@@ -128,8 +149,12 @@ impl Pool {
             let found = expressions::of_recording(connection, row.id, Some(function), None)?;
             for it in &found {
                 let address = super::milestones::address_of(it, &found);
-                all.extend(of_expression(connection, it, address, &row.name, channels)?);
+                let found = of_expression(connection, it, address, &row.name, channels, &fits)?;
+                all.extend(found);
             }
+        }
+        if let Some(newest) = newest {
+            shelf::write(connection, function, channels, (newest, &all));
         }
         *self = Self {
             newest,
@@ -140,6 +165,14 @@ impl Pool {
     }
 }
 
+/// Returns M1 to M5 in frames at [`RATE`] from M1 on; `None` if there is no frame, or too many.
+pub(super) fn cut(milestones: &Milestones) -> Option<[usize; 5]> {
+    let times = milestones.times();
+    let frame = |at: Instant| ((at.seconds() - times[0].seconds()) * RATE).round() as usize;
+    let marks = times.map(frame);
+    (1..=LONGEST).contains(&marks[4]).then_some(marks)
+}
+
 /// Returns an expression as numbers of channels; `None` if its recording shows no face and no head.
 pub(crate) fn of_expression(
     connection: &Connection,
@@ -147,19 +180,16 @@ pub(crate) fn of_expression(
     address: String,
     name: &str,
     channels: &[usize],
+    fits: &Fits,
 ) -> Result<Option<Performance>> {
-    let times = it.milestones.times();
-    let start = times[0];
-    let frame = |at: Instant| ((at.seconds() - start.seconds()) * RATE).round() as usize;
-    let marks = times.map(frame);
-    let frames = marks[4];
-    if frames == 0 || frames > LONGEST {
+    let Some(marks) = cut(&it.milestones) else {
         return Ok(None);
-    }
+    };
+    let (start, frames) = (it.milestones.times()[0], marks[4]);
     let moments: Vec<Instant> = (0..frames)
         .map(|n| Instant::from_seconds(start.seconds() + n as f64 / RATE))
         .collect();
-    let Some(numbers) = numbers(connection, it.recording, &moments, channels)? else {
+    let Some(numbers) = numbers(connection, it.recording, &moments, channels, fits)? else {
         return Ok(None);
     };
     Ok(Some(Performance {
@@ -172,82 +202,116 @@ pub(crate) fn of_expression(
     }))
 }
 
-/// Returns numbers of channels of a recording at moments of its clock: in degrees of the head, as they are of the face.
+/// Returns numbers of channels of a recording at moments of its clock: in degrees of head and trunk, as they are of the face.
 pub(crate) fn numbers(
     connection: &Connection,
     recording: i64,
     moments: &[Instant],
     channels: &[usize],
+    fits: &Fits,
 ) -> Result<Option<Vec<Option<Vec<f64>>>>> {
     let (Some(first), Some(last)) = (moments.first(), moments.last()) else {
         return Ok(None);
     };
-    let captured = captured(connection, recording, None)?;
+    let around = Span::between(first.shifted(-AROUND), last.shifted(AROUND));
+    // Whether a head was recorded at all shows in the whole capture only.
+    let captured = captured_with(connection, recording, None, fits)?;
     let body = match recordings::body_track(connection, recording)? {
         Some(_) => Some(Track::of(connection, recording)?),
         None => None,
     };
-    let needs_head = channels.iter().any(|at| *at < 3);
-    let mut turns: Option<Vec<[f64; 3]>> = None;
-    let mut made: Option<Vec<Face>> = None;
-    if let Some(track) = &body {
-        let around = Span::between(first.shifted(-100_000), last.shifted(100_000));
-        let frames = track.frames_in(around);
-        let nearest = |at: Instant| {
-            let own = at.shifted(-track.row.offset_us).seconds() * track.rate.per_second();
-            let last = frames.end.saturating_sub(1).max(frames.start);
-            (own.round().max(0.0) as usize).clamp(frames.start, last) - frames.start
-        };
-        if needs_head && !frames.is_empty() {
-            let clip = track.clip(
-                connection,
-                frames.clone(),
-                &[ChannelGroup::Head, ChannelGroup::Rest],
-            )?;
-            let all = head::of_clip(&clip, &track.anatomy(connection)?);
-            turns = all.map(|all| moments.iter().map(|at| all[nearest(*at)]).collect());
+    let mut turned = match &body {
+        Some(track) if channels.iter().any(|at| *at < 3 || *at >= TRUNK) => {
+            turns(connection, track, around, moments)?
         }
-        if captured.is_none() && !frames.is_empty() {
-            let whole = faces(&curves::of_track(connection, track, 0..track.frames())?);
-            let of = |at: &Instant| whole.get(nearest(*at) + frames.start).copied();
-            made = (!whole.is_empty()).then(|| {
-                moments
-                    .iter()
-                    .map(|at| of(at).unwrap_or_default())
-                    .collect()
-            });
-        }
-    }
+        _ => Turns::default(),
+    };
+    let made = match &body {
+        Some(track) if captured.is_none() => of_recipe(connection, track, around, moments)?,
+        _ => None,
+    };
     let seen: Option<Vec<_>> = captured
         .as_ref()
         .map(|face| moments.iter().map(|at| face.at(*at)).collect());
-    if turns.is_none()
-        && let Some(seen) = &seen
-    {
-        turns = seen.iter().map(|(_, head)| *head).collect();
+    if let Some(face) = &captured {
+        turned.head = turned.head.or_else(|| {
+            let seen = seen.as_ref()?;
+            seen.iter().map(|(_, head)| *head).collect()
+        });
+        turned.trunk = turned
+            .trunk
+            .or_else(|| moments.iter().map(|at| face.trunk_at(*at)).collect());
     }
-    if turns.is_none() && seen.is_none() && made.is_none() {
+    let shows = turned.head.is_some() || turned.trunk.is_some();
+    if !shows && seen.is_none() && made.is_none() {
         return Ok(None);
     }
+    let degrees = |turns: &Option<Vec<[f64; 3]>>, axis: usize| {
+        let all = turns.as_ref()?;
+        Some(all.iter().map(|turn| turn[axis].to_degrees()).collect())
+    };
     let column = |at: &usize| -> Option<Vec<f64>> {
-        let Some(number) = at.checked_sub(3) else {
-            return Some(
-                turns
-                    .as_ref()?
-                    .iter()
-                    .map(|turn| turn[*at].to_degrees())
-                    .collect(),
-            );
+        let number = match *at {
+            at @ 0..3 => return degrees(&turned.head, at),
+            at if at >= TRUNK => return degrees(&turned.trunk, at - TRUNK),
+            at => at - 3,
         };
         match (&captured, &seen, &made) {
-            (Some(face), Some(seen), _) if face.view.known[number] => Some(
-                seen.iter()
-                    .map(|(face, _)| face.numbers()[number])
-                    .collect(),
-            ),
+            (Some(face), Some(seen), _) if face.view.known[number] => {
+                let numbers = seen.iter().map(|(face, _)| face.numbers()[number]);
+                Some(numbers.collect())
+            }
             (None, _, Some(made)) => Some(made.iter().map(|face| face.numbers()[number]).collect()),
             _ => None,
         }
     };
     Ok(Some(channels.iter().map(column).collect()))
+}
+
+/// Returns the frame of a track that is nearest to a moment, among those in a span.
+fn nearest(track: &Track, frames: &Range<usize>, at: Instant) -> usize {
+    let own = at.shifted(-track.row.offset_us).seconds() * track.rate.per_second();
+    let last = frames.end.saturating_sub(1).max(frames.start);
+    (own.round().max(0.0) as usize).clamp(frames.start, last)
+}
+
+/// Returns the turns of head and trunk of a skeleton at moments.
+fn turns(
+    connection: &Connection,
+    track: &Track,
+    around: Span,
+    moments: &[Instant],
+) -> Result<Turns> {
+    let frames = track.frames_in(around);
+    if frames.is_empty() {
+        return Ok(Turns::default());
+    }
+    let groups = [ChannelGroup::Head, ChannelGroup::Rest];
+    let clip = track.clip(connection, frames.clone(), &groups)?;
+    let all = head::of_clip(&clip, &track.anatomy(connection)?);
+    let at_moments = |all: Vec<[f64; 3]>| {
+        let at = |at: &Instant| all[nearest(track, &frames, *at) - frames.start];
+        moments.iter().map(at).collect()
+    };
+    Ok(Turns {
+        head: all.head.map(at_moments),
+        trunk: all.trunk.map(at_moments),
+    })
+}
+
+/// Returns the face that a recipe made, at moments.
+fn of_recipe(
+    connection: &Connection,
+    track: &Track,
+    around: Span,
+    moments: &[Instant],
+) -> Result<Option<Vec<Face>>> {
+    let frames = track.frames_in(around);
+    if frames.is_empty() {
+        return Ok(None);
+    }
+    let whole = faces(&curves::of_track(connection, track, 0..track.frames())?);
+    let of = |at: &Instant| whole.get(nearest(track, &frames, *at)).copied();
+    let all = moments.iter().map(|at| of(at).unwrap_or_default());
+    Ok((!whole.is_empty()).then(|| all.collect()))
 }

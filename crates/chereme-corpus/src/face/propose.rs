@@ -8,7 +8,7 @@ use chereme_sign::{Component, TierRole};
 use serde::Serialize;
 
 use super::performances::{CHANNELS, numbers};
-use super::{no_face, recording_of};
+use super::{Fits, no_face, recording_of};
 use crate::Corpus;
 use crate::address::{self, Address, Name};
 use crate::annotate::{
@@ -72,7 +72,8 @@ impl Corpus {
             .map(|n| Instant::from_seconds(n as f64 / RATE))
             .collect();
         let channels: Vec<usize> = (0..CHANNELS.len()).collect();
-        let found = numbers(connection, recording, &moments, &channels)?;
+        let fits = Fits::of(connection)?;
+        let found = numbers(connection, recording, &moments, &channels, &fits)?;
         let columns = found.ok_or_else(|| no_face(&row.name))?;
         let head = |at: usize| columns[at].as_deref();
         let of = |name: &str| columns[Face::position(name)? + 3].as_deref();

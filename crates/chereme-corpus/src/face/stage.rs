@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use chereme_compose::{Curve, Material};
 use chereme_motion::glam::DQuat;
-use chereme_motion::{Clip, Part, Rate, Span};
+use chereme_motion::{Channel, Clip, Part, Rate, Span};
 use chereme_sign::Handedness;
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};
@@ -54,17 +54,17 @@ pub(crate) fn material(connection: &Connection, stretch: &Stretch) -> Result<Opt
             *places = vec![places[0]; frames.len()];
         }
     }
-    if let Some(joint) = body.anatomy.joint(Part::Head) {
-        let pose = body.clip.model_pose(0);
-        let parent = body.clip.skeleton().parent(joint);
-        let above = parent.map_or(DQuat::IDENTITY, |parent| pose.rotation(parent));
-        for (rotation, frame) in channels[joint].rotations.iter_mut().zip(frames.clone()) {
-            if let (_, Some(turned)) = face.at(moment(frame)) {
-                *rotation =
-                    (above.inverse() * head::rotation(turned) * pose.rotation(joint)).normalize();
-            }
-        }
-    }
+    let trunk = trunk_of(&body);
+    let leaning = |frame: usize| trunk.and_then(|_| face.trunk_at(moment(frame)));
+    let leans = frames
+        .clone()
+        .map(|frame| (leaning(frame), DQuat::IDENTITY));
+    turn(&mut channels, &body, trunk, leans);
+    let turns = frames.clone().map(|frame| {
+        let below = leaning(frame).map_or(DQuat::IDENTITY, head::rotation);
+        (face.at(moment(frame)).1, below)
+    });
+    turn(&mut channels, &body, body.anatomy.joint(Part::Head), turns);
     let clip = Clip::new(Arc::clone(body.clip.skeleton()), rate, channels);
     let clip = clip.map_err(|error| Error::wrong(error.to_string()))?;
     let curves: Vec<Curve> = face.curves(frames.clone().map(moment));
@@ -84,11 +84,12 @@ pub(crate) fn material(connection: &Connection, stretch: &Stretch) -> Result<Opt
         ),
     };
     let name = format!(
-        "face {} {frames:?} {} {} {}",
+        "face {} {frames:?} {} {} {} {:?}",
         motion::track_hash(connection, face.row.id)?,
         face.row.offset_us,
         face.view.system.id,
-        face.view.system.version
+        face.view.system.version,
+        face.fitted
     );
     Ok(Some(Material {
         address,
@@ -105,6 +106,33 @@ pub(crate) fn material(connection: &Connection, stretch: &Stretch) -> Result<Opt
         held: Vec::new(),
         curves,
     }))
+}
+
+/// Returns the joint by which the trunk leans: the lowest one above the hips.
+fn trunk_of(body: &Material) -> Option<usize> {
+    [Part::Spine, Part::Chest]
+        .into_iter()
+        .find_map(|part| body.anatomy.joint(part))
+        .filter(|joint| Some(*joint) != body.anatomy.joint(Part::Hips))
+}
+
+/// Turns a joint of the body in model space in each frame, on top of the turns of a joint below it.
+fn turn(
+    channels: &mut [Channel],
+    body: &Material,
+    joint: Option<usize>,
+    turns: impl Iterator<Item = (Option<[f64; 3]>, DQuat)>,
+) {
+    let Some(joint) = joint else { return };
+    let pose = body.clip.model_pose(0);
+    let parent = body.clip.skeleton().parent(joint);
+    let above = parent.map_or(DQuat::IDENTITY, |parent| pose.rotation(parent));
+    for (rotation, (turned, below)) in channels[joint].rotations.iter_mut().zip(turns) {
+        if let Some(turned) = turned {
+            let own = head::rotation(turned) * pose.rotation(joint);
+            *rotation = ((below * above).inverse() * own).normalize();
+        }
+    }
 }
 
 /// Returns a stretch of a recording of a face alone as movement to look at; `None` if the recording has a skeleton, or no

@@ -87,7 +87,7 @@ pub(super) static READERS: &[Reader] = &[
         read: captured::import_pose,
     },
     Reader {
-        endings: &["fap", "pbtxt"],
+        endings: &["fap", "pbtxt", "gesichter"],
         kind: "curves",
         holds: "faces",
         looks: always,

@@ -8,7 +8,7 @@ use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked};
 use super::plan::Plan;
 use crate::db::{recordings, signs};
-use crate::face::numbers_of;
+use crate::face::{Fits, numbers_of};
 
 /// Frames a second at which curves are looked at.
 const RATE: f64 = 50.0;
@@ -27,6 +27,7 @@ const PARTS: [(&str, &[&str]); 9] = [
     ("cheeks", &["cheek_puff_right", "cheek_puff_left"]),
 ];
 const HEAD: [&str; 3] = ["head_pitch", "head_yaw", "head_roll"];
+const TRUNK: [&str; 3] = ["trunk_pitch", "trunk_yaw", "trunk_roll"];
 
 /// Returns the plan for the tokens while which a curve passes as long as it is to.
 ///
@@ -36,6 +37,7 @@ pub(super) fn plan(ask: &Ask<'_>, test: &Test, wanted: &CurveTest) -> Asked<Plan
     let Some(channels) = channels(&wanted.name) else {
         return Err(unknown(test, &wanted.name).into());
     };
+    let fits = Fits::of(ask.connection)?;
     let mut found = Vec::new();
     for row in recordings::recordings(ask.connection)? {
         let tokens = signs::tokens_of_recording(ask.connection, row.id)?;
@@ -46,7 +48,7 @@ pub(super) fn plan(ask: &Ask<'_>, test: &Test, wanted: &CurveTest) -> Asked<Plan
         let moments: Vec<Instant> = (0..frames)
             .map(|n| Instant::from_seconds(n as f64 / RATE))
             .collect();
-        let Some(columns) = numbers_of(ask.connection, row.id, &moments, &channels)? else {
+        let Some(columns) = numbers_of(ask.connection, row.id, &moments, &channels, &fits)? else {
             continue;
         };
         let columns: Vec<Vec<f64>> = columns.into_iter().flatten().collect();
@@ -97,6 +99,9 @@ fn channels(name: &str) -> Option<Vec<usize>> {
     if let Some(at) = HEAD.iter().position(|own| *own == name) {
         return Some(vec![at]);
     }
+    if let Some(at) = TRUNK.iter().position(|own| *own == name) {
+        return Some(vec![at + HEAD.len() + Face::LEN]);
+    }
     if let Some(at) = Face::position(name) {
         return Some(vec![at + HEAD.len()]);
     }
@@ -109,7 +114,7 @@ fn channels(name: &str) -> Option<Vec<usize>> {
 
 fn unknown(test: &Test, name: &str) -> QueryError {
     let parts = PARTS.iter().map(|(part, _)| *part);
-    let known = || parts.clone().chain(HEAD).chain(Face::NAMES);
+    let known = || parts.clone().chain(HEAD).chain(TRUNK).chain(Face::NAMES);
     let all: Vec<&str> = known().collect();
     QueryError {
         at: test.subject_at.range(),
@@ -136,6 +141,7 @@ mod tests {
         assert_eq!(channels("head_yaw"), Some(vec![1]));
         assert_eq!(channels("brows"), Some(vec![3, 4]));
         assert_eq!(channels("jaw_open"), Some(vec![11]));
+        assert_eq!(channels("trunk_yaw"), Some(vec![25]));
         assert_eq!(channels("ears"), None);
     }
 }

@@ -11,13 +11,14 @@ use crate::tracks::rate_of;
 /// The number of parameters.
 const PARAMETERS: usize = 68;
 
-/// Returns whether a first line, in small letters, is that of a `.fap` file: version, name, rate, frames.
+/// Returns whether a first line, in small letters, is that of a `.fap` file: version, name (which may hold blanks), rate,
+/// frames.
 pub(super) fn is_header(line: &str) -> bool {
     let words: Vec<&str> = line.split_whitespace().collect();
-    words.len() == 4
-        && ["2.0", "2.1"].contains(&words[0])
-        && words[2].parse::<f64>().is_ok()
-        && words[3].parse::<u64>().is_ok()
+    let [version, _, .., rate, frames] = words.as_slice() else {
+        return false;
+    };
+    ["2.0", "2.1"].contains(version) && rate.parse::<f64>().is_ok() && frames.parse::<u64>().is_ok()
 }
 
 pub(super) fn read(text: &str) -> Result<Channels, Error> {
@@ -27,7 +28,7 @@ pub(super) fn read(text: &str) -> Result<Channels, Error> {
     let (_, head) = lines.next().ok_or(Error::Empty)?;
     let rate = head
         .split_whitespace()
-        .nth(2)
+        .nth_back(1)
         .and_then(|rate| rate.parse().ok());
     let rate = rate
         .and_then(rate_of)
@@ -39,7 +40,11 @@ pub(super) fn read(text: &str) -> Result<Channels, Error> {
     );
     channels.clock = Clock::Rate(rate);
     while let Some((line, masks)) = lines.next() {
-        let masks: Vec<&str> = masks.split_whitespace().collect();
+        let mut masks: Vec<&str> = masks.split_whitespace().collect();
+        // Some programs write a mask that means nothing behind the last parameter.
+        if masks.len() == PARAMETERS + 1 && masks.last() == Some(&"0") {
+            masks.pop();
+        }
         if masks.len() != PARAMETERS || masks.iter().any(|mask| !["0", "1"].contains(mask)) {
             return Err(Error::cell(
                 line,

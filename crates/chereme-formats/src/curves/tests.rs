@@ -165,3 +165,168 @@ fn faces_of_others_are_read_whole() {
     let open_face = open("cosanlab-py-feat/OpenFace_Test.csv");
     assert_eq!((open_face.curves().len(), open_face.frames()), (431, 100));
 }
+
+/// Returns packets of Live Link Face as the program LLV records them.
+fn packets(frames: &[(u32, [f32; 3])]) -> Vec<u8> {
+    let mut bytes = vec![6];
+    bytes.extend((frames.len() as u32).to_be_bytes());
+    for (frame, values) in frames {
+        let mut packet = vec![6];
+        for name in ["DEVICE", "subject"] {
+            packet.extend((name.len() as u32).to_be_bytes());
+            packet.extend(name.as_bytes());
+        }
+        packet.extend(frame.to_be_bytes());
+        packet.extend(0.5_f32.to_be_bytes());
+        packet.extend(60_u32.to_be_bytes());
+        packet.extend(1_u32.to_be_bytes());
+        packet.push(values.len() as u8);
+        values.iter().for_each(|it| packet.extend(it.to_be_bytes()));
+        bytes.extend((packet.len() as u32).to_be_bytes());
+        bytes.extend(packet);
+    }
+    bytes
+}
+
+fn frames(tracks: &Tracks) -> usize {
+    match &tracks.tracks[0].content {
+        Content::Curves(curves) => curves.frames(),
+        Content::Markers(markers) => markers.frames(),
+    }
+}
+
+#[test]
+fn packets_are_read_with_the_names_and_the_times_that_they_stand_for() {
+    let bytes = packets(&[
+        (100, [0.25, 0.1, 0.0]),
+        (101, [0.5, 0.2, 1.0]),
+        (103, [0.75, 0.3, 0.5]),
+    ]);
+    assert_eq!(Kind::of(&bytes), Some(Kind::Packets));
+    let (tracks, _) = read(&bytes).expect("packets");
+    let Content::Curves(curves) = &tracks.tracks[0].content else {
+        panic!("curves");
+    };
+    assert_eq!(
+        values(curves, "EyeBlinkLeft"),
+        [Some(0.25), Some(0.5), Some(0.75)]
+    );
+    assert_eq!(curves.times().rate(), None, "a packet is missing");
+    assert!((curves.times().instant(2).seconds() - 0.05).abs() < 1e-6);
+    let text = curves.curves()[1].values.text(0);
+    assert_eq!(
+        text.as_deref(),
+        Some("0.1"),
+        "the shortest decimal of a single"
+    );
+    let (cut, _) = read(&bytes[..bytes.len() - 5]).expect("what is whole");
+    assert_eq!(frames(&cut), 2);
+}
+
+#[test]
+fn hostile_faces_are_refused_or_read_and_fill_no_memory() {
+    let masks = ["1"; 68].join(" ");
+    let rows = "0.5,".repeat(70);
+    let deep = "[".repeat(20_000);
+    let texts = [
+        format!("2.1 a face with blanks 25 1\n{masks}\n0 {}\n", "9".repeat(5_000)),
+        "2.1 x 1e308 99999999999999999999\n".to_owned(),
+        "2.1 x NaN 1\n0\n".to_owned(),
+        format!("Timecode,BlendShapeCount,JawOpen\n99:99:99:99.999,61,{}\n", "1".repeat(9_000)),
+        "Timecode,BlendShapeCount,JawOpen\n00:00:00:00.0,61,1e999\n".to_owned(),
+        format!("Timecode,BlendShapeCount\n{rows}\n"),
+        "frame,timestamp,confidence,success\n1,1e300,1,1\n2,-1e300,1,1\n".to_owned(),
+        "frame,timestamp,confidence,success,face_id\n1,0,1,1,0\n2,0,1,1,7\n".to_owned(),
+        format!("{{\"faceBlendshapes\": {deep}"),
+        "[{\"categoryName\": \"a\", \"faceBlendshapes\": [{\"categories\": [{\"categoryName\": \"x\", \"score\": 1e400}]}]}]".to_owned(),
+        format!("classification {{\n score: {}\n label: x\n}}\n", "7".repeat(9_000)),
+    ];
+    for text in &texts {
+        let _ = read(text.as_bytes());
+    }
+    let whole = packets(&[(1, [0.0, f32::NAN, f32::INFINITY]), (0, [1.0; 3])]);
+    for cut in 0..whole.len() {
+        let _ = read(&whole[..cut]);
+    }
+    for at in 0..whole.len() {
+        for flip in [0xff, 0x80, 0x01] {
+            let mut damaged = whole.clone();
+            damaged[at] ^= flip;
+            let _ = read(&damaged);
+        }
+    }
+    let mut announced = whole.clone();
+    announced[1..5].fill(0xff);
+    let (tracks, _) = read(&announced).expect("as many packets as there are");
+    assert_eq!(frames(&tracks), 1, "the second is not later");
+    let gzip = [0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 0, 3, 0xff, 0xff];
+    assert!(read(&gzip).is_err());
+}
+
+#[test]
+fn names_with_blanks_and_a_mask_too_many_are_read() {
+    let masks = |on: usize| {
+        let bits = (1..=69).map(|at| if at == on { "1" } else { "0" });
+        bits.collect::<Vec<_>>().join(" ")
+    };
+    let text = format!("2.1 my own face 25 1\n{} \n0 120 \n", masks(31));
+    assert_eq!(values(&curves(&text).0, "FAP31"), [Some(120.0)]);
+    let odd = format!("2.1 face 25 1\n{}\n0 120\n", masks(69));
+    assert!(read(odd.as_bytes()).is_err(), "parameter 69 does not exist");
+}
+
+/// Every file of a face by other people: each number of the file comes back from the program's own table.
+#[test]
+fn faces_of_others_keep_every_number() {
+    let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let folder = std::path::Path::new(&folder).join("face");
+    let files = [
+        "alexdjulin-LiveLinkFace/alex_rom_4.csv",
+        "think-biq-LLV/dao_decoded.csv",
+        "think-biq-LLV/dao.gesichter",
+        "cosanlab-py-feat/OpenFace_Test.csv",
+        "google-ai-edge-mediapipe/portrait_expected_blendshapes.pbtxt",
+    ];
+    let open = |path: &str| {
+        let bytes = std::fs::read(folder.join(path)).expect("a file");
+        let (tracks, _) = read(&bytes).unwrap_or_else(|error| panic!("{path}: {error}"));
+        match tracks.tracks[0].content.clone() {
+            Content::Curves(curves) => curves,
+            Content::Markers(_) => panic!("curves"),
+        }
+    };
+    for path in files {
+        let before = open(path);
+        let text = write(&before, Instant::ZERO);
+        let (back, _, _) = curves(&text);
+        assert_eq!(back.curves().len(), before.curves().len(), "{path}");
+        for (a, b) in before.curves().iter().zip(back.curves()) {
+            let same = (0..before.frames()).all(|at| a.values.text(at) == b.values.text(at));
+            assert!(same, "{path}: {}", a.name);
+        }
+    }
+    // Others decoded the same numbers from the packets.
+    let (own, theirs) = (
+        open("think-biq-LLV/dao.gesichter"),
+        open("think-biq-LLV/dao_decoded.csv"),
+    );
+    assert_eq!((own.frames(), own.curves().len()), (180, 61));
+    for curve in own.curves() {
+        let other = theirs.curve(&curve.name).expect("the same channel");
+        for at in 0..own.frames() {
+            let (a, b) = (curve.values.value(at), other.values.value(at));
+            let off = (a.expect("a number") - b.expect("a number")).abs();
+            assert!(off < 1e-6, "{} at {at}: {a:?} {b:?}", curve.name);
+        }
+    }
+    let yaw = own.curve("HeadYaw").expect("a head");
+    let of = |choose: fn(f64, f64) -> f64| yaw.values.values().flatten().reduce(choose);
+    let (least, most) = (of(f64::min).expect("yaw"), of(f64::max).expect("yaw"));
+    assert!(
+        (least + 0.189).abs() < 1e-3 && (most - 0.310).abs() < 1e-3,
+        "{least} {most}"
+    );
+}

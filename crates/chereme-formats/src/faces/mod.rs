@@ -18,7 +18,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod fit;
 mod formula;
+mod mesh;
+#[cfg(test)]
+mod mesh_tests;
 #[cfg(test)]
 mod tests;
 
@@ -31,14 +35,18 @@ use serde::{Deserialize, Serialize};
 use crate::finding::{Finding, Severity};
 use formula::Formula;
 
+pub use fit::{Fit, Reach};
+pub use mesh::{FaceMesh, MEASURES, Measures};
+
 /// The files of systems, in the order in which a capture is compared with them.
-const FILES: [&str; 6] = [
+const FILES: [&str; 7] = [
     include_str!("../../../../schema/faces/house.json"),
     include_str!("../../../../schema/faces/mediapipe.json"),
     include_str!("../../../../schema/faces/arkit.json"),
     include_str!("../../../../schema/faces/openface.json"),
     include_str!("../../../../schema/faces/fap.json"),
     include_str!("../../../../schema/faces/sigml.json"),
+    include_str!("../../../../schema/faces/mesh.json"),
 ];
 
 /// A system of face parameters.
@@ -81,6 +89,9 @@ pub struct System {
     pub unknown: Vec<String>,
     /// The losses of the mapping.
     pub loses: Vec<Loss>,
+    /// The least value of channels at which a frame counts; in other frames no face was found.
+    #[serde(default)]
+    sure: BTreeMap<String, f64>,
     /// Pairs of channels that move together; a capture in which they do not has its sides exchanged.
     #[serde(default)]
     agree: Vec<[String; 2]>,
@@ -147,7 +158,13 @@ impl System {
     /// Returns the system that a track of curves is of; `None` if it is no face.
     #[must_use]
     pub fn of(curves: &Curves) -> Option<&'static Self> {
-        let names: Vec<String> = curves.curves().iter().map(|it| plain(&it.name)).collect();
+        Self::of_names(curves.curves().iter().map(|it| it.name.as_str()))
+    }
+
+    /// Returns the system that channels of these names are of; `None` if they are of no face.
+    #[must_use]
+    pub fn of_names<'a>(names: impl Iterator<Item = &'a str>) -> Option<&'static Self> {
+        let names: Vec<String> = names.map(plain).collect();
         let has = |name: &String| names.contains(&plain(name));
         Self::all().iter().find(|system| {
             let alias = |name: &String| {
@@ -165,6 +182,7 @@ impl System {
         let mut bridged = vec![false; curves.frames()];
         let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
         let counted = self.counted();
+        let unsure = self.unsure(curves);
         for curve in curves.curves() {
             let name = plain(&curve.name);
             let known = self.aliases.iter().find(|(alias, _)| plain(alias) == name);
@@ -173,6 +191,13 @@ impl System {
                 continue;
             }
             let mut values: Vec<Option<f64>> = curve.values.values().collect();
+            for (value, _) in values
+                .iter_mut()
+                .zip(&unsure)
+                .filter(|(_, unsure)| **unsure)
+            {
+                *value = None;
+            }
             for (gap, value) in bridged.iter_mut().zip(&values) {
                 *gap |= value.is_none();
             }
@@ -218,6 +243,20 @@ impl System {
             bridged: bridged.into_iter().filter(|gap| *gap).count(),
             findings,
         }
+    }
+
+    /// Returns for each frame whether the capture found no face in it.
+    fn unsure(&self, curves: &Curves) -> Vec<bool> {
+        let mut unsure = vec![false; curves.frames()];
+        for curve in curves.curves() {
+            let name = plain(&curve.name);
+            let least = self.sure.iter().find(|(known, _)| plain(known) == name);
+            let Some((_, least)) = least else { continue };
+            for (unsure, value) in unsure.iter_mut().zip(curve.values.values()) {
+                *unsure |= value.is_some_and(|value| value < *least);
+            }
+        }
+        unsure
     }
 
     /// Returns what the mapping loses of a capture that gives these numbers.

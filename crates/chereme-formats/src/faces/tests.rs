@@ -27,7 +27,15 @@ fn every_system_is_whole() {
     let ids: Vec<&str> = System::all().iter().map(|it| it.id.as_str()).collect();
     assert_eq!(
         ids,
-        ["house", "mediapipe", "arkit", "openface", "fap", "sigml"]
+        [
+            "house",
+            "mediapipe",
+            "arkit",
+            "openface",
+            "fap",
+            "sigml",
+            "mesh"
+        ]
     );
     for system in System::all() {
         let id = &system.id;

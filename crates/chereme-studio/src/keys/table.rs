@@ -191,6 +191,7 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::ShowFilm, ["Shift+F5", "=", "="]),
     (Action::ShowMap, ["Ctrl+Alt+K", "=", "="]),
     (Action::ShowCue, ["Ctrl+Alt+L", "=", "="]),
+    (Action::ShowFaces, ["Ctrl+Alt+V", "=", "="]),
     (Action::ShowHistory, ["Ctrl+H", "=", "="]),
     (Action::OnlyPane, ["F11", "=", "="]),
     (Action::OnlyAnnotating, ["Shift+F11", "=", "="]),

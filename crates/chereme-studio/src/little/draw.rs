@@ -313,6 +313,7 @@ impl Hand {
         let view = match focus {
             Focus::Signing => View::Addressee,
             Focus::Hand(side) => View::Hand(side),
+            Focus::Face => View::Face,
         };
         let aspect = size[0] as f32 / size[1] as f32;
         let camera = ready.framing.camera(view, aspect, pose, &ready.anatomy);

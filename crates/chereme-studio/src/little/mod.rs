@@ -50,6 +50,8 @@ pub(crate) enum Focus {
     /// A hand from near, followed.
     #[allow(dead_code, reason = "for results found by their handshape")]
     Hand(Side),
+    /// The face from near, followed.
+    Face,
 }
 
 /// A place for a little figure.

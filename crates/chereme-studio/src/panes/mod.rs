@@ -8,6 +8,7 @@ pub(crate) mod carry;
 pub(crate) mod combo;
 pub(crate) mod complete;
 pub(crate) mod cue;
+pub(crate) mod faces;
 pub(crate) mod film;
 pub(crate) mod history;
 pub(crate) mod import;
@@ -39,6 +40,7 @@ pub(crate) enum PaneKind {
     Library,
     Map,
     Cue,
+    Faces,
     Stage,
     Timeline,
     Search,
@@ -50,10 +52,11 @@ pub(crate) enum PaneKind {
 }
 
 impl PaneKind {
-    pub(crate) const ALL: [Self; 11] = [
+    pub(crate) const ALL: [Self; 12] = [
         Self::Library,
         Self::Map,
         Self::Cue,
+        Self::Faces,
         Self::Stage,
         Self::Timeline,
         Self::Search,
@@ -69,6 +72,7 @@ impl PaneKind {
             Self::Library => words::library::TITLE,
             Self::Map => words::map::TITLE,
             Self::Cue => words::cue::TITLE,
+            Self::Faces => words::faces::TITLE,
             Self::Stage => words::stage::TITLE,
             Self::Timeline => words::timeline::TITLE,
             Self::Search => words::search::TITLE,
@@ -125,6 +129,7 @@ pub(crate) struct Panes {
     pub(crate) library: library::Library,
     pub(crate) map: map::Map,
     pub(crate) cue: cue::CuePane,
+    pub(crate) faces: faces::Faces,
     pub(crate) stage: stage::Stage,
     pub(crate) timeline: timeline::Timeline,
     pub(crate) search: search::Search,
@@ -141,6 +146,7 @@ impl Panes {
             PaneKind::Library => &mut self.library,
             PaneKind::Map => &mut self.map,
             PaneKind::Cue => &mut self.cue,
+            PaneKind::Faces => &mut self.faces,
             PaneKind::Stage => &mut self.stage,
             PaneKind::Timeline => &mut self.timeline,
             PaneKind::Search => &mut self.search,

@@ -191,6 +191,7 @@ texts! {
     FILM_FORWARD: "One film frame forward", "Avancer d’une image du film";
     SHOW_MAP: "Show the map of signs", "Afficher la carte des signes";
     SHOW_CUE: "Cued speech", "Langue parlée complétée";
+    SHOW_FACES: "Show the faces", "Afficher les visages";
     SHOW_HISTORY: "Show the history", "Afficher l’historique";
     SHOW_IMPORT: "Import…", "Importer…";
     EXPORT: "Export…", "Exporter…";

@@ -24,6 +24,7 @@ macro_rules! texts {
 pub(crate) mod actions;
 pub(crate) mod cue;
 pub(crate) mod export;
+pub(crate) mod faces;
 pub(crate) mod film;
 pub(crate) mod gestures;
 pub(crate) mod hamnosys;
@@ -48,6 +49,7 @@ mod tests {
         actions::ALL,
         cue::ALL,
         export::ALL,
+        faces::ALL,
         film::ALL,
         hamnosys::ALL,
         import::ALL,

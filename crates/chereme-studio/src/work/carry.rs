@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, ChannelGroup, Corpus, CuedOptions, Details, ExportWhat, MadePart, MapOptions, Moving,
-    Name, Performance, Progress, Result, SearchOptions, Step, Unit, draw_clip,
+    Address, ChannelGroup, Corpus, CuedOptions, Details, ExportWhat, MadePart, MapOptions,
+    MilestoneOptions, Moving, Name, Performance, Progress, Result, SearchOptions, Step, Unit,
+    draw_clip,
 };
 
 use super::{Outcome, Shared, Work};
@@ -99,6 +100,35 @@ pub(super) fn carry(
             let name = Name::Number(recording);
             Outcome::CueSlips(Box::new(corpus.cue_slips(&name, None, false, &options)?))
         }
+        Work::Expressions => {
+            let options = MilestoneOptions {
+                dry_run: true,
+                ..MilestoneOptions::default()
+            };
+            Outcome::Expressions(Arc::new(corpus.milestones(&options, progress)?))
+        }
+        Work::Milestones(function) => {
+            let options = MilestoneOptions {
+                function: Some(function),
+                ..MilestoneOptions::default()
+            };
+            corpus
+                .milestones(&options, progress)
+                .map(|_| Outcome::Changed)?
+        }
+        Work::ChooseFace {
+            function,
+            target,
+            options,
+        } => Outcome::Chosen(Arc::new(
+            corpus.choose(&function, &target, &options, progress)?,
+        )),
+        Work::Onsets(function) => {
+            Outcome::Onsets(Arc::new(corpus.onsets(function.as_ref(), progress)?))
+        }
+        Work::ProposeNonmanuals(address) => corpus
+            .propose_nonmanuals(&address, true, progress)
+            .map(|_| Outcome::Changed)?,
         Work::Preview(recipe) => Outcome::Previewed(Arc::new(corpus.preview(&recipe)?)),
         Work::Draft { recipe, anew } => {
             Outcome::Previewed(Arc::new(corpus.draft(&recipe, anew, progress)?))

@@ -13,11 +13,12 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
-    Copied, CueSlips, Curves, Decision, Details, Error, ExportOptions, ExportReport, ExportWhat,
-    ImportOptions, ImportReport, KeptSearch, MadePart, MediaChange, MergeReport, Moving, Name,
-    NewTier, OperationRow, Picture, PictureOptions, PointsPiece, ProposeOptions, Proposed,
-    Recombination, RecordingChange, Scheme, SearchOptions, SignChange, SignMap, SignerChange,
-    Suggestions, TierChange, TierName, TrackChange, Unit,
+    Choice, ChooseOptions, Copied, CueSlips, Curves, Decision, Details, Error, ExportOptions,
+    ExportReport, ExportWhat, Expressions, Function, ImportOptions, ImportReport, KeptSearch,
+    MadePart, MediaChange, MergeReport, Moving, Name, NewTier, Onsets, OperationRow, Picture,
+    PictureOptions, PointsPiece, ProposeOptions, Proposed, Recombination, RecordingChange, Scheme,
+    SearchOptions, SignChange, SignMap, SignerChange, Suggestions, TierChange, TierName,
+    TrackChange, Unit,
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
@@ -118,6 +119,23 @@ pub(crate) enum Work {
     Map(Vec<Component>),
     /// Compares the keys of a recording with those that its phones predict by the code of that name.
     CueSlips(i64, String),
+    /// Finds the expressions of faces, with their milestones.
+    Expressions,
+    /// Writes the milestones of every expression of a function onto tiers.
+    Milestones(Function),
+    /// Ranks the performances of a function for a sentence.
+    ChooseFace {
+        /// The function.
+        function: Function,
+        /// The sentence.
+        target: Address,
+        /// How they are compared.
+        options: Box<ChooseOptions>,
+    },
+    /// Measures when non-manuals begin and end, of a function or of all.
+    Onsets(Option<Function>),
+    /// Writes what the face of a recording seems to do onto tiers of proposals.
+    ProposeNonmanuals(Address),
     /// Makes the movement of a recipe and stores nothing.
     Preview(String),
     /// Makes the movement of the recipe that is worked on, of what changed in it.
@@ -204,6 +222,12 @@ pub(crate) enum Outcome {
     Mapped(Arc<SignMap>),
     /// The slips of a take.
     CueSlips(Box<CueSlips>),
+    /// The expressions of faces.
+    Expressions(Arc<Expressions>),
+    /// Performances were ranked.
+    Chosen(Arc<Choice>),
+    /// Begin and end of non-manuals were measured.
+    Onsets(Arc<Onsets>),
     /// Movement was made.
     Previewed(Arc<Recombination>),
     /// What could be made.
@@ -312,12 +336,17 @@ impl Work {
             | Self::Propose(_)
             | Self::ProposeIn(_)
             | Self::Accept(_)
+            | Self::Milestones(_)
+            | Self::ProposeNonmanuals(_)
             | Self::Undo
             | Self::Redo => Lane::Edit,
             Self::Search(..)
             | Self::Around(..)
             | Self::Map(_)
             | Self::CueSlips(..)
+            | Self::Expressions
+            | Self::ChooseFace { .. }
+            | Self::Onsets(_)
             | Self::Suggest(_)
             | Self::Look(_)
             | Self::Paths(_) => Lane::Ask,
@@ -339,11 +368,16 @@ impl Work {
             Self::Import(..) => shell::TASK_IMPORT,
             Self::Merge(_) => shell::TASK_MERGE,
             Self::Check { .. } => shell::TASK_CHECK,
-            Self::Propose(_) | Self::ProposeIn(_) => shell::TASK_PROPOSE,
+            Self::Propose(_) | Self::ProposeIn(_) | Self::ProposeNonmanuals(_) => {
+                shell::TASK_PROPOSE
+            }
             Self::Search(..)
             | Self::Around(..)
             | Self::Map(_)
             | Self::CueSlips(..)
+            | Self::Expressions
+            | Self::ChooseFace { .. }
+            | Self::Onsets(_)
             | Self::Suggest(_)
             | Self::Look(_)
             | Self::Paths(_) => shell::TASK_SEARCH,
@@ -379,6 +413,9 @@ impl Work {
                 | Self::Around(..)
                 | Self::Map(_)
                 | Self::CueSlips(..)
+                | Self::Expressions
+                | Self::ChooseFace { .. }
+                | Self::Onsets(_)
         )
     }
 

@@ -1,0 +1,280 @@
+//! Faces that are derived: weights fitted to a signer, trunks that lean, points on film.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use chereme_formats::table::annotations::Moment;
+use chereme_motion::{Instant, Part};
+use chereme_sign::TierRole;
+
+use crate::address::{Address, Name};
+use crate::annotate::{AnnotateOptions, AnnotationAction, NewTier, TierName};
+use crate::edit::RecordingChange;
+use crate::{
+    ChooseOptions, Corpus, ImportOptions, PictureOptions, Progress, SearchOptions, unheard,
+};
+
+fn import(corpus: &mut Corpus, path: &Path) {
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let report = corpus.import(&[path.to_path_buf()], &ImportOptions::default(), progress);
+    let report = report.expect("imported");
+    assert!(report.files[0].recording.is_some(), "{report:?}");
+}
+
+fn recording(name: &str) -> Address {
+    Address::Recording(Name::Text(name.to_owned()))
+}
+
+fn add(corpus: &mut Corpus, name: &str, tier: &str, role: TierRole, spans: &[(&str, i64, i64)]) {
+    let of = Name::Text(name.to_owned());
+    corpus
+        .add_tier(&NewTier::new(of.clone(), tier, role))
+        .expect("a tier");
+    let time = |millis| Some(Moment::Time(Instant::from_millis(millis)));
+    let add = |(value, start, end): &(&str, i64, i64)| {
+        AnnotationAction::Add {
+            tier: TierName::Of {
+                recording: of.clone(),
+                tier: tier.to_owned(),
+            },
+            start: time(*start),
+            end: time(*end),
+            parent: None,
+            order: None,
+            value: (*value).to_owned(),
+            confidence: None,
+        }
+        .into()
+    };
+    let changes: Vec<_> = spans.iter().map(add).collect();
+    let mut hear = unheard;
+    corpus
+        .annotate(
+            &changes,
+            &AnnotateOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("annotated");
+}
+
+/// Writes a face whose brows go up to `most` and whose eyes stay.
+fn write_brows(path: &Path, most: f64) {
+    let mut text = String::from("time [s],brow_raise_right,brow_raise_left,jaw_open,head_yaw\n");
+    for frame in 0..120 {
+        let up = if (40..70).contains(&frame) { most } else { 0.0 };
+        let at = f64::from(frame) / 60.0;
+        writeln!(text, "{at:.6},{up},{up},0,0").expect("text");
+    }
+    std::fs::write(path, text).expect("written");
+}
+
+#[test]
+fn weights_fitted_on_one_take_are_those_of_all_faces_of_the_signer_and_undo_takes_them_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+    for (name, most) in [("rom", 0.4), ("W1", 0.2), ("other", 0.2)] {
+        let path = folder.path().join(format!("{name}.csv"));
+        write_brows(&path, most);
+        import(&mut corpus, &path);
+        if name != "other" {
+            let change = RecordingChange {
+                signer: Some(Some("Zoé".to_owned())),
+                ..RecordingChange::default()
+            };
+            corpus
+                .change_recording(&Name::Text(name.into()), &change)
+                .expect("a signer");
+        }
+    }
+    let brows = |corpus: &Corpus, name: &str| {
+        let face = corpus.face(&recording(name)).expect("a face");
+        let number = face.numbers.iter().find(|it| it.name == "brow_raise_left");
+        (
+            number.and_then(|it| it.most).expect("known"),
+            face.fitted_on,
+        )
+    };
+    let tried = corpus.fit_face(&recording("rom"), false).expect("fitted");
+    assert!(
+        !tried.stored
+            && tried
+                .findings
+                .iter()
+                .any(|it| it.message.contains("jaw_open"))
+    );
+    assert_eq!(brows(&corpus, "W1"), (0.2, None));
+    let fit = corpus.fit_face(&recording("rom"), true).expect("fitted");
+    assert_eq!((fit.signer.as_deref(), fit.stored), (Some("Zoé"), true));
+    let brow = fit.numbers.iter().find(|it| it.name == "brow_raise_left");
+    assert_eq!(
+        brow.map(|it| (it.rest, it.up, it.down)),
+        Some((0.0, 2.5, 1.0))
+    );
+    assert_eq!(brows(&corpus, "W1"), (0.5, Some("rom".to_owned())));
+    assert_eq!(brows(&corpus, "rom").0, 1.0);
+    assert_eq!(brows(&corpus, "other"), (0.2, None), "of no signer");
+    let mut hear = unheard;
+    let report = corpus
+        .check(false, &mut Progress::new(&mut hear))
+        .expect("checked");
+    assert!(report.faults.is_empty(), "{report:?}");
+    corpus.undo().expect("undone");
+    assert_eq!(brows(&corpus, "W1"), (0.2, None));
+}
+
+/// Writes a capture of OpenFace whose head comes forward by 0.2 m in the middle, and that loses the face for a frame.
+fn write_open_face(path: &Path) {
+    let mut text = String::from(
+        "frame,timestamp,confidence,success,gaze_angle_x,gaze_angle_y,pose_Tx,pose_Ty,pose_Tz,pose_Rx,pose_Ry,pose_Rz,\
+         AU01_r,AU02_r,AU04_r,AU05_r,AU07_r,AU12_r,AU15_r,AU45_r\n",
+    );
+    for frame in 0..90 {
+        let near = if (30..60).contains(&frame) { 500 } else { 700 };
+        let (sure, found, up) = if frame == 5 {
+            (0.1, 0, 5.0)
+        } else {
+            (0.98, 1, 0.0)
+        };
+        let at = f64::from(frame) / 30.0;
+        writeln!(
+            text,
+            "{frame},{at:.3},{sure},{found},0,0,0,0,{near},0.05,0,0,{up},{up},0,0,0,0,0,0"
+        )
+        .expect("text");
+    }
+    std::fs::write(path, text).expect("written");
+}
+
+#[test]
+fn a_head_that_comes_forward_leans_the_trunk_and_lost_faces_count_as_gaps() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+    let path = folder.path().join("lean.csv");
+    write_open_face(&path);
+    import(&mut corpus, &path);
+    add(
+        &mut corpus,
+        "lean",
+        "gloss",
+        TierRole::Gloss,
+        &[("VOR", 1_200, 1_800), ("HINTEN", 2_200, 2_900)],
+    );
+    let face = corpus.face(&recording("lean")).expect("a face");
+    assert_eq!((face.system.as_str(), face.bridged), ("openface", 1));
+    let brow = face.numbers.iter().find(|it| it.name == "brow_raise_left");
+    assert_eq!(
+        brow.and_then(|it| it.most),
+        Some(0.0),
+        "the lost frame does not count"
+    );
+    let answer = corpus.search("nonmanual.trunk_pitch>5", &SearchOptions::default());
+    let hits = answer.expect("answered").hits;
+    assert_eq!(
+        hits.iter().map(|it| it.gloss.as_str()).collect::<Vec<_>>(),
+        ["VOR"]
+    );
+    let moving = corpus.movement(&recording("lean")).expect("movement");
+    let head = moving.anatomy.joint(Part::Head).expect("a head");
+    let at = |frame: usize| moving.clip.model_pose(frame);
+    let forward = at(45).position(head).z - at(80).position(head).z;
+    assert!(forward > 0.05, "the head comes forward by {forward} m");
+    let turned = at(45).rotation(head).angle_between(at(80).rotation(head));
+    assert!(turned < 1e-3, "and does not nod with the trunk: {turned}");
+}
+
+/// Points on film by other people are faces: they are shown, proposed, cut by milestones and scored.
+#[test]
+fn points_on_film_are_faces_for_every_use() {
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let data = Path::new(&data).join("motion/pose/sign-language-processing-pose");
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+    let names = ["mediapipe", "84322c38ff23406f222641da30d0a49b"];
+    for name in names {
+        import(&mut corpus, &data.join(format!("{name}.pose")));
+        add(
+            &mut corpus,
+            name,
+            "gloss",
+            TierRole::Gloss,
+            &[("A", 300, 700), ("B", 800, 1_200)],
+        );
+        add(
+            &mut corpus,
+            name,
+            "function",
+            TierRole::Free,
+            &[("wh", 300, 1_200)],
+        );
+    }
+    let face = corpus.face(&recording(names[0])).expect("a face");
+    assert_eq!((face.system.as_str(), face.frames), ("mesh", 170));
+    assert!(
+        face.findings
+            .iter()
+            .any(|it| it.message.contains("estimated from points"))
+    );
+    let moving = corpus.movement(&recording(names[0])).expect("movement");
+    assert!(
+        moving.faces.iter().any(|face| face.jaw > 0.3),
+        "the mouth opens"
+    );
+    let options = ChooseOptions::default();
+    let of = |a: &str, b: &str| {
+        let both = [&recording(a), &recording(b)];
+        corpus.score_faces(both, None, &options).expect("scored")
+    };
+    assert_eq!(of(names[0], names[0]).stretched, 0.0);
+    assert!(of(names[0], names[1]).stretched > 0.1);
+    let fault = corpus
+        .fit_face(&recording(names[0]), true)
+        .expect_err("points");
+    assert!(fault.to_string().contains("points on film"), "{fault}");
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    for name in names {
+        let found = corpus.propose_nonmanuals(&recording(name), false, progress);
+        let found = found.expect("looked at").proposals;
+        assert!(!found.is_empty(), "{name}");
+        eprintln!(
+            "{name}: {:?}",
+            found.iter().map(|it| &it.value).collect::<Vec<_>>()
+        );
+    }
+}
+
+#[test]
+fn the_face_stands_next_to_the_signer_in_sheets_and_animations_by_option() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+    let path = folder.path().join("W1.csv");
+    write_brows(&path, 0.8);
+    import(&mut corpus, &path);
+    let mut draw = |name: &str, face: bool| {
+        let to = folder.path().join(name);
+        let options = PictureOptions {
+            frames: 2,
+            hands: false,
+            face,
+            height: Some(64),
+            speed: 10.0,
+            force: true,
+            ..PictureOptions::default()
+        };
+        let mut hear = unheard;
+        let progress = &mut Progress::new(&mut hear);
+        corpus
+            .draw(&recording("W1"), &to, &options, progress)
+            .expect("drawn");
+        std::fs::read(&to).expect("read")
+    };
+    let height = |png: &[u8]| u32::from_be_bytes(png[20..24].try_into().expect("four bytes"));
+    let width = |gif: &[u8]| u16::from_le_bytes(gif[6..8].try_into().expect("two bytes"));
+    assert!(height(&draw("b.png", true)) >= height(&draw("a.png", false)) + 60);
+    assert!(width(&draw("b.gif", true)) >= width(&draw("a.gif", false)) + 55);
+    assert_ne!(draw("b.mp4", true), draw("a.mp4", false));
+}

@@ -1,0 +1,136 @@
+//! The weights of a mapping fitted to a person, from a take in which the face goes as far as it can.
+
+use std::collections::BTreeMap;
+
+use chereme_motion::Face;
+use serde::{Deserialize, Serialize};
+
+use super::View;
+
+/// A number that never goes farther than this from its rest in the take keeps its weights: it was not tried out.
+const LEAST: f64 = 0.15;
+/// The greatest factor by which weights grow.
+const MOST: f64 = 4.0;
+/// A frame counts as active where a number goes farther than this share of its way.
+const ACTIVE: f64 = 0.25;
+/// The share of active frames that stay below what counts as 1.
+const REACH: f64 = 0.95;
+
+/// How the numbers of one person's face are taken: each counts from that person's rest, and is 1 where that person's
+/// usually goes no farther.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fit {
+    /// The short name of the system, such as `arkit`.
+    pub system: String,
+    /// The version of the mapping whose weights these factors belong to.
+    pub version: u32,
+    /// The frames of the take.
+    pub frames: usize,
+    /// For numbers of a [`Face`] by their names.
+    pub numbers: BTreeMap<String, Reach>,
+}
+
+/// The rest of a number, and how far it goes from there.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Reach {
+    /// The median.
+    pub rest: f64,
+    /// How far above it the number usually goes no farther; `None` if the take never went there.
+    pub up: Option<f64>,
+    /// The same below it.
+    pub down: Option<f64>,
+}
+
+impl Reach {
+    fn of(values: &[f64], position: usize) -> Option<Self> {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let rest = *sorted.get(sorted.len() / 2)?;
+        let far = |sign: f64| {
+            let mut way: Vec<f64> = values.iter().map(|it| sign * (it - rest)).collect();
+            let most = way.iter().copied().fold(0.0, f64::max);
+            if most < LEAST {
+                return None;
+            }
+            way.retain(|it| *it >= ACTIVE * most);
+            way.sort_by(f64::total_cmp);
+            let at = (REACH * (way.len() - 1) as f64).round() as usize;
+            Some(way[at].max(1.0 / MOST))
+        };
+        let opposite = Face::least(position) < 0.0;
+        Some(Self {
+            rest,
+            up: far(1.0),
+            down: far(-1.0).filter(|_| opposite),
+        })
+    }
+
+    /// Returns the factors by which the weights of the number grow, above and below its rest.
+    #[must_use]
+    pub fn factors(&self) -> [f64; 2] {
+        [self.up, self.down].map(|far| far.map_or(1.0, |far| 1.0 / far))
+    }
+
+    fn apply(&self, value: f64) -> f64 {
+        let [up, down] = self.factors();
+        let way = value - self.rest;
+        way * if way >= 0.0 { up } else { down }
+    }
+}
+
+impl Fit {
+    /// Returns the fit of a take; numbers that its capture does not give are left out. `None` without a frame.
+    #[must_use]
+    pub fn of(view: &View) -> Option<Self> {
+        if view.faces.is_empty() || view.system.expressions {
+            return None;
+        }
+        let mut numbers = BTreeMap::new();
+        for (position, name) in Face::NAMES.into_iter().enumerate() {
+            if let Some(values) = view.value(name)
+                && let Some(reach) = Reach::of(&values, position)
+            {
+                numbers.insert(name.to_owned(), reach);
+            }
+        }
+        Some(Self {
+            system: view.system.id.clone(),
+            version: view.system.version,
+            frames: view.faces.len(),
+            numbers,
+        })
+    }
+
+    /// Returns whether it is for views of this kind.
+    #[must_use]
+    pub fn suits(&self, view: &View) -> bool {
+        self.system == view.system.id && self.version == view.system.version
+    }
+
+    /// Takes the numbers of a view by this fit.
+    pub fn apply(&self, view: &mut View) {
+        let by_place: Vec<Option<&Reach>> = Face::NAMES
+            .iter()
+            .map(|name| self.numbers.get(*name))
+            .collect();
+        for face in &mut view.faces {
+            let mut numbers = face.numbers();
+            for (number, reach) in numbers.iter_mut().zip(&by_place) {
+                if let Some(reach) = reach {
+                    *number = reach.apply(*number);
+                }
+            }
+            *face = Face::from_numbers(numbers);
+        }
+    }
+
+    /// Returns the names of the numbers that the take never tried out.
+    pub fn untried(&self) -> impl Iterator<Item = &str> {
+        let still = |reach: &Reach| reach.up.is_none() && reach.down.is_none();
+        let all = self.numbers.iter();
+        all.filter(move |(_, reach)| still(reach))
+            .map(|(name, _)| name.as_str())
+    }
+}

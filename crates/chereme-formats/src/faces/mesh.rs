@@ -1,0 +1,281 @@
+//! Faces of points on film: the measures of a mesh of landmarks that stand for channels of a face.
+//!
+//! The points are MediaPipe's (478, 468 or fewer, each named by its number) or the 70 of OpenPose. Of each frame a few
+//! lengths are measured ([`FaceMesh::measure`]); the channels are those lengths against the signer's own medians
+//! ([`FaceMesh::curves`]), so they need the whole film.
+
+use chereme_motion::glam::DVec2;
+use chereme_motion::{Column, Curve, Curves, Marker, Markers, Times, TrackError};
+
+/// How many lengths are measured in each frame.
+pub const MEASURES: usize = 14;
+/// The lengths of one frame, in the order of the channels of the system `mesh`; a NaN is unknown.
+pub type Measures = [f64; MEASURES];
+
+/// The names of the channels.
+const NAMES: [&str; MEASURES] = [
+    "mesh_brow_right",
+    "mesh_brow_left",
+    "mesh_brow_gap",
+    "mesh_lid_right",
+    "mesh_lid_left",
+    "mesh_gaze_left",
+    "mesh_gaze_up",
+    "mesh_mouth_gap",
+    "mesh_mouth_width",
+    "mesh_corner_right",
+    "mesh_corner_left",
+    "mesh_pitch",
+    "mesh_yaw",
+    "mesh_roll",
+];
+const PITCH: usize = 11;
+
+/// How far the tip of the nose stands out before the corners of the eyes, and how far the brows do, as shares of the
+/// distance between the eyes' outer corners.
+const NOSE: f64 = 0.5;
+const BROW: f64 = 0.18;
+/// The fewest frames with a face that medians are taken of.
+const FEWEST: usize = 2;
+
+/// A place on a face; of several points it is their middle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Spot {
+    OuterEye,
+    InnerEye,
+    UpperLid,
+    LowerLid,
+    Brow,
+    InnerBrow,
+    Corner,
+    Iris,
+}
+
+const SPOTS: [Spot; 8] = [
+    Spot::OuterEye,
+    Spot::InnerEye,
+    Spot::UpperLid,
+    Spot::LowerLid,
+    Spot::Brow,
+    Spot::InnerBrow,
+    Spot::Corner,
+    Spot::Iris,
+];
+
+/// The points of a place: those on the signer's right, then on the left.
+type Pair = [&'static [u16]; 2];
+
+/// The numbers of points in a kind of mesh.
+struct Kind {
+    pairs: [Pair; SPOTS.len()],
+    nose: &'static [u16],
+    upper_lip: &'static [u16],
+    lower_lip: &'static [u16],
+}
+
+const MEDIAPIPE: Kind = Kind {
+    pairs: [
+        [&[33], &[263]],
+        [&[133], &[362]],
+        [&[159], &[386]],
+        [&[145], &[374]],
+        [&[105], &[334]],
+        [&[107, 55], &[336, 285]],
+        [&[61], &[291]],
+        [&[468], &[473]],
+    ],
+    nose: &[1, 4],
+    upper_lip: &[13],
+    lower_lip: &[14],
+};
+
+const OPENPOSE: Kind = Kind {
+    pairs: [
+        [&[36], &[45]],
+        [&[39], &[42]],
+        [&[37, 38], &[43, 44]],
+        [&[41, 40], &[47, 46]],
+        [&[19], &[24]],
+        [&[21], &[22]],
+        [&[48], &[54]],
+        [&[68], &[69]],
+    ],
+    nose: &[30],
+    upper_lip: &[62],
+    lower_lip: &[66],
+};
+
+/// Where the points of a face are among those of a track.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FaceMesh {
+    /// For each place the positions of its points, right and left.
+    pairs: Vec<[Vec<usize>; 2]>,
+    nose: Vec<usize>,
+    lips: [Vec<usize>; 2],
+}
+
+impl FaceMesh {
+    /// Returns the mesh among points that are named by group and name; `None` if they hold no face, or too little of one.
+    #[must_use]
+    pub fn find<'a>(points: impl Iterator<Item = (&'a str, &'a str)> + Clone) -> Option<Self> {
+        let of = |wanted: &str, kind: &Kind| {
+            let mut places: Vec<Option<usize>> = vec![None; 512];
+            for (at, (group, name)) in points.clone().enumerate() {
+                if !group.to_ascii_lowercase().contains(wanted) {
+                    continue;
+                }
+                let digits = name.rsplit('_').next().unwrap_or_default();
+                let slot = digits.parse::<usize>().ok();
+                if let Some(slot) = slot.and_then(|it| places.get_mut(it)) {
+                    slot.get_or_insert(at);
+                }
+            }
+            Self::of(kind, &places)
+        };
+        of("face_landmarks", &MEDIAPIPE).or_else(|| of("face_keypoints", &OPENPOSE))
+    }
+
+    fn of(kind: &Kind, places: &[Option<usize>]) -> Option<Self> {
+        let found = |points: &[u16]| -> Vec<usize> {
+            let known = points.iter().filter_map(|it| places[usize::from(*it)]);
+            known.collect()
+        };
+        let mesh = Self {
+            pairs: kind.pairs.iter().map(|pair| pair.map(found)).collect(),
+            nose: found(kind.nose),
+            lips: [found(kind.upper_lip), found(kind.lower_lip)],
+        };
+        let there = |spot: Spot| mesh.pairs[spot as usize].iter().all(|it| !it.is_empty());
+        let whole = [Spot::OuterEye, Spot::UpperLid, Spot::LowerLid, Spot::Brow];
+        whole.into_iter().all(there).then_some(mesh)
+    }
+
+    /// Returns the lengths in each frame of a track, or of a part of one.
+    #[must_use]
+    pub fn measure(&self, markers: &Markers) -> Vec<Measures> {
+        let points = markers.points();
+        (0..markers.frames())
+            .map(|frame| self.frame(points, frame).unwrap_or([f64::NAN; MEASURES]))
+            .collect()
+    }
+
+    fn frame(&self, points: &[Marker], frame: usize) -> Option<Measures> {
+        let middle = |places: &[usize]| -> Option<DVec2> {
+            let mut sum = DVec2::ZERO;
+            for place in places {
+                let at = points.get(*place)?.at(frame)?;
+                // Pictures count down from above.
+                sum += DVec2::new(at.x, -at.y);
+            }
+            (!places.is_empty()).then(|| sum / places.len() as f64)
+        };
+        let pair = |spot: Spot| self.pairs[spot as usize].each_ref();
+        let outer = pair(Spot::OuterEye);
+        let (right, left) = (middle(outer[0])?, middle(outer[1])?);
+        let across = left - right;
+        let size = across.length();
+        if !(size.is_finite() && size > f64::EPSILON) {
+            return None;
+        }
+        let level = DVec2::new(across.x, -across.y) / size;
+        let between = (right + left) / 2.0;
+        // To the signer's left and up, from the middle between the eyes.
+        let own = |places: &[usize]| Some((middle(places)? - between).rotate(level) / size);
+        let of = |spot: Spot, side: usize| own(pair(spot)[side]);
+        let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        let nose = own(&self.nose);
+        let lips = self.lips.each_ref().map(|it| own(it));
+        let brow = |side| Some(of(Spot::Brow, side)?.y);
+        let lid = |side| Some((of(Spot::UpperLid, side)? - of(Spot::LowerLid, side)?).length());
+        let both = |one: &dyn Fn(usize) -> Option<f64>| Some((one(0)? + one(1)?) / 2.0);
+        let eye = |side| {
+            let (outer, inner) = (of(Spot::OuterEye, side)?, of(Spot::InnerEye, side)?);
+            let iris = of(Spot::Iris, side)?;
+            Some((iris - (outer + inner) / 2.0, (outer - inner).length()))
+        };
+        let looks = |side| eye(side).map(|(at, wide)| at.x / wide.max(f64::EPSILON));
+        let rises = |side| eye(side).map(|(at, _)| at.y);
+        let gap = || Some((lips[0]? - lips[1]?).length());
+        let corner = |side| Some(of(Spot::Corner, side)?.y - (lips[0]?.y + lips[1]?.y) / 2.0);
+        let wide = |spot| Some((of(spot, 1)? - of(spot, 0)?).length());
+        Some([
+            number(brow(0)),
+            number(brow(1)),
+            number(wide(Spot::InnerBrow)),
+            number(lid(0)),
+            number(lid(1)),
+            number(both(&looks)),
+            number(both(&rises)),
+            number(gap()),
+            number(wide(Spot::Corner)),
+            number(corner(0)),
+            number(corner(1)),
+            number(nose.map(|at| -at.y / NOSE)),
+            number(nose.map(|at| (at.x / NOSE).atan())),
+            across.y.atan2(across.x),
+        ])
+    }
+
+    /// Returns the channels of the system `mesh` that the lengths of a whole film mean.
+    ///
+    /// # Errors
+    /// [`TrackError`] if there are more or fewer times than frames.
+    pub fn curves(times: Times, frames: &[Measures]) -> Result<Curves, TrackError> {
+        let column = |at: usize| -> Vec<f64> { frames.iter().map(|it| it[at]).collect() };
+        let pitch = against(&column(PITCH), less);
+        let channel = |(at, name): (usize, &&str)| {
+            let own = column(at);
+            let values = match at {
+                // A head that bends down hides its brows by as much as they stand out.
+                0 | 1 => {
+                    let bent = own
+                        .iter()
+                        .zip(&pitch)
+                        .map(|(brow, down)| match down.is_nan() {
+                            true => *brow,
+                            false => brow + BROW * down,
+                        });
+                    against(&bent.collect::<Vec<_>>(), |brow, usual| brow / usual - 1.0)
+                }
+                2 | 8 => against(&own, |wide, usual| wide / usual - 1.0),
+                3 | 4 => against(&own, |gap, usual| gap / usual),
+                5 | 6 | 9 | 10 => against(&own, less),
+                7 => from_least(&own),
+                PITCH => pitch.clone(),
+                _ => own,
+            };
+            let finite = values
+                .into_iter()
+                .map(|it| if it.is_finite() { it } else { f64::NAN });
+            Curve::new(*name, Column::doubles(finite.collect()))
+        };
+        Curves::new(times, NAMES.iter().enumerate().map(channel).collect())
+    }
+}
+
+fn less(value: f64, usual: f64) -> f64 {
+    value - usual
+}
+
+/// Returns the value below which a share of the known numbers lies; `None` with too few of them.
+pub(super) fn quantile(values: &[f64], share: f64) -> Option<f64> {
+    let mut known: Vec<f64> = values.iter().copied().filter(|it| it.is_finite()).collect();
+    known.sort_by(f64::total_cmp);
+    let last = known.len().checked_sub(1)?;
+    (known.len() >= FEWEST).then(|| known[(share * last as f64).round() as usize])
+}
+
+/// Returns numbers against their own median; all unknown without one.
+fn against(values: &[f64], how: fn(f64, f64) -> f64) -> Vec<f64> {
+    let usual = quantile(values, 0.5).unwrap_or(f64::NAN);
+    values.iter().map(|value| how(*value, usual)).collect()
+}
+
+/// Returns how far numbers lie above the least usual one.
+fn from_least(values: &[f64]) -> Vec<f64> {
+    let least = quantile(values, 0.1).unwrap_or(f64::NAN);
+    values
+        .iter()
+        .map(|value| (value - least).max(0.0))
+        .collect()
+}

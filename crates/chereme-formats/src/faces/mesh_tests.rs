@@ -1,0 +1,249 @@
+//! Faces of points on film, and weights that are fitted to a person.
+
+use chereme_motion::markers::Frame;
+use chereme_motion::{Column, Face, Marker, Markers, Rate, Space, Times};
+
+use super::{FaceMesh, Fit, System, View};
+
+/// The activity of a drawn face in one frame.
+#[derive(Clone, Copy, Default)]
+struct Drawn {
+    brow: f64,
+    lid: f64,
+    mouth: f64,
+    roll: f64,
+    turn: f64,
+}
+
+/// Returns the points of a face 100 pixels wide between the corners of the eyes, as MediaPipe numbers them.
+fn points(drawn: Drawn) -> Vec<(&'static str, [f64; 2])> {
+    let Drawn {
+        brow,
+        lid,
+        mouth,
+        roll,
+        turn,
+    } = drawn;
+    let up = 27.0 * (1.0 + brow);
+    let gap = 9.0 * (1.0 - lid);
+    let nose = 50.0 * turn.tan();
+    let all = [
+        ("33", [-50.0, 0.0]),
+        ("263", [50.0, 0.0]),
+        ("133", [-20.0, 0.0]),
+        ("362", [20.0, 0.0]),
+        ("159", [-35.0, gap / 2.0]),
+        ("145", [-35.0, -gap / 2.0]),
+        ("386", [35.0, gap / 2.0]),
+        ("374", [35.0, -gap / 2.0]),
+        ("105", [-35.0, up]),
+        ("334", [35.0, up]),
+        ("107", [-12.0, up]),
+        ("336", [12.0, up]),
+        ("1", [nose, -45.0]),
+        ("61", [-25.0, -75.0]),
+        ("291", [25.0, -75.0]),
+        ("13", [0.0, -75.0 + mouth / 2.0]),
+        ("14", [0.0, -75.0 - mouth / 2.0]),
+        ("468", [-35.0, 0.0]),
+        ("473", [35.0, 0.0]),
+    ];
+    let turned = |[x, y]: [f64; 2]| {
+        let (sin, cos) = roll.sin_cos();
+        [400.0 + x * cos - y * sin, 300.0 - (x * sin + y * cos)]
+    };
+    all.into_iter()
+        .map(|(name, at)| (name, turned(at)))
+        .collect()
+}
+
+fn markers(frames: &[Drawn]) -> Markers {
+    let drawn: Vec<_> = frames.iter().map(|it| points(*it)).collect();
+    let point = |at: usize| {
+        let axis = |axis: usize| drawn.iter().map(|frame| frame[at].1[axis]).collect();
+        Marker {
+            group: "FACE_LANDMARKS".to_owned(),
+            ..Marker::new(
+                drawn[0][at].0,
+                vec![Column::doubles(axis(0)), Column::doubles(axis(1))],
+            )
+        }
+    };
+    let picture = Space::Image(Frame {
+        width: 800.0,
+        height: 600.0,
+    });
+    let times = Times::Even(Rate::new(25, 1).expect("a rate"));
+    Markers::new(times, picture, (0..drawn[0].len()).map(point).collect()).expect("a track")
+}
+
+fn view(markers: &Markers) -> View {
+    let named = markers.points().iter();
+    let mesh = FaceMesh::find(named.map(|it| (it.group.as_str(), it.name.as_str())));
+    let mesh = mesh.expect("a face");
+    let curves = FaceMesh::curves(markers.times().clone(), &mesh.measure(markers));
+    let system = System::named("mesh").expect("a system");
+    assert_eq!(System::of(curves.as_ref().expect("curves")), Some(system));
+    system.view(&curves.expect("curves"))
+}
+
+#[test]
+fn points_of_a_face_become_brows_lids_mouth_and_turns() {
+    let still = Drawn::default();
+    let mut frames = vec![still; 40];
+    frames[10] = Drawn {
+        brow: 0.21,
+        ..still
+    };
+    frames[11] = Drawn {
+        brow: -0.3,
+        ..still
+    };
+    frames[12] = Drawn { lid: 1.0, ..still };
+    frames[13] = Drawn {
+        mouth: 40.0,
+        ..still
+    };
+    frames[14] = Drawn { turn: 0.3, ..still };
+    frames[15] = Drawn { roll: 0.2, ..still };
+    frames[16] = Drawn {
+        brow: 0.21,
+        roll: 0.2,
+        ..still
+    };
+    let view = view(&markers(&frames));
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 0.02, "{a} {b}");
+    assert!(view.faces[0].numbers().iter().all(|it| it.abs() < 1e-9));
+    near(view.faces[10].brows[0], 1.0);
+    near(view.faces[11].brows[1], -1.0);
+    assert!(view.faces[12].lids[0] > 0.99 && view.faces[10].lids[0].abs() < 0.01);
+    near(view.faces[13].jaw, 1.0);
+    near(view.faces[16].brows[0], 1.0);
+    let head = view.head.as_ref().expect("turns");
+    near(head[14][1], 0.3);
+    near(head[15][2], 0.2);
+    assert!(
+        view.faces[15].is_at_rest() || view.faces[15].numbers().iter().all(|it| it.abs() < 0.02)
+    );
+    assert_eq!(
+        view.value("tongue_out"),
+        None,
+        "points do not show a tongue"
+    );
+    assert!(
+        view.findings
+            .iter()
+            .any(|it| it.message.contains("estimated from points"))
+    );
+}
+
+#[test]
+fn points_without_a_face_are_none_and_gaps_are_bridged() {
+    let hand = [("RIGHT_HAND_LANDMARKS", "WRIST"), ("POSE_LANDMARKS", "33")];
+    assert_eq!(FaceMesh::find(hand.into_iter()), None);
+    let odd = [
+        ("FACE_LANDMARKS", "99999999999999999999"),
+        ("FACE_LANDMARKS", "x"),
+    ];
+    assert_eq!(FaceMesh::find(odd.into_iter()), None);
+    let still = Drawn::default();
+    let whole = markers(&[still; 6]);
+    let mut points = whole.points().to_vec();
+    points[0].place[0] = Column::doubles(vec![350.0, f64::NAN, 350.0, 350.0, 350.0, 350.0]);
+    let gappy = Markers::new(whole.times().clone(), *whole.space(), points).expect("a track");
+    let view = view(&gappy);
+    assert_eq!(view.bridged, 1);
+    assert!(
+        view.faces
+            .iter()
+            .all(|face| face.numbers().iter().all(|it| it.is_finite()))
+    );
+}
+
+#[test]
+fn weights_are_fitted_so_that_one_is_as_far_as_a_person_goes() {
+    let rest = Face {
+        brows: [0.1, 0.1],
+        ..Face::default()
+    };
+    let mut faces = vec![rest; 100];
+    for (at, face) in faces.iter_mut().enumerate().skip(40).take(20) {
+        face.brows = [0.5 + 0.001 * at as f64, 0.5];
+        face.jaw = 0.4;
+    }
+    let mut view = View {
+        system: System::named("arkit").expect("a system"),
+        faces,
+        known: [true; Face::LEN],
+        head: None,
+        place: None,
+        bridged: 0,
+        findings: Vec::new(),
+    };
+    let fit = Fit::of(&view).expect("a fit");
+    assert!(fit.suits(&view));
+    let text = serde_json::to_string(&fit).expect("written");
+    assert_eq!(
+        serde_json::from_str::<Fit>(&text).expect("read"),
+        fit,
+        "as data"
+    );
+    let brow = fit.numbers["brow_raise_left"];
+    assert!((brow.rest - 0.1).abs() < 1e-12 && (brow.up.expect("up") - 0.4).abs() < 1e-9);
+    assert_eq!(brow.down, None, "the take never lowers them");
+    let untried: Vec<&str> = fit.untried().collect();
+    assert!(untried.contains(&"tongue_out") && !untried.contains(&"jaw_open"));
+    fit.apply(&mut view);
+    assert_eq!(view.faces[0].brows, [0.0, 0.0]);
+    assert!((view.faces[50].brows[1] - 1.0).abs() < 1e-9);
+    assert!((view.faces[50].jaw - 1.0).abs() < 1e-9);
+    let other = View {
+        system: System::named("fap").expect("a system"),
+        ..view
+    };
+    assert!(!fit.suits(&other));
+}
+
+/// Signers of other people: the medians of lids and brows that two of them are known to have, and mouths that open.
+#[test]
+fn meshes_of_others_show_faces() {
+    let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let folder = std::path::Path::new(&folder).join("motion/pose/sign-language-processing-pose");
+    for name in [
+        "mediapipe.pose",
+        "84322c38ff23406f222641da30d0a49b.pose",
+        "sample-data-example.pose",
+        "7bd6dd48722def3cf84258b96371cb1e.pose",
+    ] {
+        let bytes = std::fs::read(folder.join(name)).expect("a file");
+        let (tracks, _) = crate::pose::read(&bytes).expect("points");
+        let found = tracks.tracks.iter().find_map(|track| match &track.content {
+            crate::tracks::Content::Markers(markers) => {
+                let named = markers.points().iter();
+                let mesh = FaceMesh::find(named.map(|it| (&*it.group, &*it.name)))?;
+                Some((mesh.measure(markers), markers.times().clone()))
+            }
+            crate::tracks::Content::Curves(_) => None,
+        });
+        let (measured, times) = found.unwrap_or_else(|| panic!("{name} has a face"));
+        let median = |at: usize| super::mesh::quantile(&column(&measured, at), 0.5).expect("known");
+        let (brow, lid, wide) = (median(0), median(3), median(8));
+        assert!((0.05..0.14).contains(&lid), "{name}: lid {lid}");
+        assert!((0.08..0.35).contains(&brow), "{name}: brow {brow}");
+        assert!((0.35..0.65).contains(&wide), "{name}: mouth {wide}");
+        let view = System::named("mesh")
+            .expect("a system")
+            .view(&FaceMesh::curves(times, &measured).expect("curves"));
+        let jaw = view.value("jaw_open").expect("a jaw");
+        let most = jaw.iter().copied().fold(0.0, f64::max);
+        eprintln!("{name}: lid {lid:.3}, brow {brow:.3}, mouth {wide:.3}, jaw to {most:.2}");
+        assert!(most > 0.05, "{name}: the mouth moves");
+    }
+}
+
+fn column(all: &[super::Measures], at: usize) -> Vec<f64> {
+    all.iter().map(|it| it[at]).collect()
+}

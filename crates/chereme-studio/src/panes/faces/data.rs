@@ -1,0 +1,162 @@
+//! The content of the pane of faces, without a window: moments in step, names of sentences, rows of reasons, places of a plot.
+
+use chereme_corpus::{
+    Choice, ChooseOptions, ExpressionPhase, FaceScore, FoundExpression, Milestones, OnsetRow,
+    Onsets, Quartiles, Rank,
+};
+use chereme_motion::{Instant, Span};
+
+/// The pause between two loops of an expression, in seconds.
+pub(super) const PAUSE: f64 = 0.4;
+
+/// Which channels of the face are compared, as names or beginnings of names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Compared {
+    /// Head and brows, as the founding paper has it.
+    #[default]
+    Usual,
+    /// The head alone.
+    Head,
+    /// The brows alone.
+    Brows,
+    /// Head, trunk and every number of the face.
+    All,
+}
+
+impl Compared {
+    pub(super) const ALL: [Self; 4] = [Self::Usual, Self::Head, Self::Brows, Self::All];
+
+    fn channels(self) -> Vec<String> {
+        let names: &[&str] = match self {
+            Self::Usual => &[],
+            Self::Head => &["head"],
+            Self::Brows => &["brow"],
+            Self::All => &[
+                "head", "brow", "eye", "gaze", "nose", "jaw", "lip", "mouth", "cheek",
+            ],
+        };
+        names.iter().map(|name| (*name).to_owned()).collect()
+    }
+}
+
+/// Returns the options of a choice with so many candidates.
+pub(super) fn options(rank: Rank, compared: Compared, stretch: bool, most: usize) -> ChooseOptions {
+    ChooseOptions {
+        rank,
+        stretch,
+        channels: compared.channels(),
+        limit: most,
+        ..ChooseOptions::default()
+    }
+}
+
+/// Returns the part of a recording in which an expression is seen: from M1 to M5, no earlier than the recording.
+pub(super) fn seen_span(milestones: &Milestones) -> Span {
+    let span = milestones.span();
+    Span::between(
+        span.start().max(Instant::ZERO),
+        span.end().max(Instant::from_micros(1)),
+    )
+}
+
+/// Returns the second of a loop over the target's expression at `clock`; it holds its end for a pause.
+pub(super) fn loop_moment(target: &Milestones, clock: f64) -> f64 {
+    let span = target.span();
+    let lasts = span.seconds();
+    let into = clock.rem_euclid((lasts + PAUSE).max(0.1)).min(lasts);
+    span.start().seconds() + into
+}
+
+/// Returns how far into [`seen_span`] of a performance it is when the target is at `moment` seconds: each phase goes with
+/// the target's own, or at its own tempo.
+pub(super) fn into_span(own: &Milestones, target: &Milestones, moment: f64, in_step: bool) -> f64 {
+    let shown = match in_step {
+        true => own.moment_for(target, moment),
+        false => Some(own.span().start().seconds() + moment - target.span().start().seconds()),
+    };
+    let span = seen_span(own);
+    let shown = shown.unwrap_or(span.start().seconds());
+    let lasts = span.seconds();
+    // A loop would begin again at its very end.
+    (shown - span.start().seconds()).clamp(0.0, (lasts - 1e-6).max(0.0))
+}
+
+/// Returns the text that names a sentence.
+pub(super) fn named(it: &FoundExpression) -> String {
+    match it.signs.is_empty() {
+        true => it.recording.clone(),
+        false => format!("{} · {}", it.recording, it.signs.join(" ")),
+    }
+}
+
+/// Returns the rows that explain a score: for each phase its cost and the difference of each channel, then all phases.
+pub(super) fn reasons(score: &FaceScore, channels: usize) -> Vec<(ExpressionPhase, Vec<String>)> {
+    let number = |value: Option<f64>| value.map_or("–".to_owned(), |it| format!("{it:.2}"));
+    let row = |phase: &chereme_corpus::PhaseScore| {
+        let mut cells = vec![number(phase.normalized)];
+        cells.extend((0..channels).map(|at| number(phase.channels.get(at).copied())));
+        (phase.phase, cells)
+    };
+    score.phases.iter().map(row).collect()
+}
+
+/// Returns the gloss that a sentence with the face of another is proposed to have.
+pub(super) fn proposed_gloss(choice: &Choice, sentence: &str, performer: &str) -> String {
+    format!("{sentence}-{}-{performer}", choice.function)
+        .to_uppercase()
+        .replace(char::is_whitespace, "-")
+}
+
+/// The ends of a plot of onsets, in seconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Extent {
+    pub(super) low: f64,
+    pub(super) high: f64,
+}
+
+impl Extent {
+    /// Returns the ends that hold every box, and 0.
+    pub(super) fn of(onsets: &Onsets, of: fn(&OnsetRow) -> Quartiles) -> Self {
+        let ends = onsets.rows.iter().flat_map(|row| [of(row).q1, of(row).q3]);
+        let (low, high) = ends.fold((-0.1_f64, 0.1_f64), |(low, high), end| {
+            (low.min(end), high.max(end))
+        });
+        Self { low, high }
+    }
+
+    /// Returns where a number lies between the ends, from 0 to 1.
+    pub(super) fn share(self, seconds: f64) -> f32 {
+        ((seconds - self.low) / (self.high - self.low)) as f32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn marks(times: [i64; 5]) -> Milestones {
+        Milestones::of_times(times.map(Instant::from_millis))
+    }
+
+    #[test]
+    fn a_loop_holds_its_end_and_candidates_go_in_step_or_at_their_own_tempo() {
+        let target = marks([1000, 1200, 1800, 2000, 2400]);
+        let slow = marks([0, 400, 1600, 2000, 2800]);
+        assert!((loop_moment(&target, 0.5) - 1.5).abs() < 1e-9);
+        assert!((loop_moment(&target, 1.5) - 2.4).abs() < 1e-9, "held");
+        assert!((loop_moment(&target, 1.8 + 0.3) - 1.3).abs() < 1e-9);
+        let into = |moment, in_step| into_span(&slow, &target, moment, in_step);
+        assert!((into(1.2, true) - 0.4).abs() < 1e-9, "both at M2");
+        assert!((into(1.2, false) - 0.2).abs() < 1e-9);
+        assert!(into(2.4, true) < 2.8 && into(2.4, true) > 2.79);
+    }
+
+    #[test]
+    fn an_expression_is_seen_from_the_begin_of_its_recording_on() {
+        let early = marks([-300, 200, 900, 1000, 1500]);
+        let span = seen_span(&early);
+        assert_eq!((span.start().micros(), span.end().micros()), (0, 1_500_000));
+        assert_eq!(into_span(&early, &early, -0.3, true), 0.0);
+        assert!((into_span(&early, &early, 0.2, true) - 0.2).abs() < 1e-9);
+    }
+}

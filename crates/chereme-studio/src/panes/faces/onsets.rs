@@ -1,0 +1,137 @@
+//! When non-manuals begin and end against the signs, as a table and a plot.
+
+use chereme_corpus::{OnsetRow, Onsets, Quartiles};
+use eframe::egui::{
+    Align2, Button, CollapsingHeader, FontId, Grid, Rect, Role, Sense, Stroke, StrokeKind, Ui,
+    WidgetInfo, pos2, vec2,
+};
+
+use super::Faces;
+use super::data::Extent;
+use crate::context::{Outbox, Seen};
+use crate::words::{Text, faces as words, fill};
+use crate::work::Work;
+
+/// The height of a row of the plot, and the room for names beside it.
+const ROW: f32 = 18.0;
+const NAMES: f32 = 190.0;
+const GAP: f32 = 16.0;
+
+impl Faces {
+    /// Begin and end of every channel in the expressions of the function.
+    pub(super) fn timing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let header = CollapsingHeader::new(seen.say(words::ONSETS))
+            .id_salt("onsets")
+            .default_open(false);
+        let shown = header.show(ui, |ui| {
+            let running = seen.is_running(self.measuring);
+            ui.horizontal(|ui| {
+                let button = Button::new(seen.say(words::MEASURE));
+                if ui.add_enabled(!running, button).clicked() {
+                    self.measuring = Some(out.work(Work::Onsets(self.function.clone())));
+                }
+                if running {
+                    ui.spinner();
+                }
+            });
+            if let Some(onsets) = self.onsets.clone() {
+                plot(ui, seen, &onsets);
+                table(ui, seen, &onsets);
+            }
+        });
+        shown
+            .header_response
+            .on_hover_text(seen.say(words::ONSETS_TIP));
+    }
+}
+
+fn table(ui: &mut Ui, seen: &Seen<'_>, onsets: &Onsets) {
+    let told = |it: &Quartiles| format!("{:+.3} ({:+.3} … {:+.3})", it.median, it.q1, it.q3);
+    Grid::new("onset rows").striped(true).show(ui, |ui| {
+        for text in [
+            words::FUNCTION,
+            words::CHANNEL,
+            words::COUNT,
+            words::BEGIN,
+            words::END,
+        ] {
+            ui.weak(seen.say(text));
+        }
+        ui.end_row();
+        for row in &onsets.rows {
+            ui.label(row.function.name());
+            ui.label(row.channel);
+            ui.monospace(row.n.to_string());
+            ui.monospace(told(&row.onset_s));
+            ui.monospace(told(&row.offset_s));
+            ui.end_row();
+        }
+    });
+}
+
+/// Begin or end of a row.
+type Which = fn(&OnsetRow) -> Quartiles;
+
+/// Paints a box for each channel, begin on the left and end on the right.
+fn plot(ui: &mut Ui, seen: &Seen<'_>, onsets: &Onsets) {
+    let height = ROW * (onsets.rows.len() as f32 + 2.0);
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+    let name = fill(seen.say(words::PLOT), &[("n", &onsets.rows.len())]);
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
+    if !ui.is_rect_visible(rect) {
+        return;
+    }
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    let font = FontId::proportional(11.0);
+    let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
+    let (fill_of, line) = (seen.colours().component, seen.colours().accent);
+    let wide = ((rect.width() - NAMES - GAP) / 2.0).max(40.0);
+    let sides: [(Text, Which, f32); 2] = [
+        (words::BEGIN, |row| row.onset_s, rect.left() + NAMES),
+        (
+            words::END,
+            |row| row.offset_s,
+            rect.left() + NAMES + wide + GAP,
+        ),
+    ];
+    for (title, of, left) in sides {
+        let extent = Extent::of(onsets, of);
+        let x = |seconds: f64| left + extent.share(seconds) * (wide - 8.0);
+        let top = rect.top() + ROW;
+        painter.text(
+            pos2(left, rect.top() + 2.0),
+            Align2::LEFT_TOP,
+            format!("{} [s]", seen.say(title)),
+            font.clone(),
+            weak,
+        );
+        painter.vline(x(0.0), top..=rect.bottom() - ROW, Stroke::new(1.0, weak));
+        for (seconds, side) in [
+            (extent.low, Align2::LEFT_BOTTOM),
+            (0.0, Align2::CENTER_BOTTOM),
+            (extent.high, Align2::RIGHT_BOTTOM),
+        ] {
+            let at = pos2(x(seconds), rect.bottom());
+            painter.text(at, side, format!("{seconds:.2}"), font.clone(), weak);
+        }
+        for (n, row) in onsets.rows.iter().enumerate() {
+            let it = of(row);
+            let y = top + ROW * n as f32 + 2.0;
+            let ends = [
+                pos2(x(it.q1), y),
+                pos2(x(it.q3).max(x(it.q1) + 1.0), y + ROW - 5.0),
+            ];
+            let box_of = Rect::from_two_pos(ends[0], ends[1]);
+            painter.rect_filled(box_of, 0.0, fill_of);
+            painter.rect_stroke(box_of, 0.0, Stroke::new(1.0, line), StrokeKind::Inside);
+            painter.vline(x(it.median), box_of.y_range(), Stroke::new(2.0, text));
+        }
+    }
+    for (n, row) in onsets.rows.iter().enumerate() {
+        let y = rect.top() + ROW * (n as f32 + 1.0) + 1.0;
+        let name = format!("{}: {} (n = {})", row.function, row.channel, row.n);
+        let at = pos2(rect.left(), y);
+        painter.text(at, Align2::LEFT_TOP, name, font.clone(), text);
+    }
+}

@@ -1,0 +1,121 @@
+//! Faces can be read: at 200 pixels each non-manual and each mouth differs visibly from its neighbours in the list.
+
+use chereme_corpus::built_in_body;
+use chereme_figure::image::Image;
+use chereme_figure::mesh::Mesh;
+use chereme_figure::raster::{Raster, Style};
+use chereme_figure::{Body, Framing, View};
+use chereme_motion::Face;
+use chereme_sign::hamnosys::face::Expression;
+
+/// How high a picture is; the face takes four fifths of it.
+const SIZE: usize = 200;
+/// So many pixels differ at least: the brows of a question move by 0.03 of a face, 6 pixels, over a tenth of its width.
+const READABLE: usize = 96;
+/// A pixel differs if one of its colours does by this.
+const COLOUR: u8 = 24;
+/// The moments of an expression that are looked at, as shares of its time.
+const MOMENTS: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
+
+struct Painter {
+    draw: Box<dyn FnMut(&Face) -> Image>,
+}
+
+impl Painter {
+    fn new() -> Self {
+        let (clip, anatomy) = built_in_body().expect("it is part of the program");
+        let framing = Framing::of(&clip, &anatomy).expect("a frame");
+        let body = Body::new(clip.skeleton(), &anatomy);
+        let pose = clip.model_pose(0);
+        let camera = framing.camera(View::Face, 1.0, &pose, &anatomy);
+        let (style, mut raster, mut mesh) = (Style::default(), Raster::default(), Mesh::default());
+        let draw = move |face: &Face| {
+            body.shape(&pose, &mut mesh);
+            body.express(&pose, face, &mut mesh);
+            raster.draw(&mesh, &camera, [SIZE, SIZE], &style)
+        };
+        Self {
+            draw: Box::new(draw),
+        }
+    }
+
+    fn course(&mut self, expression: &Expression) -> Vec<Image> {
+        let at = |share: &f64| (self.draw)(&expression.at(*share));
+        MOMENTS.iter().map(at).collect()
+    }
+}
+
+/// Returns how many pixels differ between two expressions, at the moment at which most do.
+fn difference(a: &[Image], b: &[Image]) -> usize {
+    let differs = |(a, b): (&Image, &Image)| {
+        let pairs = a.pixels().iter().zip(b.pixels());
+        pairs
+            .filter(|(a, b)| {
+                let colours = a.0.iter().zip(b.0);
+                colours.into_iter().any(|(a, b)| a.abs_diff(b) > COLOUR)
+            })
+            .count()
+    };
+    a.iter().zip(b).map(differs).max().unwrap_or_default()
+}
+
+/// Returns the pairs of neighbours that look alike.
+fn alike(names: &[String], drawn: &[Vec<Image>]) -> Vec<String> {
+    let pairs = names.windows(2).zip(drawn.windows(2));
+    pairs
+        .filter_map(|(names, drawn)| {
+            let pixels = difference(&drawn[0], &drawn[1]);
+            let [a, b] = names else { return None };
+            (pixels < READABLE).then(|| format!("{a} and {b}: {pixels}"))
+        })
+        .collect()
+}
+
+#[test]
+fn each_non_manual_differs_from_its_neighbours_and_from_rest() {
+    let mut painter = Painter::new();
+    let rest = vec![(painter.draw)(&Face::default()); MOMENTS.len()];
+    let mut faults = Vec::new();
+    for part in ["brows", "lids", "gaze", "nose", "mouth"] {
+        let own = |(code, _): &(&str, &str)| code.split_once('.').is_some_and(|it| it.0 == part);
+        let codes: Vec<String> = Expression::listed()
+            .filter(own)
+            .map(|it| it.0.to_owned())
+            .collect();
+        let drawn: Vec<Vec<Image>> = codes
+            .iter()
+            .map(|code| {
+                let (part, short) = code.split_once('.').expect("a part");
+                painter.course(&Expression::of(part, short).expect("it is listed"))
+            })
+            .collect();
+        faults.extend(alike(&codes, &drawn));
+        for (code, drawn) in codes
+            .iter()
+            .zip(&drawn)
+            .filter(|(code, _)| *code != "gaze.AD")
+        {
+            let pixels = difference(drawn, &rest);
+            if pixels < READABLE {
+                faults.push(format!("{code} and rest: {pixels}"));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+/// The sounds that lips tell apart, each next to one that it is not to be taken for.
+#[test]
+fn each_mouth_that_lips_tell_apart_differs_from_its_neighbours() {
+    const MOUTHS: [&str; 17] = [
+        "a", "@", "e", "i", "E", "O", "o", "u", "p", "f", "S", "s", "T", "l", "t", "w", "r",
+    ];
+    let mut painter = Painter::new();
+    let names: Vec<String> = MOUTHS.iter().map(|it| (*it).to_owned()).collect();
+    let drawn: Vec<Vec<Image>> = MOUTHS
+        .iter()
+        .map(|sound| painter.course(&Expression::of("mouthing", sound).expect("a sound")))
+        .collect();
+    let faults = alike(&names, &drawn);
+    assert!(faults.is_empty(), "{faults:#?}");
+}
