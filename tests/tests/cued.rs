@@ -325,7 +325,11 @@ fn odd_markers_and_tiers_make_findings_or_errors() -> Result<()> {
         let mut corpus = Corpus::create(&own.join("c.chereme"), "A")?;
         let mut hear = unheard;
         let mut progress = Progress::new(&mut hear);
-        let _ = corpus.import(&[own.clone()], &ImportOptions::default(), &mut progress)?;
+        let _ = corpus.import(
+            std::slice::from_ref(&own),
+            &ImportOptions::default(),
+            &mut progress,
+        )?;
         let options = CuedOptions::default();
         let none: &[Name] = &[];
         assert!(

@@ -45,7 +45,7 @@ pub(crate) mod timeline;
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 18] = [
+    const TABLES: [&[(&str, Text)]; 19] = [
         actions::ALL,
         cue::ALL,
         export::ALL,
