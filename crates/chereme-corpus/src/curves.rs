@@ -199,7 +199,9 @@ mod tests {
         corpus
             .recombine_again(&sign, plain)
             .expect("generated again");
-        assert_eq!(corpus.curves_of(&sign).expect("read"), []);
+        let curves = corpus.curves_of(&sign).expect("read");
+        let brows = |it: &Curve| it.name.starts_with("brows");
+        assert!(stored.iter().any(brows) && !curves.iter().any(brows));
         corpus.undo().expect("undone");
         assert_eq!(corpus.curves_of(&sign).expect("read"), stored);
     }

@@ -105,12 +105,12 @@ fn tolerated() {
         (
             "End site",
             good("End Site", "End site"),
-            "3 frames | 10: the keyword \"End site\" is spelt otherwise",
+            "3 frames | 10: the keyword \"End site\" has an unusual spelling",
         ),
         (
             "EndSite",
             good("End Site", "EndSite"),
-            "3 frames | 10: the keyword \"EndSite\" is spelt otherwise",
+            "3 frames | 10: the keyword \"EndSite\" has an unusual spelling",
         ),
         (
             "End Site name",
@@ -120,7 +120,7 @@ fn tolerated() {
         (
             "root, motion",
             good("ROOT", "root").replace("MOTION", "Motion"),
-            "3 frames | 2: the keyword \"root\" is spelt otherwise than usual (2 times)",
+            "3 frames | 2: the keyword \"root\" has an unusual spelling (2 times)",
         ),
         (
             "brace on name line",

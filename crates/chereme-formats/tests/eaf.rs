@@ -335,7 +335,12 @@ fn values_keep_breaks_entities_and_blanks() {
     check(
         &text,
         "p: a1 0-9 R&D &nbsp; &#0; &\n",
-        &["& stands", "&nbsp; stands", "&#0; stands", "& stands"],
+        &[
+            "& is unknown",
+            "&nbsp; is unknown",
+            "&#0; is unknown",
+            "& is unknown",
+        ],
     );
     let text = eaf("ts1=0 ts2=9", &tier("p root", ""))
         .replace("AUTHOR=\"\"", "AUTHOR='a \"b\"\n&#10;&amp; c & d'");

@@ -279,7 +279,7 @@ fn symbols_are_read_and_written() {
             (Some(6), "<hamtab> is layout; it was left out"),
             (
                 Some(7),
-                "<hamfoo> is none of HamNoSys's symbols; it was left out"
+                "<hamfoo> is not a symbol of HamNoSys; it was left out"
             ),
         ]
     );

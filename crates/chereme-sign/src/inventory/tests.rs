@@ -335,7 +335,8 @@ fn the_named_handshapes_are_there() {
 /// some room.
 fn limits() -> Vec<(f64, f64)> {
     let mut all = vec![
-        (-10.0, 75.0),
+        // The thumb of W reaches across the palm.
+        (-20.0, 75.0),
         (-10.0, 75.0),
         (-10.0, 90.0),
         (-15.0, 70.0),

@@ -261,7 +261,7 @@ fn refusals_name_the_rule_and_what_would_be_right() {
         ),
         (
             add(TIME, 5, 6),
-            "on the Time_Subdivision tier:2 a new annotation takes the head or the tail of one that is there; split annotation:21 instead",
+            "on the Time_Subdivision tier:2 a new annotation takes the head or the tail of an existing one; split annotation:21 instead",
         ),
         (
             add(TIME, 0, 4),

@@ -201,7 +201,11 @@ mod tests {
         assert_eq!(free.kept("NEW", None).as_deref(), Some("NEW"));
         assert_eq!(free.kept("c", Some(0)).as_deref(), Some("CHAT"));
         let inventory = shapes();
-        let coded = choices(&tier("component", &["U", "U", "B"]), Some(&inventory), "fr");
+        let coded = choices(
+            &tier("configuration", &["U", "U", "B"]),
+            Some(&inventory),
+            "fr",
+        );
         assert_eq!((coded.all[0].value.as_str(), coded.all[0].used), ("U", 2));
         assert_eq!(coded.all[1].value, "B");
         assert_eq!(fitting(&coded, "u")[0], "U");
