@@ -2,9 +2,9 @@
 
 mod faces;
 mod points;
+mod whole;
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -32,6 +32,9 @@ use crate::notation::{self, Notation};
 use crate::progress::{Progress, Step, Unit};
 use crate::recombine::Recombination;
 use crate::sources::notation::own_body;
+
+use whole::extension;
+pub(crate) use whole::write;
 
 /// How high a film is, and how many pictures it shows in a second.
 const FILM: usize = 540;
@@ -650,12 +653,6 @@ fn title(stretch: &Stretch) -> String {
     }
 }
 
-fn extension(path: &Path) -> String {
-    path.extension()
-        .map(|it| it.to_string_lossy().to_lowercase())
-        .unwrap_or_default()
-}
-
 /// Returns the report of a picture of stored movement or of an inventory.
 fn told(to: &Path, title: &str, bytes: u64, frames: usize) -> Picture {
     Picture {
@@ -679,27 +676,4 @@ fn figure(error: FigureError) -> Error {
         FigureError::Stopped { .. } => Error::Stopped,
         other => Error::wrong(other.to_string()),
     }
-}
-
-/// Writes a file beside its name and moves it there once it is whole.
-pub(crate) fn write(
-    to: &Path,
-    force: bool,
-    fill: impl FnOnce(&mut BufWriter<File>) -> Result<()>,
-) -> Result<u64> {
-    if !force && to.exists() {
-        return Err(Error::file(to, std::io::ErrorKind::AlreadyExists.into()));
-    }
-    let part = to.with_extension(format!("{}.part", extension(to)));
-    let fault = |error| Error::file(to, error);
-    let file = File::create(&part).map_err(fault)?;
-    let mut out = BufWriter::new(file);
-    let done = fill(&mut out).and_then(|()| out.flush().map_err(fault));
-    drop(out);
-    if let Err(error) = done {
-        let _ = std::fs::remove_file(&part);
-        return Err(error);
-    }
-    std::fs::rename(&part, to).map_err(fault)?;
-    Ok(std::fs::metadata(to).map_err(fault)?.len())
 }

@@ -241,17 +241,17 @@ fn tolerated() {
         (
             "header case",
             tiny("1\n2\n").replace("Frame Time", "Frame time"),
-            "2 frames | 13: the keyword \"Frame time\" is spelt",
+            "2 frames | 13: the keyword \"Frame time\" has an unusual spelling",
         ),
         (
             "header without blank",
             tiny("1\n2\n").replace("Time: ", "Time:"),
-            "2 frames | 13: the header line \"Frame Time\" is spaced",
+            "2 frames | 13: the header line \"Frame Time\" has unusual blanks",
         ),
         (
             "header without colon",
             tiny("1\n2\n").replace("Time: 0.01", "Time .01"),
-            "2 frames | 13: the header line \"Frame Time\" is spaced",
+            "2 frames | 13: the header line \"Frame Time\" has unusual blanks",
         ),
         (
             "blank before colon",

@@ -335,6 +335,6 @@ fn a_curve_is_drawn_smoothly_by_a_hand_that_spells_and_its_shape_is_noted() {
         let turn = pair[0].angle_between(*pair[1]);
         assert!(turn < 0.6, "a corner of {turn} radians");
     }
-    let said = format!("{:?}", made.notes);
-    assert!(said.contains("arc"), "{said}");
+    let did = &made.report.steps[1].did[0];
+    assert!(did.ends_with("(arc)"), "{did}");
 }

@@ -17,6 +17,7 @@
 mod captured;
 mod choose;
 #[cfg(test)]
+#[path = "tests/derived.rs"]
 mod derived_tests;
 mod expressions;
 mod fit;

@@ -3,6 +3,7 @@
 
 mod conflicts;
 #[cfg(test)]
+#[path = "tests/laws.rs"]
 mod laws;
 mod rows;
 #[cfg(test)]

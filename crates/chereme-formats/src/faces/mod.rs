@@ -22,6 +22,7 @@ mod fit;
 mod formula;
 mod mesh;
 #[cfg(test)]
+#[path = "tests/mesh.rs"]
 mod mesh_tests;
 #[cfg(test)]
 mod tests;

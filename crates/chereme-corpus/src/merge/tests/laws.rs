@@ -15,7 +15,7 @@ use crate::{
     Progress, TierName, unheard,
 };
 
-const EAF: &str = include_str!("tests.eaf");
+const EAF: &str = include_str!("../tests.eaf");
 
 /// Imports a text of EAF into a new corpus, and returns the bytes of the corpus.
 fn corpus_of(eaf: &str) -> Vec<u8> {

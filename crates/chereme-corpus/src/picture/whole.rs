@@ -1,0 +1,37 @@
+//! Files that are there whole or not at all.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use crate::error::{Error, Result};
+
+/// Writes a file next to its name and moves it there once it is whole.
+pub(crate) fn write(
+    to: &Path,
+    force: bool,
+    fill: impl FnOnce(&mut BufWriter<File>) -> Result<()>,
+) -> Result<u64> {
+    if !force && to.exists() {
+        return Err(Error::file(to, std::io::ErrorKind::AlreadyExists.into()));
+    }
+    let part = to.with_extension(format!("{}.part", extension(to)));
+    let fault = |error| Error::file(to, error);
+    let file = File::create(&part).map_err(fault)?;
+    let mut out = BufWriter::new(file);
+    let done = fill(&mut out).and_then(|()| out.flush().map_err(fault));
+    drop(out);
+    if let Err(error) = done {
+        let _ = std::fs::remove_file(&part);
+        return Err(error);
+    }
+    std::fs::rename(&part, to).map_err(fault)?;
+    Ok(std::fs::metadata(to).map_err(fault)?.len())
+}
+
+/// Returns the ending of a file's name in lower case.
+pub(super) fn extension(path: &Path) -> String {
+    path.extension()
+        .map(|it| it.to_string_lossy().to_lowercase())
+        .unwrap_or_default()
+}
