@@ -19,7 +19,7 @@ use chereme_motion::{
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// What a reader makes of a file.
+/// The content of a file after it was read.
 enum Meaning {
     Tracks(Tracks),
     Scene(Box<Scene>),

@@ -1,4 +1,4 @@
-//! Detectors: what finds annotations in movement, behind one trait.
+//! Detectors, which find annotations in movement, behind one trait.
 //!
 //! A detector gets the movement and the face of a signer ([`Observed`]) and returns [`Detection`]s: a span, a field, a
 //! value, a confidence and the evidence. It stores nothing. The caller chooses the tiers and writes the detections with
@@ -26,7 +26,7 @@ pub trait Detector: Sync {
     fn detect(&self, observed: &Observed<'_>) -> Vec<Detection>;
 }
 
-/// What was observed of a signer; a missing part is `None`.
+/// The observed movement and face of a signer; a missing part is `None`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Observed<'a> {
     /// The movement of the body, and the joints that are its parts.

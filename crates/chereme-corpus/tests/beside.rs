@@ -1,4 +1,4 @@
-//! What lies next to captures and annotation files: vocabularies, templates and settings of ELAN, points as JSON, exports of
+//! Files next to captures and annotation files: vocabularies, templates and settings of ELAN, points as JSON, exports of
 //! signs, and files that belong together by timecode or by folder.
 
 use std::fs;

@@ -24,7 +24,7 @@ fn now(begun: Instant) -> Duration {
     used.map_or_else(|| begun.elapsed(), Duration::from_nanos)
 }
 
-#[allow(clippy::print_stdout)]
+#[allow(clippy::print_stdout, reason = "a program prints its figures")]
 fn main() -> Result<(), Box<dyn Error>> {
     let clip = signer::handshapes()?;
     let anatomy = Anatomy::detect(clip.skeleton());

@@ -17,7 +17,7 @@ use chereme_motion::{Anatomy, HandAngles, Side};
 #[path = "common/signer.rs"]
 mod signer;
 
-#[allow(clippy::print_stdout)]
+#[allow(clippy::print_stdout, reason = "a program prints its figures")]
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args()
         .nth(1)

@@ -4,7 +4,7 @@
 //! `CHEREME_SHARED_DATA=... CHEREME_PYTHON=... cargo bench -p chereme-formats --bench captures`; without other people's
 //! captures only a GLB of the program's own is read.
 
-#![allow(clippy::print_stdout)]
+#![allow(clippy::print_stdout, reason = "a program prints its table")]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -342,7 +342,7 @@ fn words(text: &str) -> Vec<(usize, usize)> {
     found
 }
 
-/// Returns the most memory that this process ever used, in MiB, where the system tells.
+/// Returns the most memory that this process ever used, in MiB, if the system reports it.
 fn most_memory() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = text.lines().find(|line| line.starts_with("VmHWM:"))?;

@@ -23,11 +23,11 @@ pub(crate) struct Player {
     pub(crate) looping: bool,
     /// The steps of playback, if it steps.
     steps: Option<Steps>,
-    /// What was opened and is previewed, until somebody moves the playhead.
+    /// The preview of a newly opened recording or sign, until somebody moves the playhead.
     preview: Option<Preview>,
 }
 
-/// Something just opened, of which the stage shows more than its first moment.
+/// The moment that the stage shows of a newly opened recording or sign in place of its first frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Preview {
     pub(crate) span: Span,

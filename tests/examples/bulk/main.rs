@@ -4,7 +4,7 @@
 //! Every take is the capture with another first number, so that no two files are the same, and has an annotation file.
 //! Without a capture that of the starter corpus is used.
 
-#![allow(clippy::print_stdout)]
+#![allow(clippy::print_stdout, reason = "a program prints its table")]
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

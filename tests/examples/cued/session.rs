@@ -35,7 +35,7 @@ pub(crate) fn text(seed: u64, number: u64, words: usize) -> String {
     drawn.join(" ")
 }
 
-/// What a session is made of.
+/// The size of a session, and the settings of its generator.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plan {
     /// How many sentences.

@@ -1,4 +1,4 @@
-//! What is read from the hands of other people's captures: the handshape of a hand at its straightest, and at rest.
+//! Handshapes read from other people's captures: of each hand at its straightest, and at rest.
 
 use std::path::{Path, PathBuf};
 

@@ -6,7 +6,7 @@
 //! `... -- faults FOLDER BODY.bvh [FILE.md]` counts faults that make movement look unlike a person's, and writes
 //! the table between the marks of a file; `sample N` after `faults` takes one sign out of N.
 
-#![allow(clippy::print_stdout)]
+#![allow(clippy::print_stdout, reason = "a program prints its table")]
 
 mod bodies;
 mod bulk;

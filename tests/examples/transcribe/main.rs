@@ -12,7 +12,7 @@
 //! a file of body language behind it (`.json`) replaces numbers of the animator, not of the transcriber.
 //! `... -- movement FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
 
-#![allow(clippy::print_stdout)]
+#![allow(clippy::print_stdout, reason = "a program prints its table")]
 
 #[path = "../notation/bodies.rs"]
 mod bodies;

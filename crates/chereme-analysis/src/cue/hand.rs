@@ -245,7 +245,7 @@ impl HandModel {
         })
     }
 
-    /// Returns the parameters of the angles that can be read off a frame; what is hidden is as usual.
+    /// Returns the parameters of the angles that can be read off a frame; hidden ones get their usual values.
     fn read_off(&self, frame: &Frame) -> Vec<f64> {
         let angles = self.angles_of(frame);
         let scaled: Vec<f64> = angles

@@ -238,7 +238,7 @@ pub struct Gesture {
     pub extent: Option<[f64; 2]>,
 }
 
-/// What a take shows of a key.
+/// The evidence of one key in a take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shown {
     /// The hand at its placement.
@@ -256,7 +256,7 @@ pub struct Recognisers {
     pub placements: Recogniser,
 }
 
-/// What is added to every variance of the Gaussians, in square millimetres.
+/// The addition to every variance of the Gaussians, in square millimetres.
 const FLOOR: f64 = 0.25;
 /// Rounds in which recognisers are learned from targets that they found.
 const ROUNDS: usize = 2;

@@ -126,10 +126,10 @@ enum Action {
         /// Sounds last FACTOR times as long as usual, from 0.1 to 10; else 1.6
         #[arg(long, value_name = "FACTOR")]
         pace: Option<f64>,
-        /// What a duration costs that differs by 100 ms
+        /// The cost of a duration that differs by 100 ms
         #[arg(long, default_value_t = 1.0, value_name = "COST")]
         duration_cost: f64,
-        /// What a join costs whose ends differ by the spread within one key
+        /// The cost of a join if its ends differ by the spread within one key
         #[arg(long, default_value_t = 1.0, value_name = "COST")]
         join_cost: f64,
         /// The gloss of the new recording; without it nothing is stored

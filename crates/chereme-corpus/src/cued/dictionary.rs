@@ -44,11 +44,11 @@ pub struct DictionaryReport {
     pub of: u64,
     /// The mean distance by which its components miss the places of markers, in millimetres.
     pub missed_mm: f64,
-    /// The pairs of keys with how often each is there and where it was cut, the most frequent first.
+    /// The pairs of keys with their counts and sources, the most frequent first.
     pub pairs: Vec<Dikeys>,
     /// Recordings that were left out, with the reason.
     pub left_out: Vec<String>,
-    /// What a script lacks, if one was given.
+    /// The coverage of a script, if one was given.
     pub script: Option<ScriptCoverage>,
 }
 
@@ -63,7 +63,7 @@ pub struct Dikeys {
     pub sources: Vec<String>,
 }
 
-/// What a dictionary has of a script.
+/// The coverage of a script by a dictionary.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScriptCoverage {
     /// How many sentences the script has.

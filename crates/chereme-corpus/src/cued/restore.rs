@@ -48,11 +48,11 @@ impl Default for RestoreOptions {
 pub struct RestoredTake {
     /// The recording.
     pub recording: String,
-    /// The recordings from which the model of the hand learned; empty if there is none.
+    /// The recordings from which the model of the hand learned; empty without a model.
     pub hand_from: Vec<String>,
     /// The share of the hand's variance that its components explain.
     pub explained: Option<f64>,
-    /// The recordings from which the model of the face learned; empty if there is none.
+    /// The recordings from which the model of the face learned; empty without a model.
     pub face_from: Vec<String>,
     /// How many frames there are.
     pub frames: u64,
@@ -89,12 +89,12 @@ pub struct RestoredMarker {
     pub most_sd_mm: f64,
 }
 
-/// A predicted standard deviation in the room above this, in millimetres, is told as uncertain.
+/// A predicted standard deviation in the room above this, in millimetres, is reported as uncertain.
 const UNCERTAIN: f64 = 8.0;
 /// From how many frames a model learns at most.
 const MOST_LEARNED: usize = 10_000;
 
-/// What the model of the face says of a frame: the head's motion, and the place and predicted error of each marker.
+/// A frame by the model of the face: the head's motion, and the place and predicted error of each marker.
 type FaceRow = (Rigid, Vec<DVec3>, Vec<f64>);
 
 struct Models {
@@ -180,7 +180,7 @@ impl Corpus {
     }
 }
 
-/// Learns the models: the hand's from takes of the hand alone if there are any, the face's likewise.
+/// Learns the models: the hand's from takes of the hand alone if there are any, the face's from takes of the face.
 fn models(
     connection: &Connection,
     options: &RestoreOptions,

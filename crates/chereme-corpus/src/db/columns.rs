@@ -59,7 +59,7 @@ pub(crate) fn word_or_null<T: Named>(row: &Row<'_>, column: usize) -> rusqlite::
         .map(|Col(value)| value))
 }
 
-/// Reads the role of a tier from its three columns, the first of which is `column`.
+/// Reads the role of a tier from three columns, beginning at `column`.
 pub(crate) fn role(row: &Row<'_>, column: usize) -> rusqlite::Result<TierRole> {
     let text = |column: usize| Ok::<_, rusqlite::Error>(row.get_ref(column)?.as_str_or_null()?);
     let (kind, component, feature) = (text(column)?, text(column + 1)?, text(column + 2)?);
@@ -260,7 +260,7 @@ impl ValueState {
         }
     }
 
-    /// Returns the text that an annotation file has for a value in this state; where nothing was coded, the empty text.
+    /// Returns the text that an annotation file has for a value in this state; the empty text if nothing was coded.
     #[must_use]
     pub fn file_text(self, value: &str) -> &str {
         match self {

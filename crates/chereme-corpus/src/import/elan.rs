@@ -1,4 +1,4 @@
-//! What ELAN keeps next to its annotation files: vocabularies, templates of tiers, and how tiers are shown.
+//! Files that ELAN keeps next to its annotation files: vocabularies, templates of tiers, and how tiers are shown.
 
 use std::collections::BTreeSet;
 

@@ -32,7 +32,7 @@ impl Settings {
 /// The most tiers that are read.
 const TIERS: usize = 10_000;
 
-/// Reads a file of preferences (root `preferences`); what is not about tiers is left out.
+/// Reads a file of preferences (root `preferences`), and leaves out everything that is not about tiers.
 ///
 /// # Errors
 /// [`Error`] if the bytes are not UTF-8, not XML, cut short, or no preferences.

@@ -236,7 +236,7 @@ impl Reader {
         Ok((tracks, self.findings.finish()))
     }
 
-    /// Returns the rate: what the caller says, what times of frames show, or the usual one.
+    /// Returns the rate that the caller states, else that of the frames' times, else the usual one.
     fn rate(&mut self, known: Option<Rate>) -> Result<Rate, Error> {
         if let Some(rate) = known.or_else(|| stated(&self.millis)) {
             return Ok(rate);

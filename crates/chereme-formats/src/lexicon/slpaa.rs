@@ -13,7 +13,7 @@ use crate::table::{Cells, Row};
 
 /// The most bytes of JSON that are read.
 const BYTES: usize = 64 << 20;
-/// A posture farther than this from every handshape, in radians, is none of them.
+/// A posture farther than this from every handshape, in radians, gets no handshape.
 const FAR: f64 = 0.33;
 
 const TITLES: [&str; 15] = [

@@ -113,7 +113,7 @@ impl Areas {
         usize::from(self.ids[row * self.size[0] + column]).checked_sub(1)
     }
 
-    /// Returns a picture of all areas: what they fill, faintly, and the lines between them.
+    /// Returns a picture of all areas: faint fillings, and the lines between them.
     fn all(&self, colour: Color32) -> ColorImage {
         let [wide, high] = self.size;
         let id = |column: usize, row: usize| self.ids[row * wide + column];

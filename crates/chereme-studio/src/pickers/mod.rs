@@ -59,7 +59,7 @@ pub(crate) struct Picker {
     pub(crate) digits: Vec<String>,
     /// The inventory and the value whose details are requested.
     asked: Option<(String, String)>,
-    /// Of places: where they are shown, from the side, and how far off.
+    /// The places that are shown: on head and body, on the weak hand, or in space.
     tab: body::Tab,
     /// It turns to the pictures with the value that it is at.
     turns: bool,

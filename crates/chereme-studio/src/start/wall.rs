@@ -57,7 +57,7 @@ fn made(sign: StarterSign) -> Made {
     }
 }
 
-/// Returns columns, rows and the side of a picture for so many signs in that room; nothing where not even one fits.
+/// Returns columns, rows and the side of a picture for `count` signs in `room`; `None` if not even one fits.
 pub(super) fn grid(room: Vec2, count: usize) -> Option<([usize; 2], f32)> {
     let fit = |side: f32, foot: f32| ((side + GAP) / (LEAST + foot + GAP)).floor() as usize;
     let most = [fit(room.x, 0.0), fit(room.y, FOOT)];

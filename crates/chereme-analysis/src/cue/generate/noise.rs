@@ -1,4 +1,4 @@
-//! What cameras see of generated markers: noise, and what is hidden from them.
+//! Generated markers as cameras record them: with noise and with gaps.
 
 use glam::DVec3;
 

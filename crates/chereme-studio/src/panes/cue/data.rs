@@ -1,4 +1,4 @@
-//! What the pane of cued speech shows, without a window: words, keys and corrections, and what is practised.
+//! The content of the pane of cued speech, without a window: words, keys, corrections and exercises.
 
 use std::collections::BTreeMap;
 
@@ -86,7 +86,7 @@ pub(super) struct Word {
     pub(super) corrected: bool,
 }
 
-/// A key with where it comes from.
+/// A key, and the phones that it stands for.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Key {
     pub(super) placement: String,
