@@ -5,6 +5,7 @@ use std::fs;
 use chereme_tests::repository::{self, TextFile};
 
 const LONGEST: usize = 700;
+const GUIDE: usize = 150;
 
 /// This file writes the words that it looks for.
 const OWN: &str = "tests/tests/tidy.rs";
@@ -55,6 +56,22 @@ fn no_file_is_longer_than_a_person_reads() {
         .map(|(file, lines)| format!("{} has {lines} lines: split it", file.path))
         .collect();
     expect_none("length", &faults);
+}
+
+#[test]
+fn guides_are_short() {
+    let mut files = repository::text_files();
+    files.retain(|file| {
+        file.path == "README.md"
+            || (file.path.starts_with("crates/") && file.path.ends_with("/README.md"))
+    });
+    assert!(files.len() > 9, "{} guides", files.len());
+    let lengths = files.iter().map(|file| (file, file.text.lines().count()));
+    let faults: Vec<String> = lengths
+        .filter(|(_, lines)| *lines > GUIDE)
+        .map(|(file, lines)| format!("{} has {lines} lines", file.path))
+        .collect();
+    expect_none("guides of more than 150 lines", &faults);
 }
 
 #[test]
