@@ -10,9 +10,7 @@ pub const DEEPEST: usize = 32;
 /// The most sources and operators.
 pub const MOST_PARTS: usize = 1000;
 /// The longest time in seconds that a recipe can name: that of a day.
-const LONGEST: f64 = 86_400.0;
-/// The most repetitions.
-pub const MOST_REPETITIONS: u32 = 1000;
+pub(crate) const LONGEST: f64 = 86_400.0;
 
 impl Recipe {
     /// Returns the recipe of a tree, with nested pipes and utterances laid out flat.
@@ -73,14 +71,7 @@ fn flat(node: Node) -> Node {
 }
 
 fn check(node: &Node, depth: usize, parts: &mut usize) -> Result<(), RecipeError> {
-    let step = match node {
-        Node::Spell(_) => "spell",
-        Node::Point(_) => "point",
-        Node::Cue(_) => "cue",
-        Node::Hamnosys(_) => "hamnosys",
-        Node::Sigml(_) => "sigml",
-        _ => "sign",
-    };
+    let step = node.name();
     if depth > DEEPEST {
         return Err(RecipeError::Size {
             what: "levels",
@@ -166,7 +157,7 @@ fn check(node: &Node, depth: usize, parts: &mut usize) -> Result<(), RecipeError
         Node::Pipe(pipe) => {
             check(&pipe.of, depth + 1, parts)?;
             count(parts, pipe.steps.len())?;
-            pipe.steps.iter().try_for_each(check_step)
+            pipe.steps.iter().try_for_each(Step::check)
         }
         Node::Then(then) => {
             check(&then.first, depth + 1, parts)?;
@@ -189,142 +180,8 @@ fn count(parts: &mut usize, more: usize) -> Result<(), RecipeError> {
     Ok(())
 }
 
-fn check_step(step: &Step) -> Result<(), RecipeError> {
-    let name = step.name();
-    match step {
-        Step::Reverse | Step::Swap | Step::Trim => Ok(()),
-        Step::Span(cut) => check_cut(name, cut),
-        Step::Configure(configure) => {
-            filled(name, &configure.values, "no value is given")?;
-            configure
-                .values
-                .iter()
-                .try_for_each(|value| choice(name, value))?;
-            via(name, &configure.via)
-        }
-        Step::Place(place) => match &place.to {
-            Goal::By(legs) => {
-                filled(name, legs, "no way is given")?;
-                check_legs(name, legs)
-            }
-            Goal::Near { of, by } => {
-                named(name, of, "the name of the sign is empty")?;
-                check_legs(name, by)
-            }
-            Goal::At(value) => named(name, value, "the name of the placement is empty"),
-            Goal::Best(query) => named(name, query, "the query is empty"),
-            Goal::AtPoint(point) => point.iter().try_for_each(|&at| length(name, at)),
-        },
-        Step::Mirror(mirror) if mirror.from == crate::units::Hands::Both => {
-            Err(RecipeError::Empty {
-                step: name,
-                what: "one arm is copied to the other; name right, left, dominant or weak",
-            })
-        }
-        Step::Mirror(_) => Ok(()),
-        Step::Repeat(repeat) => {
-            let times = f64::from(repeat.times);
-            range(
-                name,
-                "the number of times",
-                times,
-                1.0,
-                f64::from(MOST_REPETITIONS),
-            )?;
-            for (what, factor) in [("scale", repeat.scale), ("tempo", repeat.tempo)] {
-                if let Some(factor) = factor {
-                    range(name, what, factor.0, 0.05, 20.0)?;
-                }
-            }
-            time(name, "gap", repeat.gap, 60.0)?;
-            via(name, &repeat.via)
-        }
-        Step::Orient(orient) => {
-            if orient.palm.is_empty() && orient.fingers.is_empty() && orient.by.is_empty() {
-                let what = "neither palm nor fingers nor a turn is given";
-                return Err(RecipeError::Empty { step: name, what });
-            }
-            for directions in [&orient.palm, &orient.fingers] {
-                if !directions.is_empty() {
-                    way(name, directions)?;
-                }
-            }
-            orient
-                .by
-                .iter()
-                .try_for_each(|turn| range(name, "the angle", turn.angle.0, -360.0, 360.0))
-        }
-        Step::Amplify(amplify) => range(name, "the factor", amplify.by.0, 0.0, 20.0),
-        Step::Travel(travel) => {
-            if !travel.path.is_empty() && !travel.through.is_empty() {
-                let what = "it has legs and a curve: keep one of them";
-                return Err(RecipeError::Empty { step: name, what });
-            }
-            if travel.through.is_empty() {
-                filled(name, &travel.path, "no way is given")?;
-                if travel.time.is_some() {
-                    let what =
-                        "only a curve has a time; each leg has its own, such as left 5cm in 0.2s";
-                    return Err(RecipeError::Empty { step: name, what });
-                }
-            }
-            check_legs(name, &travel.path)?;
-            if travel.through.len() > MOST_POINTS {
-                let what = "the curve has more than 64 points";
-                return Err(RecipeError::Empty { step: name, what });
-            }
-            for point in &travel.through {
-                point.iter().try_for_each(|it| length(name, *it))?;
-            }
-            time(name, "the time", travel.time, 600.0)?;
-            via(name, &travel.via)
-        }
-        Step::Retime(retime) => {
-            filled(name, &retime.paces, "no pace is given")?;
-            retime.paces.iter().try_for_each(|pace| match *pace {
-                Pace::Times(factor) => range(name, "the factor", factor.0, 0.05, 20.0),
-                Pace::To(seconds) => range(name, "the time", seconds.0, 0.01, 600.0),
-            })
-        }
-        Step::Nonmanual(nonmanual) => {
-            named(name, &nonmanual.from, "the name of the sign is empty")?;
-            optional(
-                nonmanual.function.as_deref(),
-                name,
-                "the name of the function is empty",
-            )?;
-            match &nonmanual.over {
-                None => Ok(()),
-                Some(Over::Part(cut)) => check_cut(name, cut),
-                Some(Over::At(times)) => {
-                    for at in times {
-                        range(name, "a milestone", at.0, -LONGEST, LONGEST)?;
-                    }
-                    if times.windows(2).any(|pair| pair[0].0 > pair[1].0) {
-                        let what = "milestones decrease; write M1 to M5 in order of time";
-                        return Err(RecipeError::Empty { step: name, what });
-                    }
-                    Ok(())
-                }
-            }
-        }
-        Step::Indicate(indicate) => {
-            if indicate.from.is_none() && indicate.to.is_none() {
-                let what = "neither where it starts nor where it ends is given";
-                return Err(RecipeError::Empty { step: name, what });
-            }
-            [&indicate.from, &indicate.to]
-                .into_iter()
-                .flatten()
-                .try_for_each(|at| spot(name, at))
-        }
-    }
-}
-
-/// The most points of a curve.
-const MOST_POINTS: usize = 64;
-
-fn check_cut(step: &'static str, cut: &Cut) -> Result<(), RecipeError> {
+/// Checks the two ends of a part of movement.
+pub(crate) fn part(step: &'static str, cut: &Cut) -> Result<(), RecipeError> {
     time(step, "the start", cut.from, LONGEST)?;
     time(step, "the end", cut.to, LONGEST)?;
     let (from, to) = (cut.from.map_or(0.0, |it| it.0), cut.to.map(|it| it.0));
@@ -335,15 +192,19 @@ fn check_cut(step: &'static str, cut: &Cut) -> Result<(), RecipeError> {
     Ok(())
 }
 
-fn check_legs(step: &'static str, legs: &[Leg]) -> Result<(), RecipeError> {
+/// Checks straight ways.
+pub(crate) fn legs(step: &'static str, legs: &[Leg]) -> Result<(), RecipeError> {
     legs.iter().try_for_each(|leg| {
-        way(step, &leg.towards)?;
+        directions(step, &leg.towards)?;
         length(step, leg.distance)?;
         time(step, "the time", leg.time, 600.0)
     })
 }
 
-fn way(step: &'static str, directions: &[crate::units::Direction]) -> Result<(), RecipeError> {
+pub(crate) fn directions(
+    step: &'static str,
+    directions: &[crate::units::Direction],
+) -> Result<(), RecipeError> {
     if towards(directions).is_none() || directions.len() > 6 {
         let what = "the directions are missing, too many, or cancel out";
         return Err(RecipeError::Empty { step, what });
@@ -351,14 +212,14 @@ fn way(step: &'static str, directions: &[crate::units::Direction]) -> Result<(),
     Ok(())
 }
 
-fn length(step: &'static str, length: Length) -> Result<(), RecipeError> {
+pub(crate) fn length(step: &'static str, length: Length) -> Result<(), RecipeError> {
     match length {
         Length::Metres(metres) => range(step, "the length in metres", metres, -10.0, 10.0),
         Length::Arm(share) => range(step, "the share of the arm", share, -10.0, 10.0),
     }
 }
 
-fn time(
+pub(crate) fn time(
     step: &'static str,
     what: &'static str,
     time: Option<Seconds>,
@@ -367,11 +228,11 @@ fn time(
     time.map_or(Ok(()), |time| range(step, what, time.0, 0.0, most))
 }
 
-fn via(step: &'static str, via: &Transition) -> Result<(), RecipeError> {
+pub(crate) fn via(step: &'static str, via: &Transition) -> Result<(), RecipeError> {
     time(step, "the transition's time", via.time, 60.0)
 }
 
-fn range(
+pub(crate) fn range(
     step: &'static str,
     what: &'static str,
     found: f64,
@@ -390,7 +251,7 @@ fn range(
     })
 }
 
-fn choice(step: &'static str, choice: &Choice) -> Result<(), RecipeError> {
+pub(crate) fn choice(step: &'static str, choice: &Choice) -> Result<(), RecipeError> {
     match choice {
         Choice::Keep => Ok(()),
         Choice::Value(text) => named(step, text, "the value is empty"),
@@ -399,27 +260,35 @@ fn choice(step: &'static str, choice: &Choice) -> Result<(), RecipeError> {
     }
 }
 
-fn spot(step: &'static str, spot: &Spot) -> Result<(), RecipeError> {
+pub(crate) fn spot(step: &'static str, spot: &Spot) -> Result<(), RecipeError> {
     match spot {
         Spot::Me | Spot::You => Ok(()),
-        Spot::Towards(directions) => way(step, directions),
+        Spot::Towards(all) => directions(step, all),
         Spot::Value(text) => named(step, text, "the name of the placement is empty"),
         Spot::Point(point) => point.iter().try_for_each(|&at| length(step, at)),
     }
 }
 
-fn named(step: &'static str, text: &str, what: &'static str) -> Result<(), RecipeError> {
+pub(crate) fn named(step: &'static str, text: &str, what: &'static str) -> Result<(), RecipeError> {
     if text.trim().is_empty() {
         return Err(RecipeError::Empty { step, what });
     }
     Ok(())
 }
 
-fn optional(text: Option<&str>, step: &'static str, what: &'static str) -> Result<(), RecipeError> {
+pub(crate) fn optional(
+    text: Option<&str>,
+    step: &'static str,
+    what: &'static str,
+) -> Result<(), RecipeError> {
     text.map_or(Ok(()), |text| named(step, text, what))
 }
 
-fn filled<T>(step: &'static str, list: &[T], what: &'static str) -> Result<(), RecipeError> {
+pub(crate) fn filled<T>(
+    step: &'static str,
+    list: &[T],
+    what: &'static str,
+) -> Result<(), RecipeError> {
     if list.is_empty() {
         return Err(RecipeError::Empty { step, what });
     }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use crate::answers::Path;
 use crate::contact::Contacts;
 use crate::error::MakeError;
 use crate::evaluate;
@@ -93,18 +94,19 @@ pub(crate) struct Stage {
 impl Part {
     /// Returns whether what stands at `path`, counted from the part's own, is of it.
     fn covers(&self, path: &str) -> bool {
-        let below = |start: &str| {
-            let rest = path.strip_prefix(start);
+        let own = Path::default();
+        let below = |start: Path| {
+            let rest = path.strip_prefix(start.as_str());
             rest.is_some_and(|rest| rest.starts_with('/'))
         };
         match &self.of {
             _ if !self.steps.is_empty() => {
                 let mut steps = self.steps.iter();
-                below("/pipe/of") || steps.any(|it| below(&format!("/pipe/steps/{}", it.index)))
+                below(own.operand()) || steps.any(|it| below(own.step(it.index)))
             }
             Node::Then(then) => {
                 let mut next = 0..then.next.len();
-                below("/then/first") || next.any(|n| below(&format!("/then/next/{n}")))
+                below(own.first()) || next.any(|n| below(own.joined(n)))
             }
             _ => path.starts_with('/'),
         }
@@ -156,7 +158,7 @@ impl Stage {
     }
 
     /// Returns the report, at `base` instead of the former place of the part.
-    pub(crate) fn told(&self, base: &str) -> Report {
+    pub(crate) fn report_at(&self, base: &str) -> Report {
         let mut report = self.report.clone();
         for step in &mut report.steps {
             step.path = format!("{base}{}", &step.path[self.base.len()..]);
@@ -234,14 +236,14 @@ impl Kept {
 #[derive(Debug, Clone)]
 pub(crate) struct Former<'a> {
     node: &'a Node,
-    pub(crate) path: String,
+    pub(crate) path: Path,
 }
 
 impl<'a> Former<'a> {
     pub(crate) fn of(recipe: &'a Recipe) -> Self {
         Self {
             node: &recipe.root,
-            path: String::new(),
+            path: Path::default(),
         }
     }
 
@@ -254,7 +256,7 @@ impl<'a> Former<'a> {
         match self.node {
             Node::Pipe(pipe) => Self {
                 node: &pipe.of,
-                path: format!("{}/pipe/of", self.path),
+                path: self.path.operand(),
             },
             _ => self.clone(),
         }
@@ -265,7 +267,7 @@ impl<'a> Former<'a> {
         match self.node {
             Node::Then(then) => Self {
                 node: &then.first,
-                path: format!("{}/then/first", self.path),
+                path: self.path.first(),
             },
             _ => self.clone(),
         }
@@ -281,12 +283,12 @@ impl<'a> Former<'a> {
     }
 
     /// Returns the path of an equal operator.
-    pub(crate) fn step(&self, step: &Step) -> Option<String> {
+    pub(crate) fn step(&self, step: &Step) -> Option<Path> {
         let Node::Pipe(pipe) = self.node else {
             return None;
         };
         let at = pipe.steps.iter().position(|old| old == step)?;
-        Some(format!("{}/pipe/steps/{at}", self.path))
+        Some(self.path.step(at))
     }
 
     /// Returns the piece that was equal, or else stood there, among those after the first.
@@ -298,7 +300,7 @@ impl<'a> Former<'a> {
         let at = same.unwrap_or(nth);
         Some(Self {
             node: &then.next.get(at)?.node,
-            path: format!("{}/then/next/{at}/node", self.path),
+            path: self.path.joined(at).piece(),
         })
     }
 }

@@ -32,6 +32,7 @@
 //! After Naert, Larboulette & Gibet, *Motion synthesis and editing for the generation of new sign
 //! language content*, Machine Translation 35 (2021).
 
+mod answers;
 mod arm;
 mod body;
 mod check;
@@ -64,7 +65,7 @@ mod text;
 pub mod units;
 mod work;
 
-pub use check::{DEEPEST, MOST_PARTS, MOST_REPETITIONS};
+pub use check::{DEEPEST, MOST_PARTS};
 pub use cue::{CuePhases, PhaseRule};
 pub use curve::Spline;
 pub use draft::Draft;
@@ -78,6 +79,7 @@ pub use lookup::{letters_in, value_in};
 pub use made::{
     About, ChannelReport, CueTier, Curve, HandReport, JoinReport, Made, Note, Report, StepReport,
 };
+pub use ops::repeat::MOST_REPETITIONS;
 pub use poses::{Exact, HandPose, PoseOrigin};
 pub use recipe::Recipe;
 pub use resolve::{

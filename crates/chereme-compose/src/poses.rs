@@ -5,9 +5,9 @@ use chereme_motion::{HandAngles, Side, Skeleton};
 use chereme_sign::Component;
 use serde::{Deserialize, Serialize};
 
+use crate::answers::Setting;
 use crate::error::Cause;
 use crate::recipe::Choice;
-use crate::resolve::Setting;
 use crate::sources::{Example, Material, Meaning, Sources, Value};
 
 /// A posture of the hand as it was chosen.

@@ -3,7 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::cue::PhaseRule;
-use crate::units::{Degrees, Direction, Factor, Hands, Length, Seconds};
+use crate::units::{Direction, Factor, Hands, Length, Seconds};
+
+pub use crate::ops::settings::*;
+pub use crate::ops::{Field, FieldSetting, Step};
 
 /// How a made clip comes about, as text (`ESCARGOT | configure right U`) and as JSON.
 ///
@@ -38,6 +41,25 @@ pub enum Node {
     Pipe(Pipe),
     /// One piece of movement after another.
     Then(Then),
+}
+
+impl Node {
+    /// The words that begin sources, beside the names of signs.
+    pub(crate) const WORDS: [&'static str; 5] = ["spell", "point", "cue", "hamnosys", "sigml"];
+
+    /// Returns the name of the kind of node, as JSON has it.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::Sign(_) => "sign",
+            Self::Spell(_) => "spell",
+            Self::Point(_) => "point",
+            Self::Cue(_) => "cue",
+            Self::Hamnosys(_) => "hamnosys",
+            Self::Sigml(_) => "sigml",
+            Self::Pipe(_) => "pipe",
+            Self::Then(_) => "then",
+        }
+    }
 }
 
 /// Operators applied to a piece of movement, in order.
@@ -221,88 +243,12 @@ pub struct Point {
     pub on: Option<String>,
 }
 
-fn dominant() -> Hands {
+pub(crate) fn dominant() -> Hands {
     Hands::Dominant
 }
 
-fn both() -> Hands {
+pub(crate) fn both() -> Hands {
     Hands::Both
-}
-
-/// One operator with its settings.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Step {
-    /// Gives the hands other configurations.
-    Configure(Configure),
-    /// Moves the hands elsewhere.
-    Place(Place),
-    /// Plays the movement backwards.
-    Reverse,
-    /// Exchanges what the two arms do, across the body's sagittal plane.
-    Swap,
-    /// Makes one arm do the mirror image of what the other does.
-    Mirror(Mirror),
-    /// Plays the movement several times.
-    Repeat(Repeat),
-    /// Turns the hands.
-    Orient(Orient),
-    /// Makes the hands' movement larger or smaller.
-    Amplify(Amplify),
-    /// Carries the hands along a path.
-    Travel(Travel),
-    /// Makes the movement faster or slower.
-    Retime(Retime),
-    /// Takes head and face from another sign.
-    Nonmanual(Nonmanual),
-    /// Makes a directional verb start or end elsewhere.
-    Indicate(Indicate),
-    /// Keeps a part of the movement and leaves the rest out.
-    Span(Cut),
-    /// Keeps the activity: rest before and after it goes, odd first and last frames with it.
-    Trim,
-}
-
-impl Step {
-    /// The word that begins each operator; directional verbs begin with either of the last two.
-    pub const WORDS: [&'static str; 15] = [
-        "configure",
-        "place",
-        "reverse",
-        "swap",
-        "mirror",
-        "repeat",
-        "orient",
-        "amplify",
-        "travel",
-        "retime",
-        "nonmanual",
-        "span",
-        "trim",
-        "from",
-        "to",
-    ];
-
-    /// Returns the operator's name.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Configure(_) => "configure",
-            Self::Place(_) => "place",
-            Self::Reverse => "reverse",
-            Self::Swap => "swap",
-            Self::Mirror(_) => "mirror",
-            Self::Repeat(_) => "repeat",
-            Self::Orient(_) => "orient",
-            Self::Amplify(_) => "amplify",
-            Self::Travel(_) => "travel",
-            Self::Retime(_) => "retime",
-            Self::Nonmanual(_) => "nonmanual",
-            Self::Indicate(_) => "indicate",
-            Self::Span(_) => "span",
-            Self::Trim => "trim",
-        }
-    }
 }
 
 /// Where a value comes from.
@@ -316,60 +262,6 @@ pub enum Choice {
     /// The value of another sign, by its address: `from LION`.
     From(String),
     /// The value of the best answer to a query: `best(configuration=U signer=same)`.
-    Best(String),
-}
-
-/// Settings of `configure right U`, `configure both from LION`, `configure right U, S`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Configure {
-    /// The hands that change.
-    #[serde(default = "dominant")]
-    pub hand: Hands,
-    /// One value for the whole sign, or one for each configuration that the sign holds in turn.
-    pub values: Vec<Choice>,
-    /// Into and out of each value, and from one to the next.
-    #[serde(default, skip_serializing_if = "Transition::is_default")]
-    pub via: Transition,
-}
-
-/// Settings of `place both by left 25cm`, `place right at chin`, `place left near BOL`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Place {
-    /// The hands that move, as one body where both do.
-    #[serde(default = "both")]
-    pub hand: Hands,
-    /// Where to.
-    pub to: Goal,
-    /// The point of the hand that comes to the goal; without one the point that touches the body in the sign, else
-    /// the palm. `by` moves all points alike.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub with: Option<HandPoint>,
-    /// The way the arm's posture is found; `using fabrik`.
-    #[serde(default, skip_serializing_if = "Solver::is_default")]
-    pub solver: Solver,
-}
-
-/// Where hands are placed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Goal {
-    /// Moved by the sum of these, each in the signer's own directions.
-    By(Vec<Leg>),
-    /// At a placement of an inventory.
-    At(String),
-    /// At a point of body space: metres to the left, up from the floor, and forward.
-    AtPoint([Length; 3]),
-    /// Where the hand is in another sign, by its address, and moved on from there.
-    Near {
-        /// The other sign.
-        of: String,
-        /// How far beside it.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        by: Vec<Leg>,
-    },
-    /// Where the hand is in the best answer to a query.
     Best(String),
 }
 
@@ -445,192 +337,23 @@ pub enum Solver {
 }
 
 impl Solver {
+    /// Every solver.
+    pub const ALL: [Self; 2] = [Self::Analytic, Self::Fabrik];
+
+    /// Returns the word that recipes print.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Analytic => "analytic",
+            Self::Fabrik => "fabrik",
+        }
+    }
+
     /// Returns whether this is the usual one.
     #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
-}
-
-/// Settings of `mirror right`: the arm that is copied; without one the dominant.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mirror {
-    /// The arm whose movement the other arm takes; never both.
-    #[serde(default = "dominant")]
-    pub from: Hands,
-}
-
-/// Settings of `repeat 3 scale 0.8 tempo 1.2 gap 0.1s`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Repeat {
-    /// How often the movement is played, from 1 on.
-    pub times: u32,
-    /// The factor for the size of the hands' movement from each repetition to the next.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub scale: Option<Factor>,
-    /// The factor for the speed from each repetition to the next.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tempo: Option<Factor>,
-    /// The time between two repetitions, the transition included.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub gap: Option<Seconds>,
-    /// The course between two repetitions; without one slerp, as the founding paper has it.
-    #[serde(default, skip_serializing_if = "Transition::is_default")]
-    pub via: Transition,
-}
-
-/// Settings of `orient right palm up`, `orient right fingers forward palm down`, `orient both by 30deg about up`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Orient {
-    /// The hands that turn.
-    #[serde(default = "dominant")]
-    pub hand: Hands,
-    /// Where the palm faces in the middle of the sign.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub palm: Vec<Direction>,
-    /// Where the fingers would point if they were straight.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub fingers: Vec<Direction>,
-    /// Turns about the signer's own directions, right-handed, in order.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub by: Vec<Turn>,
-}
-
-/// A turn about one of the signer's directions: `30deg about up`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Turn {
-    /// How far; positive is counter-clockwise seen against the direction.
-    pub angle: Degrees,
-    /// The direction turned about.
-    pub about: Direction,
-}
-
-/// Settings of `amplify both 1.5`: the hands' paths grow about their middle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Amplify {
-    /// The hands whose movement changes, about one middle where both do.
-    #[serde(default = "both")]
-    pub hand: Hands,
-    /// The factor for distances from the middle of the movement.
-    pub by: Factor,
-}
-
-/// Settings of `travel right down 20cm then up 20cm`, and of
-/// `travel right through 10cm,5cm,0cm then 20cm,0cm,0cm in 1.2s`: along straight legs, or along a smooth curve.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Travel {
-    /// The hands that travel.
-    #[serde(default = "dominant")]
-    pub hand: Hands,
-    /// The legs, one after another; those without a time share the rest by their length.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub path: Vec<Leg>,
-    /// The points of a curve that is taken instead of legs, each so far to the left of where the hands would be, up and
-    /// forward.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub through: Vec<[Length; 3]>,
-    /// The time that the curve takes; without one all of the movement.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub time: Option<Seconds>,
-    /// The course along each way; without one minimum jerk.
-    #[serde(default, skip_serializing_if = "Transition::is_default")]
-    pub via: Transition,
-}
-
-/// Settings of `retime 150%`, `retime to 2s`, `retime 100%, 50%, to 1s`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Retime {
-    /// One pace for the whole sign, or one for each of its phases in turn.
-    pub paces: Vec<Pace>,
-}
-
-/// How long something lasts.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Pace {
-    /// This times as long as it did.
-    Times(Factor),
-    /// This long.
-    To(Seconds),
-}
-
-/// Settings of `nonmanual from TOKEN`: head and face of another sign, fitted to this one's time, and of
-/// `nonmanual wh from recording:3 over 0.4s..1.9s by phases`: an expression carried over phase by phase.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Nonmanual {
-    /// The other sign's address.
-    pub from: String,
-    /// The function of the expression, such as `wh`; without one the only expression that is there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub function: Option<String>,
-    /// The part of this movement over which the expression lies; without one all of it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub over: Option<Over>,
-    /// Whether each phase of the expression is stretched onto the same phase here; else all of it evenly.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub by_phases: bool,
-}
-
-impl Nonmanual {
-    /// Returns head and face of a whole sign, fitted to this one's time.
-    #[must_use]
-    pub fn of(from: impl Into<String>) -> Self {
-        Self {
-            from: from.into(),
-            ..Self::default()
-        }
-    }
-
-    /// Returns whether an expression with milestones is carried over, and not all of another sign.
-    #[must_use]
-    pub fn is_expression(&self) -> bool {
-        self.by_phases || self.over.is_some() || self.function.is_some()
-    }
-}
-
-/// Where an expression lies in a movement.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Over {
-    /// Over the signs of this part, `0.4s..1.9s`: the milestones follow from them.
-    Part(Cut),
-    /// With these milestones M1 to M5, `0s, 0.4s, 1.2s, 1.9s, 2.4s`; M3 is M2 if one sign is spanned.
-    At([Seconds; 5]),
-}
-
-/// Settings of `from me to left`: where a directional verb starts and ends.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Indicate {
-    /// The hands that move; a hand that stays still away from the other keeps its place.
-    #[serde(default = "both")]
-    pub hand: Hands,
-    /// Where the movement starts; without one where it did.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub from: Option<Spot>,
-    /// Where the movement ends; without one where it did.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub to: Option<Spot>,
-}
-
-/// Settings of `span 0.4s..1.9s`, `span 0.4s..`, `span ..1.9s`: the part of the movement that is kept.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Cut {
-    /// The time at which it begins; without one at the first frame.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub from: Option<Seconds>,
-    /// The time before which it ends; without one after the last frame.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub to: Option<Seconds>,
 }
 
 /// A place in the signing space that signs refer to.

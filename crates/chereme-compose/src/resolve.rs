@@ -3,22 +3,26 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use chereme_motion::Side;
-use chereme_sign::hamnosys::{self, Notated};
+use chereme_sign::Handedness;
+use chereme_sign::hamnosys::Notated;
 use chereme_sign::milestones::{Function, Milestones};
-use chereme_sign::{Component, Handedness};
 use serde::{Deserialize, Serialize};
 
-use crate::body;
-use crate::cue::{CuePhases, PhaseRule};
+use crate::answers::{Answers, Ask, Path, Setting, Slot};
+use crate::cue::{self, CuePhases};
 use crate::draft::Former;
 use crate::error::{Cause, MakeError};
 use crate::language::Language;
-use crate::poses::{self, HandPose};
+use crate::ops::notated::Written;
+use crate::ops::{point, spell};
+use crate::poses::HandPose;
 use crate::recipe::*;
-use crate::sources::{
-    Held, LearnedProfile, Letter, Material, Meaning, Sources, Spatial, SpellingTimes,
-};
+use crate::sources::{Held, LearnedProfile, Letter, Material, Sources, Spatial, SpellingTimes};
+
+/// The movement of a sign.
+pub(crate) const SIGN: Slot<MaterialInput> = Slot::new("sign");
+/// The learned courses of the way from a piece to the next.
+pub(crate) const JOIN: Slot<LearnedProfile> = Slot::new("via");
 
 /// A recipe with everything it needs.
 #[derive(Debug, Clone)]
@@ -154,15 +158,15 @@ pub(crate) fn after(
     let mut resolver = Resolver {
         sources,
         before,
-        inputs: Inputs::default(),
-        materials: BTreeMap::new(),
+        answers: Answers::default(),
     };
     let former = before.map(|before| Former::of(&before.recipe));
-    resolver.node(&recipe.root, String::new(), former)?;
+    resolver.node(&recipe.root, &Path::default(), former)?;
+    let Answers { inputs, materials } = resolver.answers;
     Ok(Resolved {
         recipe: recipe.clone(),
-        inputs: resolver.inputs,
-        materials: resolver.materials,
+        inputs,
+        materials,
     })
 }
 
@@ -210,39 +214,33 @@ pub fn restore(
 struct Resolver<'a> {
     sources: &'a dyn Sources,
     before: Option<&'a Resolved>,
-    inputs: Inputs,
-    materials: BTreeMap<String, Arc<Material>>,
+    answers: Answers,
 }
 
-/// Whose movement a step works on.
-#[derive(Clone)]
-pub(crate) struct Setting {
-    pub(crate) signer: Option<String>,
-    pub(crate) handedness: Handedness,
+/// Returns the place at which a source keeps the movement that it begins with.
+fn body_of(leaf: &Node) -> Option<Slot<MaterialInput>> {
+    Some(match leaf {
+        Node::Sign(_) => SIGN,
+        Node::Spell(_) => spell::BODY,
+        Node::Point(_) => point::BODY,
+        Node::Cue(_) => cue::leaf::BODY,
+        Node::Hamnosys(_) => Written::Hamnosys.body(),
+        Node::Sigml(_) => Written::Sigml.body(),
+        Node::Pipe(_) | Node::Then(_) => return None,
+    })
 }
-
-impl Setting {
-    fn of(material: &Material) -> Self {
-        Self {
-            signer: material.signer.clone(),
-            handedness: material.handedness,
-        }
-    }
-}
-
-/// The ends of the paths at which sources keep their movement.
-const MATERIALS: [&str; 6] = ["sign", "spell", "point", "cue", "hamnosys", "sigml"];
 
 impl Resolver<'_> {
-    /// Takes over what was found for a part at `from`, now at `to`.
-    fn again(&mut self, from: &str, to: &str) {
+    /// Takes over the answers for a part at `from`, now at `to`.
+    fn again(&mut self, from: &Path, to: &Path) {
         let Some(before) = self.before else { return };
-        for (path, input) in before.below(from) {
-            let now = format!("{to}{}", &path[from.len()..]);
+        for (path, input) in before.below(from.as_str()) {
+            let now = format!("{to}{}", &path[from.as_str().len()..]);
             if let Some(material) = before.materials.get(path) {
-                self.materials.insert(now.clone(), Arc::clone(material));
+                let material = Arc::clone(material);
+                self.answers.materials.insert(now.clone(), material);
             }
-            self.inputs.0.insert(now, input.clone());
+            self.answers.inputs.0.insert(now, input.clone());
         }
     }
 
@@ -250,7 +248,7 @@ impl Resolver<'_> {
     fn source_again(
         &mut self,
         leaf: &Node,
-        path: &str,
+        path: &Path,
         former: Option<Former<'_>>,
     ) -> Option<Setting> {
         let former = former?.source();
@@ -258,378 +256,102 @@ impl Resolver<'_> {
             return None;
         }
         self.again(&former.path, path);
-        let mut ends = MATERIALS.iter().map(|end| format!("{path}/{end}"));
-        ends.find_map(|end| self.materials.get(&end))
-            .map(|it| Setting::of(it))
+        let body = self.answers.materials.get(&body_of(leaf)?.at(path));
+        body.map(|it| Setting::of(it))
     }
 
     fn node(
         &mut self,
         node: &Node,
-        path: String,
+        path: &Path,
         former: Option<Former<'_>>,
     ) -> Result<Setting, MakeError> {
-        let leaf = !matches!(node, Node::Pipe(_) | Node::Then(_));
-        if leaf && let Some(setting) = self.source_again(node, &path, former.clone()) {
-            return Ok(setting);
-        }
-        let fault = |cause| MakeError {
-            path: path.clone(),
-            step: node.to_string(),
-            cause,
-        };
         match node {
-            Node::Sign(address) => {
-                let material = self
-                    .sources
-                    .material(address)
-                    .map_err(|e| fault(e.into()))?;
-                self.keep(format!("{path}/sign"), material).map_err(fault)
-            }
-            Node::Spell(spell) => {
-                let stage = self
-                    .sources
-                    .stage(spell.on.as_deref())
-                    .map_err(|e| fault(e.into()))?;
-                let setting = self.keep(format!("{path}/spell"), stage).map_err(fault)?;
-                let letters = self.letters(spell, &setting).map_err(fault)?;
-                let at = format!("{path}/spell/word");
-                self.inputs.0.insert(at, Input::Letters(letters));
-                if spell.hold.is_none() || spell.via.time.is_none() {
-                    let times = self.sources.spelling_times();
-                    let times = Input::Times(times.map_err(|e| fault(e.into()))?);
-                    self.inputs.0.insert(format!("{path}/spell/hold"), times);
+            Node::Pipe(pipe) => self.pipe(pipe, path, former),
+            Node::Then(then) => self.chain(then, path, former),
+            leaf => {
+                if let Some(setting) = self.source_again(leaf, path, former) {
+                    return Ok(setting);
                 }
-                self.course(&spell.via, format!("{path}/spell/via"))
-                    .map_err(fault)?;
-                Ok(setting)
-            }
-            Node::Point(point) => {
-                let stage = self
-                    .sources
-                    .stage(point.on.as_deref())
-                    .map_err(|e| fault(e.into()))?;
-                let setting = self.keep(format!("{path}/point"), stage).map_err(fault)?;
-                if let Some(with) = &point.with {
-                    let side = point.hand.sides(setting.handedness)[0];
-                    let poses = poses::choose(self.sources, with, side, &setting).map_err(fault)?;
-                    self.inputs
-                        .0
-                        .insert(format!("{path}/point/with"), Input::Poses(poses));
-                }
-                self.spot(&point.at, format!("{path}/point/at"))
-                    .map_err(fault)?;
-                self.course(&point.via, format!("{path}/point/via"))
-                    .map_err(fault)?;
-                Ok(setting)
-            }
-            Node::Cue(cue) => {
-                let read = crate::cue::read(cue).map_err(fault)?;
-                let stage = self
-                    .sources
-                    .stage(cue.on.as_deref())
-                    .map_err(|e| fault(e.into()))?;
-                let setting = self.keep(format!("{path}/cue"), stage).map_err(fault)?;
-                let side = cue.hand.sides(setting.handedness)[0];
-                let own = read.code.shapes.iter().map(|shape| &shape.configuration);
-                let mut shapes = Vec::new();
-                for name in std::iter::once(&read.code.rest.configuration).chain(own) {
-                    let value = self.sources.value(Component::Configuration, name);
-                    let value = value.map_err(|e| fault(e.into()))?;
-                    shapes.push(self.shape_of_code(&value, side, &setting).map_err(fault)?);
-                }
-                let at = format!("{path}/cue/shapes");
-                self.inputs.0.insert(at, Input::Poses(shapes));
-                if cue.phase == PhaseRule::Measured {
-                    let phases = self.sources.cue_phases().map_err(|e| fault(e.into()))?;
-                    let phases = phases.ok_or_else(|| fault(Cause::NoPhases))?;
-                    let at = format!("{path}/cue/by");
-                    self.inputs.0.insert(at, Input::Phases(phases));
-                }
-                Ok(setting)
-            }
-            Node::Hamnosys(notation) => {
-                let read = hamnosys::parse(&notation.of).map_err(|error| fault(error.into()))?;
-                let notated = Notated {
-                    sign: read.sign,
-                    text: Some(notation.of.clone()),
-                    ..Notated::default()
-                };
-                let at = format!("{path}/hamnosys");
-                self.notation(at, vec![notated], notation).map_err(fault)
-            }
-            Node::Sigml(notation) => {
-                let found = self.sources.notation(&notation.of);
-                let found = found.map_err(|error| fault(error.into()))?;
-                let at = format!("{path}/sigml");
-                self.notation(at, found, notation).map_err(fault)
-            }
-            Node::Pipe(pipe) => {
-                let of = former.as_ref().map(Former::operated);
-                let same = of.as_ref().is_some_and(|of| of.is(&pipe.of));
-                let setting = self.node(&pipe.of, format!("{path}/pipe/of"), of)?;
-                for (n, step) in pipe.steps.iter().enumerate() {
-                    let path = format!("{path}/pipe/steps/{n}");
-                    let known = former.as_ref().filter(|_| same);
-                    if let Some(known) = known.and_then(|former| former.step(step)) {
-                        self.again(&known, &path);
-                        continue;
-                    }
-                    self.step(step, &path, &setting)
-                        .map_err(|cause| MakeError {
-                            path,
-                            step: step.to_string(),
-                            cause,
-                        })?;
-                }
-                Ok(setting)
-            }
-            Node::Then(then) => {
-                let first = former.as_ref().map(Former::first);
-                let setting = self.node(&then.first, format!("{path}/then/first"), first)?;
-                for (n, joined) in then.next.iter().enumerate() {
-                    let piece = former.as_ref().and_then(|former| former.piece(joined, n));
-                    self.node(&joined.node, format!("{path}/then/next/{n}/node"), piece)?;
-                    self.course(&joined.via, format!("{path}/then/next/{n}/via"))
-                        .map_err(fault)?;
-                }
-                Ok(setting)
-            }
-        }
-    }
-
-    fn step(&mut self, step: &Step, path: &str, setting: &Setting) -> Result<(), Cause> {
-        match step {
-            Step::Configure(configure) => {
-                for &side in configure.hand.sides(setting.handedness) {
-                    for (n, choice) in configure.values.iter().enumerate() {
-                        if *choice == Choice::Keep {
-                            continue;
-                        }
-                        let poses = poses::choose(self.sources, choice, side, setting)?;
-                        let at = format!("{path}/configure/values/{n}/{}", side.name());
-                        self.inputs.0.insert(at, Input::Poses(poses));
-                    }
-                }
-                self.course(&configure.via, format!("{path}/configure/via"))
-            }
-            Step::Place(place) => {
-                let at = format!("{path}/place/to");
-                let found = match &place.to {
-                    Goal::By(_) | Goal::AtPoint(_) => return Ok(()),
-                    Goal::At(value) => self.place(value)?,
-                    Goal::Near { of, .. } => {
-                        let material = self.sources.material(of)?;
-                        place_of(&material, place, setting)?
-                    }
-                    Goal::Best(query) => {
-                        let signer = setting.signer.as_deref();
-                        let found = self.sources.best(query, signer)?;
-                        let Some(first) = found.first() else {
-                            return Err(Cause::NothingFound(query.clone()));
-                        };
-                        let material = self.sources.material(&first.address)?;
-                        place_of(&material, place, setting)?
-                    }
-                };
-                self.inputs.0.insert(at, Input::Place(found));
-                Ok(())
-            }
-            Step::Repeat(repeat) => self.course(&repeat.via, format!("{path}/repeat/via")),
-            Step::Travel(travel) => self.course(&travel.via, format!("{path}/travel/via")),
-            Step::Nonmanual(nonmanual) => {
-                let material = match nonmanual.is_expression() {
-                    true => {
-                        let function = nonmanual.function.as_deref();
-                        let found = self.sources.expression(&nonmanual.from, function)?;
-                        let at = format!("{path}/nonmanual/expression");
-                        let input = ExpressionInput {
-                            function: found.function,
-                            milestones: found.milestones,
-                        };
-                        self.inputs.0.insert(at, Input::Expression(input));
-                        found.material
-                    }
-                    false => self.sources.material(&nonmanual.from)?,
-                };
-                self.keep(format!("{path}/nonmanual/from"), material)?;
-                Ok(())
-            }
-            Step::Indicate(indicate) => {
-                for (word, spot) in [("from", &indicate.from), ("to", &indicate.to)] {
-                    if let Some(spot) = spot {
-                        self.spot(spot, format!("{path}/indicate/{word}"))?;
-                    }
-                }
-                Ok(())
-            }
-            Step::Reverse
-            | Step::Swap
-            | Step::Mirror(_)
-            | Step::Orient(_)
-            | Step::Amplify(_)
-            | Step::Retime(_)
-            | Step::Span(_)
-            | Step::Trim => Ok(()),
-        }
-    }
-
-    fn keep(&mut self, path: String, material: Material) -> Result<Setting, Cause> {
-        if material.clip.frames() == 0 {
-            return Err(Cause::Empty(material.address));
-        }
-        let setting = Setting::of(&material);
-        let input = MaterialInput {
-            address: material.address.clone(),
-            hash: material.hash.clone(),
-            gloss: material.gloss.clone(),
-            handedness: material.handedness,
-            held: material.held.clone(),
-        };
-        self.inputs.0.insert(path.clone(), Input::Material(input));
-        self.materials.insert(path, Arc::new(material));
-        Ok(setting)
-    }
-
-    fn notation(
-        &mut self,
-        path: String,
-        found: Vec<Notated>,
-        notation: &Notation,
-    ) -> Result<Setting, Cause> {
-        if found.is_empty() {
-            return Err(Cause::Empty(notation.of.clone()));
-        }
-        let stage = self.sources.stage(notation.on.as_deref())?;
-        let setting = self.keep(path.clone(), stage)?;
-        let at = format!("{path}/of");
-        self.inputs.0.insert(at, Input::Notation(found));
-        let signer = setting.signer.as_deref();
-        let named = notation.language.as_deref();
-        let language = self.sources.body_language(named, signer)?;
-        if !language.is_usual() {
-            let at = format!("{path}/language");
-            self.inputs.0.insert(at, Input::Language(language));
-        }
-        Ok(setting)
-    }
-
-    /// Returns the posture of a shape of cued speech: the inventory's own, because every cuer learns the same
-    /// charts; captured ones if the inventory has none.
-    fn shape_of_code(
-        &self,
-        value: &crate::sources::Value,
-        side: Side,
-        setting: &Setting,
-    ) -> Result<HandPose, Cause> {
-        match &value.meaning {
-            Some(Meaning::Hand(angles)) => Ok(HandPose {
-                value: Some(value.id.clone()),
-                origin: poses::PoseOrigin::Inventory(value.inventory.clone()),
-                angles: *angles,
-                exact: None,
-            }),
-            _ => poses::of_value(self.sources, value, side, setting),
-        }
-    }
-
-    fn letters(&self, spell: &Spell, setting: &Setting) -> Result<Vec<LetterInput>, Cause> {
-        let side = spell.hand.sides(setting.handedness)[0];
-        let letters = self
-            .sources
-            .letters(spell.alphabet.as_deref(), &spell.word)?;
-        let mut found = Vec::with_capacity(letters.len());
-        for letter in letters {
-            let pose = poses::of_value(self.sources, &letter.value, side, setting)?;
-            found.push(LetterInput { letter, pose });
-        }
-        if found.is_empty() {
-            return Err(Cause::Empty(spell.word.clone()));
-        }
-        Ok(found)
-    }
-
-    fn course(&mut self, via: &Transition, path: String) -> Result<(), Cause> {
-        if via.profile == Some(Profile::Learned) {
-            let profile = self.sources.learned_profile()?.ok_or(Cause::NoProfile)?;
-            self.inputs.0.insert(path, Input::Courses(profile));
-        }
-        Ok(())
-    }
-
-    fn spot(&mut self, spot: &Spot, path: String) -> Result<(), Cause> {
-        if let Spot::Value(value) = spot {
-            let place = self.place(value)?;
-            self.inputs.0.insert(path, Input::Place(place));
-        }
-        Ok(())
-    }
-
-    fn place(&self, text: &str) -> Result<PlaceInput, Cause> {
-        let value = self.sources.value(Component::Placement, text)?;
-        match value.meaning {
-            Some(Meaning::Place(at)) => Ok(PlaceInput {
-                value: Some(value.id),
-                from: value.inventory,
-                at,
-            }),
-            _ => {
-                let examples = self.sources.holding(Component::Placement, &value.id)?;
-                let Some(example) = examples.first() else {
-                    let what = "place on the body";
-                    return Err(Cause::NoMeaning {
-                        value: value.id,
-                        what,
-                    });
-                };
-                let material = self.sources.material(&example.address)?;
-                let side = example.hand.unwrap_or(material.handedness.dominant());
-                let found = place_of_sides(&material, &[side], None)?;
-                Ok(PlaceInput {
-                    value: Some(value.id),
-                    ..found
+                let found = self.source(leaf, path);
+                found.map_err(|cause| MakeError {
+                    path: path.to_string(),
+                    step: leaf.to_string(),
+                    cause,
                 })
             }
         }
     }
-}
 
-fn place_of(material: &Material, place: &Place, setting: &Setting) -> Result<PlaceInput, Cause> {
-    let sides = place.hand.sides(setting.handedness);
-    let has = |side: &&Side| material.anatomy.arm(**side).is_some();
-    let shown: Vec<Side> = sides.iter().filter(has).copied().collect();
-    place_of_sides(material, &shown, place.with)
-}
+    fn source(&mut self, leaf: &Node, path: &Path) -> Result<Setting, Cause> {
+        let mut ask = self.ask(path);
+        match leaf {
+            Node::Sign(address) => {
+                let material = ask.sources.material(address)?;
+                ask.keep(&SIGN, material)
+            }
+            Node::Spell(settings) => spell::resolve(settings, &mut ask),
+            Node::Point(settings) => point::resolve(settings, &mut ask),
+            Node::Cue(settings) => cue::leaf::resolve(settings, &mut ask),
+            Node::Hamnosys(settings) => Written::Hamnosys.resolve(settings, &mut ask),
+            Node::Sigml(settings) => Written::Sigml.resolve(settings, &mut ask),
+            Node::Pipe(_) | Node::Then(_) => Err(Cause::Input),
+        }
+    }
 
-/// Returns the placement that hands hold all through another sign, if it has exactly one.
-fn held_place(material: &Material, sides: &[Side]) -> Option<String> {
-    let dominant = material.handedness.dominant();
-    let told = material.held.iter().filter(|held| {
-        let of = sides.contains(&held.hand.unwrap_or(dominant));
-        of && held.component == Component::Placement && held.feature.is_none()
-    });
-    let mut values = told.filter_map(|held| held.value.value());
-    let first = values.next()?;
-    values.all(|value| value == first).then(|| first.to_owned())
-}
+    fn pipe(
+        &mut self,
+        pipe: &Pipe,
+        path: &Path,
+        former: Option<Former<'_>>,
+    ) -> Result<Setting, MakeError> {
+        let of = former.as_ref().map(Former::operated);
+        let same = of.as_ref().is_some_and(|of| of.is(&pipe.of));
+        let setting = self.node(&pipe.of, &path.operand(), of)?;
+        for (n, step) in pipe.steps.iter().enumerate() {
+            let path = path.step(n);
+            let known = former.as_ref().filter(|_| same);
+            if let Some(known) = known.and_then(|former| former.step(step)) {
+                self.again(&known, &path);
+                continue;
+            }
+            let found = step.operator().resolve(&mut self.ask(&path), &setting);
+            found.map_err(|cause| MakeError {
+                path: path.to_string(),
+                step: step.to_string(),
+                cause,
+            })?;
+        }
+        Ok(setting)
+    }
 
-/// Returns where hands are in the middle of another sign, relative to the signer's chest and arms.
-fn place_of_sides(
-    material: &Material,
-    sides: &[Side],
-    with: Option<HandPoint>,
-) -> Result<PlaceInput, Cause> {
-    let work = crate::work::Work::of(material);
-    let frame = body::Frame::of(&work);
-    let mean = body::mean_point(&work, sides, with.unwrap_or(HandPoint::Palm));
-    let (Some(frame), Some(mean)) = (frame, mean) else {
-        let address = material.address.clone();
-        let what = "hand's place";
-        return Err(Cause::NothingToTake { address, what });
-    };
-    Ok(PlaceInput {
-        value: held_place(material, sides),
-        from: material.address.clone(),
-        at: frame.spatial(mean),
-    })
+    fn chain(
+        &mut self,
+        then: &Then,
+        path: &Path,
+        former: Option<Former<'_>>,
+    ) -> Result<Setting, MakeError> {
+        let first = former.as_ref().map(Former::first);
+        let setting = self.node(&then.first, &path.first(), first)?;
+        for (n, joined) in then.next.iter().enumerate() {
+            let at = path.joined(n);
+            let piece = former.as_ref().and_then(|former| former.piece(joined, n));
+            self.node(&joined.node, &at.piece(), piece)?;
+            let found = self.ask(&at).course(&JOIN, &joined.via);
+            found.map_err(|cause| MakeError {
+                path: path.to_string(),
+                step: Node::Then(then.clone()).to_string(),
+                cause,
+            })?;
+        }
+        Ok(setting)
+    }
+
+    fn ask<'a>(&'a mut self, path: &'a Path) -> Ask<'a> {
+        Ask {
+            sources: self.sources,
+            path,
+            answers: &mut self.answers,
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! Pipelines without what does nothing: neighbours that cancel out or become one.
 
+use crate::ops::Neighbours;
 use crate::recipe::*;
-use crate::units::Factor;
 
 impl Recipe {
     /// Returns the recipe that makes the same sign with the fewest operators: pairs of `reverse` or
@@ -28,45 +28,21 @@ pub(crate) struct Planned {
 pub(crate) fn plan(steps: &[Step]) -> Vec<Planned> {
     let mut kept: Vec<Planned> = Vec::with_capacity(steps.len());
     for (index, step) in steps.iter().enumerate() {
-        if is_nothing(step) {
+        let operator = step.operator();
+        if operator.is_nothing() {
             continue;
         }
-        match (kept.last_mut().map(|planned| &mut planned.step), step) {
-            (Some(Step::Reverse), Step::Reverse) | (Some(Step::Swap), Step::Swap) => {
-                kept.pop();
-            }
-            (Some(Step::Place(before)), Step::Place(now)) => match (&mut before.to, &now.to) {
-                (Goal::By(legs), Goal::By(more))
-                    if before.hand == now.hand && before.solver == now.solver =>
-                {
-                    legs.extend(more.iter().cloned());
-                }
-                _ => kept.push(Planned {
-                    index,
-                    step: step.clone(),
-                }),
-            },
-            _ => kept.push(Planned {
+        let before = kept.last_mut().map(|planned| &mut planned.step);
+        match before.map_or(Neighbours::Apart, |before| operator.after(before)) {
+            Neighbours::Nothing => drop(kept.pop()),
+            Neighbours::One => {}
+            Neighbours::Apart => kept.push(Planned {
                 index,
                 step: step.clone(),
             }),
         }
     }
     kept
-}
-
-fn is_nothing(step: &Step) -> bool {
-    match step {
-        Step::Repeat(repeat) => repeat.times == 1,
-        Step::Amplify(amplify) => amplify.by == Factor(1.0),
-        Step::Retime(retime) => retime.paces == [Pace::Times(Factor(1.0))],
-        Step::Place(place) => match &place.to {
-            Goal::By(legs) => legs.iter().all(|leg| leg.distance.is_zero()),
-            _ => false,
-        },
-        Step::Configure(configure) => configure.values == [Choice::Keep],
-        _ => false,
-    }
 }
 
 fn node(of: &Node) -> Node {

@@ -5,7 +5,7 @@ use chereme_motion::glam::DVec3;
 
 use super::{Contact, Contacts, KEPT, POINTS, Tracks};
 use crate::arm;
-use crate::recipe::{Solver, Step};
+use crate::recipe::Solver;
 use crate::work::{Columns, Group, Work};
 
 /// How far a wrist is moved for the same point of the hand to touch, and for any, in metres.
@@ -26,20 +26,10 @@ pub(crate) enum Keep {
 }
 
 impl Keep {
-    /// Returns the contacts that a step keeps; `sides` gives the sides of named hands.
-    pub(crate) fn of(step: &Step, sides: impl Fn(crate::units::Hands) -> &'static [Side]) -> Self {
-        let both = |hands| match sides(hands).len() {
+    /// Returns what moving hands elsewhere keeps: their contacts with each other if both move.
+    pub(crate) fn between(sides: &[Side]) -> Self {
+        match sides.len() {
             2 => Self::Hands,
-            _ => Self::None,
-        };
-        match step {
-            Step::Configure(settings) => Self::All(sides(settings.hand)),
-            Step::Orient(settings) => Self::All(sides(settings.hand)),
-            Step::Amplify(settings) => Self::All(sides(settings.hand)),
-            Step::Nonmanual(_) => Self::All(&Side::BOTH),
-            Step::Place(settings) => both(settings.hand),
-            Step::Travel(settings) => both(settings.hand),
-            Step::Indicate(settings) => both(settings.hand),
             _ => Self::None,
         }
     }

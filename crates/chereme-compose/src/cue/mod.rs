@@ -8,6 +8,7 @@
 
 pub mod dikey;
 mod hand;
+pub(crate) mod leaf;
 mod mouth;
 mod places;
 mod timing;

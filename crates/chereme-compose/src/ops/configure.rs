@@ -12,6 +12,120 @@ use crate::made::{About, Note};
 use crate::ops::say;
 use crate::poses::{self, HandPose};
 use crate::work::{Group, Work};
+use std::fmt::{self, Display, Formatter};
+
+use chereme_sign::Handedness;
+use serde::{Deserialize, Serialize};
+
+use crate::answers::{Ask, Given, Setting, Slot};
+use crate::check;
+use crate::contact::{Carry, Keep};
+use crate::error::RecipeError;
+use crate::ops::{Done, Operator, Syntax};
+use crate::recipe::{Choice, Profile, Transition};
+use crate::sources::LearnedProfile;
+use crate::text::{Parsed, Parser, list};
+use crate::units::Hands;
+
+/// Settings of `configure right U`, `configure both from LION`, `configure right U, S`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Configure {
+    /// The hands that change.
+    #[serde(default = "crate::recipe::dominant")]
+    pub hand: Hands,
+    /// One value for the whole sign, or one for each configuration that the sign holds in turn.
+    pub values: Vec<Choice>,
+    /// Into and out of each value, and from one to the next.
+    #[serde(default, skip_serializing_if = "Transition::is_default")]
+    pub via: Transition,
+}
+
+/// The postures chosen for each value, on each side.
+const VALUES: Slot<Vec<HandPose>> = Slot::new("configure/values");
+/// The learned courses of its transitions.
+const VIA: Slot<LearnedProfile> = Slot::new("configure/via");
+
+impl Syntax for Configure {
+    const NAME: &'static str = "configure";
+
+    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        let hand = parser.hand().unwrap_or(Hands::Dominant);
+        let mut values = vec![parser.choice()?];
+        while parser.comma() {
+            values.push(parser.choice()?);
+        }
+        let via = parser.via()?.unwrap_or_default();
+        Ok(Self { hand, values, via })
+    }
+
+    fn usual() -> Self {
+        Self {
+            hand: Hands::Dominant,
+            values: vec![Choice::Value(String::new())],
+            via: Transition::default(),
+        }
+    }
+}
+
+impl Display for Configure {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "configure {} ", self.hand.name())?;
+        list(f, &self.values, ", ")?;
+        write!(f, "{}", self.via)
+    }
+}
+
+impl Operator for Configure {
+    fn check(&self) -> Result<(), RecipeError> {
+        check::filled(Self::NAME, &self.values, "no value is given")?;
+        let mut values = self.values.iter();
+        values.try_for_each(|value| check::choice(Self::NAME, value))?;
+        check::via(Self::NAME, &self.via)
+    }
+
+    fn resolve(&self, ask: &mut Ask<'_>, setting: &Setting) -> Result<(), Cause> {
+        for &side in self.hand.sides(setting.handedness) {
+            for (n, choice) in self.values.iter().enumerate() {
+                if *choice != Choice::Keep {
+                    let poses = poses::choose(ask.sources, choice, side, setting)?;
+                    ask.put(&VALUES.of(n, side), poses);
+                }
+            }
+        }
+        ask.course(&VIA, &self.via)
+    }
+
+    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
+        let course = given.course(&VIA, &self.via, Profile::Sigmoid)?;
+        let time = self.via.time.map(|time| time.0);
+        let mut did = Vec::new();
+        for &side in self.hand.sides(work.handedness) {
+            let mut values: Vec<Option<&[HandPose]>> = Vec::with_capacity(self.values.len());
+            for (n, choice) in self.values.iter().enumerate() {
+                values.push(match choice {
+                    Choice::Keep => None,
+                    _ => Some(given.need(&VALUES.of(n, side))?)
+                        .filter(|poses| !poses.is_empty())
+                        .map(Vec::as_slice)
+                        .ok_or(Cause::Input)
+                        .map(Some)?,
+                });
+            }
+            let fingers = &course.fingers;
+            did.extend(configure(work, side, &values, fingers, time, given.text)?);
+        }
+        Ok(did.into())
+    }
+
+    fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)> {
+        Some((Carry::Same, Keep::All(self.hand.sides(handedness))))
+    }
+
+    fn is_nothing(&self) -> bool {
+        self.values == [Choice::Keep]
+    }
+}
 
 /// The usual time of a hand from one shape to another, in seconds.
 const CHANGE: f64 = 0.2;

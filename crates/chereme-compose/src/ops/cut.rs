@@ -6,8 +6,116 @@ use chereme_motion::ends::{self, Ends};
 use chereme_motion::{Clip, Instant, Span};
 
 use crate::error::Cause;
-use crate::recipe::Cut;
 use crate::work::{Group, Work};
+use std::fmt::{self, Display, Formatter};
+
+use chereme_sign::Handedness;
+use serde::{Deserialize, Serialize};
+
+use crate::answers::Given;
+use crate::check;
+use crate::contact::{Carry, Keep};
+use crate::error::RecipeError;
+use crate::ops::{Done, Field, FieldSetting, Operator, Syntax};
+use crate::text::{Parsed, Parser, list};
+use crate::units::Seconds;
+
+/// Settings of `span 0.4s..1.9s`, `span 0.4s..`, `span ..1.9s`: the part of the movement that is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cut {
+    /// The time at which it begins; without one at the first frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<Seconds>,
+    /// The time before which it ends; without one after the last frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to: Option<Seconds>,
+}
+
+impl Syntax for Cut {
+    const NAME: &'static str = "span";
+
+    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        parser.cut()
+    }
+
+    fn usual() -> Self {
+        Self {
+            from: Some(Seconds(0.2)),
+            to: None,
+        }
+    }
+}
+
+impl Display for Cut {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "span {}", Part(self))
+    }
+}
+
+/// Writes the two ends alone: `0.4s..1.9s`.
+pub(crate) struct Part<'a>(pub(crate) &'a Cut);
+
+impl Display for Part<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        list(f, self.0.from, "")?;
+        f.write_str("..")?;
+        list(f, self.0.to, "")
+    }
+}
+
+impl Operator for Cut {
+    fn check(&self) -> Result<(), RecipeError> {
+        check::part(Self::NAME, self)
+    }
+
+    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
+        Ok(span(work, self, given.text)?.into())
+    }
+
+    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
+        None
+    }
+
+    fn fields(&mut self) -> Vec<FieldSetting<'_>> {
+        let setting = |name, field| FieldSetting { name, field };
+        vec![
+            setting("from-time", Field::Time(&mut self.from, 0.2)),
+            setting("to-time", Field::Time(&mut self.to, 1.0)),
+        ]
+    }
+}
+
+/// The operator that leaves the rest out; it has no settings.
+pub(crate) struct Trim;
+
+impl Syntax for Trim {
+    const NAME: &'static str = "trim";
+
+    fn parse(_parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        Ok(Self)
+    }
+
+    fn usual() -> Self {
+        Self
+    }
+}
+
+impl Display for Trim {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(Self::NAME)
+    }
+}
+
+impl Operator for Trim {
+    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
+        Ok(trim(work, given.text)?.into())
+    }
+
+    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
+        None
+    }
+}
 
 /// Keeps the frames that begin in a span.
 pub(crate) fn span(work: &mut Work, cut: &Cut, operator: &str) -> Result<Vec<String>, Cause> {

@@ -14,6 +14,117 @@ use chereme_sign::{Component, Reading};
 use crate::error::Cause;
 use crate::made::{About, Note};
 use crate::work::{Columns, Group, Work};
+use std::fmt::{self, Display, Formatter};
+
+use chereme_sign::Handedness;
+use serde::{Deserialize, Serialize};
+
+use crate::answers::Given;
+use crate::contact::{Carry, Keep};
+use crate::error::RecipeError;
+use crate::ops::{Done, Field, FieldSetting, Neighbours, Operator, Step, Syntax};
+use crate::text::{Parsed, Parser};
+use crate::units::Hands;
+
+/// The operator that exchanges the arms; it has no settings.
+pub(crate) struct Swap;
+
+impl Syntax for Swap {
+    const NAME: &'static str = "swap";
+
+    fn parse(_parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        Ok(Self)
+    }
+
+    fn usual() -> Self {
+        Self
+    }
+}
+
+impl Display for Swap {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(Self::NAME)
+    }
+}
+
+impl Operator for Swap {
+    fn apply(&self, work: &mut Work, _given: &mut Given<'_>) -> Result<Done, Cause> {
+        Ok(swap(work)?.into())
+    }
+
+    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
+        Some((Carry::Swapped, Keep::None))
+    }
+
+    fn after(&self, before: &mut Step) -> Neighbours {
+        match before {
+            Step::Swap => Neighbours::Nothing,
+            _ => Neighbours::Apart,
+        }
+    }
+}
+
+/// Settings of `mirror right`: the arm that is copied; without one the dominant.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mirror {
+    /// The arm whose movement the other arm takes; never both.
+    #[serde(default = "crate::recipe::dominant")]
+    pub from: Hands,
+}
+
+impl Syntax for Mirror {
+    const NAME: &'static str = "mirror";
+
+    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        let from = parser.hand().unwrap_or(Hands::Dominant);
+        Ok(Self { from })
+    }
+
+    fn usual() -> Self {
+        let from = Hands::Dominant;
+        Self { from }
+    }
+}
+
+impl Display for Mirror {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self.from {
+            Hands::Dominant => f.write_str("mirror"),
+            from => write!(f, "mirror {}", from.name()),
+        }
+    }
+}
+
+impl Operator for Mirror {
+    fn check(&self) -> Result<(), RecipeError> {
+        match self.from {
+            Hands::Both => Err(RecipeError::Empty {
+                step: Self::NAME,
+                what: "one arm is copied to the other; name right, left, dominant or weak",
+            }),
+            Hands::Right | Hands::Left | Hands::Dominant | Hands::Weak => Ok(()),
+        }
+    }
+
+    fn apply(&self, work: &mut Work, _given: &mut Given<'_>) -> Result<Done, Cause> {
+        let from = self.from.sides(work.handedness)[0];
+        Ok(mirror(work, from)?.into())
+    }
+
+    fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)> {
+        let from = self.from.sides(handedness)[0];
+        Some((Carry::Copied(from), Keep::None))
+    }
+
+    fn fields(&mut self) -> Vec<FieldSetting<'_>> {
+        let field = Field::Hand(&mut self.from);
+        vec![FieldSetting {
+            name: "copied",
+            field,
+        }]
+    }
+}
 
 /// Exchanges what the arms do.
 pub(crate) fn swap(work: &mut Work) -> Result<Vec<String>, Cause> {

@@ -9,6 +9,201 @@ use crate::made::{About, Curve, Note};
 use crate::ops::retarget;
 use crate::sources::Material;
 use crate::work::{Group, Work, groups};
+use std::fmt::{self, Display, Formatter};
+
+use chereme_motion::Side;
+use chereme_sign::Handedness;
+use serde::{Deserialize, Serialize};
+
+use crate::answers::{Ask, Given, Setting, Slot};
+use crate::check;
+use crate::contact::{Carry, Keep};
+use crate::error::RecipeError;
+use crate::ops::cut::Part;
+use crate::ops::{Done, Field, FieldSetting, Operator, Syntax, expression};
+use crate::recipe::Cut;
+use crate::resolve::{ExpressionInput, MaterialInput};
+use crate::text::{Name, Parsed, Parser, list};
+use crate::units::Seconds;
+
+/// Settings of `nonmanual from TOKEN`: head and face of another sign, fitted to this one's time, and of
+/// `nonmanual wh from recording:3 over 0.4s..1.9s by phases`: an expression carried over phase by phase.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Nonmanual {
+    /// The other sign's address.
+    pub from: String,
+    /// The function of the expression, such as `wh`; without one the only expression that is there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub function: Option<String>,
+    /// The part of this movement over which the expression lies; without one all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<Over>,
+    /// Whether each phase of the expression is stretched onto the same phase here; else all of it evenly.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub by_phases: bool,
+}
+
+/// Where an expression lies in a movement.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Over {
+    /// Over the signs of this part, `0.4s..1.9s`: the milestones follow from them.
+    Part(Cut),
+    /// With these milestones M1 to M5, `0s, 0.4s, 1.2s, 1.9s, 2.4s`; M3 is M2 if one sign is spanned.
+    At([Seconds; 5]),
+}
+
+/// The other sign.
+const FROM: Slot<MaterialInput> = Slot::new("nonmanual/from");
+/// The expression that is carried over.
+const EXPRESSION: Slot<ExpressionInput> = Slot::new("nonmanual/expression");
+
+impl Nonmanual {
+    /// Returns head and face of a whole sign, fitted to this one's time.
+    #[must_use]
+    pub fn of(from: impl Into<String>) -> Self {
+        Self {
+            from: from.into(),
+            ..Self::default()
+        }
+    }
+
+    /// Returns whether an expression with milestones is carried over, and not all of another sign.
+    #[must_use]
+    pub fn is_expression(&self) -> bool {
+        self.by_phases || self.over.is_some() || self.function.is_some()
+    }
+}
+
+impl Syntax for Nonmanual {
+    const NAME: &'static str = "nonmanual";
+    const KEYWORDS: &'static [&'static str] = &["over", "phases"];
+
+    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        let function = match parser.word() {
+            Some("from") => None,
+            _ => Some(parser.name("\"from\" and a sign")?),
+        };
+        parser.expect("from", "\"from\" and a sign")?;
+        let from = parser.name("a sign")?;
+        let over = parser.accept("over").then(|| over(parser)).transpose()?;
+        let by_phases = parser.accept("by");
+        if by_phases {
+            parser.expect("phases", "\"phases\"")?;
+        }
+        Ok(Self {
+            from,
+            function,
+            over,
+            by_phases,
+        })
+    }
+
+    fn usual() -> Self {
+        Self::default()
+    }
+}
+
+/// Reads a part of a movement, or the five milestones of an expression.
+fn over(parser: &mut Parser<'_>) -> Parsed<Over> {
+    let start = parser.place();
+    let mut times: Vec<Seconds> = Vec::new();
+    while times.len() < 5 {
+        let Ok(time) =
+            parser.quantity("a part such as 0.4s..1.9s, or five times with commas between")
+        else {
+            break;
+        };
+        times.push(time);
+        if times.len() < 5 && !parser.comma() {
+            break;
+        }
+    }
+    if let Ok(times) = times.try_into() {
+        return Ok(Over::At(times));
+    }
+    parser.back_to(start);
+    parser.cut().map(Over::Part)
+}
+
+impl Display for Nonmanual {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("nonmanual ")?;
+        if let Some(function) = &self.function {
+            write!(f, "{} ", Name(function))?;
+        }
+        write!(f, "from {}", Name(&self.from))?;
+        match &self.over {
+            None => {}
+            Some(Over::Part(cut)) => write!(f, " over {}", Part(cut))?,
+            Some(Over::At(times)) => {
+                f.write_str(" over ")?;
+                list(f, times, ", ")?;
+            }
+        }
+        f.write_str(if self.by_phases { " by phases" } else { "" })
+    }
+}
+
+impl Operator for Nonmanual {
+    fn check(&self) -> Result<(), RecipeError> {
+        let (step, function) = (Self::NAME, self.function.as_deref());
+        check::named(step, &self.from, "the name of the sign is empty")?;
+        check::optional(function, step, "the name of the function is empty")?;
+        match &self.over {
+            None => Ok(()),
+            Some(Over::Part(cut)) => check::part(step, cut),
+            Some(Over::At(times)) => {
+                for at in times {
+                    check::range(step, "a milestone", at.0, -check::LONGEST, check::LONGEST)?;
+                }
+                if times.windows(2).any(|pair| pair[0].0 > pair[1].0) {
+                    let what = "milestones decrease; write M1 to M5 in order of time";
+                    return Err(RecipeError::Empty { step, what });
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn resolve(&self, ask: &mut Ask<'_>, _setting: &Setting) -> Result<(), Cause> {
+        let material = if self.is_expression() {
+            let function = self.function.as_deref();
+            let found = ask.sources.expression(&self.from, function)?;
+            let input = ExpressionInput {
+                function: found.function,
+                milestones: found.milestones,
+            };
+            ask.put(&EXPRESSION, input);
+            found.material
+        } else {
+            ask.sources.material(&self.from)?
+        };
+        ask.keep(&FROM, material).map(|_| ())
+    }
+
+    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
+        let donor = given.material(&FROM)?;
+        let did = match given.get(&EXPRESSION) {
+            Some(found) => expression::expression(work, donor, self, found, given.text)?,
+            None => nonmanual(work, donor, given.text)?,
+        };
+        Ok(did.into())
+    }
+
+    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
+        Some((Carry::Same, Keep::All(&Side::BOTH)))
+    }
+
+    fn fields(&mut self) -> Vec<FieldSetting<'_>> {
+        let field = Field::Sign(&mut self.from);
+        vec![FieldSetting {
+            name: "from-sign",
+            field,
+        }]
+    }
+}
 
 /// Gives head, neck, jaw and eyes the movement they have in another sign, stretched to this one's
 /// time.

@@ -8,9 +8,134 @@ use crate::arm::{self, Reach};
 use crate::body::Frame;
 use crate::error::Cause;
 use crate::ops::{place, say};
-use crate::recipe::{Orient, Solver};
+use crate::recipe::Solver;
 use crate::units::towards;
 use crate::work::{Columns, Group, Work};
+use std::fmt::{self, Display, Formatter};
+
+use chereme_sign::Handedness;
+use serde::{Deserialize, Serialize};
+
+use crate::answers::Given;
+use crate::check;
+use crate::contact::{Carry, Keep};
+use crate::error::RecipeError;
+use crate::ops::{Done, Operator, Syntax};
+use crate::text::{Parsed, Parser, list};
+use crate::units::{Degrees, Direction, Hands};
+
+/// Settings of `orient right palm up`, `orient right fingers forward palm down`, `orient both by 30deg about up`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Orient {
+    /// The hands that turn.
+    #[serde(default = "crate::recipe::dominant")]
+    pub hand: Hands,
+    /// Where the palm faces in the middle of the sign.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub palm: Vec<Direction>,
+    /// Where the fingers would point if they were straight.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fingers: Vec<Direction>,
+    /// Turns about the signer's own directions, right-handed, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub by: Vec<Turn>,
+}
+
+/// A turn about one of the signer's directions: `30deg about up`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Turn {
+    /// How far; positive is counter-clockwise seen against the direction.
+    pub angle: Degrees,
+    /// The direction turned about.
+    pub about: Direction,
+}
+
+impl Syntax for Orient {
+    const NAME: &'static str = "orient";
+    const KEYWORDS: &'static [&'static str] = &["palm", "fingers", "about"];
+
+    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        let mut orient = Self {
+            hand: parser.hand().unwrap_or(Hands::Dominant),
+            palm: Vec::new(),
+            fingers: Vec::new(),
+            by: Vec::new(),
+        };
+        let mut some = false;
+        loop {
+            if parser.accept("palm") {
+                orient.palm = parser.directions()?;
+            } else if parser.accept("fingers") {
+                orient.fingers = parser.directions()?;
+            } else if parser.accept("by") {
+                let angle = parser.quantity("an angle, such as 30deg")?;
+                parser.expect("about", "\"about\" and a direction")?;
+                let about = parser.direction().ok_or_else(|| parser.no_direction())?;
+                orient.by.push(Turn { angle, about });
+            } else if some {
+                return Ok(orient);
+            } else {
+                let words = ["palm", "fingers", "by"];
+                return Err(parser.expected("\"palm\", \"fingers\" or \"by\"", &words));
+            }
+            some = true;
+        }
+    }
+
+    fn usual() -> Self {
+        Self {
+            hand: Hands::Dominant,
+            palm: vec![Direction::Up],
+            fingers: Vec::new(),
+            by: Vec::new(),
+        }
+    }
+}
+
+impl Display for Orient {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "orient {}", self.hand.name())?;
+        for (word, directions) in [("palm", &self.palm), ("fingers", &self.fingers)] {
+            if !directions.is_empty() {
+                write!(f, " {word} ")?;
+                list(f, directions.iter().map(|d| d.name()), " ")?;
+            }
+        }
+        for turn in &self.by {
+            write!(f, " by {} about {}", turn.angle, turn.about.name())?;
+        }
+        Ok(())
+    }
+}
+
+impl Operator for Orient {
+    fn check(&self) -> Result<(), RecipeError> {
+        if self.palm.is_empty() && self.fingers.is_empty() && self.by.is_empty() {
+            return Err(RecipeError::Empty {
+                step: Self::NAME,
+                what: "neither palm nor fingers nor a turn is given",
+            });
+        }
+        for directions in [&self.palm, &self.fingers] {
+            if !directions.is_empty() {
+                check::directions(Self::NAME, directions)?;
+            }
+        }
+        let angle = |turn: &Turn| turn.angle.0;
+        let mut angles = self.by.iter().map(angle);
+        angles.try_for_each(|angle| check::range(Self::NAME, "the angle", angle, -360.0, 360.0))
+    }
+
+    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
+        Ok(orient(work, self, given.text)?.into())
+    }
+
+    fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)> {
+        Some((Carry::Same, Keep::All(self.hand.sides(handedness))))
+    }
+}
 
 /// The most that wrists bend, in degrees: flexion goes to about 80, extension to 70.
 const MOST_BEND: f64 = 85.0;

@@ -10,9 +10,275 @@ use crate::contact::{self, Touch};
 use crate::error::Cause;
 use crate::made::About;
 use crate::ops::{clear, say};
-use crate::recipe::{Goal, HandPoint, Place, Solver};
+use crate::recipe::{HandPoint, Solver};
 use crate::resolve::PlaceInput;
 use crate::work::{Columns, Group, Work};
+use std::fmt::{self, Display, Formatter};
+
+use chereme_sign::Handedness;
+use serde::{Deserialize, Serialize};
+
+use crate::answers::{Ask, Given, Setting, Slot};
+use crate::check;
+use crate::contact::{Carry, Keep};
+use crate::error::RecipeError;
+use crate::ops::{Done, Neighbours, Operator, Step, Syntax};
+use crate::recipe::Leg;
+use crate::sources::Material;
+use crate::text::{Name, Parsed, Parser, list, option, point_text};
+use crate::units::{Direction, Hands, Length};
+
+/// Settings of `place both by left 25cm`, `place right at chin`, `place left near BOL`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Place {
+    /// The hands that move, as one body where both do.
+    #[serde(default = "crate::recipe::both")]
+    pub hand: Hands,
+    /// Where to.
+    pub to: Goal,
+    /// The point of the hand that comes to the goal; without one the point that touches the body in the sign, else
+    /// the palm. `by` moves all points alike.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub with: Option<HandPoint>,
+    /// The way the arm's posture is found; `using fabrik`.
+    #[serde(default, skip_serializing_if = "Solver::is_default")]
+    pub solver: Solver,
+}
+
+/// Where hands are placed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Goal {
+    /// Moved by the sum of these, each in the signer's own directions.
+    By(Vec<Leg>),
+    /// At a placement of an inventory.
+    At(String),
+    /// At a point of body space: metres to the left, up from the floor, and forward.
+    AtPoint([Length; 3]),
+    /// Where the hand is in another sign, by its address, and moved on from there.
+    Near {
+        /// The other sign.
+        of: String,
+        /// How far beside it.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        by: Vec<Leg>,
+    },
+    /// Where the hand is in the best answer to a query.
+    Best(String),
+}
+
+/// The place to go to, as it was found.
+const TO: Slot<PlaceInput> = Slot::new("place/to");
+
+impl Syntax for Place {
+    const NAME: &'static str = "place";
+    const KEYWORDS: &'static [&'static str] = &["near", "using"];
+
+    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        let hand = parser.hand().unwrap_or(Hands::Both);
+        let mut place = Self {
+            hand,
+            to: goal(parser)?,
+            with: None,
+            solver: Solver::Analytic,
+        };
+        loop {
+            if parser.accept("with") {
+                let points = &HandPoint::ALL;
+                let point = parser.one_of(points, HandPoint::name, "a point of the hand")?;
+                place.with = Some(point);
+            } else if parser.accept("using") {
+                place.solver = parser.one_of(&Solver::ALL, Solver::name, "a solver")?;
+            } else {
+                return Ok(place);
+            }
+        }
+    }
+
+    fn usual() -> Self {
+        let leg = Leg {
+            towards: vec![Direction::Up],
+            distance: Length::Metres(0.1),
+            time: None,
+        };
+        Self {
+            hand: Hands::Both,
+            to: Goal::By(vec![leg]),
+            with: None,
+            solver: Solver::Analytic,
+        }
+    }
+}
+
+fn goal(parser: &mut Parser<'_>) -> Parsed<Goal> {
+    if parser.accept("by") {
+        return parser.legs(false).map(Goal::By);
+    }
+    if parser.accept("near") || parser.accept("from") {
+        let of = parser.name("a sign")?;
+        let by = match parser.accept("by") {
+            true => parser.legs(false)?,
+            false => Vec::new(),
+        };
+        return Ok(Goal::Near { of, by });
+    }
+    if !parser.accept("at") {
+        let words = [
+            "by", "at", "near", "right", "left", "both", "dominant", "weak",
+        ];
+        return Err(parser.expected("a hand, \"by\", \"at\" or \"near\"", &words));
+    }
+    if let Some(query) = parser.query()? {
+        return Ok(Goal::Best(query));
+    }
+    if let Some(point) = parser.spot_point()? {
+        return Ok(Goal::AtPoint(point));
+    }
+    let named = parser.name("a placement or a point such as 0cm,120cm,30cm")?;
+    Ok(Goal::At(named))
+}
+
+impl Display for Place {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "place {} ", self.hand.name())?;
+        match &self.to {
+            Goal::By(legs) => {
+                f.write_str("by ")?;
+                list(f, legs, " ")?;
+            }
+            Goal::At(value) => write!(f, "at {}", Name(value))?,
+            Goal::AtPoint(point) => {
+                f.write_str("at ")?;
+                point_text(f, point)?;
+            }
+            Goal::Near { of, by } => {
+                write!(f, "near {}", Name(of))?;
+                if !by.is_empty() {
+                    f.write_str(" by ")?;
+                    list(f, by, " ")?;
+                }
+            }
+            Goal::Best(query) => write!(f, "at best({query})")?,
+        }
+        option(f, "with", self.with.map(HandPoint::name))?;
+        let solver = (!self.solver.is_default()).then(|| self.solver.name());
+        option(f, "using", solver)
+    }
+}
+
+impl Operator for Place {
+    fn check(&self) -> Result<(), RecipeError> {
+        let step = Self::NAME;
+        match &self.to {
+            Goal::By(legs) => {
+                check::filled(step, legs, "no way is given")?;
+                check::legs(step, legs)
+            }
+            Goal::Near { of, by } => {
+                check::named(step, of, "the name of the sign is empty")?;
+                check::legs(step, by)
+            }
+            Goal::At(value) => check::named(step, value, "the name of the placement is empty"),
+            Goal::Best(query) => check::named(step, query, "the query is empty"),
+            Goal::AtPoint(point) => point.iter().try_for_each(|&at| check::length(step, at)),
+        }
+    }
+
+    fn resolve(&self, ask: &mut Ask<'_>, setting: &Setting) -> Result<(), Cause> {
+        let found = match &self.to {
+            Goal::By(_) | Goal::AtPoint(_) => return Ok(()),
+            Goal::At(value) => ask.place(value)?,
+            Goal::Near { of, .. } => self.shown_in(&ask.sources.material(of)?, setting)?,
+            Goal::Best(query) => {
+                let found = ask.sources.best(query, setting.signer.as_deref())?;
+                let Some(first) = found.first() else {
+                    return Err(Cause::NothingFound(query.clone()));
+                };
+                self.shown_in(&ask.sources.material(&first.address)?, setting)?
+            }
+        };
+        ask.put(&TO, found);
+        Ok(())
+    }
+
+    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
+        let (did, residual, moved) = place(work, self, given.get(&TO), given.text)?;
+        Ok(Done {
+            moved: Some(moved.to_array()),
+            ..(did, residual).into()
+        })
+    }
+
+    fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)> {
+        Some((Carry::Same, Keep::between(self.hand.sides(handedness))))
+    }
+
+    fn is_nothing(&self) -> bool {
+        match &self.to {
+            Goal::By(legs) => legs.iter().all(|leg| leg.distance.is_zero()),
+            Goal::At(_) | Goal::AtPoint(_) | Goal::Near { .. } | Goal::Best(_) => false,
+        }
+    }
+
+    fn after(&self, before: &mut Step) -> Neighbours {
+        let Step::Place(before) = before else {
+            return Neighbours::Apart;
+        };
+        match (&mut before.to, &self.to) {
+            (Goal::By(legs), Goal::By(more))
+                if before.hand == self.hand && before.solver == self.solver =>
+            {
+                legs.extend(more.iter().cloned());
+                Neighbours::One
+            }
+            _ => Neighbours::Apart,
+        }
+    }
+}
+
+impl Place {
+    /// Returns where another sign has the hands.
+    fn shown_in(&self, material: &Material, setting: &Setting) -> Result<PlaceInput, Cause> {
+        let has = |side: &&Side| material.anatomy.arm(**side).is_some();
+        let sides = self.hand.sides(setting.handedness).iter();
+        let shown: Vec<Side> = sides.filter(has).copied().collect();
+        shown_by(material, &shown, self.with)
+    }
+}
+
+/// Returns the placement that hands hold all through another sign, if it has exactly one.
+fn held_place(material: &Material, sides: &[Side]) -> Option<String> {
+    let dominant = material.handedness.dominant();
+    let annotated = material.held.iter().filter(|held| {
+        let of = sides.contains(&held.hand.unwrap_or(dominant));
+        of && held.component == Component::Placement && held.feature.is_none()
+    });
+    let mut values = annotated.filter_map(|held| held.value.value());
+    let first = values.next()?;
+    values.all(|value| value == first).then(|| first.to_owned())
+}
+
+/// Returns where hands are in the middle of another sign, relative to the signer's chest and arms.
+pub(crate) fn shown_by(
+    material: &Material,
+    sides: &[Side],
+    with: Option<HandPoint>,
+) -> Result<PlaceInput, Cause> {
+    let work = Work::of(material);
+    let frame = Frame::of(&work);
+    let mean = body::mean_point(&work, sides, with.unwrap_or(HandPoint::Palm));
+    let (Some(frame), Some(mean)) = (frame, mean) else {
+        let address = material.address.clone();
+        let what = "hand's place";
+        return Err(Cause::NothingToTake { address, what });
+    };
+    Ok(PlaceInput {
+        value: held_place(material, sides),
+        from: material.address.clone(),
+        at: frame.spatial(mean),
+    })
+}
 
 /// Moves the hands; returns a description of the effects, the residual, and the displacement in body space, in
 /// metres.

@@ -4,16 +4,58 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Finger, FingerAngles, HandAngles, ModelPose, Part, Side, ThumbAngles};
 use chereme_sign::{Component, Reading};
 
+use crate::answers::{self, Ask, Setting, Slot};
 use crate::arm;
 use crate::body::Frame;
 use crate::course::Courses;
 use crate::error::Cause;
 use crate::made::{About, Note};
+use crate::ops::Done;
 use crate::ops::{join, place};
 use crate::poses::{self, HandPose, PoseOrigin};
 use crate::recipe::Point;
+use crate::recipe::Profile;
+use crate::resolve::MaterialInput;
 use crate::resolve::PlaceInput;
+use crate::sources::LearnedProfile;
 use crate::work::{Group, Work, groups};
+
+/// The body that points.
+pub(crate) const BODY: Slot<MaterialInput> = Slot::new("point");
+/// The hand's shape.
+const WITH: Slot<Vec<HandPose>> = Slot::new("point/with");
+/// The place that is pointed at, if an inventory names it.
+const AT: Slot<PlaceInput> = Slot::new("point/at");
+/// The learned courses of reaching and retraction.
+const VIA: Slot<LearnedProfile> = Slot::new("point/via");
+
+/// Asks for the body, the hand's shape and the place of a pointing gesture.
+pub(crate) fn resolve(settings: &Point, ask: &mut Ask<'_>) -> Result<Setting, Cause> {
+    let setting = ask.body(&BODY, settings.on.as_deref())?;
+    if let Some(with) = &settings.with {
+        let side = settings.hand.sides(setting.handedness)[0];
+        let poses = poses::choose(ask.sources, with, side, &setting)?;
+        ask.put(&WITH, poses);
+    }
+    ask.spot(&AT, &settings.at)?;
+    ask.course(&VIA, &settings.via)?;
+    Ok(setting)
+}
+
+/// Generates a pointing gesture.
+pub(crate) fn generate(
+    settings: &Point,
+    given: &mut answers::Given<'_>,
+) -> Result<(Work, Done), Cause> {
+    let mut work = Work::of(given.material(&BODY)?);
+    let course = given.course(&VIA, &settings.via, Profile::Sigmoid)?;
+    let found = Given {
+        shape: given.get(&WITH).map(Vec::as_slice),
+        place: given.get(&AT),
+    };
+    let done = point(&mut work, settings, &found, &course)?;
+    Ok((work, done.into()))
+}
 
 /// How long reaching, holding and retraction take, in seconds.
 const REACH: f64 = 0.5;

@@ -8,9 +8,137 @@ use crate::course::Courses;
 use crate::error::Cause;
 use crate::made::About;
 use crate::ops::join::{self, Seam};
-use crate::ops::{retime, say, shape};
-use crate::recipe::Repeat;
+use crate::ops::{amplify, retime, say};
 use crate::work::{Group, Work};
+use std::fmt::{self, Display, Formatter};
+
+use chereme_sign::Handedness;
+use serde::{Deserialize, Serialize};
+
+use crate::answers::{Ask, Given, Setting, Slot};
+use crate::check;
+use crate::error::RecipeError;
+use crate::ops::{Done, Field, FieldSetting, Operator, Syntax};
+use crate::recipe::{Profile, Transition};
+use crate::sources::LearnedProfile;
+use crate::text::{Parsed, Parser, option};
+use crate::units::{Factor, Seconds};
+
+/// Settings of `repeat 3 scale 0.8 tempo 1.2 gap 0.1s`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Repeat {
+    /// How often the movement is played, from 1 on.
+    pub times: u32,
+    /// The factor for the size of the hands' movement from each repetition to the next.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<Factor>,
+    /// The factor for the speed from each repetition to the next.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tempo: Option<Factor>,
+    /// The time between two repetitions, the transition included.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gap: Option<Seconds>,
+    /// The course between two repetitions; without one slerp, as the founding paper has it.
+    #[serde(default, skip_serializing_if = "Transition::is_default")]
+    pub via: Transition,
+}
+
+/// The most repetitions.
+pub const MOST_REPETITIONS: u32 = 1000;
+/// The learned courses of the returns to the start.
+const VIA: Slot<LearnedProfile> = Slot::new("repeat/via");
+
+impl Syntax for Repeat {
+    const NAME: &'static str = "repeat";
+    const KEYWORDS: &'static [&'static str] = &["scale", "tempo", "gap"];
+
+    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        let mut repeat = Self {
+            times: parser.count("how often, such as 2")?,
+            scale: None,
+            tempo: None,
+            gap: None,
+            via: Transition::default(),
+        };
+        loop {
+            if parser.accept("scale") {
+                repeat.scale = Some(parser.quantity("a factor, such as 0.8")?);
+            } else if parser.accept("tempo") {
+                repeat.tempo = Some(parser.quantity("a factor, such as 1.2")?);
+            } else if parser.accept("gap") {
+                repeat.gap = Some(parser.quantity("a time, such as 0.1s")?);
+            } else if let Some(via) = parser.via()? {
+                repeat.via = via;
+            } else {
+                return Ok(repeat);
+            }
+        }
+    }
+
+    fn usual() -> Self {
+        Self {
+            times: 2,
+            scale: None,
+            tempo: None,
+            gap: None,
+            via: Transition::default(),
+        }
+    }
+}
+
+impl Display for Repeat {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "repeat {}", self.times)?;
+        option(f, "scale", self.scale)?;
+        option(f, "tempo", self.tempo)?;
+        option(f, "gap", self.gap)?;
+        write!(f, "{}", self.via)
+    }
+}
+
+impl Operator for Repeat {
+    fn check(&self) -> Result<(), RecipeError> {
+        let (step, times) = (Self::NAME, f64::from(self.times));
+        let most = f64::from(MOST_REPETITIONS);
+        check::range(step, "the number of times", times, 1.0, most)?;
+        for (what, factor) in [("scale", self.scale), ("tempo", self.tempo)] {
+            if let Some(factor) = factor {
+                check::range(step, what, factor.0, 0.05, 20.0)?;
+            }
+        }
+        check::time(step, "gap", self.gap, 60.0)?;
+        check::via(step, &self.via)
+    }
+
+    fn resolve(&self, ask: &mut Ask<'_>, _setting: &Setting) -> Result<(), Cause> {
+        ask.course(&VIA, &self.via)
+    }
+
+    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
+        let course = given.course(&VIA, &self.via, Profile::Slerp)?;
+        Ok(repeat(work, self, &course, given.text)?.into())
+    }
+
+    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
+        None
+    }
+
+    fn is_nothing(&self) -> bool {
+        self.times == 1
+    }
+
+    fn fields(&mut self) -> Vec<FieldSetting<'_>> {
+        let setting = |name, field| FieldSetting { name, field };
+        vec![
+            setting("times", Field::Count(&mut self.times, 1..=20)),
+            setting("scale", Field::OptionalFactor(&mut self.scale, 0.8)),
+            setting("tempo", Field::OptionalFactor(&mut self.tempo, 1.2)),
+            setting("gap", Field::Time(&mut self.gap, 0.1)),
+            setting("via", Field::Via(&mut self.via)),
+        ]
+    }
+}
 
 /// The usual time of the return to the start, in seconds.
 const GAP: f64 = 0.12;
@@ -44,7 +172,7 @@ pub(crate) fn repeat(
         let mut next = once.clone();
         if scale != 1.0 {
             let mut touched = contact::touches(&next);
-            residual = residual.max(shape::scale(&mut next, &arms, scale)?.residual);
+            residual = residual.max(amplify::scale(&mut next, &arms, scale)?.residual);
             let keep = Keep::All(&Side::BOTH);
             let what = |told: &String| format!("repetition {}: {told}", n + 1);
             let kept = contact::mend(&mut next, &mut touched, keep, operator);

@@ -6,8 +6,99 @@ use chereme_sign::Component;
 use crate::error::Cause;
 use crate::made::About;
 use crate::ops::{join, say};
-use crate::recipe::Pace;
 use crate::work::{Group, Work};
+use std::fmt::{self, Display, Formatter};
+
+use chereme_sign::Handedness;
+use serde::{Deserialize, Serialize};
+
+use crate::answers::Given;
+use crate::check;
+use crate::contact::{Carry, Keep};
+use crate::error::RecipeError;
+use crate::ops::{Done, Operator, Syntax};
+use crate::text::{Parsed, Parser, list};
+use crate::units::{Factor, Seconds};
+
+/// Settings of `retime 150%`, `retime to 2s`, `retime 100%, 50%, to 1s`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Retime {
+    /// One pace for the whole sign, or one for each of its phases in turn.
+    pub paces: Vec<Pace>,
+}
+
+/// How long something lasts.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Pace {
+    /// This times as long as it did.
+    Times(Factor),
+    /// This long.
+    To(Seconds),
+}
+
+impl Syntax for Retime {
+    const NAME: &'static str = "retime";
+
+    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        let mut paces = Vec::new();
+        loop {
+            paces.push(if parser.accept("to") {
+                Pace::To(parser.quantity("a time, such as 2s")?)
+            } else {
+                Pace::Times(parser.quantity("a factor, such as 150%, or \"to\" and a time")?)
+            });
+            if !parser.comma() {
+                return Ok(Self { paces });
+            }
+        }
+    }
+
+    fn usual() -> Self {
+        Self {
+            paces: vec![Pace::Times(Factor(1.5))],
+        }
+    }
+}
+
+impl Display for Retime {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("retime ")?;
+        list(f, &self.paces, ", ")
+    }
+}
+
+impl Display for Pace {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Times(factor) => write!(f, "{factor}"),
+            Self::To(seconds) => write!(f, "to {seconds}"),
+        }
+    }
+}
+
+impl Operator for Retime {
+    fn check(&self) -> Result<(), RecipeError> {
+        check::filled(Self::NAME, &self.paces, "no pace is given")?;
+        self.paces.iter().try_for_each(|pace| match *pace {
+            Pace::Times(by) => check::range(Self::NAME, "the factor", by.0, 0.05, 20.0),
+            Pace::To(time) => check::range(Self::NAME, "the time", time.0, 0.01, 600.0),
+        })
+    }
+
+    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
+        Ok(retime(work, &self.paces, given.text)?.into())
+    }
+
+    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
+        Some((Carry::Anytime, Keep::None))
+    }
+
+    fn is_nothing(&self) -> bool {
+        self.paces == [Pace::Times(Factor(1.0))]
+    }
+}
 
 /// Gives the movement, or each of its phases, another length of time.
 ///

@@ -6,6 +6,53 @@ use chereme_sign::Reading;
 use crate::made::About;
 use crate::ops::say;
 use crate::work::{Group, Work};
+use std::fmt::{self, Display, Formatter};
+
+use chereme_sign::Handedness;
+
+use crate::answers::Given;
+use crate::contact::{Carry, Keep};
+use crate::error::Cause;
+use crate::ops::{Done, Neighbours, Operator, Step, Syntax};
+use crate::text::{Parsed, Parser};
+
+/// The operator; it has no settings.
+pub(crate) struct Reverse;
+
+impl Syntax for Reverse {
+    const NAME: &'static str = "reverse";
+
+    fn parse(_parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        Ok(Self)
+    }
+
+    fn usual() -> Self {
+        Self
+    }
+}
+
+impl Display for Reverse {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(Self::NAME)
+    }
+}
+
+impl Operator for Reverse {
+    fn apply(&self, work: &mut Work, _given: &mut Given<'_>) -> Result<Done, Cause> {
+        Ok(reverse(work).into())
+    }
+
+    fn contacts(&self, _handedness: Handedness) -> Option<(Carry, Keep)> {
+        None
+    }
+
+    fn after(&self, before: &mut Step) -> Neighbours {
+        match before {
+            Step::Reverse => Neighbours::Nothing,
+            _ => Neighbours::Apart,
+        }
+    }
+}
 
 /// Plays all channels backwards; returns what one should know.
 pub(crate) fn reverse(work: &mut Work) -> Vec<String> {

@@ -4,18 +4,66 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Side, Span};
 use chereme_sign::{Component, Reading};
 
+use crate::answers::{Ask, Given, Setting, Slot};
 use crate::arm;
 use crate::body::Frame;
 use crate::course::{Course, Courses};
 use crate::error::Cause;
 use crate::made::{About, Note};
+use crate::ops::Done;
 use crate::ops::{join, place};
 use crate::poses;
+use crate::recipe::Profile;
 use crate::recipe::Spell;
 use crate::resolve::LetterInput;
+use crate::resolve::MaterialInput;
+use crate::sources::LearnedProfile;
 use crate::sources::{MedianTime, SpellingTimes};
 use crate::units::Seconds;
 use crate::work::{Group, Work};
+
+/// The body that spells.
+pub(crate) const BODY: Slot<MaterialInput> = Slot::new("spell");
+/// The letters with their postures.
+const LETTERS: Slot<Vec<LetterInput>> = Slot::new("spell/word");
+/// How long the corpus's hands hold letters.
+const TIMES: Slot<SpellingTimes> = Slot::new("spell/hold");
+/// The learned courses from letter to letter.
+const VIA: Slot<LearnedProfile> = Slot::new("spell/via");
+
+/// Asks for the body, the letters and the times of a word.
+pub(crate) fn resolve(settings: &Spell, ask: &mut Ask<'_>) -> Result<Setting, Cause> {
+    let setting = ask.body(&BODY, settings.on.as_deref())?;
+    let side = settings.hand.sides(setting.handedness)[0];
+    let letters = ask
+        .sources
+        .letters(settings.alphabet.as_deref(), &settings.word)?;
+    let mut found = Vec::with_capacity(letters.len());
+    for letter in letters {
+        let pose = poses::of_value(ask.sources, &letter.value, side, &setting)?;
+        found.push(LetterInput { letter, pose });
+    }
+    if found.is_empty() {
+        return Err(Cause::Empty(settings.word.clone()));
+    }
+    ask.put(&LETTERS, found);
+    if settings.hold.is_none() || settings.via.time.is_none() {
+        let times = ask.sources.spelling_times()?;
+        ask.put(&TIMES, times);
+    }
+    ask.course(&VIA, &settings.via)?;
+    Ok(setting)
+}
+
+/// Generates the movement of a word.
+pub(crate) fn generate(settings: &Spell, given: &mut Given<'_>) -> Result<(Work, Done), Cause> {
+    let mut work = Work::of(given.material(&BODY)?);
+    let letters = given.need(&LETTERS)?;
+    let course = given.course(&VIA, &settings.via, Profile::Sigmoid)?;
+    let times = Times::of(settings, given.get(&TIMES));
+    let done = spell(&mut work, settings, letters, &times, &course)?;
+    Ok((work, done.into()))
+}
 
 /// The usual time of a held letter, and of the hand from letter to letter, in seconds.
 const HOLD: f64 = 0.2;

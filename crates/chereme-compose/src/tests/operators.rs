@@ -338,3 +338,42 @@ fn a_curve_is_drawn_smoothly_by_a_hand_that_spells_and_its_shape_is_noted() {
     let did = &made.report.steps[1].did[0];
     assert!(did.ends_with("(arc)"), "{did}");
 }
+
+#[test]
+fn every_operator_of_the_list_has_one_name_and_its_own_words() {
+    let words = crate::recipe::Step::words();
+    let mut once = words.clone();
+    once.sort_unstable();
+    once.dedup();
+    assert_eq!(once.len(), words.len(), "a word begins two operators");
+    for step in crate::recipe::Step::usual() {
+        let json = serde_json::to_value(&step).expect("JSON");
+        let key = json.as_str().or_else(|| {
+            let object = json.as_object()?;
+            object.keys().next().map(String::as_str)
+        });
+        assert_eq!(key, Some(step.name()), "{json}");
+        let text = step.to_string();
+        let first = text.split(' ').next().expect("a word");
+        assert!(words.contains(&first), "{text}");
+        if step.check().is_ok() {
+            let recipe = format!("A | {text}");
+            let again: crate::Recipe = recipe.parse().expect(&recipe);
+            assert_eq!(again.to_string(), recipe);
+        }
+    }
+}
+
+#[test]
+fn a_sign_that_is_called_like_a_word_of_recipes_is_quoted() {
+    for word in crate::recipe::Step::words()
+        .into_iter()
+        .chain(["cue", "scale", "then"])
+    {
+        let sign = crate::recipe::Node::Sign(word.to_owned());
+        let text = sign.to_string();
+        assert_eq!(text, format!("\"{word}\""));
+        let recipe: crate::Recipe = text.parse().expect(&text);
+        assert_eq!(*recipe.root(), sign);
+    }
+}

@@ -1,8 +1,5 @@
 //! From text to the tree.
 
-mod expression;
-mod travel;
-
 use std::str::FromStr;
 
 use super::lexer::{Kind, Token, fault, lex};
@@ -35,9 +32,11 @@ impl FromStr for Recipe {
     }
 }
 
-type Parsed<T> = Result<T, TextError>;
+/// What the parser read, or the fault and its place.
+pub(crate) type Parsed<T> = Result<T, TextError>;
 
-struct Parser<'a> {
+/// A reader of a recipe's words.
+pub(crate) struct Parser<'a> {
     text: &'a str,
     tokens: Vec<Token>,
     at: usize,
@@ -109,8 +108,10 @@ impl Parser<'_> {
             let notation = self.notation("a SiGML file or a notated sign")?;
             return Ok(Node::Sigml(notation));
         }
-        if let Some(word) = self.word().filter(|word| Step::WORDS.contains(word)) {
-            let _ = word;
+        if self
+            .word()
+            .is_some_and(|word| Step::words().contains(&word))
+        {
             return Err(self.expected("a sign, \"spell\", \"point\" or \"(\"", &[]));
         }
         self.name("a sign, \"spell\", \"point\" or \"(\"")
@@ -226,49 +227,17 @@ impl Parser<'_> {
     }
 
     fn step(&mut self) -> Parsed<Step> {
-        let Some(word) = self.word().map(str::to_owned) else {
-            return Err(self.expected("an operator", &Step::WORDS));
-        };
-        if !Step::WORDS.contains(&word.as_str()) {
-            return Err(self.expected("an operator", &Step::WORDS));
-        }
-        if word != "from" && word != "to" {
+        if let Some(word) = self.word().map(str::to_owned) {
             self.at += 1;
+            if let Some(step) = Step::parse(self, &word) {
+                return step;
+            }
+            self.at -= 1;
         }
-        Ok(match word.as_str() {
-            "configure" => Step::Configure(self.configure()?),
-            "place" => Step::Place(self.place()?),
-            "reverse" => Step::Reverse,
-            "swap" => Step::Swap,
-            "mirror" => Step::Mirror(Mirror {
-                from: self.hand().unwrap_or(Hands::Dominant),
-            }),
-            "repeat" => Step::Repeat(self.repeat()?),
-            "orient" => Step::Orient(self.orient()?),
-            "amplify" => Step::Amplify(Amplify {
-                hand: self.hand().unwrap_or(Hands::Both),
-                by: self.quantity("a factor, such as 1.5 or 150%")?,
-            }),
-            "travel" => Step::Travel(self.travel()?),
-            "retime" => Step::Retime(self.retime()?),
-            "span" => Step::Span(self.cut()?),
-            "trim" => Step::Trim,
-            "nonmanual" => Step::Nonmanual(self.nonmanual()?),
-            _ => Step::Indicate(self.indicate()?),
-        })
+        Err(self.expected("an operator", &Step::words()))
     }
 
-    fn configure(&mut self) -> Parsed<Configure> {
-        let hand = self.hand().unwrap_or(Hands::Dominant);
-        let mut values = vec![self.choice()?];
-        while self.accept_kind(Kind::Comma) {
-            values.push(self.choice()?);
-        }
-        let via = self.via()?.unwrap_or_default();
-        Ok(Configure { hand, values, via })
-    }
-
-    fn choice(&mut self) -> Parsed<Choice> {
+    pub(crate) fn choice(&mut self) -> Parsed<Choice> {
         if self.accept("_") {
             return Ok(Choice::Keep);
         }
@@ -282,7 +251,7 @@ impl Parser<'_> {
             .map(Choice::Value)
     }
 
-    fn query(&mut self) -> Parsed<Option<String>> {
+    pub(crate) fn query(&mut self) -> Parsed<Option<String>> {
         let Some(token) = self.peek().filter(|token| token.kind == Kind::Query) else {
             return Ok(None);
         };
@@ -292,146 +261,7 @@ impl Parser<'_> {
         Ok(Some(query))
     }
 
-    fn place(&mut self) -> Parsed<Place> {
-        let hand = self.hand().unwrap_or(Hands::Both);
-        let to = if self.accept("by") {
-            Goal::By(self.legs(false)?)
-        } else if self.accept("near") || self.accept("from") {
-            let of = self.name("a sign")?;
-            let by = if self.accept("by") {
-                self.legs(false)?
-            } else {
-                Vec::new()
-            };
-            Goal::Near { of, by }
-        } else if self.accept("at") {
-            match self.query()? {
-                Some(query) => Goal::Best(query),
-                None => match self.spot_point()? {
-                    Some(point) => Goal::AtPoint(point),
-                    None => Goal::At(self.name("a placement or a point such as 0cm,120cm,30cm")?),
-                },
-            }
-        } else {
-            return Err(self.expected(
-                "a hand, \"by\", \"at\" or \"near\"",
-                &[
-                    "by", "at", "near", "right", "left", "both", "dominant", "weak",
-                ],
-            ));
-        };
-        let mut place = Place {
-            hand,
-            to,
-            with: None,
-            solver: Solver::Analytic,
-        };
-        loop {
-            if self.accept("with") {
-                place.with =
-                    Some(self.one_of(&HandPoint::ALL, HandPoint::name, "a point of the hand")?);
-            } else if self.accept("using") {
-                let name = |solver: Solver| match solver {
-                    Solver::Analytic => "analytic",
-                    Solver::Fabrik => "fabrik",
-                };
-                place.solver =
-                    self.one_of(&[Solver::Analytic, Solver::Fabrik], name, "a solver")?;
-            } else {
-                return Ok(place);
-            }
-        }
-    }
-
-    fn repeat(&mut self) -> Parsed<Repeat> {
-        let times = self.word().and_then(|word| word.parse::<u32>().ok());
-        let Some(times) = times else {
-            return Err(self.expected("how often, such as 2", &[]));
-        };
-        self.at += 1;
-        let mut repeat = Repeat {
-            times,
-            scale: None,
-            tempo: None,
-            gap: None,
-            via: Transition::default(),
-        };
-        loop {
-            if self.accept("scale") {
-                repeat.scale = Some(self.quantity("a factor, such as 0.8")?);
-            } else if self.accept("tempo") {
-                repeat.tempo = Some(self.quantity("a factor, such as 1.2")?);
-            } else if self.accept("gap") {
-                repeat.gap = Some(self.quantity("a time, such as 0.1s")?);
-            } else if let Some(via) = self.via()? {
-                repeat.via = via;
-            } else {
-                return Ok(repeat);
-            }
-        }
-    }
-
-    fn orient(&mut self) -> Parsed<Orient> {
-        let mut orient = Orient {
-            hand: self.hand().unwrap_or(Hands::Dominant),
-            palm: Vec::new(),
-            fingers: Vec::new(),
-            by: Vec::new(),
-        };
-        let start = self.at;
-        loop {
-            if self.accept("palm") {
-                orient.palm = self.directions()?;
-            } else if self.accept("fingers") {
-                orient.fingers = self.directions()?;
-            } else if self.accept("by") {
-                let angle = self.quantity("an angle, such as 30deg")?;
-                self.expect("about", "\"about\" and a direction")?;
-                let about = self.direction().ok_or_else(|| self.no_direction())?;
-                orient.by.push(Turn { angle, about });
-            } else if self.at == start {
-                let words = ["palm", "fingers", "by"];
-                return Err(self.expected("\"palm\", \"fingers\" or \"by\"", &words));
-            } else {
-                return Ok(orient);
-            }
-        }
-    }
-
-    fn retime(&mut self) -> Parsed<Retime> {
-        let mut paces = Vec::new();
-        loop {
-            paces.push(if self.accept("to") {
-                Pace::To(self.quantity("a time, such as 2s")?)
-            } else {
-                Pace::Times(self.quantity("a factor, such as 150%, or \"to\" and a time")?)
-            });
-            if !self.accept_kind(Kind::Comma) {
-                return Ok(Retime { paces });
-            }
-        }
-    }
-
-    fn indicate(&mut self) -> Parsed<Indicate> {
-        let from = if self.accept("from") {
-            Some(self.spot()?)
-        } else {
-            None
-        };
-        let to = if self.accept("to") {
-            Some(self.spot()?)
-        } else {
-            None
-        };
-        let hand = if self.accept("with") {
-            self.hand().ok_or_else(|| self.expected("a hand", &[]))?
-        } else {
-            Hands::Both
-        };
-        Ok(Indicate { hand, from, to })
-    }
-
-    fn spot(&mut self) -> Parsed<Spot> {
+    pub(crate) fn spot(&mut self) -> Parsed<Spot> {
         if self.accept("me") {
             return Ok(Spot::Me);
         }
@@ -449,7 +279,7 @@ impl Parser<'_> {
     }
 
     /// Reads three lengths with commas between, where a comma follows the first.
-    fn spot_point(&mut self) -> Parsed<Option<[Length; 3]>> {
+    pub(crate) fn spot_point(&mut self) -> Parsed<Option<[Length; 3]>> {
         let starts = self.is_length(self.at) && {
             let unit = self.tokens.get(self.at + 1);
             let after = if unit.is_some_and(|t| t.kind == Kind::Word) {
@@ -476,7 +306,7 @@ impl Parser<'_> {
     }
 
     /// Reads one leg after another; on a path `then` stands between them.
-    fn legs(&mut self, path: bool) -> Parsed<Vec<Leg>> {
+    pub(crate) fn legs(&mut self, path: bool) -> Parsed<Vec<Leg>> {
         let mut legs = vec![self.leg(path)?];
         loop {
             if path && self.word() == Some("then") && self.is_leg(self.at + 1) {
@@ -520,7 +350,7 @@ impl Parser<'_> {
         })
     }
 
-    fn directions(&mut self) -> Parsed<Vec<Direction>> {
+    pub(crate) fn directions(&mut self) -> Parsed<Vec<Direction>> {
         let mut all = Vec::new();
         while !(all.len() == 1 && self.word() == Some("in") && self.is_length(self.at + 1)) {
             let Some(direction) = self.direction() else {
@@ -534,24 +364,24 @@ impl Parser<'_> {
         Ok(all)
     }
 
-    fn direction(&mut self) -> Option<Direction> {
+    pub(crate) fn direction(&mut self) -> Option<Direction> {
         let direction = self.word().and_then(Direction::from_word)?;
         self.at += 1;
         Some(direction)
     }
 
-    fn no_direction(&self) -> TextError {
+    pub(crate) fn no_direction(&self) -> TextError {
         let words = Direction::ALL.map(Direction::name);
         self.expected("a direction (left, right, up, down, forward, back)", &words)
     }
 
-    fn hand(&mut self) -> Option<Hands> {
+    pub(crate) fn hand(&mut self) -> Option<Hands> {
         let hand = self.word().and_then(Hands::from_word)?;
         self.at += 1;
         Some(hand)
     }
 
-    fn via(&mut self) -> Parsed<Option<Transition>> {
+    pub(crate) fn via(&mut self) -> Parsed<Option<Transition>> {
         if !self.accept("via") {
             return Ok(None);
         }
@@ -567,7 +397,7 @@ impl Parser<'_> {
         Ok(Some(via))
     }
 
-    fn one_of<T: Copy>(
+    pub(crate) fn one_of<T: Copy>(
         &mut self,
         all: &[T],
         name: fn(T) -> &'static str,
@@ -586,7 +416,10 @@ impl Parser<'_> {
     }
 
     /// Reads a number with its unit, which may stand apart.
-    fn quantity<T: FromStr<Err = UnitError>>(&mut self, expected: &'static str) -> Parsed<T> {
+    pub(crate) fn quantity<T: FromStr<Err = UnitError>>(
+        &mut self,
+        expected: &'static str,
+    ) -> Parsed<T> {
         if !self.is_length(self.at) {
             return Err(self.expected(expected, &[]));
         }
@@ -613,7 +446,7 @@ impl Parser<'_> {
     }
 
     /// Reads a name: a quoted text, or a word that means nothing else.
-    fn name(&mut self, expected: &'static str) -> Parsed<String> {
+    pub(crate) fn name(&mut self, expected: &'static str) -> Parsed<String> {
         let quoted = self.peek().filter(|token| token.kind == Kind::Quoted);
         let plain = || {
             self.peek()
@@ -630,20 +463,93 @@ impl Parser<'_> {
         Ok(name)
     }
 
+    /// Reads a count.
+    pub(crate) fn count(&mut self, expected: &'static str) -> Parsed<u32> {
+        let count = self.word().and_then(|word| word.parse().ok());
+        let count = count.ok_or_else(|| self.expected(expected, &[]))?;
+        self.at += 1;
+        Ok(count)
+    }
+
+    /// Reads two times with two dots between; one of them may be missing.
+    pub(crate) fn cut(&mut self) -> Parsed<Cut> {
+        const WANTED: &str = "two times with two dots between, such as 0.4s..1.9s";
+        let start = self.at;
+        let mut text = String::new();
+        while let Some(word) = self.word().filter(|word| !["then", "by"].contains(word)) {
+            text.push_str(word);
+            self.at += 1;
+        }
+        let Some((from, to)) = text.split_once("..").filter(|_| text != "..") else {
+            self.at = start;
+            return Err(self.expected(WANTED, &[]));
+        };
+        let time = |text: &str| match text {
+            "" => Ok(None),
+            text => text.parse().map(Some),
+        };
+        let times = time(from).and_then(|from| Ok((from, time(to)?)));
+        let (from, to) = times.map_err(|error: UnitError| {
+            self.at = start;
+            self.fault(Problem::Unit(error))
+        })?;
+        Ok(Cut { from, to })
+    }
+
+    /// Reads the points of a curve, with `then` between them.
+    pub(crate) fn points(&mut self) -> Parsed<Vec<[Length; 3]>> {
+        const WANTED: &str = "a point: left, up and forward, such as 10cm,5cm,0cm";
+        let mut points = Vec::new();
+        loop {
+            let point = self.spot_point()?;
+            points.push(point.ok_or_else(|| self.expected(WANTED, &[]))?);
+            if self.word() != Some("then") || !self.is_point(self.at + 1) {
+                return Ok(points);
+            }
+            self.at += 1;
+        }
+    }
+
+    /// Returns whether a length with a comma after it stands there.
+    fn is_point(&self, at: usize) -> bool {
+        let comma = |at: usize| self.tokens.get(at).is_some_and(|it| it.kind == Kind::Comma);
+        self.is_length(at) && (comma(at + 1) || comma(at + 2))
+    }
+
+    /// Returns whether a length comes after the next word.
+    pub(crate) fn is_length_next(&self) -> bool {
+        self.is_length(self.at + 1)
+    }
+
+    /// Returns where the parser is, for [`back_to`](Self::back_to).
+    pub(crate) fn place(&self) -> usize {
+        self.at
+    }
+
+    /// Goes back to an earlier place.
+    pub(crate) fn back_to(&mut self, place: usize) {
+        self.at = place;
+    }
+
     fn peek(&self) -> Option<&Token> {
         self.tokens.get(self.at)
     }
 
-    fn word(&self) -> Option<&str> {
+    pub(crate) fn word(&self) -> Option<&str> {
         self.peek()
             .filter(|token| token.kind == Kind::Word)
             .map(|token| token.text.as_str())
     }
 
-    fn accept(&mut self, word: &str) -> bool {
+    pub(crate) fn accept(&mut self, word: &str) -> bool {
         let found = self.word() == Some(word);
         self.at += usize::from(found);
         found
+    }
+
+    /// Reads a comma if one is next.
+    pub(crate) fn comma(&mut self) -> bool {
+        self.accept_kind(Kind::Comma)
     }
 
     fn accept_kind(&mut self, kind: Kind) -> bool {
@@ -652,7 +558,7 @@ impl Parser<'_> {
         found
     }
 
-    fn expect(&mut self, word: &'static str, expected: &'static str) -> Parsed<()> {
+    pub(crate) fn expect(&mut self, word: &'static str, expected: &'static str) -> Parsed<()> {
         if self.accept(word) {
             Ok(())
         } else {
@@ -660,7 +566,7 @@ impl Parser<'_> {
         }
     }
 
-    fn expected(&self, expected: &'static str, words: &[&str]) -> TextError {
+    pub(crate) fn expected(&self, expected: &'static str, words: &[&str]) -> TextError {
         let found = self.peek().map(|token| token.text.clone());
         let nearest = found
             .as_deref()

@@ -45,53 +45,31 @@ fn within(f: &mut Formatter<'_>, node: &Node, parentheses: bool) -> fmt::Result 
     }
 }
 
-/// Words that mean something somewhere; as a name each is quoted.
-const RESERVED: [&str; 44] = [
-    "spell",
-    "point",
-    "hamnosys",
-    "sigml",
+/// Words that mean something in more than one place; as a name each is quoted, and so is each word of an operator.
+const RESERVED: [&str; 14] = [
     "then",
     "via",
     "with",
-    "using",
     "on",
     "hold",
     "by",
     "at",
-    "near",
     "_",
     "best",
-    "me",
-    "you",
     "in",
     "out",
     "about",
-    "palm",
-    "fingers",
-    "scale",
-    "tempo",
-    "gap",
-    "mirror",
-    "configure",
-    "place",
-    "reverse",
-    "swap",
-    "repeat",
-    "orient",
-    "amplify",
-    "travel",
-    "retime",
-    "nonmanual",
-    "over",
-    "phases",
-    "span",
-    "trim",
-    "from",
-    "to",
     "forwards",
     "backwards",
 ];
+
+/// Returns whether a word means something somewhere.
+fn is_reserved(word: &str) -> bool {
+    let mut operators = Step::SPELLINGS.iter();
+    RESERVED.contains(&word)
+        || Node::WORDS.contains(&word)
+        || operators.any(|(words, keywords)| words.contains(&word) || keywords.contains(&word))
+}
 
 /// A name in the spelling of recipes: plain if possible, else quoted.
 pub(crate) struct Name<'a>(pub(crate) &'a str);
@@ -117,7 +95,7 @@ fn is_plain(name: &str) -> bool {
     let special = |c: char| c.is_whitespace() || "|,()\"".contains(c);
     !name.is_empty()
         && !name.contains(special)
-        && !RESERVED.contains(&name)
+        && !is_reserved(name)
         && Direction::from_word(name).is_none()
         && Hands::from_word(name).is_none()
 }
@@ -150,7 +128,11 @@ impl Display for Transition {
     }
 }
 
-fn option(f: &mut Formatter<'_>, word: &str, value: Option<impl Display>) -> fmt::Result {
+pub(crate) fn option(
+    f: &mut Formatter<'_>,
+    word: &str,
+    value: Option<impl Display>,
+) -> fmt::Result {
     match value {
         Some(value) if word.is_empty() => write!(f, " {value}"),
         Some(value) => write!(f, " {word} {value}"),
@@ -227,11 +209,11 @@ impl Display for Spot {
     }
 }
 
-fn point_text(f: &mut Formatter<'_>, point: &[Length; 3]) -> fmt::Result {
+pub(crate) fn point_text(f: &mut Formatter<'_>, point: &[Length; 3]) -> fmt::Result {
     list(f, point, ",")
 }
 
-fn list(
+pub(crate) fn list(
     f: &mut Formatter<'_>,
     items: impl IntoIterator<Item = impl Display>,
     between: &str,
@@ -248,138 +230,5 @@ impl Display for Leg {
         list(f, self.towards.iter().map(|d| d.name()), " ")?;
         write!(f, " {}", self.distance)?;
         option(f, "in", self.time)
-    }
-}
-
-impl Display for Nonmanual {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str("nonmanual ")?;
-        if let Some(function) = &self.function {
-            write!(f, "{} ", Name(function))?;
-        }
-        write!(f, "from {}", Name(&self.from))?;
-        match &self.over {
-            None => {}
-            Some(Over::Part(cut)) => {
-                f.write_str(" over ")?;
-                list(f, cut.from, "")?;
-                f.write_str("..")?;
-                list(f, cut.to, "")?;
-            }
-            Some(Over::At(times)) => {
-                f.write_str(" over ")?;
-                list(f, times, ", ")?;
-            }
-        }
-        f.write_str(if self.by_phases { " by phases" } else { "" })
-    }
-}
-
-impl Display for Step {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Configure(configure) => {
-                write!(f, "configure {} ", configure.hand.name())?;
-                list(f, &configure.values, ", ")?;
-                write!(f, "{}", configure.via)
-            }
-            Self::Place(place) => write!(f, "{place}"),
-            Self::Reverse | Self::Swap | Self::Trim => f.write_str(self.name()),
-            Self::Span(cut) => {
-                f.write_str("span ")?;
-                list(f, cut.from, "")?;
-                f.write_str("..")?;
-                list(f, cut.to, "")
-            }
-            Self::Mirror(mirror) if mirror.from == Hands::Dominant => f.write_str("mirror"),
-            Self::Mirror(mirror) => write!(f, "mirror {}", mirror.from.name()),
-            Self::Repeat(repeat) => {
-                write!(f, "repeat {}", repeat.times)?;
-                option(f, "scale", repeat.scale)?;
-                option(f, "tempo", repeat.tempo)?;
-                option(f, "gap", repeat.gap)?;
-                write!(f, "{}", repeat.via)
-            }
-            Self::Orient(orient) => write!(f, "{orient}"),
-            Self::Amplify(amplify) => write!(f, "amplify {} {}", amplify.hand.name(), amplify.by),
-            Self::Travel(travel) => {
-                write!(f, "travel {} ", travel.hand.name())?;
-                list(f, &travel.path, " then ")?;
-                for (n, point) in travel.through.iter().enumerate() {
-                    f.write_str(if n == 0 { "through " } else { " then " })?;
-                    point_text(f, point)?;
-                }
-                option(f, "in", travel.time)?;
-                write!(f, "{}", travel.via)
-            }
-            Self::Retime(retime) => {
-                f.write_str("retime ")?;
-                list(f, &retime.paces, ", ")
-            }
-            Self::Nonmanual(nonmanual) => write!(f, "{nonmanual}"),
-            Self::Indicate(indicate) => {
-                let from = indicate.from.as_ref().map(|spot| format!("from {spot}"));
-                let to = indicate.to.as_ref().map(|spot| format!("to {spot}"));
-                list(f, from.into_iter().chain(to), " ")?;
-                let hand = (indicate.hand != Hands::Both).then(|| indicate.hand.name());
-                option(f, "with", hand)
-            }
-        }
-    }
-}
-
-impl Display for Place {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "place {} ", self.hand.name())?;
-        match &self.to {
-            Goal::By(legs) => {
-                f.write_str("by ")?;
-                list(f, legs, " ")?;
-            }
-            Goal::At(value) => write!(f, "at {}", Name(value))?,
-            Goal::AtPoint(point) => {
-                f.write_str("at ")?;
-                point_text(f, point)?;
-            }
-            Goal::Near { of, by } => {
-                write!(f, "near {}", Name(of))?;
-                if !by.is_empty() {
-                    f.write_str(" by ")?;
-                    list(f, by, " ")?;
-                }
-            }
-            Goal::Best(query) => write!(f, "at best({query})")?,
-        }
-        option(f, "with", self.with.map(HandPoint::name))?;
-        option(
-            f,
-            "using",
-            (self.solver == Solver::Fabrik).then_some("fabrik"),
-        )
-    }
-}
-
-impl Display for Orient {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "orient {}", self.hand.name())?;
-        for (word, directions) in [("palm", &self.palm), ("fingers", &self.fingers)] {
-            if !directions.is_empty() {
-                write!(f, " {word} ")?;
-                list(f, directions.iter().map(|d| d.name()), " ")?;
-            }
-        }
-        for turn in &self.by {
-            write!(f, " by {} about {}", turn.angle, turn.about.name())?;
-        }
-        Ok(())
-    }
-}
-
-impl Display for Pace {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Times(factor) => write!(f, "{factor}"),
-            Self::To(seconds) => write!(f, "to {seconds}"),
-        }
     }
 }

@@ -184,3 +184,34 @@ texts! {
     BOARD_DRAW: "Draw the path here", "Dessinez le trajet ici";
     NEEDS_CARD: "Choose a card of the recipe first.", "Choisissez d’abord une carte de la recette.";
 }
+
+/// The title of each operator and what it does, by the operator's name.
+pub(crate) const OPERATORS: [(&str, super::Text, super::Text); 14] = [
+    ("configure", CONFIGURE, CONFIGURE_HINT),
+    ("place", PLACE, PLACE_DOES),
+    ("orient", ORIENT, ORIENT_HINT),
+    ("travel", TRAVEL, TRAVEL_HINT),
+    ("amplify", AMPLIFY, AMPLIFY_HINT),
+    ("repeat", REPEAT, REPEAT_HINT),
+    ("reverse", REVERSE, REVERSE_HINT),
+    ("swap", SWAP, SWAP_HINT),
+    ("mirror", MIRROR, MIRROR_HINT),
+    ("retime", RETIME, RETIME_HINT),
+    ("span", SPAN, SPAN_HINT),
+    ("trim", TRIM, TRIM_HINT),
+    ("indicate", INDICATE, INDICATE_HINT),
+    ("nonmanual", NONMANUAL, NONMANUAL_HINT),
+];
+
+/// The captions of settings, by the names that operators give them.
+pub(crate) const SETTINGS: [(&str, super::Text); 9] = [
+    ("copied", COPIED),
+    ("from-sign", FROM_SIGN),
+    ("from-time", SPAN_FROM),
+    ("gap", GAP),
+    ("scale", SMALLER),
+    ("size", SIZE),
+    ("tempo", FASTER),
+    ("times", TIMES),
+    ("to-time", SPAN_TO),
+];

@@ -1,9 +1,7 @@
 //! Every source and operator with what it is called, what it does, and one to begin with.
 
 use chereme_corpus::recipe::{
-    Amplify, Choice, Configure, Cue, Cut, Direction, Factor, Goal, Hands, Indicate, Leg, Length,
-    Mirror, Node, Nonmanual, Notation, Orient, Pace, PhaseRule, Place, Point, Repeat, Retime,
-    Seconds, Solver, Spell, Spot, Step, Transition, Travel,
+    Cue, Direction, Hands, Node, Notation, PhaseRule, Point, Spell, Spot, Step, Transition,
 };
 
 use super::stack::What;
@@ -58,113 +56,20 @@ pub(super) fn sources() -> [(Text, Node); 6] {
     ]
 }
 
-/// Returns what each operator is called and does, with one that does something to see.
-pub(super) fn operators() -> [(Text, Text, Step); 14] {
-    let leg = |towards, cm: f64| Leg {
-        towards: vec![towards],
-        distance: Length::Metres(cm / 100.0),
-        time: None,
+/// Returns the title of each operator, what it does, and one to begin with.
+pub(super) fn operators() -> Vec<(Text, Text, Step)> {
+    let described = |step: Step| {
+        let (title, does) = described(&step);
+        (title, does, step)
     };
-    [
-        (
-            words::CONFIGURE,
-            words::CONFIGURE_HINT,
-            Step::Configure(Configure {
-                hand: Hands::Dominant,
-                values: vec![Choice::Value(String::new())],
-                via: Transition::default(),
-            }),
-        ),
-        (
-            words::PLACE,
-            words::PLACE_DOES,
-            Step::Place(Place {
-                hand: Hands::Both,
-                to: Goal::By(vec![leg(Direction::Up, 10.0)]),
-                with: None,
-                solver: Solver::Analytic,
-            }),
-        ),
-        (
-            words::ORIENT,
-            words::ORIENT_HINT,
-            Step::Orient(Orient {
-                hand: Hands::Dominant,
-                palm: vec![Direction::Up],
-                fingers: Vec::new(),
-                by: Vec::new(),
-            }),
-        ),
-        (
-            words::TRAVEL,
-            words::TRAVEL_HINT,
-            Step::Travel(Travel {
-                hand: Hands::Dominant,
-                path: vec![leg(Direction::Right, 20.0)],
-                through: Vec::new(),
-                time: None,
-                via: Transition::default(),
-            }),
-        ),
-        (
-            words::AMPLIFY,
-            words::AMPLIFY_HINT,
-            Step::Amplify(Amplify {
-                hand: Hands::Both,
-                by: Factor(1.5),
-            }),
-        ),
-        (
-            words::REPEAT,
-            words::REPEAT_HINT,
-            Step::Repeat(Repeat {
-                times: 2,
-                scale: None,
-                tempo: None,
-                gap: None,
-                via: Transition::default(),
-            }),
-        ),
-        (words::REVERSE, words::REVERSE_HINT, Step::Reverse),
-        (words::SWAP, words::SWAP_HINT, Step::Swap),
-        (
-            words::MIRROR,
-            words::MIRROR_HINT,
-            Step::Mirror(Mirror {
-                from: Hands::Dominant,
-            }),
-        ),
-        (
-            words::RETIME,
-            words::RETIME_HINT,
-            Step::Retime(Retime {
-                paces: vec![Pace::Times(Factor(1.5))],
-            }),
-        ),
-        (
-            words::SPAN,
-            words::SPAN_HINT,
-            Step::Span(Cut {
-                from: Some(Seconds(0.2)),
-                to: None,
-            }),
-        ),
-        (words::TRIM, words::TRIM_HINT, Step::Trim),
-        (
-            words::INDICATE,
-            words::INDICATE_HINT,
-            Step::Indicate(Indicate {
-                hand: Hands::Both,
-                from: None,
-                to: Some(Spot::Towards(vec![Direction::Left])),
-            }),
-        ),
-        (
-            words::NONMANUAL,
-            words::NONMANUAL_HINT,
-            Step::Nonmanual(Nonmanual::of("")),
-        ),
-    ]
+    Step::usual().into_iter().map(described).collect()
+}
+
+/// Returns the title of an operator and what it does.
+fn described(step: &Step) -> (Text, Text) {
+    let mut all = words::OPERATORS.into_iter();
+    let found = all.find(|(name, ..)| *name == step.name());
+    found.map_or((words::TEXT, words::TEXT), |(_, title, does)| (title, does))
 }
 
 /// Returns what a card is called.
@@ -179,9 +84,27 @@ pub(super) fn title(what: &What) -> Text {
             Node::Sigml(_) => words::SIGML,
             Node::Pipe(_) | Node::Then(_) => words::TEXT,
         },
-        What::Step(step) => operators()
-            .into_iter()
-            .find(|(.., usual)| usual.name() == step.name())
-            .map_or(words::TEXT, |(text, ..)| text),
+        What::Step(step) => described(step).0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_operator_and_every_setting_has_words() {
+        for mut step in Step::usual() {
+            let name = step.name();
+            let named = words::OPERATORS.iter().filter(|(word, ..)| *word == name);
+            assert_eq!(named.count(), 1, "{name}");
+            for setting in step.fields() {
+                let named = words::SETTINGS
+                    .iter()
+                    .any(|(word, _)| *word == setting.name);
+                let plain = ["hand", "via"].contains(&setting.name);
+                assert!(named || plain, "{name}: {}", setting.name);
+            }
+        }
     }
 }

@@ -106,6 +106,27 @@ pub(super) fn slide(
     response.changed()
 }
 
+/// Shows how often something is done.
+pub(super) fn count(
+    ui: &mut Ui,
+    name: &str,
+    value: &mut u32,
+    range: std::ops::RangeInclusive<u32>,
+) -> bool {
+    let mut number = f64::from(*value);
+    let drag = DragValue::new(&mut number)
+        .range(f64::from(*range.start())..=f64::from(*range.end()))
+        .speed(0.05)
+        .max_decimals(0)
+        .suffix("×");
+    let response = ui.add(drag);
+    response.widget_info(|| WidgetInfo::slider(true, number, name));
+    if response.changed() {
+        *value = number.round().clamp(1.0, 1000.0) as u32;
+    }
+    response.changed()
+}
+
 /// Shows a length in centimetres or in shares of the arm.
 pub(super) fn length(
     ui: &mut Ui,

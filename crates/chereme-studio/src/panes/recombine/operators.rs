@@ -2,10 +2,10 @@
 
 use chereme_corpus::recipe::{
     Choice, Configure, Degrees, Direction, Factor, Goal, HandPoint, Indicate, Length, Orient, Pace,
-    Place, Repeat, Retime, Seconds, Spot, Turn,
+    Place, Retime, Seconds, Spot, Turn,
 };
 use chereme_sign::Component;
-use eframe::egui::{DragValue, Id, Ui, WidgetInfo};
+use eframe::egui::{Id, Ui};
 
 use super::fields::{self, caption, choose};
 use super::path;
@@ -172,28 +172,6 @@ pub(super) fn place(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Place) -> boo
         }
     });
     changed
-}
-
-pub(super) fn repeat(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Repeat) -> bool {
-    let mut changed = false;
-    ui.horizontal_wrapped(|ui| {
-        let mut times = f64::from(it.times);
-        let drag = DragValue::new(&mut times)
-            .range(1.0..=20.0)
-            .speed(0.05)
-            .max_decimals(0)
-            .suffix("×");
-        let response = ui.add(drag);
-        response.widget_info(|| WidgetInfo::slider(true, times, seen.say(words::TIMES)));
-        if response.changed() {
-            it.times = times.round().clamp(1.0, 1000.0) as u32;
-            changed = true;
-        }
-        changed |= fields::factor(ui, seen, words::SMALLER, &mut it.scale, 0.8);
-        changed |= fields::factor(ui, seen, words::FASTER, &mut it.tempo, 1.2);
-        changed |= fields::time(ui, seen, words::GAP, &mut it.gap, 0.1);
-    });
-    changed | transition(ui, seen, at, &mut it.via)
 }
 
 pub(super) fn orient(ui: &mut Ui, seen: &Seen<'_>, it: &mut Orient) -> bool {

@@ -1,7 +1,7 @@
 //! The settings of each source and operator as widgets; a setting without a widget is a line of its text.
 
 use chereme_corpus::recipe::{
-    Cue, Factor, Goal, Hands, Node, PhaseRule, Recipe, Spell, Step, Transition,
+    Cue, Factor, Field, FieldSetting, Goal, Hands, Node, PhaseRule, Recipe, Spell, Step, Transition,
 };
 use eframe::egui::{DragValue, Id, Role, Ui, WidgetInfo};
 
@@ -227,45 +227,72 @@ fn step_as_text(ui: &mut Ui, seen: &Seen<'_>, id: Id, step: &mut Step) -> bool {
     })
 }
 
+/// Shows an operator: those with a form of their own by it, others by the usual fields of their settings, and those
+/// whose settings have no fields as text.
 fn operator(ui: &mut Ui, seen: &Seen<'_>, at: At, step: &mut Step) -> bool {
-    let mut changed = false;
     match step {
         Step::Configure(it) => return operators::configure(ui, seen, at, it),
-        Step::Place(it) if matches!(it.to, Goal::Best(_)) => {
-            return step_as_text(ui, seen, at.id, step);
+        Step::Place(it) if !matches!(it.to, Goal::Best(_)) => {
+            return operators::place(ui, seen, at, it);
         }
-        Step::Place(it) => return operators::place(ui, seen, at, it),
-        Step::Reverse | Step::Swap | Step::Trim => {}
-        Step::Span(it) => {
-            ui.horizontal_wrapped(|ui| {
-                changed |= fields::time(ui, seen, words::SPAN_FROM, &mut it.from, 0.2);
-                changed |= fields::time(ui, seen, words::SPAN_TO, &mut it.to, 1.0);
-            });
-        }
-        Step::Mirror(it) => {
-            ui.horizontal_wrapped(|ui| {
-                caption(ui, seen, words::COPIED);
-                changed |= fields::hands(ui, seen, &mut it.from, false);
-            });
-        }
-        Step::Repeat(it) => return operators::repeat(ui, seen, at, it),
         Step::Orient(it) => return operators::orient(ui, seen, it),
-        Step::Amplify(it) => {
-            ui.horizontal_wrapped(|ui| {
-                changed |= fields::hands(ui, seen, &mut it.hand, true);
-                changed |= fields::slide(ui, seen.say(words::SIZE), &mut it.by.0, 0.0..=3.0, "×");
-            });
-        }
         Step::Travel(it) => {
+            let mut changed = false;
             ui.horizontal_wrapped(|ui| changed |= fields::hands(ui, seen, &mut it.hand, true));
             changed |= path::show(ui, seen, (at.id, at.card), it);
-            changed |= transition(ui, seen, at, &mut it.via);
+            return changed | transition(ui, seen, at, &mut it.via);
         }
         Step::Retime(it) => return operators::retime(ui, seen, it),
-        Step::Nonmanual(it) => {
-            return fields::sign(ui, seen, at.id, seen.say(words::FROM_SIGN), &mut it.from);
-        }
         Step::Indicate(it) => return operators::indicate(ui, seen, at, it),
+        _ => {}
+    }
+    let has_settings = step.to_string() != step.name();
+    let fields = step.fields();
+    match (fields.is_empty(), has_settings) {
+        (false, _) => by_fields(ui, seen, at, fields),
+        (true, true) => step_as_text(ui, seen, at.id, step),
+        (true, false) => false,
+    }
+}
+
+/// Shows settings one after another.
+fn by_fields(ui: &mut Ui, seen: &Seen<'_>, at: At, all: Vec<FieldSetting<'_>>) -> bool {
+    let caption_of = |name: &str| {
+        let mut words = words::SETTINGS.into_iter();
+        let found = words.find(|(word, _)| *word == name);
+        found.map_or(words::TEXT, |(_, text)| text)
+    };
+    let mut changed = false;
+    let mut below = Vec::new();
+    ui.horizontal_wrapped(|ui| {
+        for setting in all {
+            let text = caption_of(setting.name);
+            changed |= match setting.field {
+                Field::Hands(hands) => fields::hands(ui, seen, hands, true),
+                Field::Hand(hand) => {
+                    caption(ui, seen, text);
+                    fields::hands(ui, seen, hand, false)
+                }
+                Field::Count(count, range) => fields::count(ui, seen.say(text), count, range),
+                Field::Factor(by, range) => {
+                    fields::slide(ui, seen.say(text), &mut by.0, range, "×")
+                }
+                Field::OptionalFactor(by, usual) => fields::factor(ui, seen, text, by, usual),
+                Field::Time(time, usual) => fields::time(ui, seen, text, time, usual),
+                Field::Sign(_) | Field::Via(_) => {
+                    below.push(setting);
+                    false
+                }
+            };
+        }
+    });
+    for setting in below {
+        let text = seen.say(caption_of(setting.name));
+        changed |= match setting.field {
+            Field::Sign(name) => fields::sign(ui, seen, at.id, text, name),
+            Field::Via(via) => transition(ui, seen, at, via),
+            _ => false,
+        };
     }
     changed
 }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use chereme_corpus::recipe::{
-    Choice, Goal, Joined, Node, Pipe, Recipe, RecipeError, Spot, Step, Then, Transition,
+    Choice, Joined, Node, Pipe, Recipe, RecipeError, Spot, Step, Then, Transition,
 };
 
 /// What a card says.
@@ -73,29 +73,7 @@ impl What {
                 Node::Hamnosys(notation) | Node::Sigml(notation) => there(&notation.of),
                 Node::Pipe(_) | Node::Then(_) => true,
             },
-            Self::Step(step) => match step {
-                Step::Span(cut) => {
-                    let from = cut.from.map_or(0.0, |from| from.0);
-                    cut.to.map_or(cut.from.is_some(), |to| to.0 > from)
-                }
-                Step::Configure(it) => !it.values.is_empty() && it.values.iter().all(chosen),
-                Step::Place(it) => match &it.to {
-                    Goal::By(legs) => !legs.is_empty(),
-                    Goal::At(name) | Goal::Best(name) => there(name),
-                    Goal::Near { of, .. } => there(of),
-                    Goal::AtPoint(_) => true,
-                },
-                Step::Orient(it) => {
-                    !(it.palm.is_empty() && it.fingers.is_empty() && it.by.is_empty())
-                }
-                Step::Travel(it) => !(it.path.is_empty() && it.through.is_empty()),
-                Step::Retime(it) => !it.paces.is_empty(),
-                Step::Nonmanual(it) => there(&it.from),
-                Step::Indicate(it) => {
-                    (it.from.is_some() || it.to.is_some()) && it.from.iter().chain(&it.to).all(spot)
-                }
-                _ => true,
-            },
+            Self::Step(step) => !matches!(step.check(), Err(RecipeError::Empty { .. })),
         }
     }
 

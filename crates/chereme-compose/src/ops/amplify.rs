@@ -1,0 +1,118 @@
+//! `amplify`: the hands' paths grown or shrunk about their middle.
+
+use std::fmt::{self, Display, Formatter};
+
+use chereme_motion::Side;
+use chereme_motion::glam::DVec3;
+use chereme_sign::{Component, Handedness};
+use serde::{Deserialize, Serialize};
+
+use crate::answers::Given;
+use crate::arm::Reach;
+use crate::check;
+use crate::contact::{Carry, Keep};
+use crate::error::{Cause, RecipeError};
+use crate::ops::place::{self, told};
+use crate::ops::travel::wrist_path;
+use crate::ops::{Done, Field, FieldSetting, Operator, Syntax, say};
+use crate::recipe::Solver;
+use crate::text::{Parsed, Parser};
+use crate::units::{Factor, Hands};
+use crate::work::{Group, Work};
+
+/// Settings of `amplify both 1.5`: the hands' paths grow about their middle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Amplify {
+    /// The hands whose movement changes, about one middle where both do.
+    #[serde(default = "crate::recipe::both")]
+    pub hand: Hands,
+    /// The factor for distances from the middle of the movement.
+    pub by: Factor,
+}
+
+impl Syntax for Amplify {
+    const NAME: &'static str = "amplify";
+
+    fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
+        Ok(Self {
+            hand: parser.hand().unwrap_or(Hands::Both),
+            by: parser.quantity("a factor, such as 1.5 or 150%")?,
+        })
+    }
+
+    fn usual() -> Self {
+        Self {
+            hand: Hands::Both,
+            by: Factor(1.5),
+        }
+    }
+}
+
+impl Display for Amplify {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "amplify {} {}", self.hand.name(), self.by)
+    }
+}
+
+impl Operator for Amplify {
+    fn check(&self) -> Result<(), RecipeError> {
+        check::range(Self::NAME, "the factor", self.by.0, 0.0, 20.0)
+    }
+
+    fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
+        Ok(amplify(work, self, given.text)?.into())
+    }
+
+    fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)> {
+        Some((Carry::Same, Keep::All(self.hand.sides(handedness))))
+    }
+
+    fn is_nothing(&self) -> bool {
+        self.by == Factor(1.0)
+    }
+
+    fn fields(&mut self) -> Vec<FieldSetting<'_>> {
+        let setting = |name, field| FieldSetting { name, field };
+        vec![
+            setting("hand", Field::Hands(&mut self.hand)),
+            setting("size", Field::Factor(&mut self.by, 0.0..=3.0)),
+        ]
+    }
+}
+
+/// Multiplies the distances of the wrists from the middle of their movement.
+pub(crate) fn amplify(
+    work: &mut Work,
+    settings: &Amplify,
+    operator: &str,
+) -> Result<(Vec<String>, f64), Cause> {
+    let sides = settings.hand.sides(work.handedness);
+    let factor = settings.by.0;
+    if factor == 1.0 {
+        return Ok((vec!["nothing to do".into()], 0.0));
+    }
+    let reach = scale(work, sides, factor)?;
+    say::withdraw(work, sides, operator, |component, feature| {
+        component == Component::Movement && feature == Some("size")
+    });
+    work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
+    let mut did = vec![format!(
+        "the hands' ways are {:.0}% as large",
+        factor * 100.0
+    )];
+    did.extend(told(&reach));
+    Ok((did, reach.residual))
+}
+
+/// Scales the wrists' paths about their common middle.
+pub(crate) fn scale(work: &mut Work, sides: &[Side], factor: f64) -> Result<Reach, Cause> {
+    let mut middle = DVec3::ZERO;
+    for &side in sides {
+        let path = wrist_path(work, side)?;
+        middle += path.iter().sum::<DVec3>() / (path.len() * sides.len()) as f64;
+    }
+    place::wrists(work, sides, Solver::Analytic, |_, _, at| {
+        middle + (at - middle) * factor
+    })
+}
