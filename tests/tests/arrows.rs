@@ -265,3 +265,47 @@ fn licence_expressions_are_read_as_they_are_meant() {
         assert_eq!(allows(expression), want, "{expression}");
     }
 }
+
+/// The modules of the corpus on which its database room stands.
+const BELOW_THE_DATABASE: [&str; 3] = ["db", "error", "progress"];
+
+/// Returns the code of a file without its tests.
+fn code(text: &str) -> &str {
+    text.split("#[cfg(test)]").next().unwrap_or_default()
+}
+
+#[test]
+fn the_database_room_knows_nothing_above_it() {
+    let mut files = repository::rust_files();
+    files.retain(|file| file.path.starts_with("crates/chereme-corpus/src/db/"));
+    assert!(files.len() > 20, "{} files of the database", files.len());
+    let mut faults = Vec::new();
+    for file in &files {
+        for part in code(&file.text).split("crate::").skip(1) {
+            let module: String = part
+                .chars()
+                .take_while(|c| c.is_alphanumeric() || *c == '_')
+                .collect();
+            let own = module.chars().next().is_some_and(char::is_lowercase);
+            if own && !BELOW_THE_DATABASE.contains(&module.as_str()) {
+                faults.push(format!("{} uses crate::{module}", file.path));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn the_search_engine_is_named_in_one_folder() {
+    let room = "crates/chereme-corpus/src/search/index/";
+    let files = repository::rust_files();
+    let named = |file: &&repository::TextFile| code(&file.text).contains("tantivy::");
+    let (inside, outside): (Vec<_>, Vec<_>) = files
+        .iter()
+        .filter(named)
+        .map(|file| file.path.as_str())
+        .filter(|path| path.starts_with("crates/chereme-") && path.contains("/src/"))
+        .partition(|path| path.starts_with(room));
+    assert!(!inside.is_empty(), "the engine has moved");
+    assert!(outside.is_empty(), "{outside:?}");
+}

@@ -1,26 +1,10 @@
 //! The annotations before and after tokens on their tiers.
 
-use serde::Serialize;
-
 use crate::Corpus;
 use crate::db::contents as rows;
+pub use crate::db::rows::Around;
 use crate::db::search::begin_reading;
 use crate::error::Result;
-
-/// The annotations before and after a token on its tier.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
-pub struct Around {
-    /// The token.
-    pub token: i64,
-    /// Its annotation; a lexicon entry has no annotation.
-    pub annotation: Option<i64>,
-    /// The tier of the annotation.
-    pub tier: Option<i64>,
-    /// The values of the annotations before it, the nearest last, without empty ones.
-    pub before: Vec<String>,
-    /// The values of the annotations after it, the nearest first.
-    pub after: Vec<String>,
-}
 
 impl Corpus {
     /// Returns what stands before and after tokens, at most `most` annotations to each side, in the

@@ -1,17 +1,14 @@
 //! The content of a corpus as a window shows it, read at one moment: an overview of everything, and one recording
 //! whole.
 
-use chereme_motion::{Instant, Rate, Span};
-
 use crate::Corpus;
-use crate::db::columns::ValueState;
 use crate::db::contents as rows;
 use crate::db::inventories::inventories as inventory_rows;
 use crate::db::recordings::{self, MediaTrackRow, RecordingRow, SignerRow};
+pub use crate::db::rows::{AnnotationColumns, RecordingGlance, SignGlance};
 use crate::db::search::begin_reading;
 use crate::db::signs::{self, TokenRow};
 use crate::db::tiers::{self, TierRow};
-use crate::db::tracks::TrackKind;
 use crate::db::{OperationRow, history_log};
 use crate::error::Result;
 use crate::inventories::{self, StoredInventory};
@@ -41,46 +38,6 @@ pub struct Overview {
     pub conflicts: Vec<CorpusConflict>,
 }
 
-/// A recording at a glance.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RecordingGlance {
-    /// The recording.
-    pub row: RecordingRow,
-    /// How many frames of movement it has; 0 where it has none.
-    pub frames: u64,
-    /// The rate of its frames.
-    pub rate: Option<Rate>,
-    /// Where its first frame lies on the recording's clock, in microseconds.
-    pub offset_us: i64,
-    /// The kinds of its tracks, each once.
-    pub kinds: Vec<TrackKind>,
-    /// How many tiers it has.
-    pub tiers: u64,
-    /// How many tokens it has.
-    pub tokens: u64,
-    /// Its recipe, if it was generated.
-    pub recipe: Option<String>,
-}
-
-/// A sign at a glance.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct SignGlance {
-    /// The row.
-    pub id: i64,
-    /// The gloss.
-    pub gloss: String,
-    /// Remarks.
-    pub notes: Option<String>,
-    /// How many tokens it has.
-    pub tokens: u64,
-    /// The token of its citation form, one with movement before a lexicon entry.
-    pub citation: Option<i64>,
-    /// The recording that token lies in, and where.
-    pub place: Option<(i64, Span)>,
-    /// Whether that token is notated.
-    pub notated: bool,
-}
-
 /// The annotations of one recording, at one moment.
 #[derive(Debug, Clone)]
 pub struct Contents {
@@ -105,49 +62,6 @@ pub struct TierContents {
     pub row: TierRow,
     /// The annotations, by time.
     pub annotations: AnnotationColumns,
-}
-
-/// Annotations of a tier column by column, by start, all columns equally long.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct AnnotationColumns {
-    /// The rows.
-    pub ids: Vec<i64>,
-    /// Where they start, in microseconds; never falling.
-    pub starts: Vec<i64>,
-    /// The first microseconds after them.
-    pub ends: Vec<i64>,
-    /// Whether they have values.
-    pub states: Vec<ValueState>,
-    /// What they say.
-    pub values: Vec<Box<str>>,
-    /// The annotations above.
-    pub parents: Vec<Option<i64>>,
-    /// How sure their origin is, from 0 to 1, where it says so.
-    pub confidences: Vec<Option<f64>>,
-}
-
-impl AnnotationColumns {
-    /// Returns how many there are.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.ids.len()
-    }
-
-    /// Returns whether the list is empty.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.ids.is_empty()
-    }
-
-    /// Returns the span of the one at `at`.
-    ///
-    /// # Panics
-    /// Where there are not that many.
-    #[must_use]
-    pub fn span(&self, at: usize) -> Span {
-        let micros = Instant::from_micros;
-        Span::between(micros(self.starts[at]), micros(self.ends[at]))
-    }
 }
 
 impl Corpus {
@@ -208,6 +122,7 @@ impl Corpus {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ValueState;
     use crate::{ImportOptions, Progress, unheard, unpack_starter};
     use chereme_sign::TierRole;
 

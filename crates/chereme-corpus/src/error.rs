@@ -29,7 +29,7 @@ pub enum Error {
     Database(#[from] rusqlite::Error),
     /// The search index failed.
     #[error("the search index says: {0}")]
-    Index(#[from] tantivy::TantivyError),
+    Index(#[source] Box<dyn std::error::Error + Send + Sync>),
     /// A stored row or block cannot be what it is.
     #[error("{place} is damaged: {reason}")]
     Damaged {

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::Corpus;
+pub use crate::db::rows::{InventoryInfo, SignerInfo};
 use crate::db::{OperationRow, SCHEMA_VERSION, attributes, info as rows};
 use crate::error::Result;
 
@@ -42,30 +43,6 @@ pub struct Info {
     pub attributes: Vec<AttributeInfo>,
     /// What was done last.
     pub last_operation: Option<OperationRow>,
-}
-
-/// A signer at a glance.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct SignerInfo {
-    /// The name.
-    pub name: String,
-    /// The dominant hand, if it is known.
-    pub handedness: Option<String>,
-    /// How many recordings there are.
-    pub recordings: u64,
-}
-
-/// An inventory at a glance.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct InventoryInfo {
-    /// Its id, such as `configurations`.
-    pub id: String,
-    /// The component that its values are of, with the feature.
-    pub field: String,
-    /// How many values it has.
-    pub values: u64,
-    /// How many tiers take their values from it.
-    pub tiers: u64,
 }
 
 /// An attribute of signs at a glance.

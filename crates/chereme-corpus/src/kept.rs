@@ -5,21 +5,12 @@
 use chereme_sign::query::Query;
 use chereme_sign::text::{did_you_mean, edit_distance, fold, nearest};
 use rusqlite::Connection;
-use serde::Serialize;
 
 use crate::Corpus;
 use crate::db::kept as rows;
+pub use crate::db::rows::KeptSearch;
 use crate::error::{Error, Result};
 use crate::search::wrong;
-
-/// A query with a name.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub struct KeptSearch {
-    /// Its name; no other of the corpus has it, whatever the case and accents.
-    pub name: String,
-    /// The query as it was written.
-    pub query: String,
-}
 
 impl Corpus {
     /// Returns the searches that are kept, by name.

@@ -57,7 +57,8 @@ use std::cell::RefCell;
 use std::path::Path;
 use std::sync::Arc;
 
-use db::Store;
+/// A corpus file with its search index.
+type Store = db::Store<search::index::SearchIndex>;
 
 pub use chereme_formats::faces::{Loss, System as FaceSystem};
 pub use chereme_formats::roles::{Hands, Mapping, MappingError};

@@ -17,9 +17,9 @@ use chereme_sign::{Component, Handedness, Reading};
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
+use crate::Store;
 use crate::address::{self, Address, Name, Stretch};
 use crate::curves;
-use crate::db::Store;
 use crate::db::columns::Origin;
 use crate::db::history;
 use crate::db::motion;

@@ -6,8 +6,7 @@ use rusqlite::{Connection, OptionalExtension};
 use super::columns::{ValueState, word};
 use super::recordings::RecordingRow;
 use super::tracks::TrackKind;
-use crate::around::Around;
-use crate::contents::{AnnotationColumns, RecordingGlance, SignGlance};
+use crate::db::rows::{AnnotationColumns, Around, RecordingGlance, SignGlance};
 use crate::error::Result;
 
 /// Returns the number of the newest operation; 0 if there is no operation.

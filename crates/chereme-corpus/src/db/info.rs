@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use rusqlite::Connection;
 
+use crate::db::rows::{InventoryInfo, SignerInfo};
 use crate::error::Result;
-use crate::info::{InventoryInfo, SignerInfo};
 
 const KINDS: [(&str, &str); 17] = [
     ("recordings", "recording"),

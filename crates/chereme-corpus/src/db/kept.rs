@@ -2,8 +2,8 @@
 
 use rusqlite::{Connection, params};
 
+use crate::db::rows::KeptSearch;
 use crate::error::Result;
-use crate::kept::KeptSearch;
 
 /// Returns the kept searches with their rows, by name.
 pub(crate) fn searches(connection: &Connection) -> Result<Vec<(i64, KeptSearch)>> {

@@ -20,6 +20,7 @@ pub(crate) mod notations;
 mod open;
 pub(crate) mod recipes;
 pub(crate) mod recordings;
+pub(crate) mod rows;
 pub(crate) mod search;
 pub(crate) mod signs;
 pub(crate) mod spans;
@@ -34,22 +35,33 @@ use rusqlite::{Connection, TransactionBehavior};
 
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit, unheard};
-use crate::search::index::SearchIndex;
 
 pub(crate) use history::log as history_log;
 pub use history::{OperationKind, OperationRow};
 pub(crate) use open::SCHEMA_VERSION;
 pub use open::on_waiting;
 
-/// An open corpus file: its connection, its search index, and who works with it.
-pub(crate) struct Store {
+/// Something derived from the rows that is written in their transaction, such as the search index.
+pub(crate) trait Derived: Default {
+    /// Brings it up to date before it is read.
+    fn refresh(&mut self, connection: &Connection) -> Result<()>;
+
+    /// Takes in what the running operation touched, in its transaction.
+    fn follow(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()>;
+
+    /// Derives it again from all rows, inside the caller's transaction.
+    fn rebuild(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()>;
+}
+
+/// An open corpus file: its connection, what is derived from its rows, and who works with it.
+pub(crate) struct Store<D: Derived> {
     connection: Connection,
     path: PathBuf,
     author: String,
-    index: SearchIndex,
+    index: D,
 }
 
-impl Store {
+impl<D: Derived> Store<D> {
     /// Makes an empty corpus at `path`, where nothing may be yet.
     ///
     /// `fill` writes what every corpus begins with; that is no operation and cannot be undone.
@@ -75,7 +87,7 @@ impl Store {
             connection,
             path,
             author,
-            index: SearchIndex::default(),
+            index: D::default(),
         })
     }
 
@@ -95,7 +107,7 @@ impl Store {
     }
 
     /// Returns the connection and the search index brought up to date with it.
-    pub(crate) fn searchable(&mut self) -> Result<(&Connection, &SearchIndex)> {
+    pub(crate) fn searchable(&mut self) -> Result<(&Connection, &D)> {
         self.index.refresh(&self.connection)?;
         Ok((&self.connection, &self.index))
     }
@@ -158,7 +170,7 @@ impl Store {
             .rebuild(&transaction, progress)
             .and_then(|()| Ok(transaction.commit()?));
         if done.is_err() {
-            self.index = SearchIndex::default();
+            self.index = D::default();
         }
         done
     }
@@ -186,13 +198,13 @@ impl Store {
             Ok(value)
         });
         if done.is_err() {
-            self.index = SearchIndex::default();
+            self.index = D::default();
         }
         done
     }
 }
 
-impl Drop for Store {
+impl<D: Derived> Drop for Store<D> {
     fn drop(&mut self) {
         // Closing leaves one true single file; failing to is harmless, the next opening does it, and so
         // nobody waits for another writer here.
@@ -208,174 +220,5 @@ pub(crate) fn damaged(place: impl Into<String>, reason: impl Into<String>) -> Er
     Error::Damaged {
         place: place.into(),
         reason: reason.into(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn dump(store: &Store) -> Vec<String> {
-        let sql = "SELECT 'sign ' || id || gloss || coalesce(notes, '') FROM sign
-                   UNION ALL SELECT 'token ' || id || sign_id || origin FROM token
-                   UNION ALL SELECT 'text ' || sign_id || language || text FROM sign_text ORDER BY 1";
-        let mut statement = store.read().prepare(sql).expect("sql");
-        statement
-            .query_map([], |row| row.get(0))
-            .and_then(Iterator::collect)
-            .expect("rows")
-    }
-
-    fn add(store: &mut Store, gloss: &str) {
-        store
-            .operation("add", |connection| {
-                let sign = signs::sign_glossed(connection, gloss)?;
-                signs::add_text(connection, sign, "en", "a word")?;
-                let origin = columns::Origin::Lexicon;
-                let row = signs::TokenRow {
-                    sign_id: sign,
-                    origin,
-                    ..Default::default()
-                };
-                signs::insert_token(connection, &row)?;
-                Ok(((), format!("added {gloss}")))
-            })
-            .expect("added");
-    }
-
-    #[test]
-    fn undo_and_redo_walk_the_whole_history_and_survive_reopening() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("c.chereme");
-        let mut store = Store::create(&path, "A", |_| Ok(())).expect("made");
-        let mut states = vec![dump(&store)];
-        for gloss in ["BOL", "CHAT", "CHIEN"] {
-            add(&mut store, gloss);
-            states.push(dump(&store));
-        }
-        store
-            .operation("rename", |connection| {
-                connection.execute(
-                    "UPDATE sign SET gloss = 'LION', notes = 'é' WHERE id = 2",
-                    [],
-                )?;
-                connection.execute("DELETE FROM token WHERE sign_id = 1", [])?;
-                Ok(((), "changed".into()))
-            })
-            .expect("changed");
-        states.push(dump(&store));
-        drop(store);
-        let mut store = Store::open(&path, "B").expect("opened");
-        for state in states.iter().rev().skip(1) {
-            store
-                .undo(&mut Progress::new(&mut unheard))
-                .expect("undone");
-            assert_eq!(dump(&store), *state);
-            let (connection, index) = store.searchable().expect("index");
-            let rows: i64 = connection
-                .query_row("SELECT count(*) FROM token", [], |row| row.get(0))
-                .expect("count");
-            assert_eq!(index.documents(), rows as u64);
-            assert!(!index.was_rebuilt());
-        }
-        assert!(store.undo(&mut Progress::new(&mut unheard)).is_err());
-        drop(store);
-        let mut store = Store::open(&path, "C").expect("opened");
-        for state in states.iter().skip(1) {
-            store
-                .redo(&mut Progress::new(&mut unheard))
-                .expect("done again");
-            assert_eq!(dump(&store), *state);
-        }
-        assert!(store.redo(&mut Progress::new(&mut unheard)).is_err());
-        assert_eq!(store.log(100).expect("log").len(), 12);
-        assert_eq!(
-            store
-                .check_history(&mut Progress::new(&mut unheard))
-                .expect("read"),
-            Vec::<String>::new()
-        );
-        store
-            .undo(&mut Progress::new(&mut unheard))
-            .expect("undone");
-        add(&mut store, "OR");
-        assert!(
-            store.redo(&mut Progress::new(&mut unheard)).is_err(),
-            "new work clears what could be done again"
-        );
-    }
-
-    #[test]
-    fn failed_work_changes_nothing_and_empty_work_is_no_operation() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let mut store =
-            Store::create(&folder.path().join("c.chereme"), "A", |_| Ok(())).expect("made");
-        add(&mut store, "BOL");
-        let before = dump(&store);
-        let failed: Result<()> = store.operation("fail", |connection| {
-            signs::sign_glossed(connection, "X")?;
-            Err(Error::wrong("no"))
-        });
-        assert!(failed.is_err());
-        store
-            .operation("nothing", |_| Ok(((), String::new())))
-            .expect("nothing");
-        assert_eq!(dump(&store), before);
-        assert_eq!(store.log(9).expect("log").len(), 1);
-    }
-
-    #[test]
-    fn rows_changed_behind_the_index_are_noticed() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("c.chereme");
-        let mut store = Store::create(&path, "A", |_| Ok(())).expect("made");
-        add(&mut store, "BOL");
-        drop(store);
-        let other = rusqlite::Connection::open(&path).expect("opened");
-        other
-            .execute("INSERT INTO sign (id, gloss) VALUES (9, 'X')", [])
-            .expect("written");
-        other
-            .execute(
-                "INSERT INTO token (sign_id, origin) VALUES (9, 'lexicon')",
-                [],
-            )
-            .expect("written");
-        drop(other);
-        let mut store = Store::open(&path, "A").expect("opened");
-        let (_, index) = store.searchable().expect("index");
-        assert!(index.was_rebuilt());
-        assert_eq!(index.documents(), 2);
-    }
-
-    #[test]
-    fn what_is_no_corpus_is_refused_with_advice() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("x");
-        assert!(Store::open(&path, "A").is_err_and(|e| e.remedy().is_some()));
-        std::fs::write(&path, "").expect("written");
-        assert!(Store::open(&path, "A").is_err_and(|e| e.to_string().contains("it is empty")));
-        assert!(Store::open(folder.path(), "A").is_err_and(|e| e.to_string().contains("a folder")));
-        std::fs::write(&path, "rubbish, rubbish, rubbish").expect("written");
-        assert!(Store::open(&path, "A").is_err_and(|e| matches!(e, Error::NotACorpus { .. })));
-        let other = folder.path().join("other.db");
-        rusqlite::Connection::open(&other)
-            .and_then(|c| c.execute_batch("CREATE TABLE a (b)"))
-            .expect("made");
-        assert!(Store::open(&other, "A").is_err_and(|e| e.to_string().contains("another program")));
-        let evil = folder.path().join("evil.chereme");
-        drop(Store::create(&evil, "A", |_| Ok(())).expect("made"));
-        let bytes = std::fs::read(&evil).expect("read");
-        std::fs::write(&path, &bytes[..bytes.len() / 2]).expect("written");
-        assert!(Store::open(&path, "A").is_err_and(|e| e.to_string().contains("cut short")));
-        assert!(Store::create(&evil, "A", |_| Ok(())).is_err());
-        rusqlite::Connection::open(&evil)
-            .and_then(|c| {
-                c.execute_batch(
-                    "CREATE TRIGGER t AFTER INSERT ON sign BEGIN DELETE FROM token; END",
-                )
-            })
-            .expect("made");
-        assert!(Store::open(&evil, "A").is_err_and(|e| e.to_string().contains("triggers")));
     }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod answers;
 mod documents;
+pub(crate) mod terms;
 
 use rusqlite::{Connection, Transaction, TransactionBehavior, params};
 

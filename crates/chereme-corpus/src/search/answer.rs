@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::Value;
-use tantivy::DocAddress;
 
 use super::compile::{Ask, Asked};
-use super::docs::{Docs, Numbers, Times};
+use super::docs::{Docs, Times};
 use super::finding::Finding;
 use super::like::Scores;
 use super::plan::{self, Plan};
+use super::probe::{Column, Doc, RowField};
 use crate::db::columns::{Origin, ValueState};
 use crate::db::search::answers::{self, CodedRow};
 
@@ -100,14 +100,14 @@ type Key = (u64, u64, u64, i64);
 /// Returns the part of the documents that is to be shown, in order.
 pub(crate) fn page(
     ask: &Ask<'_>,
-    found: &[DocAddress],
+    found: &[Doc],
     order: Order,
     ranks: &Ranks,
     range: std::ops::Range<usize>,
 ) -> Asked<Docs> {
     ask.go_on()?;
     let places = Places::open(ask, found, order)?;
-    let mut keyed: Vec<((u64, Key), DocAddress)> = Vec::with_capacity(found.len());
+    let mut keyed: Vec<((u64, Key), Doc)> = Vec::with_capacity(found.len());
     for (&doc, rank) in found.iter().zip(ranks.iter()) {
         let key = (places.leading(doc, order, rank), places.key(doc));
         keyed.push((key, doc));
@@ -129,7 +129,7 @@ impl Ranks {
     /// Ranks documents by likeness and by the places where texts are found in them.
     pub(crate) fn new(
         ask: &Ask<'_>,
-        found: &[DocAddress],
+        found: &[Doc],
         scores: Option<&Scores>,
         texts: &[Vec<Option<Plan>>],
     ) -> Asked<Self> {
@@ -158,7 +158,7 @@ impl Ranks {
                 .for_each(|(rank, own)| *rank += own);
         }
         if let Some(scores) = scores {
-            let ids = Numbers::rows(ask.searcher, "id")?;
+            let ids = ask.now.rows(RowField::Token)?;
             for (doc, rank) in found.iter().zip(&mut ranks) {
                 let example = ids
                     .get(*doc)
@@ -179,25 +179,25 @@ impl Ranks {
 
 /// The keys that decide the order of documents.
 struct Places {
-    id: Numbers<u64>,
-    sign: Numbers<u64>,
+    id: Box<dyn Column>,
+    sign: Box<dyn Column>,
     times: Times,
     signs: Option<std::sync::Arc<super::known::Signs>>,
 }
 
 impl Places {
-    fn open(ask: &Ask<'_>, found: &[DocAddress], order: Order) -> Asked<Self> {
-        let times = Times::open(ask.searcher)?;
+    fn open(ask: &Ask<'_>, found: &[Doc], order: Order) -> Asked<Self> {
+        let times = Times::open(ask.now)?;
         let by_gloss = order == Order::Gloss || found.iter().any(|doc| times.get(*doc).is_none());
         Ok(Self {
-            id: Numbers::rows(ask.searcher, "id")?,
-            sign: Numbers::rows(ask.searcher, "sign")?,
+            id: ask.now.rows(RowField::Token)?,
+            sign: ask.now.rows(RowField::Sign)?,
             times,
             signs: by_gloss.then(|| ask.signs()).transpose()?,
         })
     }
 
-    fn leading(&self, doc: DocAddress, order: Order, rank: u64) -> u64 {
+    fn leading(&self, doc: Doc, order: Order, rank: u64) -> u64 {
         match order {
             Order::Rank => rank,
             Order::Place => 0,
@@ -209,7 +209,7 @@ impl Places {
         }
     }
 
-    fn key(&self, doc: DocAddress) -> Key {
+    fn key(&self, doc: Doc) -> Key {
         let id = self.id.get(doc).unwrap_or(i64::MAX);
         match self.times.get(doc) {
             Some((recording, start, _)) => (recording as u64, ordered(start), 0, id),
@@ -217,7 +217,7 @@ impl Places {
         }
     }
 
-    fn gloss(&self, doc: DocAddress) -> u64 {
+    fn gloss(&self, doc: Doc) -> u64 {
         let rank = |signs: &super::known::Signs| signs.rank.get(&self.sign.get(doc)?).copied();
         self.signs.as_deref().and_then(rank).unwrap_or(u64::MAX)
     }
@@ -229,8 +229,8 @@ fn ordered(micros: i64) -> u64 {
 }
 
 /// Returns the hits of documents, in their order.
-pub(crate) fn hits(ask: &Ask<'_>, docs: &[DocAddress], scores: Option<&Scores>) -> Asked<Vec<Hit>> {
-    let ids = Numbers::rows(ask.searcher, "id")?;
+pub(crate) fn hits(ask: &Ask<'_>, docs: &[Doc], scores: Option<&Scores>) -> Asked<Vec<Hit>> {
+    let ids = ask.now.rows(RowField::Token)?;
     let mut hits = Vec::with_capacity(docs.len());
     for doc in docs {
         ask.look()?;

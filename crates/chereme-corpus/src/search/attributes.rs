@@ -1,13 +1,15 @@
 //! Comparisons of attributes, answered from their rows.
 
+use std::collections::BTreeSet;
+
 use chereme_sign::query::{
     AttributeTest, Comparison, Missing, Operator, QueryError, Test, Value, Wanted, number,
 };
 use chereme_sign::text::{fold, nearest};
 
-use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked};
 use super::plan::Plan;
+use super::probe::{Probe, RowField};
 use super::texts::Glob;
 use crate::db::attributes::{self, AttributeRow};
 
@@ -34,7 +36,10 @@ pub(super) fn plan(ask: &Ask<'_>, test: &Test, name: &str, wanted: &AttributeTes
             .iter()
             .any(|value| is(row, value, comparison.operator)),
     })?;
-    let tokens = |ids| Plan::index(AnyTerm::numbers(ask.fields.id, ids));
+    let tokens = |ids: BTreeSet<i64>| {
+        let ids = ids.into_iter().collect();
+        Plan::Index(Probe::Rows(RowField::Token, ids))
+    };
     let comparison = match wanted {
         AttributeTest::Number(..) => return Ok(tokens(passing)),
         AttributeTest::Value(comparison) => comparison,

@@ -9,13 +9,14 @@ use chereme_sign::{Reading, Relation, TierRole};
 
 use super::compile::{self, Ask, Asked};
 use super::component::ComponentTest;
-use super::docs::{Docs, Numbers, Times};
+use super::docs::{Docs, Times};
 use super::finding::FindingKind;
 use super::findings;
 use super::plan::{self, Plan};
-use super::terms::{self, hand_codes, hands_of, phase_code, phase_counts};
+use super::probe::{Column, Doc, RowField};
 use super::{texts, whole};
 use crate::db::search::answers::{self, CodedRow};
+use crate::db::search::terms::{self, hand_codes, hands_of, phase_code, phase_counts};
 use crate::error::Result;
 
 /// A relation to another annotation.
@@ -64,8 +65,8 @@ impl Beside {
 
     /// Returns the candidates that stand in the relation.
     pub(crate) fn filter(&self, ask: &Ask<'_>, candidates: Docs) -> Asked<Docs> {
-        let times = Times::open(ask.searcher)?;
-        let ids = Numbers::rows(ask.searcher, "id")?;
+        let times = Times::open(ask.now)?;
+        let ids = ask.now.rows(RowField::Token)?;
         let mut by_recording: BTreeMap<i64, Vec<Candidate>> = BTreeMap::new();
         let mut found = Docs::new();
         for doc in candidates {
@@ -80,7 +81,7 @@ impl Beside {
             }
         }
         let recordings = by_recording.keys().copied().collect();
-        let mut glosses = self.glosses(ask, &recordings, &times, &ids)?;
+        let mut glosses = self.glosses(ask, &recordings, &times, &*ids)?;
         for (recording, candidates) in by_recording {
             let mut marks = glosses.remove(&recording).unwrap_or_default();
             self.collect(ask, recording, &mut marks)?;
@@ -121,7 +122,7 @@ impl Beside {
         ask: &Ask<'_>,
         recordings: &BTreeSet<i64>,
         times: &Times,
-        ids: &Numbers<u64>,
+        ids: &dyn Column,
     ) -> Asked<BTreeMap<i64, Vec<Mark>>> {
         let mut marks: BTreeMap<i64, Vec<Mark>> = BTreeMap::new();
         for other in &self.other {
@@ -260,7 +261,7 @@ fn text_passes(test: &Test, row: &CodedRow<'_>) -> bool {
 }
 
 struct Candidate {
-    doc: tantivy::DocAddress,
+    doc: Doc,
     token: i64,
     span: Span,
 }

@@ -2,7 +2,6 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
-use std::ops::Bound;
 use std::sync::Arc;
 
 use chereme_sign::Component;
@@ -12,32 +11,30 @@ use chereme_sign::query::{
 };
 use chereme_sign::text::{fold, nearest};
 use rusqlite::Connection;
-use tantivy::query::{ExistsQuery, Query, RangeQuery};
-use tantivy::{Searcher, Term};
 
-use super::any_term::AnyTerm;
 use super::attributes;
 use super::beside::Beside;
 use super::component::ComponentTest;
 use super::curves;
-use super::docs::{self, Docs};
+use super::docs::Docs;
 use super::finding::{Finding, FindingKind};
-use super::index::{Fields, SearchIndex};
-use super::known::{KnownReadings, Signs, terms_of};
+use super::index::SearchIndex;
+use super::known::{KnownReadings, Signs};
 use super::plan::Plan;
-use super::terms::Mark;
+use super::probe::{Index, Probe, RowField, Text};
 use super::texts::Glob;
 use super::vocabulary::Vocabulary;
 use super::whole;
 use crate::db::search::answers::{self, Named};
+use crate::db::search::terms::Mark;
 use crate::error::{Error, Result};
 
 /// The corpus and index that a query is answered from.
 pub(crate) struct Ask<'a> {
     pub(crate) connection: &'a Connection,
     pub(crate) index: &'a SearchIndex,
-    pub(crate) searcher: &'a Searcher,
-    pub(crate) fields: Fields,
+    /// The index as it is now.
+    pub(crate) now: &'a dyn Index,
     pub(crate) vocabulary: Arc<Vocabulary>,
     pub(crate) notes: RefCell<BTreeSet<String>>,
     pub(crate) findings: RefCell<Vec<Finding>>,
@@ -70,23 +67,17 @@ impl From<Error> for Failure {
     }
 }
 
-impl From<tantivy::TantivyError> for Failure {
-    fn from(error: tantivy::TantivyError) -> Self {
-        Self::Other(error.into())
-    }
-}
-
 impl Ask<'_> {
     /// Returns the readings of a component that the index holds.
     pub(crate) fn readings(&self, component: Component) -> Result<Arc<KnownReadings>> {
         let mut memory = self.index.memory();
-        memory.readings(self.searcher, self.fields.reading, component)
+        memory.readings(self.now, component)
     }
 
-    /// Returns the documents that the index has for a query.
-    pub(crate) fn run(&self, query: &dyn Query) -> Result<Docs> {
+    /// Returns the documents that the index has for a probe.
+    pub(crate) fn run(&self, probe: &Probe) -> Result<Docs> {
         self.go_on()?;
-        docs::run(self.searcher, query)
+        self.now.docs(probe)
     }
 
     /// Fails where whoever asked wants no answer any more.
@@ -203,21 +194,15 @@ pub(crate) fn test(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
         What::Whole(field, comparison) => whole::plan(ask, *field, comparison),
         What::Words(..) | What::Fuzzy { .. } => whole::words_plan(ask, test),
         What::Tier(..) => Ok(Plan::Beside(Box::new(Beside::new(ask, None, test)?))),
-        What::Time(field, times) => Ok(Plan::index(self::times(ask, *field, *times))),
+        What::Time(field, times) => Ok(Plan::Index(self::times(*field, *times))),
         What::Attribute(name, wanted) => attributes::plan(ask, test, name, wanted),
         What::Curve(wanted) => curves::plan(ask, test, wanted),
     }
 }
 
-fn times(ask: &Ask<'_>, field: TimeField, test: TimeTest) -> RangeQuery {
-    let field = match field {
-        TimeField::Duration => ask.fields.duration,
-        TimeField::Start => ask.fields.start,
-        TimeField::End => ask.fields.end,
-    };
-    let term = |bound: Bound<i64>| bound.map(|micros| Term::from_field_i64(field, micros));
+fn times(field: TimeField, test: TimeTest) -> Probe {
     let (least, most) = test.bounds();
-    RangeQuery::new(term(least), term(most))
+    Probe::Between(field, least, most)
 }
 
 fn property(ask: &Ask<'_>, property: Property, comparison: &Comparison) -> Asked<Plan> {
@@ -314,15 +299,15 @@ fn mark_of(property: Property) -> Option<Mark> {
 /// Returns the plan for the tokens that have such a property at all.
 fn has(ask: &Ask<'_>, property: Property) -> Asked<Plan> {
     if let Some(mark) = mark_of(property) {
-        let terms = terms_of(ask.searcher, ask.fields.reading, &mark.prefix(), |_| true)?;
-        return Ok(Plan::index(AnyTerm::texts(ask.fields.reading, terms)));
+        let terms = ask.now.terms(Text::Reading, &mark.prefix(), &|_| true)?;
+        return Ok(Plan::Index(Probe::readings(terms)));
     }
     let field = match property {
-        Property::Signer => "signer",
-        Property::Recording => "recording",
+        Property::Signer => RowField::Signer,
+        Property::Recording => RowField::Recording,
         _ => return Ok(Plan::everything()),
     };
-    Ok(Plan::index(ExistsQuery::new(field.to_owned(), false)))
+    Ok(Plan::Index(Probe::Has(field)))
 }
 
 fn named(ask: &Ask<'_>, property: Property, wish: &Wish<'_>) -> Asked<Plan> {
@@ -330,16 +315,16 @@ fn named(ask: &Ask<'_>, property: Property, wish: &Wish<'_>) -> Asked<Plan> {
         return marked(ask, property, mark, wish);
     }
     let (field, kind, rows) = match property {
-        Property::Token => return token(ask, wish),
-        Property::Signer => (ask.fields.signer, "signer", Named::Signer),
-        Property::Recording => (ask.fields.recording, "recording", Named::Recording),
-        _ => (ask.fields.sign, "sign", Named::Sign),
+        Property::Token => return token(wish),
+        Property::Signer => (RowField::Signer, "signer", Named::Signer),
+        Property::Recording => (RowField::Recording, "recording", Named::Recording),
+        _ => (RowField::Sign, "sign", Named::Sign),
     };
     if wish.literal
         && let Ok(number) = wish.text.parse::<i64>()
         && answers::name(ask.connection, rows, number)?.is_some()
     {
-        return Ok(Plan::index(AnyTerm::numbers(field, [number])));
+        return Ok(Plan::Index(Probe::Rows(field, vec![number])));
     }
     let names = answers::names(ask.connection, rows)?;
     let found = names.iter().filter(|(_, name)| wish.is(name));
@@ -347,13 +332,12 @@ fn named(ask: &Ask<'_>, property: Property, wish: &Wish<'_>) -> Asked<Plan> {
     if found.is_empty() && wish.literal {
         return Err(wish.unknown(kind, names.into_iter().map(|(_, name)| name)));
     }
-    Ok(Plan::index(AnyTerm::numbers(field, found)))
+    Ok(Plan::Index(Probe::Rows(field, found)))
 }
 
 fn marked(ask: &Ask<'_>, property: Property, mark: Mark, wish: &Wish<'_>) -> Asked<Plan> {
     let prefix = mark.prefix();
-    let field = ask.fields.reading;
-    let terms = terms_of(ask.searcher, field, &prefix, |_| true)?;
+    let terms = ask.now.terms(Text::Reading, &prefix, &|_| true)?;
     let name = |term: &String| term[prefix.len()..].to_owned();
     let found: Vec<&String> = terms.iter().filter(|term| wish.is(&name(term))).collect();
     if found.is_empty() && wish.literal && property.fixed_values().is_none() {
@@ -365,12 +349,12 @@ fn marked(ask: &Ask<'_>, property: Property, mark: Mark, wish: &Wish<'_>) -> Ask
             return Err(wish.unknown(property.name(), known));
         }
     }
-    Ok(Plan::index(AnyTerm::texts(field, found)))
+    Ok(Plan::Index(Probe::readings(found)))
 }
 
-fn token(ask: &Ask<'_>, wish: &Wish<'_>) -> Asked<Plan> {
+fn token(wish: &Wish<'_>) -> Asked<Plan> {
     match wish.text.parse::<i64>() {
-        Ok(number) if number >= 0 => Ok(Plan::index(AnyTerm::numbers(ask.fields.id, [number]))),
+        Ok(number) if number >= 0 => Ok(Plan::Index(Probe::Rows(RowField::Token, vec![number]))),
         _ => Err(QueryError {
             at: wish.value.at.range(),
             message: format!("{:?} is no number of a token", wish.text),

@@ -5,15 +5,14 @@ use std::collections::BTreeSet;
 use chereme_sign::query::{Comparison, Operator, QueryError, Value, Wanted, unknown_value};
 use chereme_sign::text::nearest;
 use chereme_sign::{Component, Field, Reading};
-use tantivy::Term;
 
-use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked};
 use super::known::{KnownReading, KnownReadings};
 use super::plan::Plan;
-use super::terms::{hands_of, phase_counts};
+use super::probe::Probe;
 use super::vocabulary::Accepted;
 use super::{findings, steps};
+use crate::db::search::terms::{hands_of, phase_counts};
 
 /// A comparison of a component, ready to be made.
 ///
@@ -147,14 +146,14 @@ impl ComponentTest {
                 }
             }
         }
-        let found = Plan::index(self.terms(ask, passing));
+        let found = Plan::Index(self.probe(passing));
         if !self.comparison.accepts(&Reading::Unset, |_, _| false) {
             return Ok(found);
         }
         let own = self.parts.iter();
         let coded = own.filter_map(|(part, _)| known.parts.get(part));
         let coded = coded.flat_map(|values| values.values().flatten());
-        let absent = Plan::index(self.terms(ask, coded)).not();
+        let absent = Plan::Index(self.probe(coded)).not();
         Ok(Plan::any(vec![found, absent]))
     }
 
@@ -171,22 +170,14 @@ impl ComponentTest {
         Some(all.into_iter())
     }
 
-    fn terms<'a>(
-        &self,
-        ask: &Ask<'_>,
-        readings: impl IntoIterator<Item = &'a KnownReading>,
-    ) -> AnyTerm {
-        let field = ask.fields.reading;
+    fn probe<'a>(&self, readings: impl IntoIterator<Item = &'a KnownReading>) -> Probe {
         let hands = hands_of(self.field.hand);
         let terms = readings.into_iter().flat_map(|known| &known.terms);
         let own = terms.filter(|(hand, phase, _)| {
             hands.contains(hand) && phase_counts(self.field.phase, phase)
         });
         let own: BTreeSet<&str> = own.map(|(_, _, term)| term.as_str()).collect();
-        let terms = own
-            .into_iter()
-            .map(|term| Term::from_field_text(field, term));
-        AnyTerm::new(field, terms.collect())
+        Probe::readings(own)
     }
 }
 

@@ -4,9 +4,9 @@ use chereme_motion::{Face, Instant};
 use chereme_sign::query::{CurveTest, QueryError, Test};
 use chereme_sign::text::nearest;
 
-use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked};
 use super::plan::Plan;
+use super::probe::{Probe, RowField};
 use crate::db::{recordings, signs};
 use crate::face::{Fits, numbers_of};
 
@@ -71,7 +71,7 @@ pub(super) fn plan(ask: &Ask<'_>, test: &Test, wanted: &CurveTest) -> Asked<Plan
             });
         found.extend(passing.map(|token| token.id));
     }
-    Ok(Plan::index(AnyTerm::numbers(ask.fields.id, found)))
+    Ok(Plan::Index(Probe::Rows(RowField::Token, found)))
 }
 
 /// Returns the times, in microseconds, over which frames pass for `lasting` microseconds and longer.

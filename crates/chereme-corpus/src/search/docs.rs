@@ -1,68 +1,15 @@
 //! Sets of documents, in order, and their numbers.
 
-use tantivy::collector::{Collector, SegmentCollector};
-use tantivy::columnar::Column;
-use tantivy::query::Query;
-use tantivy::{DocAddress, DocId, Score, Searcher, SegmentOrdinal, SegmentReader};
+use chereme_sign::query::TimeField;
 
+use super::probe::{Column, Doc, Index, RowField};
 use crate::error::Result;
 
 /// Documents in order, none twice.
-pub(crate) type Docs = Vec<DocAddress>;
-
-/// Returns the documents that a query asks for.
-pub(crate) fn run(searcher: &Searcher, query: &dyn Query) -> Result<Docs> {
-    Ok(searcher.search(query, &All)?)
-}
-
-struct All;
-
-struct OfSegment {
-    segment: SegmentOrdinal,
-    docs: Docs,
-}
-
-impl Collector for All {
-    type Fruit = Docs;
-    type Child = OfSegment;
-
-    fn for_segment(
-        &self,
-        segment: SegmentOrdinal,
-        _: &SegmentReader,
-    ) -> tantivy::Result<OfSegment> {
-        let docs = Vec::new();
-        Ok(OfSegment { segment, docs })
-    }
-
-    fn requires_scoring(&self) -> bool {
-        false
-    }
-
-    fn merge_fruits(&self, fruits: Vec<Docs>) -> tantivy::Result<Docs> {
-        let mut fruits = fruits.into_iter();
-        let first = fruits.next().unwrap_or_default();
-        Ok(fruits.fold(first, |mut all, docs| {
-            all.extend(docs);
-            all
-        }))
-    }
-}
-
-impl SegmentCollector for OfSegment {
-    type Fruit = Docs;
-
-    fn collect(&mut self, doc: DocId, _: Score) {
-        self.docs.push(DocAddress::new(self.segment, doc));
-    }
-
-    fn harvest(self) -> Docs {
-        self.docs
-    }
-}
+pub(crate) type Docs = Vec<Doc>;
 
 /// Returns what is in both.
-pub(crate) fn intersection(a: &[DocAddress], b: &[DocAddress]) -> Docs {
+pub(crate) fn intersection(a: &[Doc], b: &[Doc]) -> Docs {
     let (few, many) = if a.len() < b.len() { (a, b) } else { (b, a) };
     let mut rest = many;
     let mut both = Vec::with_capacity(few.len());
@@ -76,7 +23,7 @@ pub(crate) fn intersection(a: &[DocAddress], b: &[DocAddress]) -> Docs {
 }
 
 /// Returns what is in `a` and not in `b`.
-pub(crate) fn difference(a: &[DocAddress], b: &[DocAddress]) -> Docs {
+pub(crate) fn difference(a: &[Doc], b: &[Doc]) -> Docs {
     let mut rest = b;
     let mut left = Vec::with_capacity(a.len());
     for doc in a {
@@ -102,7 +49,7 @@ pub(crate) fn union(mut a: Docs, b: Docs) -> Docs {
 }
 
 /// Returns how many documents at the start of `docs` come before `doc`, most often few.
-fn leap(docs: &[DocAddress], doc: DocAddress) -> usize {
+fn leap(docs: &[Doc], doc: Doc) -> usize {
     let mut reach = 1;
     while reach < docs.len() && docs[reach] < doc {
         reach *= 2;
@@ -111,58 +58,25 @@ fn leap(docs: &[DocAddress], doc: DocAddress) -> usize {
     from + docs[from..to].partition_point(|other| *other < doc)
 }
 
-/// One number of each document, by segment.
-pub(crate) struct Numbers<T: 'static>(Vec<Column<T>>);
-
-impl Numbers<u64> {
-    /// Opens a field of row numbers.
-    pub(crate) fn rows(searcher: &Searcher, field: &str) -> Result<Self> {
-        let columns = searcher.segment_readers().iter();
-        let columns = columns.map(|segment| segment.fast_fields().u64(field));
-        Ok(Self(columns.collect::<tantivy::Result<_>>()?))
-    }
-
-    /// Returns the row number of a document.
-    pub(crate) fn get(&self, doc: DocAddress) -> Option<i64> {
-        self.0[doc.segment_ord as usize]
-            .first(doc.doc_id)
-            .map(|row| row as i64)
-    }
-}
-
-impl Numbers<i64> {
-    /// Opens a field of times.
-    pub(crate) fn times(searcher: &Searcher, field: &str) -> Result<Self> {
-        let columns = searcher.segment_readers().iter();
-        let columns = columns.map(|segment| segment.fast_fields().i64(field));
-        Ok(Self(columns.collect::<tantivy::Result<_>>()?))
-    }
-
-    /// Returns the time of a document.
-    pub(crate) fn get(&self, doc: DocAddress) -> Option<i64> {
-        self.0[doc.segment_ord as usize].first(doc.doc_id)
-    }
-}
-
 /// Where each document lies in time.
 pub(crate) struct Times {
-    recording: Numbers<u64>,
-    start: Numbers<i64>,
-    end: Numbers<i64>,
+    recording: Box<dyn Column>,
+    start: Box<dyn Column>,
+    end: Box<dyn Column>,
 }
 
 impl Times {
     /// Opens the fields.
-    pub(crate) fn open(searcher: &Searcher) -> Result<Self> {
+    pub(crate) fn open(index: &dyn Index) -> Result<Self> {
         Ok(Self {
-            recording: Numbers::rows(searcher, "recording")?,
-            start: Numbers::times(searcher, "start")?,
-            end: Numbers::times(searcher, "end")?,
+            recording: index.rows(RowField::Recording)?,
+            start: index.times(TimeField::Start)?,
+            end: index.times(TimeField::End)?,
         })
     }
 
     /// Returns recording, start and end of a token; a lexicon entry has none.
-    pub(crate) fn get(&self, doc: DocAddress) -> Option<(i64, i64, i64)> {
+    pub(crate) fn get(&self, doc: Doc) -> Option<(i64, i64, i64)> {
         let recording = self.recording.get(doc)?;
         Some((recording, self.start.get(doc)?, self.end.get(doc)?))
     }
@@ -176,7 +90,10 @@ mod tests {
     #[test]
     fn sets_behave_as_sets() {
         let set = |numbers: &[u32]| -> Docs {
-            let docs = numbers.iter().map(|n| DocAddress::new(n / 8, n % 8));
+            let docs = numbers.iter().map(|n| Doc {
+                part: n / 8,
+                number: n % 8,
+            });
             docs.collect()
         };
         let cases: [&[u32]; 6] = [

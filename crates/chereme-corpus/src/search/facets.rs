@@ -8,12 +8,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_sign::Field;
 use chereme_sign::query::{Query, facet_condition};
-use tantivy::DocAddress;
 
 use super::compile::{self, Ask, Asked};
-use super::docs::Numbers;
-use super::known::Labels;
 use super::plan;
+use super::probe::{Doc, RowField};
 use crate::db::search::answers::{self, Named};
 use crate::error::Result;
 
@@ -26,7 +24,7 @@ type Facets = BTreeMap<String, Vec<(String, usize)>>;
 /// and how many values were left out of each.
 pub(crate) fn facets(
     ask: &Ask<'_>,
-    found: &[DocAddress],
+    found: &[Doc],
     most: usize,
 ) -> Asked<(Facets, BTreeMap<String, usize>)> {
     let mut left_out = BTreeMap::new();
@@ -37,9 +35,9 @@ pub(crate) fn facets(
         left_out.insert(field.clone(), left);
     }
     for (facet, field, named) in [
-        ("gloss", "sign", Named::Sign),
-        ("recording", "recording", Named::Recording),
-        ("signer", "signer", Named::Signer),
+        ("gloss", RowField::Sign, Named::Sign),
+        ("recording", RowField::Recording, Named::Recording),
+        ("signer", RowField::Signer, Named::Signer),
     ] {
         let (counts, left) = row_facet(ask, found, (field, named), most)?;
         if !counts.is_empty() {
@@ -53,12 +51,12 @@ pub(crate) fn facets(
 
 fn row_facet(
     ask: &Ask<'_>,
-    found: &[DocAddress],
-    (field, named): (&str, Named),
+    found: &[Doc],
+    (field, named): (RowField, Named),
     most: usize,
 ) -> Result<(Vec<(String, usize)>, usize)> {
     ask.go_on()?;
-    let rows = Numbers::rows(ask.searcher, field)?;
+    let rows = ask.now.rows(field)?;
     let mut all: Vec<i64> = found.iter().filter_map(|doc| rows.get(*doc)).collect();
     all.sort_unstable();
     let mut counts: Vec<(usize, i64)> = all
@@ -92,65 +90,15 @@ fn keep_most_frequent(counts: &mut Vec<(String, usize)>, most: usize) -> usize {
     left_out
 }
 
-fn coded_facets(ask: &Ask<'_>, found: &[DocAddress]) -> Asked<Facets> {
-    let mut counts: BTreeMap<String, BTreeMap<String, usize>> = BTreeMap::new();
-    for docs in found.chunk_by(|a, b| a.segment_ord == b.segment_ord) {
-        let Some(first) = docs.first() else {
-            continue;
-        };
-        let segment = ask.searcher.segment_reader(first.segment_ord);
-        let Some(column) = segment.fast_fields().str("facet")? else {
-            continue;
-        };
-        ask.go_on()?;
-        let labels = ask.index.memory().labels(ask.searcher, segment)?;
-        for (ordinal, count) in count_ordinals(&column, docs, &labels) {
-            let Some((field, value)) = labels.values.get(ordinal) else {
-                continue;
-            };
-            let field = labels.fields.get(*field as usize).cloned();
-            let values = counts.entry(field.unwrap_or_default()).or_default();
-            *values.entry(value.clone()).or_default() += count;
-        }
-    }
+fn coded_facets(ask: &Ask<'_>, found: &[Doc]) -> Asked<Facets> {
+    let counts = ask.now.facets(found, &|| ask.go_on())?;
     let of_field =
         |(field, values): (String, BTreeMap<String, usize>)| (field, values.into_iter().collect());
     Ok(counts.into_iter().map(of_field).collect())
 }
 
-fn count_ordinals(
-    column: &tantivy::columnar::StrColumn,
-    docs: &[DocAddress],
-    labels: &Labels,
-) -> Vec<(usize, usize)> {
-    if docs.len() < 1000 {
-        let mut all: Vec<u64> = docs
-            .iter()
-            .flat_map(|doc| column.term_ords(doc.doc_id))
-            .collect();
-        all.sort_unstable();
-        let equal = all.chunk_by(|a, b| a == b);
-        return equal
-            .map(|equal| (equal[0] as usize, equal.len()))
-            .collect();
-    }
-    let mut counts = vec![0; labels.values.len()];
-    for doc in docs {
-        for ordinal in column.term_ords(doc.doc_id) {
-            if let Some(count) = counts.get_mut(ordinal as usize) {
-                *count += 1;
-            }
-        }
-    }
-    counts
-        .into_iter()
-        .enumerate()
-        .filter(|(_, count)| *count > 0)
-        .collect()
-}
-
 /// Counts again the values of components whose hand is written in several forms.
-fn count_forms_of_hands(ask: &Ask<'_>, found: &[DocAddress], facets: &mut Facets) -> Asked<()> {
+fn count_forms_of_hands(ask: &Ask<'_>, found: &[Doc], facets: &mut Facets) -> Asked<()> {
     let mut forms: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for field in facets.keys() {
         forms
@@ -199,7 +147,7 @@ fn without_hand(field: &str) -> String {
 
 fn count_of_condition(
     ask: &Ask<'_>,
-    found: &[DocAddress],
+    found: &[Doc],
     field: &str,
     value: &str,
 ) -> Asked<Option<usize>> {

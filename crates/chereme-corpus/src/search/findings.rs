@@ -10,7 +10,7 @@ use super::compile::{Ask, Asked};
 use super::component::ComponentTest;
 use super::finding::FindingKind;
 use super::known::{KnownReading, KnownReadings};
-use super::terms::{hands_of, phase_counts};
+use crate::db::search::terms::{hands_of, phase_counts};
 
 /// How many names are offered in place of one that finds nothing.
 const OFFERED: usize = 20;

@@ -1,20 +1,18 @@
 //! The index's knowledge of itself: the readings it holds, terms that fit a pattern, and the names and order of
 //! things; kept from query to query while the rows stay as they are.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use chereme_sign::text::fold;
 use chereme_sign::{Component, Reading};
 use rusqlite::Connection;
-use tantivy::index::SegmentId;
-use tantivy::schema::Field;
-use tantivy::{Searcher, SegmentReader, Term};
 
-use super::terms;
+use super::probe::{Index, Text};
 use super::texts::Glob;
 use super::vocabulary::Vocabulary;
 use crate::db::search::answers::{self, Named};
+use crate::db::search::terms;
 use crate::error::Result;
 
 /// Every reading of a component that the index holds.
@@ -38,12 +36,6 @@ pub(crate) struct Signs {
     pub(crate) rank: HashMap<i64, u64>,
 }
 
-/// The values of the facets of one segment, by ordinal: the number of the field, and the value.
-pub(crate) struct Labels {
-    pub(crate) fields: Vec<String>,
-    pub(crate) values: Vec<(u32, String)>,
-}
-
 /// The memory between queries.
 #[derive(Default)]
 pub(crate) struct Memory {
@@ -51,7 +43,6 @@ pub(crate) struct Memory {
     indexed: i64,
     readings: BTreeMap<Component, Arc<KnownReadings>>,
     signs: Option<Arc<Signs>>,
-    labels: HashMap<SegmentId, Arc<Labels>>,
     vocabulary: Option<((i64, u64), Arc<Vocabulary>)>,
 }
 
@@ -81,8 +72,7 @@ impl Memory {
     /// Returns the readings of a component that the index holds.
     pub(crate) fn readings(
         &mut self,
-        searcher: &Searcher,
-        field: Field,
+        index: &dyn Index,
         component: Component,
     ) -> Result<Arc<KnownReadings>> {
         if let Some(known) = self.readings.get(&component) {
@@ -90,7 +80,7 @@ impl Memory {
         }
         let prefix = terms::component_prefix(component.name());
         let mut known = KnownReadings::default();
-        for term in terms_of(searcher, field, &prefix, |_| true)? {
+        for term in index.terms(Text::Reading, &prefix, &|_| true)? {
             let Some(parsed) = terms::parse(&term) else {
                 continue;
             };
@@ -141,91 +131,13 @@ impl Memory {
         self.signs = Some(signs.clone());
         Ok(signs)
     }
-
-    /// Returns the values of the facets of a segment.
-    pub(crate) fn labels(
-        &mut self,
-        searcher: &Searcher,
-        segment: &SegmentReader,
-    ) -> Result<Arc<Labels>> {
-        if let Some(labels) = self.labels.get(&segment.segment_id()) {
-            return Ok(labels.clone());
-        }
-        let labels = Arc::new(read_labels(segment)?);
-        let live: BTreeSet<SegmentId> = searcher
-            .segment_readers()
-            .iter()
-            .map(SegmentReader::segment_id)
-            .collect();
-        self.labels.retain(|id, _| live.contains(id));
-        self.labels.insert(segment.segment_id(), labels.clone());
-        Ok(labels)
-    }
-}
-
-fn read_labels(segment: &SegmentReader) -> Result<Labels> {
-    let mut labels = Labels {
-        fields: Vec::new(),
-        values: Vec::new(),
-    };
-    let Some(column) = segment.fast_fields().str("facet")? else {
-        return Ok(labels);
-    };
-    let mut numbers: BTreeMap<String, u32> = BTreeMap::new();
-    let mut stream = column
-        .dictionary()
-        .stream()
-        .map_err(tantivy::TantivyError::from)?;
-    while stream.advance() {
-        let text = String::from_utf8_lossy(stream.key());
-        let (field, value) = text.split_once('=').unwrap_or((&text, ""));
-        let number = match numbers.get(field) {
-            Some(number) => *number,
-            None => {
-                let number = labels.fields.len() as u32;
-                labels.fields.push(field.to_owned());
-                numbers.insert(field.to_owned(), number);
-                number
-            }
-        };
-        labels.values.push((number, value.to_owned()));
-    }
-    Ok(labels)
-}
-
-/// Returns the terms of a field that begin with `prefix` and that `wanted` wants, in order.
-pub(crate) fn terms_of(
-    searcher: &Searcher,
-    field: Field,
-    prefix: &str,
-    wanted: impl Fn(&str) -> bool,
-) -> Result<BTreeSet<String>> {
-    let mut found = BTreeSet::new();
-    for segment in searcher.segment_readers() {
-        let index = segment.inverted_index(field)?;
-        let stream = index.terms().range().ge(prefix.as_bytes()).into_stream();
-        let mut stream = stream.map_err(tantivy::TantivyError::from)?;
-        while stream.advance() {
-            let Ok(term) = std::str::from_utf8(stream.key()) else {
-                continue;
-            };
-            if !term.starts_with(prefix) {
-                break;
-            }
-            if wanted(term) {
-                found.insert(term.to_owned());
-            }
-        }
-    }
-    Ok(found)
 }
 
 /// Returns the terms of a field that fit a pattern.
-pub(crate) fn fitting(searcher: &Searcher, field: Field, glob: &Glob) -> Result<Vec<Term>> {
+pub(crate) fn fitting(index: &dyn Index, field: Text, glob: &Glob) -> Result<Vec<String>> {
     if let Some(text) = glob.literal() {
-        return Ok(vec![Term::from_field_text(field, text)]);
+        return Ok(vec![text.to_owned()]);
     }
-    let found = terms_of(searcher, field, glob.prefix(), |term| glob.matches(term))?;
-    let terms = found.iter().map(|term| Term::from_field_text(field, term));
-    Ok(terms.collect())
+    let found = index.terms(field, glob.prefix(), &|term| glob.matches(term))?;
+    Ok(found.into_iter().collect())
 }

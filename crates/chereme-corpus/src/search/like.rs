@@ -5,13 +5,12 @@ use std::collections::BTreeMap;
 use chereme_sign::query::{Example, Like, QueryError, Weighted};
 use chereme_sign::text::{fold, nearest};
 use chereme_sign::{Component, Field, Phase, Reading};
-use tantivy::{DocAddress, Term};
 
-use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked};
-use super::terms::{self, hand_codes, hands_of, phase_counts};
+use super::probe::{Doc, Probe};
 use crate::address::{self, Address, Name};
 use crate::db::search::answers;
+use crate::db::search::terms::{self, hand_codes, hands_of, phase_counts};
 use crate::db::signs::TokenRow;
 
 /// How alike each document is to the examples, from 0 to 1.
@@ -21,9 +20,9 @@ use crate::db::signs::TokenRow;
 /// first and the last value. Components that the example leaves unset do not count: two unset fields are not equal.
 /// Several components are weighted; several examples have equal weight.
 pub(crate) struct Scores {
-    scores: BTreeMap<DocAddress, f64>,
+    scores: BTreeMap<Doc, f64>,
     /// Likeness to single examples, and what it must be above.
-    bars: Vec<(BTreeMap<DocAddress, f64>, f64)>,
+    bars: Vec<(BTreeMap<Doc, f64>, f64)>,
     /// The rows of the examples.
     pub(crate) examples: Vec<i64>,
 }
@@ -51,12 +50,12 @@ impl Scores {
     }
 
     /// Returns how alike a document is.
-    pub(crate) fn of(&self, doc: DocAddress) -> f64 {
+    pub(crate) fn of(&self, doc: Doc) -> f64 {
         self.scores.get(&doc).copied().unwrap_or(0.0).min(1.0)
     }
 
     /// Returns whether a document reaches the required similarity to each example.
-    pub(crate) fn pass(&self, doc: DocAddress) -> bool {
+    pub(crate) fn pass(&self, doc: Doc) -> bool {
         // Shares of a whole are added up, which is exact only to the last few digits.
         const SLACK: f64 = 1e-9;
         let mut bars = self.bars.iter();
@@ -65,7 +64,7 @@ impl Scores {
 }
 
 /// Returns how alike each document is to one example, from 0 to 1.
-fn scored(ask: &Ask<'_>, like: &Like, token: &TokenRow) -> Asked<BTreeMap<DocAddress, f64>> {
+fn scored(ask: &Ask<'_>, like: &Like, token: &TokenRow) -> Asked<BTreeMap<Doc, f64>> {
     let mut scores = BTreeMap::new();
     let on: Vec<(Field, f64)> = if like.on.is_empty() {
         Component::ALL
@@ -90,8 +89,8 @@ fn scored(ask: &Ask<'_>, like: &Like, token: &TokenRow) -> Asked<BTreeMap<DocAdd
     for (slots, weight) in counted {
         let each = weight / total / slots.len() as f64;
         for slot in slots {
-            let query = AnyTerm::new(ask.fields.reading, slot.terms(ask)?);
-            for doc in ask.run(&query)? {
+            let probe = Probe::readings(slot.terms(ask)?);
+            for doc in ask.run(&probe)? {
                 *scores.entry(doc).or_default() += each;
             }
         }
@@ -117,17 +116,14 @@ impl Slot {
             && hands.contains(&self.hand)
     }
 
-    fn terms(&self, ask: &Ask<'_>) -> Asked<Vec<Term>> {
+    fn terms(&self, ask: &Ask<'_>) -> Asked<Vec<String>> {
         let known = ask.readings(self.component)?;
         let values = known.parts.get(&self.part);
         let alike = values.and_then(|values| values.get(&self.value));
         let terms = alike.into_iter().flatten().flat_map(|known| &known.terms);
         let equal = terms
             .filter(|(hand, phase, _)| *hand == self.hand && phase_counts(Some(self.phase), phase));
-        let field = ask.fields.reading;
-        Ok(equal
-            .map(|(_, _, term)| Term::from_field_text(field, term))
-            .collect())
+        Ok(equal.map(|(_, _, term)| term.clone()).collect())
     }
 }
 

@@ -6,13 +6,11 @@
 
 mod alone;
 mod answer;
-mod any_term;
 mod attributes;
 mod beside;
 mod compile;
 mod component;
 mod curves;
-mod directory;
 mod docs;
 mod facets;
 mod finding;
@@ -22,9 +20,9 @@ mod known;
 mod like;
 mod meant;
 mod plan;
+mod probe;
 mod steps;
 mod tally;
-pub(crate) mod terms;
 #[cfg(test)]
 mod tests;
 mod texts;
@@ -189,13 +187,12 @@ fn with_index<T>(
     hear: &RefCell<dyn FnMut(u64) -> Result<()> + '_>,
     ask: impl FnOnce(&Ask<'_>) -> Asked<T>,
 ) -> Asked<T> {
-    let (searcher, fields) = index.searcher();
+    let now = index.now();
     let vocabulary = index.memory().vocabulary(connection)?;
     ask(&Ask {
         connection,
         index,
-        searcher: &searcher,
-        fields,
+        now: &now,
         vocabulary,
         notes: Default::default(),
         findings: Default::default(),

@@ -1,20 +1,19 @@
 //! Plans: the part of a query that the index answers, and the questions to the rows afterwards.
 
 use chereme_sign::query::Comparison;
-use tantivy::DocAddress;
-use tantivy::query::{AllQuery, BooleanQuery, Occur, Query};
 
 use super::beside::Beside;
 use super::compile::{Ask, Asked};
 use super::docs::{self, Docs};
+use super::probe::{Doc, Probe};
 use super::whole;
 
 /// How a query is answered.
 pub(crate) enum Plan {
     /// The index answers it.
-    Index(Box<dyn Query>),
+    Index(Probe),
     /// The index answers what it does not want.
-    Without(Box<dyn Query>),
+    Without(Probe),
     /// All of these.
     And(Vec<Plan>),
     /// Any of these.
@@ -33,39 +32,38 @@ pub(crate) struct WholeText {
     pub(crate) translation: bool,
     pub(crate) comparison: Comparison,
     /// A condition that the index can check and that every passing token meets.
-    pub(crate) narrowed: Option<Box<dyn Query>>,
+    pub(crate) narrowed: Option<Probe>,
 }
 
 impl Plan {
-    /// Returns the plan that the index answers.
-    pub(crate) fn index(query: impl Query) -> Self {
-        Self::Index(Box::new(query))
-    }
-
     /// Returns the plan for every token.
     pub(crate) fn everything() -> Self {
-        Self::index(AllQuery)
+        Self::Index(Probe::All)
     }
 
     /// Returns the plan for no token.
     pub(crate) fn nothing() -> Self {
-        Self::Without(Box::new(AllQuery))
+        Self::Without(Probe::All)
     }
 
     /// Returns the plan for all of these together.
     pub(crate) fn all(plans: Vec<Self>) -> Self {
-        let mut clauses: Vec<(Occur, Box<dyn Query>)> = Vec::new();
+        let (mut wanted, mut unwanted) = (Vec::new(), Vec::new());
         let mut rest = Vec::new();
         for plan in plans {
             match plan {
-                Self::Index(query) => clauses.push((Occur::Must, query)),
-                Self::Without(query) => clauses.push((Occur::MustNot, query)),
+                Self::Index(probe) => wanted.push(probe),
+                Self::Without(probe) => unwanted.push(probe),
                 Self::And(inner) => rest.extend(inner),
                 other => rest.push(other),
             }
         }
-        if !clauses.is_empty() || rest.is_empty() {
-            rest.insert(0, conjunction(clauses));
+        if !wanted.is_empty() || !unwanted.is_empty() || rest.is_empty() {
+            let probe = match (wanted.len(), unwanted.is_empty()) {
+                (1, true) => wanted.remove(0),
+                _ => Probe::And(wanted, unwanted),
+            };
+            rest.insert(0, Self::Index(probe));
         }
         if rest.len() == 1 {
             rest.remove(0)
@@ -76,7 +74,7 @@ impl Plan {
 
     /// Returns the plan for any of these.
     pub(crate) fn any(plans: Vec<Self>) -> Self {
-        let mut clauses: Vec<Box<dyn Query>> = Vec::new();
+        let mut clauses: Vec<Probe> = Vec::new();
         let mut rest = Vec::new();
         for plan in plans {
             match plan.indexed() {
@@ -88,7 +86,7 @@ impl Plan {
             0 if rest.is_empty() => return Self::nothing(),
             0 => {}
             1 => rest.extend(clauses.pop().map(Self::Index)),
-            _ => rest.push(Self::index(BooleanQuery::union(clauses))),
+            _ => rest.push(Self::Index(Probe::Or(clauses))),
         }
         if rest.len() == 1 {
             rest.remove(0)
@@ -107,36 +105,12 @@ impl Plan {
         }
     }
 
-    /// Returns the query, where the index answers all of it.
-    pub(crate) fn indexed(self) -> Result<Box<dyn Query>, Self> {
+    /// Returns the probe, if the index answers all of the plan.
+    pub(crate) fn indexed(self) -> Result<Probe, Self> {
         match self {
-            Self::Index(query) => Ok(query),
-            Self::Without(query) => Ok(inverted(query)),
+            Self::Index(probe) => Ok(probe),
+            Self::Without(probe) => Ok(probe.inverted()),
             other => Err(other),
-        }
-    }
-}
-
-fn inverted(query: Box<dyn Query>) -> Box<dyn Query> {
-    Box::new(BooleanQuery::new(vec![
-        (Occur::Must, Box::new(AllQuery) as Box<dyn Query>),
-        (Occur::MustNot, query),
-    ]))
-}
-
-fn conjunction(mut clauses: Vec<(Occur, Box<dyn Query>)>) -> Plan {
-    let wanted = clauses
-        .iter()
-        .filter(|(occur, _)| *occur == Occur::Must)
-        .count();
-    if wanted == 0 {
-        clauses.push((Occur::Must, Box::new(AllQuery)));
-    }
-    match clauses.pop() {
-        Some((Occur::Must, query)) if clauses.is_empty() => Plan::Index(query),
-        last => {
-            clauses.extend(last);
-            Plan::index(BooleanQuery::new(clauses))
         }
     }
 }
@@ -144,7 +118,7 @@ fn conjunction(mut clauses: Vec<(Occur, Box<dyn Query>)>) -> Plan {
 /// Returns the documents that a plan selects, from those in `within` if it is given.
 ///
 /// The rows are asked only about tokens that the rest of the plan leaves.
-pub(crate) fn evaluate(ask: &Ask<'_>, plan: &Plan, within: Option<&[DocAddress]>) -> Asked<Docs> {
+pub(crate) fn evaluate(ask: &Ask<'_>, plan: &Plan, within: Option<&[Doc]>) -> Asked<Docs> {
     if within.is_some_and(<[_]>::is_empty) {
         return Ok(Docs::new());
     }
@@ -154,14 +128,11 @@ pub(crate) fn evaluate(ask: &Ask<'_>, plan: &Plan, within: Option<&[DocAddress]>
     };
     let candidates = || match within {
         Some(within) => Ok(within.to_vec()),
-        None => ask.run(&AllQuery),
+        None => ask.run(&Probe::All),
     };
     match plan {
-        Plan::Index(query) => Ok(inside(ask.run(query.as_ref())?)),
-        Plan::Without(query) => {
-            let query = inverted(query.box_clone());
-            Ok(inside(ask.run(query.as_ref())?))
-        }
+        Plan::Index(probe) => Ok(inside(ask.run(probe)?)),
+        Plan::Without(probe) => Ok(inside(ask.run(&probe.clone().inverted())?)),
         Plan::And(plans) => {
             let mut order: Vec<&Plan> = plans.iter().collect();
             order.sort_by_key(|plan| effort(plan));
@@ -182,7 +153,7 @@ pub(crate) fn evaluate(ask: &Ask<'_>, plan: &Plan, within: Option<&[DocAddress]>
         Plan::Beside(beside) => beside.filter(ask, candidates()?),
         Plan::Whole(text) => {
             let candidates = match &text.narrowed {
-                Some(query) => inside(ask.run(query.as_ref())?),
+                Some(probe) => inside(ask.run(probe)?),
                 None => candidates()?,
             };
             whole::filter(ask, text, candidates)

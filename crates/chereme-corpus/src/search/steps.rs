@@ -4,13 +4,12 @@ use std::collections::BTreeSet;
 
 use chereme_sign::Field;
 use chereme_sign::query::{Comparison, Operator, QueryError, Value};
-use tantivy::Term;
 
-use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked};
 use super::component::ComponentTest;
 use super::plan::Plan;
-use super::terms::hands_of;
+use super::probe::Probe;
+use crate::db::search::terms::hands_of;
 
 /// How many places in time may be tried for one query.
 const MOST_PLACES: usize = 24;
@@ -58,8 +57,8 @@ pub(crate) fn plan(
                 .iter()
                 .map(|test| test.passing_terms(ask, part, *hand))
                 .collect::<Asked<Vec<_>>>()?;
-            let first = any(ask, &terms[0], |place| place == 0);
-            if let (Some(first), Some(rest)) = (first, chain(ask, &terms[1..], &places)) {
+            let first = any(&terms[0], |place| place == 0);
+            if let (Some(first), Some(rest)) = (first, chain(&terms[1..], &places)) {
                 plans.push(Plan::all(vec![first, rest]));
             }
         }
@@ -71,18 +70,16 @@ pub(crate) fn plan(
 pub(crate) type Phased = Vec<(String, String)>;
 
 /// Returns the plan for values at any of the places, each after the one before it.
-fn chain(ask: &Ask<'_>, terms: &[Phased], places: &[u32]) -> Option<Plan> {
+fn chain(terms: &[Phased], places: &[u32]) -> Option<Plan> {
     let (step, later) = terms.split_first()?;
     if later.is_empty() {
         let places: BTreeSet<u32> = places.iter().copied().collect();
-        return any(ask, step, |place| places.contains(&place));
+        return any(step, |place| places.contains(&place));
     }
     let mut plans = Vec::new();
     for (number, at) in places.iter().enumerate() {
-        let here = any(ask, step, |place| place == *at);
-        let rest = here
-            .is_some()
-            .then(|| chain(ask, later, &places[number + 1..]));
+        let here = any(step, |place| place == *at);
+        let rest = here.is_some().then(|| chain(later, &places[number + 1..]));
         if let (Some(here), Some(Some(rest))) = (here, rest) {
             plans.push(Plan::all(vec![here, rest]));
         }
@@ -90,15 +87,12 @@ fn chain(ask: &Ask<'_>, terms: &[Phased], places: &[u32]) -> Option<Plan> {
     (!plans.is_empty()).then(|| Plan::any(plans))
 }
 
-fn any(ask: &Ask<'_>, terms: &Phased, wanted: impl Fn(u32) -> bool) -> Option<Plan> {
-    let field = ask.fields.reading;
+fn any(terms: &Phased, wanted: impl Fn(u32) -> bool) -> Option<Plan> {
     let own = terms
         .iter()
         .filter(|(phase, _)| place(phase).is_some_and(&wanted));
-    let terms: Vec<Term> = own
-        .map(|(_, term)| Term::from_field_text(field, term))
-        .collect();
-    (!terms.is_empty()).then(|| Plan::index(AnyTerm::new(field, terms)))
+    let terms: Vec<&String> = own.map(|(_, term)| term).collect();
+    (!terms.is_empty()).then(|| Plan::Index(Probe::readings(terms)))
 }
 
 /// Returns the place of a phase among successive values; the only value of a sign has none.

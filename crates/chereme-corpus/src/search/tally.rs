@@ -5,16 +5,14 @@ use std::collections::BTreeMap;
 use chereme_sign::query::{Property, Query, TextField, What};
 use chereme_sign::{Field, Reading};
 use serde::Serialize;
-use tantivy::DocAddress;
 
-use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked, Failure};
-use super::docs::{self, Docs, Numbers};
-use super::known::terms_of;
-use super::terms::{Mark, hands_of, phase_counts};
+use super::docs::{self, Docs};
+use super::probe::{Doc, Probe, RowField, Text};
 use super::{compile, plan, wrong};
 use crate::Corpus;
 use crate::db::search::answers::{self, Named};
+use crate::db::search::terms::{Mark, hands_of, phase_counts};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
@@ -142,7 +140,7 @@ fn tally(ask: &Ask<'_>, query: &Query, subjects: &[Subject]) -> Asked<Tally> {
         let remedy = "count fields of fewer values, or one field";
         return Err(Failure::Other(Error::wrong(message).advise(remedy)));
     }
-    let mut of_doc: BTreeMap<DocAddress, Vec<usize>> = BTreeMap::new();
+    let mut of_doc: BTreeMap<Doc, Vec<usize>> = BTreeMap::new();
     for (number, (_, docs)) in columns.iter().enumerate() {
         for doc in docs {
             of_doc.entry(*doc).or_default().push(number);
@@ -169,14 +167,14 @@ fn tally(ask: &Ask<'_>, query: &Query, subjects: &[Subject]) -> Asked<Tally> {
 }
 
 /// Returns the values of a field with the documents that have each, the most frequent first.
-fn groups(ask: &Ask<'_>, found: &[DocAddress], subject: &Subject) -> Asked<Vec<(String, Docs)>> {
+fn groups(ask: &Ask<'_>, found: &[Doc], subject: &Subject) -> Asked<Vec<(String, Docs)>> {
     let mut groups = match subject {
         Subject::Component(field) => of_component(ask, found, field)?,
-        Subject::Gloss => of_rows(ask, found, "sign", Named::Sign)?,
+        Subject::Gloss => of_rows(ask, found, RowField::Sign, Named::Sign)?,
         Subject::Property(property) => match property {
-            Property::Signer => of_rows(ask, found, "signer", Named::Signer)?,
-            Property::Recording => of_rows(ask, found, "recording", Named::Recording)?,
-            Property::Sign => of_rows(ask, found, "sign", Named::Sign)?,
+            Property::Signer => of_rows(ask, found, RowField::Signer, Named::Signer)?,
+            Property::Recording => of_rows(ask, found, RowField::Recording, Named::Recording)?,
+            Property::Sign => of_rows(ask, found, RowField::Sign, Named::Sign)?,
             Property::Origin => of_mark(ask, found, Mark::Origin)?,
             Property::Hand => of_mark(ask, found, Mark::Hand)?,
             Property::Tier => of_mark(ask, found, Mark::Tier)?,
@@ -196,7 +194,7 @@ fn groups(ask: &Ask<'_>, found: &[DocAddress], subject: &Subject) -> Asked<Vec<(
     Ok(groups)
 }
 
-fn of_component(ask: &Ask<'_>, found: &[DocAddress], field: &Field) -> Asked<Vec<(String, Docs)>> {
+fn of_component(ask: &Ask<'_>, found: &[Doc], field: &Field) -> Asked<Vec<(String, Docs)>> {
     let known = ask.readings(field.component)?;
     let hands = hands_of(field.hand);
     let mut groups = Vec::new();
@@ -210,17 +208,17 @@ fn of_component(ask: &Ask<'_>, found: &[DocAddress], field: &Field) -> Asked<Vec
             .iter()
             .filter(|(hand, phase, _)| hands.contains(hand) && phase_counts(field.phase, phase));
         let texts: Vec<&str> = own.map(|(_, _, term)| term.as_str()).collect();
-        let docs = ask.run(&AnyTerm::texts(ask.fields.reading, texts))?;
+        let docs = ask.run(&Probe::readings(texts))?;
         groups.push((value.clone(), docs::intersection(&docs, found)));
     }
     Ok(groups)
 }
 
-fn of_mark(ask: &Ask<'_>, found: &[DocAddress], mark: Mark) -> Asked<Vec<(String, Docs)>> {
+fn of_mark(ask: &Ask<'_>, found: &[Doc], mark: Mark) -> Asked<Vec<(String, Docs)>> {
     let prefix = mark.prefix();
     let mut groups = Vec::new();
-    for term in terms_of(ask.searcher, ask.fields.reading, &prefix, |_| true)? {
-        let docs = ask.run(&AnyTerm::texts(ask.fields.reading, [&term]))?;
+    for term in ask.now.terms(Text::Reading, &prefix, &|_| true)? {
+        let docs = ask.run(&Probe::readings([&term]))?;
         let value = term[prefix.len()..].to_owned();
         groups.push((value, docs::intersection(&docs, found)));
     }
@@ -229,11 +227,11 @@ fn of_mark(ask: &Ask<'_>, found: &[DocAddress], mark: Mark) -> Asked<Vec<(String
 
 fn of_rows(
     ask: &Ask<'_>,
-    found: &[DocAddress],
-    field: &str,
+    found: &[Doc],
+    field: RowField,
     named: Named,
 ) -> Asked<Vec<(String, Docs)>> {
-    let rows = Numbers::rows(ask.searcher, field)?;
+    let rows = ask.now.rows(field)?;
     let mut by_row: BTreeMap<i64, Docs> = BTreeMap::new();
     for doc in found {
         if let Some(row) = rows.get(*doc) {

@@ -1,6 +1,7 @@
 //! Searching, from rows to answers.
 
 mod lexicon;
+mod store;
 mod table;
 
 use chereme_sign::tier::Hands;

@@ -5,25 +5,20 @@ use chereme_sign::query::{
     Comparison, Missing, Operator, Pattern, QueryError, Test, TextField, Value, Wanted, What,
 };
 use chereme_sign::text::fold;
-use tantivy::Term;
-use tantivy::query::{FuzzyTermQuery, PhraseQuery, Query, RegexPhraseQuery};
-use tantivy::schema::Field;
 
-use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked};
-use super::docs::{Docs, Numbers};
+use super::docs::Docs;
 use super::finding::FindingKind;
 use super::findings;
 use super::known::fitting;
 use super::plan::{Plan, WholeText};
-use super::terms::Mark;
+use super::probe::{Probe, RowField, Text};
 use super::texts::{Glob, words};
 use crate::db::search::answers;
+use crate::db::search::terms::Mark;
 
 /// The longest word that is compared up to slips: its automaton grows with the length.
 const LONGEST_FUZZY: usize = 64;
-/// How many words of the index one pattern inside a phrase may fit.
-const MOST_EXPANSIONS: u32 = 1 << 20;
 
 /// Returns the plan for comparing whole texts; where a token has several, one that passes is enough.
 pub(crate) fn plan(ask: &Ask<'_>, field: TextField, comparison: &Comparison) -> Asked<Plan> {
@@ -65,7 +60,7 @@ fn gloss(ask: &Ask<'_>, comparison: &Comparison) -> Asked<Plan> {
             if found.is_empty() {
                 nobody_has(ask, comparison, value)?;
             }
-            Ok(Plan::index(AnyTerm::numbers(ask.fields.sign, found)))
+            Ok(Plan::Index(Probe::Rows(RowField::Sign, found)))
         }
         Wanted::Named(pattern) => {
             let glob = Glob::whole(pattern);
@@ -73,7 +68,7 @@ fn gloss(ask: &Ask<'_>, comparison: &Comparison) -> Asked<Plan> {
             if !signs.rows.iter().any(|(.., folded)| glob.matches(folded)) {
                 nobody_has(ask, comparison, value)?;
             }
-            Ok(Plan::index(whole_gloss(ask, pattern)?))
+            Ok(Plan::Index(whole_gloss(ask, pattern)?))
         }
     });
     let found = Plan::any(plans.collect::<Asked<_>>()?);
@@ -111,19 +106,18 @@ fn nobody_has(ask: &Ask<'_>, comparison: &Comparison, value: &Value) -> Asked<()
     Ok(())
 }
 
-fn whole_gloss(ask: &Ask<'_>, pattern: &Pattern) -> Asked<AnyTerm> {
-    let field = ask.fields.gloss;
-    let terms = fitting(ask.searcher, field, &Glob::whole(pattern))?;
-    Ok(AnyTerm::new(field, terms))
+fn whole_gloss(ask: &Ask<'_>, pattern: &Pattern) -> Asked<Probe> {
+    let terms = fitting(ask.now, Text::Gloss, &Glob::whole(pattern))?;
+    Ok(Probe::Terms(Text::Gloss, terms))
 }
 
 fn other(ask: &Ask<'_>, translation: bool, comparison: &Comparison) -> Asked<Plan> {
     let (name, field) = if translation {
-        ("translation", ask.fields.translation)
+        ("translation", Text::Translation)
     } else {
-        ("comment", ask.fields.comment)
+        ("comment", Text::Comment)
     };
-    let has = || Plan::index(AnyTerm::texts(ask.fields.reading, [Mark::Has.term(name)]));
+    let has = || Plan::Index(Probe::readings([Mark::Has.term(name)]));
     match (comparison.operator, &comparison.values[..]) {
         (Operator::Is | Operator::Exactly, [value]) if value.wanted == Wanted::Present => {
             return Ok(has());
@@ -143,7 +137,7 @@ fn other(ask: &Ask<'_>, translation: bool, comparison: &Comparison) -> Asked<Pla
 }
 
 /// Returns a query that every token passes whose text is one of those wanted, if they have words.
-fn narrowed(ask: &Ask<'_>, field: Field, comparison: &Comparison) -> Asked<Option<Box<dyn Query>>> {
+fn narrowed(ask: &Ask<'_>, field: Text, comparison: &Comparison) -> Asked<Option<Probe>> {
     if comparison.operator == Operator::IsNot {
         return Ok(None);
     }
@@ -157,7 +151,7 @@ fn narrowed(ask: &Ask<'_>, field: Field, comparison: &Comparison) -> Asked<Optio
             return Ok(None);
         };
         match phrase(ask, field, &Glob::words(pattern))? {
-            Some(query) => plans.push(Plan::Index(query)),
+            Some(probe) => plans.push(Plan::Index(probe)),
             None => return Ok(None),
         }
     }
@@ -166,7 +160,7 @@ fn narrowed(ask: &Ask<'_>, field: Field, comparison: &Comparison) -> Asked<Optio
 
 /// Returns the candidates whose texts pass.
 pub(crate) fn filter(ask: &Ask<'_>, text: &WholeText, candidates: Docs) -> Asked<Docs> {
-    let ids = Numbers::rows(ask.searcher, "id")?;
+    let ids = ask.now.rows(RowField::Token)?;
     let mut found = Docs::new();
     for doc in candidates {
         ask.look()?;
@@ -220,16 +214,16 @@ pub(crate) fn places(ask: &Ask<'_>, test: &Test) -> Asked<Vec<Option<Plan>>> {
             for pattern in patterns {
                 let globs = Glob::words(pattern);
                 if in_gloss(*field) {
-                    places[0].push(Plan::index(whole_gloss(ask, pattern)?));
+                    places[0].push(Plan::Index(whole_gloss(ask, pattern)?));
                 }
-                for (place, field) in fields_of(ask, *field) {
+                for (place, field) in fields_of(*field) {
                     places[place].extend(phrase(ask, field, &globs)?.map(Plan::Index));
                 }
             }
             let some = |plans: Vec<Plan>| (!plans.is_empty()).then(|| Plan::any(plans));
             Ok(places.into_iter().map(some).collect())
         }
-        What::Fuzzy { field, text, slips } => fuzzy(ask, test, *field, text, *slips),
+        What::Fuzzy { field, text, slips } => fuzzy(test, *field, text, *slips),
         _ => Ok(Vec::new()),
     }
 }
@@ -239,11 +233,11 @@ fn in_gloss(field: TextField) -> bool {
 }
 
 /// Returns the fields of words that a text is searched in, with their places.
-fn fields_of(ask: &Ask<'_>, field: TextField) -> Vec<(usize, Field)> {
+fn fields_of(field: TextField) -> Vec<(usize, Text)> {
     let all = [
-        (1, TextField::Gloss, ask.fields.words),
-        (2, TextField::Translation, ask.fields.translation),
-        (3, TextField::Comment, ask.fields.comment),
+        (1, TextField::Gloss, Text::Words),
+        (2, TextField::Translation, Text::Translation),
+        (3, TextField::Comment, Text::Comment),
     ];
     let wanted = all
         .into_iter()
@@ -251,35 +245,24 @@ fn fields_of(ask: &Ask<'_>, field: TextField) -> Vec<(usize, Field)> {
     wanted.map(|(place, _, field)| (place, field)).collect()
 }
 
-/// Returns the query for adjacent words; `None` if there is no word.
-fn phrase(ask: &Ask<'_>, field: Field, globs: &[Glob]) -> Asked<Option<Box<dyn Query>>> {
+/// Returns the probe for adjacent words; `None` if there is no word.
+fn phrase(ask: &Ask<'_>, field: Text, globs: &[Glob]) -> Asked<Option<Probe>> {
     let literals: Option<Vec<&str>> = globs.iter().map(Glob::literal).collect();
     Ok(match (globs, literals) {
         ([], _) => None,
-        ([one], _) => Some(Box::new(AnyTerm::new(
-            field,
-            fitting(ask.searcher, field, one)?,
-        ))),
+        ([one], _) => Some(Probe::Terms(field, fitting(ask.now, field, one)?)),
         (_, Some(words)) => {
-            let terms = words.iter().map(|word| Term::from_field_text(field, word));
-            Some(Box::new(PhraseQuery::new(terms.collect())))
+            let words = words.into_iter().map(str::to_owned).collect();
+            Some(Probe::Phrase(field, words))
         }
         (several, None) => {
             let words = several.iter().map(Glob::regex).collect();
-            let mut query = RegexPhraseQuery::new(field, words);
-            query.set_max_expansions(MOST_EXPANSIONS);
-            Some(Box::new(query))
+            Some(Probe::Patterns(field, words))
         }
     })
 }
 
-fn fuzzy(
-    ask: &Ask<'_>,
-    test: &Test,
-    field: TextField,
-    text: &str,
-    slips: u8,
-) -> Asked<Vec<Option<Plan>>> {
+fn fuzzy(test: &Test, field: TextField, text: &str, slips: u8) -> Asked<Vec<Option<Plan>>> {
     let words = words(text);
     let whole = fold(text);
     if whole.chars().count() > LONGEST_FUZZY {
@@ -291,15 +274,12 @@ fn fuzzy(
         }
         .into());
     }
-    let near = |field: Field, word: &str| {
-        let term = Term::from_field_text(field, word);
-        Plan::index(FuzzyTermQuery::new(term, slips, true))
-    };
+    let near = |field: Text, word: &str| Plan::Index(Probe::Near(field, word.to_owned(), slips));
     let mut places: Vec<Option<Plan>> = vec![None, None, None, None];
     if in_gloss(field) {
-        places[0] = Some(near(ask.fields.gloss, &whole));
+        places[0] = Some(near(Text::Gloss, &whole));
     }
-    for (place, field) in fields_of(ask, field) {
+    for (place, field) in fields_of(field) {
         let all = words.iter().map(|word| near(field, word)).collect();
         places[place] = (!words.is_empty()).then(|| Plan::all(all));
     }

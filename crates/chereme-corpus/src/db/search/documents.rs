@@ -8,9 +8,9 @@ use chereme_sign::tier as sign_tier;
 use rusqlite::fallible_streaming_iterator::FallibleStreamingIterator;
 use rusqlite::{Connection, OptionalExtension, Row, Rows};
 
+use super::terms::{Mark, hand_codes, phase_code, reading_term, reading_text};
 use crate::db::columns::{self, word, word_or_null};
 use crate::error::Result;
-use crate::search::terms::{Mark, hand_codes, phase_code, reading_term, reading_text};
 
 /// A token as the index holds it; texts are folded.
 #[derive(Default)]

@@ -6,7 +6,7 @@
 //! | `sign`, `recording`, `signer` | row numbers | whose, and where; order and counts |
 //! | `gloss` | the whole gloss, folded | `gloss=BOL-2H`, wildcards, slips |
 //! | `words`, `translation`, `comment` | words of the gloss, of what is said, of remarks | `"slow animal"` |
-//! | `reading` | [terms](super::terms) of what is coded, and marks | `right.configuration=U`, `origin=made` |
+//! | `reading` | [terms](crate::db::search::terms) of what is coded, and marks | `right.configuration=U`, `origin=made` |
 //! | `facet` | `right.configuration=U` as printed | counts |
 //! | `start`, `end`, `duration` | microseconds | `duration<0.8s`; relations of time |
 //!
@@ -17,6 +17,10 @@
 //! change of the rows, whoever makes it, and the index records the count it has seen, in the rows and in its own
 //! files.
 
+mod any_term;
+mod directory;
+mod read;
+
 use std::cell::{Cell, RefCell, RefMut};
 
 use rusqlite::Connection;
@@ -26,15 +30,16 @@ use tantivy::schema::{
     FAST, Field, INDEXED, IndexRecordOption, Schema, TextFieldIndexing, TextOptions,
 };
 use tantivy::tokenizer::{SimpleTokenizer, TextAnalyzer};
-use tantivy::{
-    Index, IndexReader, IndexWriter, ReloadPolicy, Searcher, TantivyDocument, TantivyError, Term,
-};
+use tantivy::{Index, IndexReader, IndexWriter, ReloadPolicy, TantivyDocument, TantivyError, Term};
 
-use super::directory::MemoryFolder;
 use super::known::Memory;
+use crate::db::Derived;
 use crate::db::search::{self as rows, State, TokenDocument};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit, unheard};
+
+use directory::MemoryFolder;
+use read::{KnownLabels, Reading};
 
 /// Raised whenever the form of documents changes: indexes of other numbers are rebuilt.
 const FORMAT: i64 = 3;
@@ -45,20 +50,20 @@ const MOST_SMALL_SEGMENTS: usize = 8;
 
 /// The fields of a document.
 #[derive(Clone, Copy)]
-pub(crate) struct Fields {
-    pub(crate) id: Field,
-    pub(crate) sign: Field,
-    pub(crate) recording: Field,
-    pub(crate) signer: Field,
-    pub(crate) gloss: Field,
-    pub(crate) words: Field,
-    pub(crate) translation: Field,
-    pub(crate) comment: Field,
-    pub(crate) reading: Field,
-    pub(crate) facet: Field,
-    pub(crate) start: Field,
-    pub(crate) end: Field,
-    pub(crate) duration: Field,
+struct Fields {
+    id: Field,
+    sign: Field,
+    recording: Field,
+    signer: Field,
+    gloss: Field,
+    words: Field,
+    translation: Field,
+    comment: Field,
+    reading: Field,
+    facet: Field,
+    start: Field,
+    end: Field,
+    duration: Field,
 }
 
 /// The search index of one open corpus; loaded when first needed.
@@ -66,6 +71,7 @@ pub(crate) struct Fields {
 pub(crate) struct SearchIndex {
     open: Option<OpenIndex>,
     memory: RefCell<Memory>,
+    labels: RefCell<KnownLabels>,
     rebuilt: Cell<bool>,
 }
 
@@ -82,23 +88,6 @@ fn follows(state: &State) -> bool {
 }
 
 impl SearchIndex {
-    /// Brings the index up to date: usually nothing to do, loads it if another program has written since, rebuilds
-    /// it if it does not follow the rows.
-    pub(crate) fn refresh(&mut self, connection: &Connection) -> Result<()> {
-        let state = State::read(connection)?;
-        if !follows(&state) {
-            return self.mend(connection, state.content != 0);
-        }
-        if !self.is_open_at(state.indexed) {
-            match OpenIndex::load(connection, state.indexed, self.open.as_ref()) {
-                Ok(open) => self.open = Some(open),
-                Err(Error::Index(_)) => return self.mend(connection, true),
-                Err(other) => return Err(other),
-            }
-        }
-        Ok(())
-    }
-
     fn is_open_at(&self, indexed: i64) -> bool {
         self.open
             .as_ref()
@@ -126,16 +115,20 @@ impl SearchIndex {
         self.rebuilt.take()
     }
 
-    /// Returns the searcher and the fields.
+    /// Returns the index as it is now, to be asked.
     ///
     /// # Panics
-    /// Before the first [`refresh`](Self::refresh).
-    pub(crate) fn searcher(&self) -> (Searcher, Fields) {
+    /// Before the first [`refresh`](Derived::refresh).
+    pub(crate) fn now(&self) -> Reading<'_> {
         let open = self
             .open
             .as_ref()
             .expect("refresh loads the index before it is searched");
-        (open.reader.searcher(), open.fields)
+        Reading {
+            searcher: open.reader.searcher(),
+            fields: open.fields,
+            labels: &self.labels,
+        }
     }
 
     /// Returns whether the index follows the rows, as this connection reads them now.
@@ -152,12 +145,32 @@ impl SearchIndex {
         memory
     }
 
+    /// Returns how many documents the index holds.
+    pub(crate) fn documents(&self) -> u64 {
+        self.now().searcher.num_docs()
+    }
+}
+
+impl Derived for SearchIndex {
+    /// Brings the index up to date: usually nothing to do, loads it if another program has written since, rebuilds
+    /// it if it does not follow the rows.
+    fn refresh(&mut self, connection: &Connection) -> Result<()> {
+        let state = State::read(connection)?;
+        if !follows(&state) {
+            return self.mend(connection, state.content != 0);
+        }
+        if !self.is_open_at(state.indexed) {
+            match OpenIndex::load(connection, state.indexed, self.open.as_ref()) {
+                Ok(open) => self.open = Some(open),
+                Err(Error::Index(_)) => return self.mend(connection, true),
+                Err(other) => return Err(other),
+            }
+        }
+        Ok(())
+    }
+
     /// Writes the tokens that the running operation touched into the index, in its transaction.
-    pub(crate) fn follow(
-        &mut self,
-        connection: &Connection,
-        progress: &mut Progress<'_>,
-    ) -> Result<()> {
+    fn follow(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()> {
         let touched = rows::touched(connection)?;
         let state = State::read(connection)?;
         let before: i64 = state.content - rows::touches(connection)?;
@@ -180,11 +193,7 @@ impl SearchIndex {
     }
 
     /// Rebuilds the index from all rows, inside the caller's transaction.
-    pub(crate) fn rebuild(
-        &mut self,
-        connection: &Connection,
-        progress: &mut Progress<'_>,
-    ) -> Result<()> {
+    fn rebuild(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()> {
         rows::delete_files(connection)?;
         let mut open = OpenIndex::empty()?;
         let state = State::read(connection)?;
@@ -192,11 +201,6 @@ impl SearchIndex {
         open.save(connection, state.content)?;
         self.open = Some(open);
         Ok(())
-    }
-
-    /// Returns how many documents the index holds.
-    pub(crate) fn documents(&self) -> u64 {
-        self.searcher().0.num_docs()
     }
 }
 
@@ -438,4 +442,10 @@ fn schema() -> (Schema, Fields) {
 
 fn analyzer() -> TextAnalyzer {
     TextAnalyzer::from(SimpleTokenizer::default())
+}
+
+impl From<TantivyError> for Error {
+    fn from(error: TantivyError) -> Self {
+        Self::Index(Box::new(error))
+    }
 }

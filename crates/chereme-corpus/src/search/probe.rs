@@ -1,0 +1,116 @@
+//! Questions to an index, and what every index has to answer.
+//!
+//! Nothing here knows how an index works: another engine is another implementation of [`Index`] in a folder of its
+//! own, beside `index`. A [`Probe`] is handed over whole, so that the engine can answer a conjunction as one.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Bound;
+
+use chereme_sign::query::TimeField;
+
+use super::docs::Docs;
+use crate::error::Result;
+
+/// A document of an index: the part of the index that holds it, and its number there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Doc {
+    pub(crate) part: u32,
+    pub(crate) number: u32,
+}
+
+/// A field of texts or terms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Text {
+    /// The whole gloss, folded.
+    Gloss,
+    /// Words of the gloss.
+    Words,
+    /// Words of translations.
+    Translation,
+    /// Words of remarks.
+    Comment,
+    /// [Terms](crate::db::search::terms) of what is coded, and marks.
+    Reading,
+}
+
+/// A field of row numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum RowField {
+    /// The token itself.
+    Token,
+    /// Its sign.
+    Sign,
+    /// Its recording; a lexicon entry has none.
+    Recording,
+    /// Its signer, if known.
+    Signer,
+}
+
+/// A condition on documents.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Probe {
+    /// Every document.
+    All,
+    /// The field has any of these terms.
+    Terms(Text, Vec<String>),
+    /// The field holds any of these rows.
+    Rows(RowField, Vec<i64>),
+    /// The field holds a row.
+    Has(RowField),
+    /// The time in microseconds lies between these.
+    Between(TimeField, Bound<i64>, Bound<i64>),
+    /// The words stand next to each other in this order.
+    Phrase(Text, Vec<String>),
+    /// Words that fit these regular expressions stand next to each other in this order.
+    Patterns(Text, Vec<String>),
+    /// A term is within so many slips of this one.
+    Near(Text, String, u8),
+    /// All of the first hold, and none of the second.
+    And(Vec<Probe>, Vec<Probe>),
+    /// Any of these holds.
+    Or(Vec<Probe>),
+}
+
+impl Probe {
+    /// Returns the probe for a reading or mark with any of these terms.
+    pub(crate) fn readings<T: Into<String>>(terms: impl IntoIterator<Item = T>) -> Self {
+        Self::Terms(Text::Reading, terms.into_iter().map(Into::into).collect())
+    }
+
+    /// Returns the probe for whatever this one does not find.
+    pub(crate) fn inverted(self) -> Self {
+        Self::And(Vec::new(), vec![self])
+    }
+}
+
+/// Numbers of documents, one of each.
+pub(crate) trait Column {
+    /// Returns the number of a document, if it has one.
+    fn get(&self, doc: Doc) -> Option<i64>;
+}
+
+/// How many documents have each value of each field.
+pub(crate) type FacetCounts = BTreeMap<String, BTreeMap<String, usize>>;
+
+/// An index of the documents of a corpus, as it is at one moment.
+pub(crate) trait Index {
+    /// Returns the documents that fit a probe.
+    fn docs(&self, probe: &Probe) -> Result<Docs>;
+
+    /// Returns the terms of a field that begin with `prefix` and that `wanted` wants, in order.
+    fn terms(
+        &self,
+        field: Text,
+        prefix: &str,
+        wanted: &dyn Fn(&str) -> bool,
+    ) -> Result<BTreeSet<String>>;
+
+    /// Opens a field of row numbers.
+    fn rows(&self, field: RowField) -> Result<Box<dyn Column>>;
+
+    /// Opens a field of times.
+    fn times(&self, field: TimeField) -> Result<Box<dyn Column>>;
+
+    /// Counts the values of documents, which are in order; `go_on` fails if nobody wants the answer any more.
+    fn facets(&self, docs: &[Doc], go_on: &dyn Fn() -> Result<()>) -> Result<FacetCounts>;
+}
