@@ -205,7 +205,7 @@ fn documents_go_through_standard_input_and_output() {
         b"recording,tier,start,end,value\nbowl,Gloss,1.6,1.8,JOUR\n",
     );
     assert!(
-        text(&done.stdout).starts_with("1 added"),
+        text(&done.stdout).starts_with("1 annotation added"),
         "{}",
         text(&done.stderr)
     );

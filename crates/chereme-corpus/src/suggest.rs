@@ -81,12 +81,12 @@ impl Corpus {
         );
         if own.len() < LEAST_EQUAL {
             return Err(Error::wrong(format!(
-                "{} has {} coded components",
+                "{} is coded for too few components to compare it with other signs: {}, and {LEAST_EQUAL} are needed",
                 token.gloss,
                 own.len()
             ))
             .at(address.to_string())
-            .advise("code its handshape, placement and movement first"));
+            .advise("code its handshape, placement and movement, or have them proposed with `chereme propose`"));
         }
         let (mut partners, mut possible) = (Vec::new(), Vec::new());
         let mut used: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();

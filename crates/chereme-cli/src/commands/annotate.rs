@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use chereme_corpus::words::history as words;
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
     Corpus, Error, Find, Mode, Moment, Name, Progress, ReportFinding, TierName, TimeUnit, Within,
@@ -319,11 +320,14 @@ fn tell(mut report: AnnotateReport, all: bool, output: &mut Output) -> Result<()
         .filter(|_| few)
         .map(|id| format!("annotation:{id}"))
         .collect();
+    let summary = match report.added + report.changed + report.removed {
+        0 => "nothing changed".to_owned(),
+        _ => words::annotated(&report.summary, output.language())
+            .unwrap_or_else(|| report.summary.clone()),
+    };
     output.line(format!(
-        "{} added, {} changed, {} removed{}{}",
-        report.added,
-        report.changed,
-        report.removed,
+        "{}{}{}",
+        summary,
         if ids.is_empty() { "" } else { ": " },
         ids.join(", ")
     ))?;

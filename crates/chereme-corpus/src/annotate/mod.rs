@@ -160,6 +160,8 @@ pub struct AnnotateReport {
     pub removed: u64,
     /// The recordings, in order.
     pub recordings: Vec<String>,
+    /// The change in words, as the history has it: `1 annotation changed to MINE in take 3`.
+    pub summary: String,
 }
 
 impl Corpus {
@@ -232,8 +234,9 @@ fn carry_out(
         }
     }
     let deeds = std::mem::take(&mut work.deeds);
-    let report = work.finish(changes.len())?;
-    let summary = deeds.summary(&report);
+    let mut report = work.finish(changes.len())?;
+    report.summary = deeds.summary(&report);
+    let summary = report.summary.clone();
     Ok((report, summary))
 }
 

@@ -146,7 +146,8 @@ pub fn taken_back(it: &OperationRow, language: Language) -> String {
 }
 
 /// Returns `2 added, 1 changed in X`, or the names of the changed things, as a sentence.
-fn annotated(summary: &str, language: Language) -> Option<String> {
+#[must_use]
+pub fn annotated(summary: &str, language: Language) -> Option<String> {
     let (counts, place) = summary.rsplit_once(" in ")?;
     let mut said = Vec::new();
     let mut rest = Some(counts);

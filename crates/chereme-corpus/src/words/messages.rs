@@ -44,6 +44,14 @@ const MESSAGES: &[(&str, &str)] = &[
         "{n} modifications sont impossibles, et aucune n’a été faite :\n{rest}",
     ),
     (
+        "{gloss} is coded for too few components to compare it with other signs: {n}, and {least} are needed",
+        "{gloss} est codé pour trop peu de composants pour le comparer à d’autres signes : {n}, il en faut {least}",
+    ),
+    (
+        "code its handshape, placement and movement, or have them proposed with `chereme propose`",
+        "codez sa configuration, son emplacement et son mouvement, ou faites-les proposer par `chereme propose`",
+    ),
+    (
         "check the spelling of the path",
         "vérifiez l’orthographe du chemin",
     ),

@@ -6,8 +6,8 @@ use chereme_motion::{HandAngles, Side};
 use eframe::egui::epaint::RectShape;
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Align, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, TextureOptions, Ui,
-    Vec2, WidgetInfo, pos2, vec2,
+    Align, Color32, Galley, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle,
+    TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::draw::{Film, Movement, State};
@@ -298,11 +298,10 @@ pub(crate) fn empty(ui: &Ui, rect: Rect, text: &str) {
     let unit = (rect.size().min_elem() * 0.5).min(220.0);
     let figure = Rect::from_center_size(rect.center() - vec2(0.0, unit * 0.2), Vec2::splat(unit));
     silhouette(ui, figure, false);
-    let under = Rect::from_min_max(
-        pos2(rect.left() + 12.0, figure.bottom()),
-        pos2(rect.right() - 12.0, figure.bottom() + 40.0),
-    );
-    below(ui, under, text, TextStyle::Body);
+    let words = centred(ui, text, TextStyle::Body, rect.width() - 36.0);
+    let at = figure.center_bottom() + vec2(0.0, 8.0);
+    ui.painter()
+        .galley(at, words, ui.visuals().weak_text_color());
 }
 
 fn silhouette(ui: &Ui, rect: Rect, filled: bool) {
@@ -324,12 +323,19 @@ fn silhouette(ui: &Ui, rect: Rect, filled: bool) {
     }
 }
 
+/// Writes `text` along the lower edge of `rect`.
 fn below(ui: &Ui, rect: Rect, text: &str, style: TextStyle) {
+    let words = centred(ui, text, style, rect.width() - 12.0);
+    let at = rect.center_bottom() - vec2(0.0, words.size().y + 6.0);
+    ui.painter()
+        .galley(at, words, ui.visuals().weak_text_color());
+}
+
+/// Lays faint text out in centred lines; it is painted at the middle of its upper edge.
+fn centred(ui: &Ui, text: &str, style: TextStyle, width: f32) -> Arc<Galley> {
     let font = style.resolve(ui.style());
     let colour = ui.visuals().weak_text_color();
-    let mut job = LayoutJob::simple(text.to_owned(), font, colour, rect.width() - 12.0);
+    let mut job = LayoutJob::simple(text.to_owned(), font, colour, width);
     job.halign = Align::Center;
-    let galley = ui.painter().layout_job(job);
-    let at = rect.center_bottom() - vec2(0.0, galley.size().y + 6.0);
-    ui.painter().galley(at, galley, colour);
+    ui.painter().layout_job(job)
 }

@@ -75,7 +75,7 @@ pub(crate) fn label(value: &InventoryValue, language: Language) -> String {
 pub(crate) fn said(value: &InventoryValue, language: Language) -> &str {
     let english = fold(value.name(Language::English.code()));
     let mut words = value.id.split(['-', '_', ' ']);
-    let is_word = words.all(|word| word.len() > 2 && english.contains(&fold(word)));
+    let is_word = words.all(|word| word.len() > 1 && english.contains(&fold(word)));
     if language != Language::English && is_word {
         value.name(language.code())
     } else {
@@ -212,6 +212,7 @@ mod tests {
                 "dos de la main",
             ),
             ("neutral", "neutral space", "espace neutre", "espace neutre"),
+            ("up", "palm up", "paume vers le haut", "paume vers le haut"),
             ("U", "U", "U", "U"),
             ("5_folded", "folded 5", "5 plié", "5_folded"),
         ] {

@@ -8,7 +8,7 @@ texts! {
     TO_SIGNS: "To the search", "Vers la recherche";
     NO_MOVEMENT: "This recording holds no movement. Import the motion file of the same name.", "Cet enregistrement ne contient pas de mouvement. Importez le fichier de mouvement du même nom.";
     LOADING: "Loading the movement…", "Chargement du mouvement…";
-    NO_FINGERS: "This skeleton has no fingers: its hands are mittens.", "Ce squelette n’a pas de doigts : les mains sont des moufles.";
+    NO_FINGERS: "This skeleton has no fingers: they are drawn at rest.", "Ce squelette n’a pas de doigts : ils sont dessinés au repos.";
     COMING: "Loading what is here…", "Chargement de ce passage…";
     NO_MORE: "no movement after {time}", "pas de mouvement après {time}";
     FRAME_OF: "frame {n} of {all}", "image {n} sur {all}";

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use chereme_motion::Span;
 use eframe::egui::{
-    EventFilter, Id, Key, Modifiers, Rect, RectAlign, Response, ScrollArea, Sense, Tooltip, Ui,
-    Vec2, WidgetInfo, vec2,
+    Align, EventFilter, Id, Key, Layout, Modifiers, Rect, RectAlign, Response, ScrollArea, Sense,
+    Tooltip, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::bare::{self, Bare};
@@ -96,6 +96,19 @@ impl Library {
         self.list.unwrap_or(usual)
     }
 
+    /// Draws the choice between a wall of pictures and a list, from the right.
+    fn layout_of_list(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        for (as_list, name) in [(true, words::LIST), (false, words::WALL)] {
+            let on = seen.settings.library_list == as_list;
+            if ui.selectable_label(on, seen.say(name)).clicked() && !on {
+                let mut settings = seen.settings.clone();
+                settings.library_list = as_list;
+                out.send(Command::Settings(Box::new(settings)));
+                (self.scrolled, self.reach) = (0.0, None);
+            }
+        }
+    }
+
     /// Draws what is listed, and the filter.
     fn head(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) -> List {
         let list = self.listed(seen);
@@ -116,23 +129,20 @@ impl Library {
                     self.reach = None;
                 }
             }
-            ui.separator();
-            for (as_list, name) in [(false, words::WALL), (true, words::LIST)] {
-                let on = seen.settings.library_list == as_list;
-                if ui.selectable_label(on, seen.say(name)).clicked() && !on {
-                    let mut settings = seen.settings.clone();
-                    settings.library_list = as_list;
-                    out.send(Command::Settings(Box::new(settings)));
-                    (self.scrolled, self.reach) = (0.0, None);
-                }
-            }
         });
         let before = self.filter.clone();
-        let shown = edit::line(ui, &mut self.filter, |field| {
-            field
-                .hint_text(seen.say(words::FILTER))
-                .desired_width(f32::INFINITY)
-        });
+        let row = vec2(ui.available_width(), ui.spacing().interact_size.y);
+        let from_the_right = Layout::right_to_left(Align::Center);
+        let shown = ui
+            .allocate_ui_with_layout(row, from_the_right, |ui| {
+                self.layout_of_list(ui, seen, out);
+                edit::line(ui, &mut self.filter, |field| {
+                    field
+                        .hint_text(seen.say(words::FILTER))
+                        .desired_width(f32::INFINITY)
+                })
+            })
+            .inner;
         let response = shown.response.response;
         let (name, text) = (seen.say(words::FILTER), self.filter.clone());
         response.widget_info(|| WidgetInfo {

@@ -187,7 +187,11 @@ fn facet(
         let hand = HANDS.iter().find(|it| field == "hand" && it.0 == value);
         let origin = origin_named(value).filter(|_| field == "origin");
         let said = hand.map(|(_, text)| *text).or(origin);
-        let said = said.map_or(value, |text| seen.say(text));
+        let coded = inventory.and_then(|it| it.get(value));
+        let said = said
+            .map(|text| seen.say(text))
+            .or_else(|| coded.map(|it| pickers::data::said(it, seen.language)))
+            .unwrap_or(value);
         painter.text(at, Align2::LEFT_CENTER, said, font.clone(), text);
         let at = rect.right_center() - vec2(6.0, 0.0);
         let weak = ui.visuals().weak_text_color();

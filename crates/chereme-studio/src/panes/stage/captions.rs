@@ -72,7 +72,7 @@ pub(super) fn chip_on(
 pub(super) fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
     let at = whole.center_bottom() - vec2(0.0, 8.0);
     let whole_top = whole.center_top() + vec2(0.0, 8.0);
-    let mittens = stage
+    let without_fingers = stage
         .signer
         .as_ref()
         .is_some_and(|it| it.1.is_without_fingers());
@@ -97,7 +97,7 @@ pub(super) fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
         chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::COMING));
     } else if let Some(points) = points.filter(|_| stage.signer.is_none() || stage.shows.points) {
         chip(ui, at, Align2::CENTER_BOTTOM, seen.say(points));
-    } else if mittens {
+    } else if without_fingers {
         chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::NO_FINGERS));
     } else if let Some(made_by) = stage.original.made_by() {
         chip(ui, at, Align2::CENTER_BOTTOM, &no_original(seen, made_by));

@@ -150,7 +150,9 @@ fn reach(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
 
 fn compare(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
     let keys = seen.keys.text(Action::StageCompare);
-    ui.weak(seen.say(words::ORIGINAL_HOW));
+    // As high as the buttons after it, so that a row that is broken here stays level.
+    let name = Button::new(RichText::new(seen.say(words::ORIGINAL_HOW)).weak()).frame(false);
+    ui.add(name.sense(Sense::hover()));
     for way in Compare::ALL {
         let text = match way {
             Compare::Beside => words::BESIDE,
