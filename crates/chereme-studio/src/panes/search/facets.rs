@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use chereme_sign::query::{facet_condition, narrow, wants, without};
 use chereme_sign::{Component, Field};
+use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
     Align2, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
     WidgetInfo, pos2, vec2,
@@ -183,7 +184,6 @@ fn facet(
         let visuals = ui.style().interact(&response);
         let font = TextStyle::Body.resolve(ui.style());
         let text = visuals.text_color();
-        let at = pos2(left, rect.center().y);
         let hand = HANDS.iter().find(|it| field == "hand" && it.0 == value);
         let origin = origin_named(value).filter(|_| field == "origin");
         let said = hand.map(|(_, text)| *text).or(origin);
@@ -192,10 +192,15 @@ fn facet(
             .map(|text| seen.say(text))
             .or_else(|| coded.map(|it| pickers::data::said(it, seen.language)))
             .unwrap_or(value);
-        painter.text(at, Align2::LEFT_CENTER, said, font.clone(), text);
         let at = rect.right_center() - vec2(6.0, 0.0);
         let weak = ui.visuals().weak_text_color();
-        painter.text(at, Align2::RIGHT_CENTER, count, font, weak);
+        let counted = painter.text(at, Align2::RIGHT_CENTER, count, font.clone(), weak);
+        // A long value ends in an ellipsis before its count.
+        let mut job = LayoutJob::simple_singleline(said.to_owned(), font, text);
+        job.wrap = TextWrapping::truncate_at_width((counted.left() - 6.0 - left).max(0.0));
+        let line = painter.layout_job(job);
+        let at = pos2(left, rect.center().y - line.size().y * 0.5);
+        painter.galley(at, line, text);
         if response.has_focus() || response.hovered() {
             let stroke = Stroke::new(1.0, colours.accent);
             painter.rect_stroke(rect, 3.0, stroke, StrokeKind::Inside);
