@@ -47,7 +47,8 @@ impl TextFile {
 
 /// Returns the text files written by people, by path: code, documents, data, scripts.
 ///
-/// Build folders, hidden folders other than `.ci`, and the lock file are left out.
+/// Build folders, hidden files and folders other than `.ci` (`.git` is a file in a linked work tree), logs, and the
+/// lock file are left out.
 #[must_use]
 pub fn text_files() -> Vec<TextFile> {
     let root = root();
@@ -69,12 +70,14 @@ fn walk(root: &Path, folder: &Path, files: &mut Vec<TextFile>) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
         let name = entry.file_name().to_string_lossy().into_owned();
+        let hidden = name.starts_with('.') && name != ".ci";
         if path.is_dir() {
-            let hidden = name.starts_with('.') && name != ".ci";
             if !hidden && name != "target" && !path.is_symlink() {
                 walk(root, &path, files);
             }
-        } else if name != "Cargo.lock"
+        } else if !hidden
+            && name != "Cargo.lock"
+            && !name.ends_with(".log")
             && let Ok(text) = fs::read_to_string(&path)
         {
             let path = path.strip_prefix(root).unwrap_or(&path);
