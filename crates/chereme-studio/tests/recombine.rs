@@ -13,9 +13,9 @@ use egui_kittest::kittest::{NodeT, Queryable};
 
 type Window<'a> = Harness<'a, Studio>;
 
-/// Draws frames until `done`; twenty seconds are more than any of this takes.
+/// Draws frames until `done`; a minute is more than any of this takes.
 fn until(window: &mut Window<'_>, what: &str, done: impl Fn(&Window<'_>) -> bool) {
-    for _ in 0..4_000 {
+    for _ in 0..12_000 {
         window.step();
         if done(window) {
             window.step();
