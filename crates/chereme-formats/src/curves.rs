@@ -20,7 +20,7 @@ use crate::table::{TableError, decode};
 use crate::tally::Findings;
 use crate::tracks::{Content, Track, Tracks, rate_of, unique};
 
-/// Times lie within this share of a frame of an even grid if their rate is even.
+/// Largest distance of a time from an even grid, as a share of a frame, at which the rate still counts as even.
 const EVEN_SLACK: f64 = 0.1;
 
 /// The kinds of files of channels.

@@ -85,7 +85,7 @@ pub fn holds_some(bytes: &[u8]) -> bool {
     text.is_ok_and(|text| text.lines().any(holds_symbols))
 }
 
-/// Returns the finding that symbols were mended.
+/// Returns the finding which reports that symbols were mended.
 pub(crate) fn tell_mended(line: u64) -> Finding {
     Finding::note(
         line,

@@ -81,7 +81,7 @@ pub(crate) fn settle(joints: &mut [Joint], channels: &mut [Channel]) -> usize {
     moved
 }
 
-/// Returns the usual rate near a rate that rounded times give, else the rate itself.
+/// Returns the common frame rate near `rate`, which was computed from rounded times; `rate` itself if none is near.
 pub(crate) fn near_usual(rate: f64) -> f64 {
     let usual = [
         23.976, 24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0, 90.0, 100.0, 119.88, 120.0, 240.0,

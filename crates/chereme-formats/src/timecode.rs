@@ -53,8 +53,8 @@ pub(crate) fn seconds(codes: &[Timecode]) -> (Vec<f64>, f64) {
     (times.collect(), base)
 }
 
-/// Returns the time of day of one timecode, such as `12:34:56:07@25`: the frames in a second stand behind the `@`; without
-/// them they follow from the capture's rate.
+/// Returns the time of day of one timecode, such as `12:34:56:07@25`: the number after the `@` is the number of frames
+/// in a second; without it, it follows from the capture's `rate`.
 ///
 /// ```
 /// use chereme_formats::timecode::time_of_day;
@@ -78,7 +78,7 @@ pub fn time_of_day(text: &str, rate: f64) -> Option<Instant> {
     sound.then(|| Instant::from_seconds(code.seconds + code.frames / base))
 }
 
-/// Returns the frames in a second that timecodes of a capture of this rate count by.
+/// Returns the number of frames in a second that the timecodes of a capture of this rate use.
 fn base_of(rate: f64) -> f64 {
     let whole = |base: &f64| {
         let times = rate / base;

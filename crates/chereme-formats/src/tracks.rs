@@ -55,7 +55,7 @@ impl Track {
     }
 }
 
-/// Returns the rate of so many frames a second as a fraction; films' 1000/1001 rates are recognised.
+/// Returns a number of frames per second as a fraction; the 1000/1001 rates of film are recognised.
 pub(crate) fn rate_of(per_second: f64) -> Option<Rate> {
     if !per_second.is_finite() || per_second <= 0.0 || per_second > 1e6 {
         return None;
@@ -76,7 +76,7 @@ pub(crate) fn rate_of(per_second: f64) -> Option<Rate> {
     None
 }
 
-/// Returns moments as annotations of one frame each on a tier of this name.
+/// Returns moments as annotations of one frame each on a tier called `name`.
 pub(crate) fn events(name: &str, moments: &[(Instant, String)], rate: Rate) -> Option<Transcript> {
     if moments.is_empty() {
         return None;
@@ -104,7 +104,7 @@ pub(crate) fn events(name: &str, moments: &[(Instant, String)], rate: Rate) -> O
         }
     });
     let mut annotations: Vec<Annotation> = annotations.collect();
-    // Events at one moment share an annotation: a tier has one at a time.
+    // Events at the same moment share an annotation: a tier holds only one at a time.
     annotations.dedup_by(|later, before| {
         let same = later.span.start() == before.span.start();
         if same {
@@ -144,7 +144,7 @@ pub(crate) fn unique<'a>(names: impl Iterator<Item = &'a str>, word: &str) -> Ve
     named.collect()
 }
 
-/// Returns axes with that direction up, and left as pairs of markers such as LSHO and RSHO show it.
+/// Returns axes with `up` as their vertical; pairs of markers such as LSHO and RSHO show which direction is left.
 pub(crate) fn axes_with_up(markers: &[Marker], up: Direction, findings: &mut Findings) -> Axes {
     if let Some(axes) = left_of(markers, up).and_then(|left| Axes::new(up, left)) {
         return axes;

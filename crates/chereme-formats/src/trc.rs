@@ -179,7 +179,7 @@ fn rows<'t>(lines: impl Iterator<Item = (u64, &'t str)>, markers: usize) -> Resu
         if is_axes {
             continue;
         }
-        // Rows may end with tabs more, or leave empty cells at their end out.
+        // Rows may end with extra tabs, or omit empty cells at their end.
         let extra = cells.len() > expected && cells[expected..].iter().any(|cell| !cell.is_empty());
         if extra || cells.len() < 3 {
             return Err(Error::Width {
@@ -223,7 +223,7 @@ fn check_count(key: &str, said: Option<&str>, found: usize, findings: &mut Findi
     }
 }
 
-/// Returns an even rate if the times are even, else the times themselves; and when the first frame is.
+/// Returns an even rate if the times are even, else the times themselves; and the time of the first frame.
 fn times(
     rows: &[(u64, Option<Number>)],
     said: Option<&str>,
@@ -300,7 +300,7 @@ fn convention(unit: Option<&str>, points: &[Marker], findings: &mut Findings) ->
 /// Writes a track of markers in a room as TRC; gaps are empty cells.
 ///
 /// # Errors
-/// A sentence if the places are no places in a room, or frames have no even rate.
+/// Fails, with a sentence for the user, if the points are not in a room, or the frames have no even rate.
 pub fn write(name: &str, markers: &Markers, offset: Instant) -> Result<String, String> {
     let Space::World(convention) = markers.space() else {
         return Err(format!(

@@ -54,7 +54,7 @@ fn write(read: &Read) -> Vec<u8> {
     writer.finish().unwrap()
 }
 
-/// Returns the files of the shared data, or nothing with a word on why.
+/// Returns the files of the shared data; prints a reason if the folder is missing.
 fn files() -> Vec<PathBuf> {
     let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
         eprintln!("CHEREME_SHARED_DATA is not set; nothing to compare with");
@@ -104,7 +104,7 @@ fn read_write_read_is_equal_in_every_number() {
     }
 }
 
-/// Returns the numbers of the rows by the plainest way of reading them.
+/// Returns the numbers of the rows, read in the plainest way.
 fn numbers_of_text(bytes: &[u8]) -> Vec<Option<chereme_formats::bvh::raw::Number>> {
     let text = String::from_utf8_lossy(bytes);
     let Some((_, motion)) = text.split_once("Frame Time:") else {

@@ -117,7 +117,7 @@ fn check_one_way(text: &str, expected: &str, findings: &[&str]) {
     }
 }
 
-/// Reading, writing and reading again gives the same document, and so does meaning and back.
+/// Checks that a document stays the same through reading, writing and reading, and through its meaning and back.
 fn comes_back(bytes: &[u8]) {
     let (document, _) = raw::read(bytes).expect("a document");
     let text = written(&document);

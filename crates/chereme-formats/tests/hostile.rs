@@ -14,7 +14,7 @@ use chereme_motion::{
     glam::DVec3,
 };
 
-/// A format: a small file of it, and its reader, which says whether it took the bytes.
+/// A format: a small file of it, and its reader, which returns whether it accepted the bytes.
 struct Format {
     name: &'static str,
     sample: Vec<u8>,
@@ -253,7 +253,7 @@ impl Chance {
     }
 }
 
-/// Words that stand where numbers and names are expected.
+/// Words that replace numbers and names.
 const WORDS: [&str; 14] = [
     "",
     "-1",
@@ -388,7 +388,7 @@ fn every_reader_takes_or_refuses_the_samples_of_all_others() {
     }
 }
 
-/// Counts and sizes that would need more memory than there is, in files that are otherwise sound.
+/// Tests counts and sizes that would need more memory than the machine has, in files that are otherwise valid.
 #[test]
 fn promises_of_endless_data_are_refused_or_cut() {
     let mut old = old_points();

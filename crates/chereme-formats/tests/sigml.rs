@@ -12,7 +12,7 @@ fn document(manual: &str) -> String {
     )
 }
 
-/// Reads the one part of a sign and what was found, as `line: message`.
+/// Reads the one part of a sign; returns it with the findings as `line: message`.
 fn part(manual: &str) -> (Manual, Vec<String>) {
     let (mut signs, findings) = sigml::read(document(manual).as_bytes()).expect("it is SiGML");
     let line = |line: Option<u64>| line.map_or_else(String::new, |line| line.to_string());

@@ -1,4 +1,4 @@
-//! Laws of SiGML: any sign comes back from what is written, and any bytes are a document or an error.
+//! Laws of SiGML: any sign reads back equal after writing, and any bytes give a document or an error.
 
 use chereme_formats::sigml;
 use chereme_sign::hamnosys::{

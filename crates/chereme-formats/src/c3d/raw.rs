@@ -9,7 +9,7 @@ const BLOCK: usize = 512;
 /// The key that the second byte of the header and words of its event table hold.
 const KEY: u8 = 0x50;
 const EVENTS_KEY: u16 = 12345;
-/// More parameters, points or channels than this are not a capture.
+/// The most parameters; a file with more parameters, points or channels is not a capture.
 const MOST_PARAMETERS: usize = 10_000;
 
 /// Why bytes could not be read as C3D.
@@ -162,7 +162,7 @@ pub struct Document {
     pub frames: usize,
     /// Frames a second.
     pub rate: f64,
-    /// The unit of integer points; negative if points are floats.
+    /// The unit of points that are stored as integers; negative if points are floats.
     pub scale: f32,
     /// The events of the header: seconds and label.
     pub header_events: Vec<(f32, String)>,

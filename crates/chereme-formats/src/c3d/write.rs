@@ -5,7 +5,7 @@ use chereme_motion::{Axes, Instant, Markers, Quality, Space};
 const BLOCK: usize = 512;
 /// The first block of parameters, counted from 1; block 1 is the header.
 const PARAMETERS: u8 = 2;
-/// So many labels fit into one parameter.
+/// The most labels in one parameter.
 const LABELS: usize = 255;
 /// The longest label.
 const WIDEST: usize = 127;
@@ -14,7 +14,7 @@ const WIDEST: usize = 127;
 #[derive(Default)]
 struct Parameters {
     bytes: Vec<u8>,
-    /// Where the offset to the next record of the last one stands.
+    /// Position in `bytes` of the last record's offset to the next record.
     last: Option<usize>,
 }
 
@@ -37,7 +37,7 @@ impl Parameters {
         self.bytes.extend([0, 0]);
     }
 
-    /// Writes how far the next record is from the offset of the last one.
+    /// Sets the last record's offset, so that it leads to the record that begins here.
     fn link(&mut self) {
         if let Some(at) = self.last {
             let distance = (self.bytes.len() - at) as u16;
@@ -88,8 +88,8 @@ impl Parameters {
 /// Units are those of the track if C3D has a name for them, else millimetres. Labels keep 127 bytes.
 ///
 /// # Errors
-/// A sentence if the places are no places in a room, frames have no even rate, or there are more points than
-/// C3D can count.
+/// Fails, with a sentence for the user, if the points are not in a room, the frames have no even rate, or there are
+/// more points than C3D can count.
 pub fn write(markers: &Markers, offset: Instant) -> Result<Vec<u8>, String> {
     let Space::World(convention) = markers.space() else {
         return Err(format!(
@@ -168,7 +168,7 @@ pub fn write(markers: &Markers, offset: Instant) -> Result<Vec<u8>, String> {
     Ok(out)
 }
 
-/// Returns the step in which residuals are counted, up to 255 of them.
+/// Returns the unit of the residuals in the file, which stores each residual as a count of up to 255 units.
 fn residual_scale(markers: &Markers, factor: f64) -> f32 {
     let rated = markers.quality() == Some(Quality::Residual);
     let all = markers.points().iter().filter(|_| rated);
@@ -222,8 +222,8 @@ fn parameters(
         };
         it.parameter(1, &name, &Value::Texts(part));
     }
-    // How the laboratory stands on a screen: the axis to the right, which is the left of a person who faces
-    // the viewer, and the one up.
+    // The axes of the laboratory on a screen: the one to the right, which is the left of a person who faces the viewer,
+    // and the one up.
     it.parameter(1, "X_SCREEN", &Value::Text(&axes.left().to_string()));
     it.parameter(1, "Y_SCREEN", &Value::Text(&axes.up().to_string()));
     it.group("ANALOG", 2);
@@ -234,7 +234,7 @@ fn parameters(
     it
 }
 
-/// Writes the numbers that are known once the parameters have their length.
+/// Writes the numbers that are known only after the parameters have their final length.
 fn set_start(bytes: &mut [u8], data: usize, (first, last): (usize, usize)) {
     let mut set = |name: &str, words: &[u16]| {
         let found = bytes

@@ -5,8 +5,8 @@ use super::{Above, Difference, Said, TierChange};
 use crate::eaf::Transcript;
 use std::collections::BTreeMap;
 
-/// Returns `a` with the differences that [`diff`](super::diff) found from it to another document: the meaning of
-/// the other one. An id that `a` has already goes to nobody else: the annotation gets a new one.
+/// Applies `difference` to `a`. The result has the same meaning as the document that [`diff`](super::diff) compared `a`
+/// with. An id in use in `a` is not reused: the new annotation gets a fresh id.
 #[must_use]
 pub fn apply(difference: &Difference, a: &Transcript) -> Transcript {
     let mut pieces = Pieces::of(a);
@@ -58,7 +58,7 @@ pub fn apply(difference: &Difference, a: &Transcript) -> Transcript {
     pieces.whole()
 }
 
-/// Writes what a tier is in the other document, but for its name.
+/// Gives a tier its properties in the other document, except for the name.
 fn change_tier(pieces: &mut Pieces, change: &TierChange) {
     let name = change.whole.name.clone();
     if let Some((tier, above)) = pieces.tier(&name) {
@@ -69,7 +69,7 @@ fn change_tier(pieces: &mut Pieces, change: &TierChange) {
     }
 }
 
-/// Returns annotations so that those come first that others refer to.
+/// Returns annotations in an order in which each comes after those that it refers to.
 pub(super) fn in_order<'s>(all: impl Iterator<Item = &'s Said>) -> Vec<&'s Said> {
     let mut all: Vec<&Said> = all.collect();
     let ids: BTreeMap<&str, &Said> = all.iter().map(|it| (it.id.as_str(), *it)).collect();
@@ -86,7 +86,7 @@ pub(super) fn in_order<'s>(all: impl Iterator<Item = &'s Said>) -> Vec<&'s Said>
     all
 }
 
-/// Writes the text of an annotation as the other document has it.
+/// Gives an annotation its text in the other document.
 pub(super) fn revalue(own: &mut Loose, said: &Said) {
     own.it.value.clone_from(&said.whole.value);
     own.it.entry.clone_from(&said.whole.entry);
@@ -94,7 +94,7 @@ pub(super) fn revalue(own: &mut Loose, said: &Said) {
     own.it.external_ref.clone_from(&said.whole.external_ref);
 }
 
-/// Moves an annotation to where the other document has it.
+/// Moves an annotation to its time, tier and parent in the other document.
 fn place(pieces: &mut Pieces, id: &str, said: &Said, fresh: &BTreeMap<String, String>) {
     let new = loose(pieces, said, fresh);
     if let Some(own) = pieces.all.get_mut(id) {
@@ -107,7 +107,7 @@ fn place(pieces: &mut Pieces, id: &str, said: &Said, fresh: &BTreeMap<String, St
     }
 }
 
-/// Returns an annotation of the other document with references to those of this one.
+/// Returns an annotation of the other document; its references name annotations of this document.
 pub(super) fn loose(pieces: &Pieces, said: &Said, fresh: &BTreeMap<String, String>) -> Loose {
     let name = |it: &Above| match it {
         Above::Known(id) => id.clone(),
@@ -129,7 +129,7 @@ pub(super) fn loose(pieces: &Pieces, said: &Said, fresh: &BTreeMap<String, Strin
     }
 }
 
-/// Returns a rank right after a sibling, or before all of them.
+/// Returns a rank directly after the sibling `before`, or before all siblings if there is no such sibling.
 fn rank(pieces: &Pieces, tier: &str, above: Option<&str>, before: Option<&str>) -> f64 {
     let siblings = pieces.all.values();
     let siblings = siblings.filter(|it| it.tier == tier && it.above.as_deref() == above);

@@ -1,4 +1,4 @@
-//! Which annotation of one document is which of another.
+//! Matches the annotations and tiers of one document with those of another.
 
 use super::{TOLERANCE, get, is_symbolic, places};
 use crate::eaf::Transcript;
@@ -8,11 +8,11 @@ use std::collections::{BTreeMap, HashMap};
 /// The annotations and tiers that two documents share.
 #[derive(Debug, Default)]
 pub(super) struct Matching {
-    /// The tier of the second document for each of the first.
+    /// For each tier of the first document the tier of the second that it was matched with.
     pub(super) tiers: Vec<Option<usize>>,
-    /// The annotation of the second document for each of the first that it has.
+    /// Annotations of the first document, each with its counterpart in the second.
     pub(super) pairs: BTreeMap<Place, Place>,
-    /// The same the other way round.
+    /// The same pairs in the other direction.
     pub(super) back: BTreeMap<Place, Place>,
 }
 
@@ -25,8 +25,8 @@ impl Matching {
     }
 }
 
-/// Matches tiers by name, else by what they are; annotations by id if the documents descend from one, else by
-/// time and value.
+/// Matches tiers by name, else by their contents; annotations by id if both documents descend from one, else by time
+/// and value.
 pub(super) fn matched(a: &Transcript, b: &Transcript) -> Matching {
     let ids: HashMap<&str, Place> = places(b)
         .into_iter()
@@ -52,8 +52,8 @@ pub(super) fn matched(a: &Transcript, b: &Transcript) -> Matching {
     matching
 }
 
-/// Matches annotations by id. One that an equal one stands in for, at the same time on the same tier, is matched with
-/// that: two annotations that exchanged their ids have not moved.
+/// Matches annotations by id. If an annotation moved but an equal one is now at its old time on the same tier, it is
+/// matched with that one: two annotations that exchanged their ids have not moved.
 fn by_id(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>, matching: &mut Matching) {
     let mut moved = Vec::new();
     for place in places(a) {
@@ -104,7 +104,8 @@ fn by_id(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>, matching: &
     }
 }
 
-/// Reports whether ids mean the same in both: they have one URN, or nine in ten ids agree.
+/// Returns whether both documents descend from one, so that an id means the same annotation in both: they have the same
+/// URN, or nine in ten of the shared ids agree.
 fn descend(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>) -> bool {
     let urn = |it: &Transcript| {
         let found = it.properties.iter().find(|(name, _)| name == "URN");
@@ -219,7 +220,7 @@ fn by_time(a: &Transcript, b: &Transcript, (tier, other): (usize, usize), matchi
     }
 }
 
-/// Matches the rest of two symbolic tiers below the same parents: equal values, then equal places.
+/// Matches the rest of two symbolic tiers below the same parents: first equal values, then equal positions.
 fn by_place(
     a: &Transcript,
     b: &Transcript,
@@ -259,7 +260,7 @@ fn by_place(
     }
 }
 
-/// Reports whether two annotations have the same times.
+/// Returns whether two annotations have the same times.
 pub(super) fn alike(a: &Annotation, b: &Annotation) -> bool {
     let near = |x: i64, y: i64| x.abs_diff(y) <= TOLERANCE.unsigned_abs();
     near(a.span.start().micros(), b.span.start().micros())

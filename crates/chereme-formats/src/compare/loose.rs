@@ -1,4 +1,4 @@
-//! A document whose annotations refer to each other by id, so that they come and go one by one.
+//! A document whose annotations refer to each other by id, so that they can be added and removed one by one.
 
 use super::bare;
 use crate::eaf::Transcript;
@@ -14,14 +14,14 @@ pub(super) struct Loose {
     pub(super) tier: String,
     /// The id of the annotation above.
     pub(super) above: Option<String>,
-    /// Its place among its siblings.
+    /// Its position among its siblings: they are sorted by rank.
     pub(super) rank: f64,
 }
 
-/// A document in pieces.
+/// A document taken apart: tiers and annotations in separate lists.
 pub(super) struct Pieces {
     pub(super) rest: Transcript,
-    /// The tiers, without annotations, and the names of those above them.
+    /// The tiers, without annotations, each with the name of its parent tier.
     pub(super) tiers: Vec<(Tier, Option<String>)>,
     /// The annotations by id.
     pub(super) all: BTreeMap<String, Loose>,
@@ -61,7 +61,7 @@ impl Pieces {
         pieces
     }
 
-    /// Has new ids count on from that of an annotation.
+    /// Makes the ids of later additions higher than this one.
     pub(super) fn note_id(&mut self, id: &str) {
         let number = id.strip_prefix('a').and_then(|it| it.parse::<u64>().ok());
         let number = number.filter(|it| *it < u64::MAX / 2);
@@ -72,7 +72,7 @@ impl Pieces {
         self.tiers.iter_mut().find(|(tier, _)| tier.name == name)
     }
 
-    /// Adds an annotation, under its own id if that is free, and returns the id.
+    /// Adds an annotation, under its own id if that is free, and returns its id.
     pub(super) fn add(&mut self, mut loose: Loose) -> String {
         if self.all.contains_key(&loose.it.id) || loose.it.id.is_empty() {
             self.last += 1;
@@ -100,7 +100,7 @@ impl Pieces {
         }
     }
 
-    /// Returns the document; the spans below symbolic parents follow the parents.
+    /// Returns the document; annotations below symbolic parents get their spans from the parents.
     pub(super) fn whole(mut self) -> Transcript {
         let names: HashMap<String, usize> = self
             .tiers

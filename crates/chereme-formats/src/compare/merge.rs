@@ -12,31 +12,32 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Two documents brought together.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Merged {
-    /// What both say; of a conflict what mine says.
+    /// The merged document; it holds my side of each conflict.
     pub document: Transcript,
     /// The annotations on which they do not agree.
     pub conflicts: Vec<Conflict>,
 }
 
-/// An annotation on which two documents do not agree, or for which one has no room.
+/// An annotation on which two documents do not agree, or which has no room on its tier.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Conflict {
     /// The tier.
     pub tier: String,
-    /// Its state before both changes; nothing if it was not there.
+    /// Its state before both changes; `None` if it did not exist.
     pub base: Option<Said>,
-    /// The candidate of one side, which stands; nothing if that side removed it or never had it.
+    /// My candidate, which the merged document keeps; `None` if my side removed it or never had it.
     pub mine: Option<Said>,
-    /// The candidate of the other side; nothing if that side removed it.
+    /// The other side's candidate; `None` if the other side removed it.
     pub theirs: Option<Said>,
 }
 
 /// Merges `theirs` into `mine`; `base` is their common state.
 ///
-/// A change of one side alone is taken, equal changes of both are one. If one side moves an end and the other
-/// the text or the other end, both count. Two changes of one thing, a change of what the other side removed,
-/// and an annotation without room on its tier are conflicts: mine stands, and the other candidate is in the
-/// list. Children follow their parents, and new ids count on from the last that any side used.
+/// A change of one side alone is taken, and equal changes of both count as one. If one side moves an end and the other
+/// changes the text or the other end, both count. Two different changes of one thing, a change of something that the
+/// other side removed, and an annotation without room on its tier are conflicts: the document keeps my state, and the
+/// other candidate is in the list. Children follow their parents, and new ids follow the highest one in use on any
+/// side.
 #[must_use]
 pub fn merge(base: &Transcript, mine: &Transcript, theirs: &Transcript) -> Merged {
     let own = matched(base, mine);
@@ -88,8 +89,8 @@ pub fn merge(base: &Transcript, mine: &Transcript, theirs: &Transcript) -> Merge
 
 /// Merges two documents without a common state.
 ///
-/// An annotation of one of them alone is taken; if both have it in different ways, it is a conflict, and mine
-/// stands.
+/// An annotation of one of them alone is taken; if it differs between the two, it is a conflict, and the document keeps
+/// my state.
 #[must_use]
 pub fn merge_two(mine: &Transcript, theirs: &Transcript) -> Merged {
     let matching = matched(mine, theirs);
@@ -131,8 +132,8 @@ pub fn merge_two(mine: &Transcript, theirs: &Transcript) -> Merged {
     merged
 }
 
-/// Returns `merged` with the other candidates of its conflicts on tiers next to their own, called
-/// `NAME (theirs)`, so that a file of one document keeps both.
+/// Returns the merged document with the other side's candidates of its conflicts added on tiers called `NAME (theirs)`,
+/// so that one file keeps both.
 #[must_use]
 pub fn with_candidates(merged: &Merged) -> Transcript {
     let mut pieces = Pieces::of(&merged.document);
@@ -165,7 +166,7 @@ pub fn with_candidates(merged: &Merged) -> Transcript {
     pieces.whole()
 }
 
-/// Returns the id in `mine` of each annotation of the base that is there.
+/// Returns the id in `mine` of each annotation of the base that `mine` still has.
 fn names(base: &Transcript, mine: &Transcript, own: &Matching) -> BTreeMap<String, String> {
     let pairs = own.pairs.iter();
     pairs
@@ -179,15 +180,15 @@ struct Work<'w> {
     theirs: &'w Transcript,
     own: Matching,
     names: BTreeMap<String, String>,
-    /// The ids in mine of annotations of the base.
+    /// The ids in `mine` of the annotations that come from the base.
     known: BTreeSet<String>,
     /// The annotations of the base by id.
     places: BTreeMap<String, Place>,
     pieces: Pieces,
     conflicts: Vec<Conflict>,
-    /// Annotations from the other side: the id, its candidate, and the one that mine had before.
+    /// Annotations from the other side: the id, its candidate, and my state of it before, if any.
     brought: Vec<(String, Said, Option<Said>)>,
-    /// The ids that additions of the other side got.
+    /// The new ids of annotations that the other side added.
     fresh: BTreeMap<String, String>,
 }
 
@@ -234,14 +235,14 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the name in mine of a tier of the base.
+    /// Returns the name in `mine` of a tier of the base.
     fn tier_of_mine(&self, name: &str) -> Option<String> {
         let at = self.base.tiers.iter().position(|it| it.name == name)?;
         let own = self.own.tiers.get(at).copied().flatten()?;
         Some(self.mine.tiers[own].name.clone())
     }
 
-    /// Returns an annotation of theirs in terms of mine; nothing if what it hangs below is gone.
+    /// Returns an annotation of theirs with the ids and tier names of mine; `None` if its parent or its tier is gone.
     fn translated(&self, said: &Said) -> Option<Said> {
         let refer = |it: &Above| match it {
             Above::Known(id) => self.names.get(id).cloned().map(Above::Known),
@@ -301,7 +302,7 @@ impl Work<'_> {
         self.brought.push((id, new, None));
     }
 
-    /// Puts additions of both sides at one place of a chain into the order of their texts.
+    /// If both sides added annotations at the same position of a chain, sorts them by their texts.
     fn after_mine(&self, loose: &mut super::loose::Loose) {
         let siblings = self.pieces.all.values();
         let mut siblings: Vec<_> = siblings
@@ -365,7 +366,7 @@ impl Work<'_> {
         }
     }
 
-    /// Moves an annotation as theirs did; reports whether mine moved the same end elsewhere.
+    /// Moves an annotation as theirs did; returns whether mine moved the same end to another time.
     fn move_one(
         &self,
         own: &mut super::loose::Loose,
@@ -439,7 +440,8 @@ impl Work<'_> {
         self.conflict(Some(said.clone()), mine, None);
     }
 
-    /// Takes back what came from the other side and lies over something of mine.
+    /// Reverts additions and moves of the other side that overlap an annotation that mine added or moved; each becomes
+    /// a conflict.
     fn make_room(&mut self) {
         let mut by_tier: BTreeMap<String, Vec<(i64, i64, String)>> = BTreeMap::new();
         for (id, it) in &self.pieces.all {
@@ -505,7 +507,7 @@ impl Work<'_> {
         }
     }
 
-    /// Removes the tiers that theirs removed and that hold nothing any more.
+    /// Removes the tiers that theirs removed, if they are empty now.
     fn drop_tiers(&mut self, changes: &[super::TierChange]) {
         for change in changes.iter().filter(|it| it.change == "removed") {
             let Some(name) = self.tier_of_mine(&change.tier) else {
@@ -583,7 +585,7 @@ impl Work<'_> {
         Some(super::said((self.base, None), *place))
     }
 
-    /// Returns an annotation as the merged document has it so far.
+    /// Returns the current state of an annotation in the merged document.
     fn said_now(&self, id: &str) -> Option<Said> {
         let loose = self.pieces.all.get(id)?;
         Some(Said {
@@ -599,7 +601,7 @@ impl Work<'_> {
     }
 }
 
-/// Takes what theirs says if mine says what the base said.
+/// Takes the value of theirs if mine still has that of the base.
 fn take<T: Clone + PartialEq>(mine: &mut T, base: &T, theirs: &T) {
     if mine == base {
         mine.clone_from(theirs);

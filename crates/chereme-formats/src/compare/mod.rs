@@ -1,5 +1,4 @@
-//! Annotation documents side by side: their [differences](diff) by meaning, and a [merge] of two that went
-//! apart.
+//! Annotation documents side by side: their [differences](diff) by meaning, and a [merge] of two that diverged.
 //!
 //! Annotations are the same by their ids if both documents descend from one, else by tier and time. Time slots,
 //! the order of elements and the spelling of a file make no difference.
@@ -21,7 +20,7 @@ use identity::{Matching, matched};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Times that differ by so many microseconds or less are equal.
+/// The greatest difference, in microseconds, of times that count as equal.
 pub const TOLERANCE: i64 = 1000;
 
 /// The differences of two documents, from the first to the second.
@@ -33,18 +32,18 @@ pub struct Difference {
     pub removed: Vec<Said>,
     /// Annotations at another time, on another tier, or at another place among their siblings.
     pub moved: Vec<Moved>,
-    /// Annotations that say something else.
+    /// Annotations whose text or vocabulary entry changed.
     pub revalued: Vec<Revalued>,
     /// Tiers that were added, removed, renamed or changed.
     pub tiers: Vec<TierChange>,
     /// Changes of media, properties and vocabularies, as sentences.
     pub document: Vec<String>,
-    /// Everything but tiers of the second document, if it differs.
+    /// Everything of the second document except its tiers, if it differs.
     #[serde(skip)]
     pub(crate) rest: Option<Box<Transcript>>,
 }
 
-/// An annotation as one document has it.
+/// An annotation in one of the documents.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Said {
     /// Its tier.
@@ -53,7 +52,7 @@ pub struct Said {
     pub id: String,
     /// Its start in microseconds.
     pub start_us: i64,
-    /// The first microsecond after it.
+    /// Its end in microseconds: the first microsecond after it.
     pub end_us: i64,
     /// Its text.
     pub value: String,
@@ -62,7 +61,7 @@ pub struct Said {
     /// The annotation above.
     #[serde(skip)]
     pub(crate) above: Option<Above>,
-    /// The id of the sibling before it.
+    /// The sibling before it.
     #[serde(skip)]
     pub(crate) before: Option<Above>,
 }
@@ -70,9 +69,9 @@ pub struct Said {
 /// An annotation that another refers to.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Above {
-    /// It is in the first document, under this id.
+    /// An annotation of the first document, by its id there.
     Known(String),
-    /// It is in the second document alone, under this id.
+    /// An annotation of the second document alone, by its id there.
     New(String),
 }
 
@@ -89,7 +88,7 @@ pub struct Moved {
     pub from: [i64; 2],
     /// Its times in the second document.
     pub to: [i64; 2],
-    /// Its tier in the second document, if that is another.
+    /// Its tier in the second document, if it changed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_tier: Option<String>,
     #[serde(skip)]
@@ -103,9 +102,9 @@ pub struct Revalued {
     pub tier: String,
     /// Its id in the first document.
     pub id: String,
-    /// Its times in the first document, in microseconds.
+    /// Its start in the first document, in microseconds.
     pub start_us: i64,
-    /// The first microsecond after it.
+    /// Its end in the first document: the first microsecond after it.
     pub end_us: i64,
     /// Its text in the first document.
     pub from: String,
@@ -138,7 +137,7 @@ pub struct TierChange {
 }
 
 impl Difference {
-    /// Reports whether both documents mean the same.
+    /// Returns whether both documents mean the same.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.added.is_empty()
@@ -225,7 +224,7 @@ fn compare(
     }
 }
 
-/// Reports whether a sibling follows the same one as before; siblings of one side alone do not count.
+/// Returns whether an annotation still follows the same sibling as before; siblings of one document alone do not count.
 fn same_neighbour(
     (a, old): (&Transcript, Place),
     (b, new): (&Transcript, Place),
@@ -307,7 +306,7 @@ fn tiers(a: &Transcript, b: &Transcript, matching: &Matching, difference: &mut D
     }
 }
 
-/// Returns the properties of two tiers that differ, but for their names and parents.
+/// Returns the properties that differ between two tiers, except for names and parents.
 fn fields(a: &Tier, b: &Tier) -> BTreeMap<&'static str, [String; 2]> {
     let stereotype = |it: &Tier| it.stereotype.map(Stereotype::elan_name).map(str::to_owned);
     let all = [
@@ -363,7 +362,7 @@ fn sentences(
     into.extend(new.map(|name| format!("the {what} {name:?} was added")));
 }
 
-/// Returns an annotation; the ones that it refers to in terms of the first document, if there is one.
+/// Returns an annotation as a [`Said`]; its references name annotations of the first document if that is given.
 fn said((it, of): (&Transcript, Option<(&Transcript, &Matching)>), place: Place) -> Said {
     let whole = get(it, place);
     let refer = |other: Place| match of {
@@ -373,7 +372,7 @@ fn said((it, of): (&Transcript, Option<(&Transcript, &Matching)>), place: Place)
             None => Above::New(get(it, other).id.clone()),
         },
     };
-    // Only links of a chain have an order; looking for neighbours of all others would take long.
+    // Only links of a chain have an order; a search for the neighbours of all others would take long.
     let siblings = it.tiers[place.tier].annotations.iter().enumerate();
     let before = (whole.order > 0).then(|| {
         let mut siblings = siblings.filter(|(_, sibling)| {

@@ -11,8 +11,8 @@ use crate::tracks::rate_of;
 /// The number of parameters.
 const PARAMETERS: usize = 68;
 
-/// Returns whether a first line, in small letters, is that of a `.fap` file: version, name (which may hold blanks), rate,
-/// frames.
+/// Returns whether a line, in lower case, is the first line of a `.fap` file: version, name (which may hold blanks),
+/// rate, frames.
 pub(super) fn is_header(line: &str) -> bool {
     let words: Vec<&str> = line.split_whitespace().collect();
     let [version, _, .., rate, frames] = words.as_slice() else {
@@ -41,7 +41,7 @@ pub(super) fn read(text: &str) -> Result<Channels, Error> {
     channels.clock = Clock::Rate(rate);
     while let Some((line, masks)) = lines.next() {
         let mut masks: Vec<&str> = masks.split_whitespace().collect();
-        // Some programs write a mask that means nothing behind the last parameter.
+        // Some programs write a meaningless mask after the last parameter.
         if masks.len() == PARAMETERS + 1 && masks.last() == Some(&"0") {
             masks.pop();
         }

@@ -19,9 +19,9 @@ use crate::tally::Findings;
 const VERSION: u8 = 6;
 /// The first bytes of a file that is compressed with gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
-/// A file that is longer than this when it is not compressed is not read; an hour takes 70 MB.
+/// The most bytes of a file after decompression; an hour takes 70 MB.
 const LONGEST: u64 = 512 << 20;
-/// The shortest packet, and the longest.
+/// The shortest and the longest packet, in bytes.
 const PACKET: std::ops::RangeInclusive<usize> = 30..=4_096;
 
 /// Returns whether bytes begin as such a file does.
@@ -170,7 +170,7 @@ pub(super) fn read(bytes: &[u8], findings: &mut Findings) -> Result<Channels, Er
     Ok(channels)
 }
 
-/// Returns the shortest decimal that is this number of 32 bits and no other; `None` if it is not finite.
+/// Returns the shortest decimal that reads back as this 32-bit number; `None` if it is not finite.
 fn decimal(value: f32) -> Option<Number> {
     value
         .is_finite()

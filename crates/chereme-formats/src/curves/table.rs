@@ -8,7 +8,7 @@ use crate::tally::Findings;
 use crate::timecode;
 use crate::tracks::rate_of;
 
-/// Radians beyond this are degrees: no head turns so far.
+/// The largest angle in radians; greater numbers are degrees, as no head turns so far.
 const MOST_RADIANS: f64 = 3.2;
 
 /// The rows of a table with their lines.

@@ -275,7 +275,7 @@ fn names_with_blanks_and_a_mask_too_many_are_read() {
     assert!(read(odd.as_bytes()).is_err(), "parameter 69 does not exist");
 }
 
-/// Every file of a face by other people: each number of the file comes back from the program's own table.
+/// Tests every face file by other people: each number of the file is the same in the program's own table.
 #[test]
 fn faces_of_others_keep_every_number() {
     let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {

@@ -9,12 +9,11 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Returns `transcript` as a document of EAF 3.0.
 ///
-/// Everything that a transcript doesn't hold (licences, languages, locales, lexicon and external
-/// references, links between annotations) comes from `template`, for example the document that the
-/// transcript was read from; [`Document::default`] gives no such parts. Children of a Time_Subdivision
-/// share time slots with each other and with their parent; ends within one that were never set stay unset;
-/// elsewhere ELAN requires times, and they get the values from reading. `lastUsedAnnotationId` is counted
-/// again and comes last.
+/// Everything that a transcript doesn't hold (licences, languages, locales, lexicon and external references, links
+/// between annotations) comes from `template`, for example the document that the transcript was read from;
+/// [`Document::default`] gives no such parts. Children of a Time_Subdivision share time slots with each other and with
+/// their parent; ends within one that were never set stay unset; elsewhere ELAN requires times, and they get the values
+/// from reading. `lastUsedAnnotationId` is computed again and comes last.
 #[must_use]
 pub fn to_raw<'a>(transcript: &Transcript, template: &Document<'a>) -> Document<'a> {
     let mut document = Document {

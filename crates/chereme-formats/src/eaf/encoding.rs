@@ -1,4 +1,4 @@
-//! The characters of annotation files as bytes: UTF-8, UTF-16, and Windows-1252 where a file declares it.
+//! The characters of annotation files as bytes: UTF-8, UTF-16, and Windows-1252 if a file declares it.
 
 use std::borrow::Cow;
 
@@ -30,7 +30,7 @@ const WESTERN: [&str; 6] = [
 /// The names of UTF-16.
 const WIDE: [&str; 4] = ["utf-16", "utf16", "utf-16le", "utf-16be"];
 
-/// Reports whether a declared encoding is one that is read.
+/// Returns whether the reader knows a declared encoding.
 pub(super) fn is_known(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     ["utf-8", "us-ascii", "utf8"].contains(&&*name)
@@ -48,7 +48,7 @@ pub struct Decoded<'b> {
     pub(super) encoding: Encoding,
 }
 
-/// Returns the text of an EAF file in UTF-8, UTF-16 (with or without its mark), or, where it says so, Latin-1 or
+/// Returns the text of an EAF file in UTF-8, UTF-16 (with or without its mark), or, if it declares so, Latin-1 or
 /// Windows-1252.
 ///
 /// # Errors
@@ -73,7 +73,7 @@ pub fn decode(bytes: &[u8]) -> Result<Decoded<'_>, Error> {
     let is_western = said.is_some_and(|it| WESTERN.contains(&it)) && !mark;
     let Ok(text) = str::from_utf8(rest) else {
         if !is_western {
-            // The reader of XML says what is wrong, and in which line.
+            // The XML reader names the fault and its line.
             return Err(super::xml::decode(bytes)
                 .err()
                 .unwrap_or(Error::NotXml { line: 1 }));
@@ -118,7 +118,7 @@ fn noted(name: &str) -> Finding {
     )
 }
 
-/// Returns the order of the bytes of UTF-16, and whether a mark says it.
+/// Returns the byte order of text in UTF-16, and whether a byte-order mark states it.
 fn wide(bytes: &[u8]) -> Option<(bool, bool)> {
     match bytes {
         [0xff, 0xfe, 0, 0, ..] => None,

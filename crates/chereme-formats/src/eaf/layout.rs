@@ -6,17 +6,17 @@ use std::ops::Range;
 /// An element by its byte spans.
 #[derive(Debug, Clone)]
 pub(super) struct Element {
-    /// The name.
+    /// Its name.
     pub(super) name: Range<usize>,
-    /// The whole element.
+    /// The whole element, tags included.
     pub(super) span: Range<usize>,
     /// The text between its tags; for `<a/>` the empty span before `/>`.
     pub(super) inner: Range<usize>,
     /// Whether it is written as `<a/>`.
     pub(super) empty: bool,
-    /// The element around it.
+    /// The index of the element around it.
     pub(super) parent: Option<usize>,
-    /// The elements in it.
+    /// The indices of the elements in it.
     pub(super) children: Vec<usize>,
 }
 
@@ -196,7 +196,7 @@ fn attribute(text: &str, from: usize, to: usize) -> Option<Attribute> {
     })
 }
 
-/// Replacements of spans of a text; those at one place go in the order in which they were added.
+/// Replacements of spans of a text; several at one position are applied in the order in which they were added.
 #[derive(Default)]
 pub(super) struct Edits(Vec<(Range<usize>, String)>);
 

@@ -4,17 +4,17 @@ use super::raw::Kept;
 use super::style::Style;
 use std::io::{self, Write};
 
-/// An attribute, if it has a value.
+/// An attribute: its name, and its value if it has one.
 pub(super) type Pair<'p> = (&'p str, Option<&'p str>);
 
-/// Elements on their way out.
+/// Writes elements to `out` in a style.
 pub(super) struct Output<'s, W: Write> {
     pub(super) out: W,
     pub(super) style: &'s Style,
     indent: String,
 }
 
-/// Returns the text that `write` gives in a style: elements at an indentation, from the first tag to before
+/// Returns the text of the elements that `write` writes in a style at an indentation: from the first tag on, without
 /// the last line end.
 pub(super) fn written(
     style: &Style,

@@ -74,7 +74,7 @@ fn change(
 /// The names of the two time slots of alignable annotations, by their place in the new transcript.
 type Refs = HashMap<Place, [String; 2]>;
 
-/// A file, what it means, and what it shall mean.
+/// A change of a file: its document, its present meaning, and the wanted meaning.
 struct Work<'w, 'd> {
     layout: &'w Layout<'d>,
     style: &'w Style,
@@ -202,7 +202,7 @@ impl<'w, 'd> Work<'w, 'd> {
     }
 }
 
-/// Returns both ends of an annotation in milliseconds; `None` for one that was never set.
+/// Returns both ends of an annotation in milliseconds; `None` for an end that was never set.
 fn ends(annotation: &Annotation) -> [Option<i64>; 2] {
     let span = [annotation.span.start(), annotation.span.end()];
     let [start, end] = annotation.millis.unwrap_or(span.map(|it| it.millis()));
@@ -240,7 +240,7 @@ fn from(tiers: &[Option<usize>], count: usize) -> Vec<Option<usize>> {
     from
 }
 
-/// Returns the new tier of each old one: that of its name, else one that holds most of its annotations.
+/// Returns the new tier of each old one: the tier of the same name, else one that holds most of its annotations.
 fn matched(before: &Transcript, after: &Transcript) -> Vec<Option<usize>> {
     let by_name: HashMap<&str, usize> = after
         .tiers

@@ -22,7 +22,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Returns whether nothing is said of any tier.
+    /// Returns whether the file has no setting for any tier.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.order.is_empty() && self.hidden.is_empty() && self.colours.is_empty()

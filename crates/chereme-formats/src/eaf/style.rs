@@ -99,7 +99,7 @@ impl Style {
         style
     }
 
-    /// Reports whether long start tags break, as far as the text shows.
+    /// Returns whether the file breaks long start tags, as far as its text shows.
     fn breaks(&self, layout: &Layout<'_>) -> bool {
         let mut long = false;
         for element in 0..layout.elements.len() {
@@ -158,12 +158,12 @@ impl Style {
         if self.blank { " />" } else { "/>" }
     }
 
-    /// Reports whether an element of that name without text has two tags.
+    /// Returns whether an element of that name is written with two tags if it has no text.
     pub(super) fn pairs(&self, name: &str) -> bool {
         self.pair && name == "ANNOTATION_VALUE"
     }
 
-    /// Returns a text as it stands between tags, or between the quotes of an attribute.
+    /// Returns a text as it is written between tags, or between the quotes of an attribute.
     ///
     /// Characters that XML cannot hold become U+FFFD.
     pub(super) fn escape(&self, text: &str, quote: Option<char>) -> String {

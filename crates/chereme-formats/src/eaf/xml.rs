@@ -83,7 +83,7 @@ impl<'a> Cursor<'a> {
                         .encoding()
                         .and_then(Result::ok)
                         .unwrap_or("UTF-8".into());
-                    // The text is in UTF-8 by now, whatever the file was in.
+                    // The bytes are UTF-8 by now, whatever the file's encoding was.
                     if !is_known(&encoding) {
                         return Err(Error::Encoding {
                             encoding: encoding.into(),

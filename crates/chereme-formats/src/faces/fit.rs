@@ -7,17 +7,18 @@ use serde::{Deserialize, Serialize};
 
 use super::View;
 
-/// A number that never goes farther than this from its rest in the take keeps its weights: it was not tried out.
+/// The least excursion from rest, in the take, of a number that is fitted; a number that moves less keeps its weights,
+/// as the person did not try it out.
 const LEAST: f64 = 0.15;
 /// The greatest factor by which weights grow.
 const MOST: f64 = 4.0;
-/// A frame counts as active where a number goes farther than this share of its way.
+/// The share of the largest excursion from rest above which a frame counts as active.
 const ACTIVE: f64 = 0.25;
-/// The share of active frames that stay below what counts as 1.
+/// The share of active frames whose excursions stay below the one that maps to 1.
 const REACH: f64 = 0.95;
 
-/// How the numbers of one person's face are taken: each counts from that person's rest, and is 1 where that person's
-/// usually goes no farther.
+/// A calibration of a face mapping for one person: each number counts from that person's rest, and is 1 at the
+/// excursion that the person seldom exceeds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fit {
@@ -27,19 +28,19 @@ pub struct Fit {
     pub version: u32,
     /// The frames of the take.
     pub frames: usize,
-    /// For numbers of a [`Face`] by their names.
+    /// The calibration of each number, by its name in [`Face`].
     pub numbers: BTreeMap<String, Reach>,
 }
 
-/// The rest of a number, and how far it goes from there.
+/// The rest value of a number, and its usual largest excursions from there.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Reach {
     /// The median.
     pub rest: f64,
-    /// How far above it the number usually goes no farther; `None` if the take never went there.
+    /// The excursion upwards that the number seldom exceeds; `None` if the take has none.
     pub up: Option<f64>,
-    /// The same below it.
+    /// The same downwards.
     pub down: Option<f64>,
 }
 
@@ -67,7 +68,7 @@ impl Reach {
         })
     }
 
-    /// Returns the factors by which the weights of the number grow, above and below its rest.
+    /// Returns the factors that scale the number's excursions above and below its rest.
     #[must_use]
     pub fn factors(&self) -> [f64; 2] {
         [self.up, self.down].map(|far| far.map_or(1.0, |far| 1.0 / far))
@@ -81,7 +82,8 @@ impl Reach {
 }
 
 impl Fit {
-    /// Returns the fit of a take; numbers that its capture does not give are left out. `None` without a frame.
+    /// Returns the calibration from a take, without the numbers that its capture does not give; `None` if the take has
+    /// no frame or the system's channels are expressions.
     #[must_use]
     pub fn of(view: &View) -> Option<Self> {
         if view.faces.is_empty() || view.system.expressions {
@@ -103,13 +105,13 @@ impl Fit {
         })
     }
 
-    /// Returns whether it is for views of this kind.
+    /// Returns whether the calibration belongs to the system and mapping version of a view.
     #[must_use]
     pub fn suits(&self, view: &View) -> bool {
         self.system == view.system.id && self.version == view.system.version
     }
 
-    /// Takes the numbers of a view by this fit.
+    /// Scales the numbers of a view by this calibration.
     pub fn apply(&self, view: &mut View) {
         let by_place: Vec<Option<&Reach>> = Face::NAMES
             .iter()
@@ -126,7 +128,7 @@ impl Fit {
         }
     }
 
-    /// Returns the names of the numbers that the take never tried out.
+    /// Returns the names of the numbers that hardly moved in the take.
     pub fn untried(&self) -> impl Iterator<Item = &str> {
         let still = |reach: &Reach| reach.up.is_none() && reach.down.is_none();
         let all = self.numbers.iter();

@@ -1,7 +1,7 @@
 //! Formulas over channels, as the mappings of face systems write them.
 //!
-//! `0.5*BrowInnerUp - max(A, B)`: numbers, names of channels, `+ - * /`, brackets, and the functions `mean`, `max`, `min`,
-//! `clamp(x, low, high)`, `atan2(y, x)` and `first(a, b, …)`, the first whose channels are there.
+//! `0.5*BrowInnerUp - max(A, B)`: numbers, names of channels, `+ - * /`, brackets, and the functions `mean`, `max`,
+//! `min`, `clamp(x, low, high)`, `atan2(y, x)` and `first(a, b, …)`, the first argument whose channels exist.
 
 /// A formula.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +50,7 @@ impl Function {
 const DEEPEST: usize = 32;
 
 impl Formula {
-    /// Reads a formula; the error names the fault of another.
+    /// Reads a formula. The error names the fault.
     pub(super) fn read(text: &str) -> Result<Self, String> {
         let mut reader = Reader { rest: text.trim() };
         let formula = reader.sum(0)?;
@@ -60,7 +60,7 @@ impl Formula {
         }
     }
 
-    /// Returns its values for all frames; `None` if a channel that it needs is missing.
+    /// Returns the formula's values for all frames; `None` if a channel that it needs is missing.
     pub(super) fn values<'a>(
         &self,
         frames: usize,
@@ -100,7 +100,7 @@ impl Formula {
         })
     }
 
-    /// Returns the channels that it names.
+    /// Returns the names of the channels in the formula.
     pub(super) fn channels(&self) -> Vec<&str> {
         match self {
             Self::Number(_) => Vec::new(),

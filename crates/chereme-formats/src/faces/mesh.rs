@@ -1,7 +1,7 @@
-//! Faces of points on film: the measures of a mesh of landmarks that stand for channels of a face.
+//! Faces as points on film: derives the channels of a face from lengths between the landmarks of its mesh.
 //!
 //! The points are MediaPipe's (478, 468 or fewer, each named by its number) or the 70 of OpenPose. Of each frame a few
-//! lengths are measured ([`FaceMesh::measure`]); the channels are those lengths against the signer's own medians
+//! lengths are measured ([`FaceMesh::measure`]); the channels compare those lengths with the signer's own medians
 //! ([`FaceMesh::curves`]), so they need the whole film.
 
 use chereme_motion::glam::DVec2;
@@ -31,14 +31,14 @@ const NAMES: [&str; MEASURES] = [
 ];
 const PITCH: usize = 11;
 
-/// How far the tip of the nose stands out before the corners of the eyes, and how far the brows do, as shares of the
-/// distance between the eyes' outer corners.
+/// Distance by which the tip of the nose, and of the brows, protrudes in front of the corners of the eyes, as shares of
+/// the distance between the eyes' outer corners.
 const NOSE: f64 = 0.5;
 const BROW: f64 = 0.18;
-/// The fewest frames with a face that medians are taken of.
+/// The fewest frames with a face for a median.
 const FEWEST: usize = 2;
 
-/// A place on a face; of several points it is their middle.
+/// A place on a face; for several points it is their mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Spot {
     OuterEye,
@@ -62,7 +62,7 @@ const SPOTS: [Spot; 8] = [
     Spot::Iris,
 ];
 
-/// The points of a place: those on the signer's right, then on the left.
+/// The numbers of the points of a place: on the signer's right, then on the left.
 type Pair = [&'static [u16]; 2];
 
 /// The numbers of points in a kind of mesh.
@@ -105,17 +105,18 @@ const OPENPOSE: Kind = Kind {
     lower_lip: &[66],
 };
 
-/// Where the points of a face are among those of a track.
+/// The positions of a face's points in a track.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FaceMesh {
-    /// For each place the positions of its points, right and left.
+    /// For each place the indices of its points, right and left.
     pairs: Vec<[Vec<usize>; 2]>,
     nose: Vec<usize>,
     lips: [Vec<usize>; 2],
 }
 
 impl FaceMesh {
-    /// Returns the mesh among points that are named by group and name; `None` if they hold no face, or too little of one.
+    /// Returns the mesh in a list of points, each given by group and name; `None` if they hold no face, or too little
+    /// of one.
     #[must_use]
     pub fn find<'a>(points: impl Iterator<Item = (&'a str, &'a str)> + Clone) -> Option<Self> {
         let of = |wanted: &str, kind: &Kind| {
@@ -164,7 +165,7 @@ impl FaceMesh {
             let mut sum = DVec2::ZERO;
             for place in places {
                 let at = points.get(*place)?.at(frame)?;
-                // Pictures count down from above.
+                // Pictures count rows from the top down.
                 sum += DVec2::new(at.x, -at.y);
             }
             (!places.is_empty()).then(|| sum / places.len() as f64)
@@ -179,7 +180,7 @@ impl FaceMesh {
         }
         let level = DVec2::new(across.x, -across.y) / size;
         let between = (right + left) / 2.0;
-        // To the signer's left and up, from the middle between the eyes.
+        // Axes towards the signer's left and up; origin between the eyes; unit the distance of the eyes' outer corners.
         let own = |places: &[usize]| Some((middle(places)? - between).rotate(level) / size);
         let of = |spot: Spot, side: usize| own(pair(spot)[side]);
         let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
@@ -216,17 +217,17 @@ impl FaceMesh {
         ])
     }
 
-    /// Returns the channels of the system `mesh` that the lengths of a whole film mean.
+    /// Returns the channels of the system `mesh` for the lengths of a whole film.
     ///
     /// # Errors
-    /// [`TrackError`] if there are more or fewer times than frames.
+    /// [`TrackError`] if the numbers of times and frames differ.
     pub fn curves(times: Times, frames: &[Measures]) -> Result<Curves, TrackError> {
         let column = |at: usize| -> Vec<f64> { frames.iter().map(|it| it[at]).collect() };
         let pitch = against(&column(PITCH), less);
         let channel = |(at, name): (usize, &&str)| {
             let own = column(at);
             let values = match at {
-                // A head that bends down hides its brows by as much as they stand out.
+                // Brows seem lower when the head bends down, because they protrude; this corrects it.
                 0 | 1 => {
                     let bent = own
                         .iter()
@@ -265,13 +266,13 @@ pub(super) fn quantile(values: &[f64], share: f64) -> Option<f64> {
     (known.len() >= FEWEST).then(|| known[(share * last as f64).round() as usize])
 }
 
-/// Returns numbers against their own median; all unknown without one.
+/// Returns `how` of each number and the median; NaN for all if there is no median.
 fn against(values: &[f64], how: fn(f64, f64) -> f64) -> Vec<f64> {
     let usual = quantile(values, 0.5).unwrap_or(f64::NAN);
     values.iter().map(|value| how(*value, usual)).collect()
 }
 
-/// Returns how far numbers lie above the least usual one.
+/// Returns how far each number lies above the tenth percentile; 0 below it.
 fn from_least(values: &[f64]) -> Vec<f64> {
     let least = quantile(values, 0.1).unwrap_or(f64::NAN);
     values

@@ -1,7 +1,8 @@
-//! Face systems: the names of the channels of a face capture, and their meaning for the house's [`Face`].
+//! Face systems: the names of the channels of a face capture, and their mapping to this project's [`Face`].
 //!
-//! Each system is a file of `schema/faces`: its channels, a formula over them for each number of a face and for the turns of
-//! the head, and what the mapping loses. Captured channels stay as they are; a [`View`] is derived from them.
+//! Each system is a file of `schema/faces`: its channels, a formula over them for each number of a face and for the
+//! turns of the head, and the losses of the mapping. Captured channels stay as they are; a [`View`] is derived from
+//! them.
 //!
 //! ```
 //! use chereme_formats::faces::System;
@@ -62,12 +63,12 @@ pub struct System {
     pub name: String,
     /// Its numbers, and their source.
     pub description: String,
-    /// Channels by which a capture shows that it is of this system: all of them,
+    /// Channels that identify a capture of this system, if it has all of them.
     needs: Vec<String>,
-    /// or any of these,
+    /// Channels that identify a capture of this system, too; one of them is enough.
     #[serde(default)]
     or: Vec<String>,
-    /// but none of these.
+    /// Channels that rule this system out.
     #[serde(default)]
     without: Vec<String>,
     /// The channels as the system spells them.
@@ -75,25 +76,27 @@ pub struct System {
     /// Other names of channels.
     #[serde(default)]
     pub aliases: BTreeMap<String, String>,
-    /// For numbers of a [`Face`], by [`Face::NAMES`], a formula over the channels.
+    /// The formula over the channels for each number of a [`Face`], by its name in [`Face::NAMES`].
     pub house: BTreeMap<String, String>,
-    /// For `pitch` (down), `yaw` (to the signer's left) and `roll` (to the right), a formula in radians.
+    /// The formulas in radians for the turns of the head: `pitch` (down), `yaw` (to the signer's left) and `roll` (to
+    /// the right).
     #[serde(default)]
     pub head: BTreeMap<String, String>,
-    /// For `left`, `up` and `forward`, a formula for the place of the head in metres.
+    /// The formulas in metres for the place of the head: `left`, `up` and `forward`.
     #[serde(default)]
     pub place: BTreeMap<String, String>,
     /// Whether each channel is a code of SiGML, whose posture `schema/notation/face.json` defines.
     #[serde(default)]
     pub expressions: bool,
-    /// Numbers of a face that the system says nothing about.
+    /// Numbers of a face for which the system has no channels.
     pub unknown: Vec<String>,
     /// The losses of the mapping.
     pub loses: Vec<Loss>,
-    /// The least value of channels at which a frame counts; in other frames no face was found.
+    /// The least values of channels in a frame with a face; frames below them show no face.
     #[serde(default)]
     sure: BTreeMap<String, f64>,
-    /// Pairs of channels that move together; a capture in which they do not has its sides exchanged.
+    /// Pairs of channels that move together in people; if they move against each other, the capture has its sides
+    /// exchanged.
     #[serde(default)]
     agree: Vec<[String; 2]>,
 }
@@ -102,11 +105,11 @@ pub struct System {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Loss {
-    /// The numbers of a face that are concerned, or `head`.
+    /// The affected numbers of a face, or `head`.
     pub channels: Vec<String>,
-    /// What is lost.
+    /// A sentence that describes the loss.
     pub says: String,
-    /// How much it matters.
+    /// The severity of the loss.
     pub severity: Severity,
 }
 
@@ -115,7 +118,7 @@ pub struct Loss {
 pub struct View {
     /// The system of the channels.
     pub system: &'static System,
-    /// The face of each frame; numbers that are not known are 0.
+    /// The face of each frame; unknown numbers are 0.
     pub faces: Vec<Face>,
     /// Which numbers of a face the capture gives.
     pub known: [bool; Face::LEN],
@@ -123,7 +126,7 @@ pub struct View {
     pub head: Option<Vec<[f64; 3]>>,
     /// The place of the head in each frame, in metres to the signer's left, up and forward.
     pub place: Option<Vec<[f64; 3]>>,
-    /// How many frames had a gap, which was bridged from its neighbours.
+    /// The number of frames with a gap that was filled from its neighbours.
     pub bridged: usize,
     /// The losses of the mapping, and oddities of the capture.
     pub findings: Vec<Finding>,
@@ -156,13 +159,13 @@ impl System {
         Self::all().iter().find(|system| system.id == id)
     }
 
-    /// Returns the system that a track of curves is of; `None` if it is no face.
+    /// Returns the system of a track of curves; `None` if the curves are not a face.
     #[must_use]
     pub fn of(curves: &Curves) -> Option<&'static Self> {
         Self::of_names(curves.curves().iter().map(|it| it.name.as_str()))
     }
 
-    /// Returns the system that channels of these names are of; `None` if they are of no face.
+    /// Returns the system of channels of these names; `None` if they are not a face's.
     #[must_use]
     pub fn of_names<'a>(names: impl Iterator<Item = &'a str>) -> Option<&'static Self> {
         let names: Vec<String> = names.map(plain).collect();
@@ -177,7 +180,7 @@ impl System {
         })
     }
 
-    /// Returns the face that channels of this system mean.
+    /// Returns the face that the channels of this system describe.
     #[must_use]
     pub fn view(&'static self, curves: &Curves) -> View {
         let mut bridged = vec![false; curves.frames()];
@@ -260,7 +263,7 @@ impl System {
         unsure
     }
 
-    /// Returns what the mapping loses of a capture that gives these numbers.
+    /// Returns the losses of the mapping for a capture that gives the `known` numbers.
     fn findings(&self, known: &[bool; Face::LEN]) -> Vec<Finding> {
         let concerns = |name: &String| {
             let known = |at: usize| known[at] || self.unknown.contains(name);
@@ -290,7 +293,7 @@ impl System {
         findings
     }
 
-    /// Returns the channels that formulas and checks name.
+    /// Returns the channels that formulas and checks use.
     fn counted(&self) -> BTreeSet<String> {
         let formulas = self.house.values().chain(self.head.values());
         let formulas = formulas.chain(self.place.values());
@@ -308,7 +311,7 @@ fn plain(name: &str) -> String {
     name.trim().to_lowercase()
 }
 
-/// Fills gaps on a straight line between their neighbours; `None` if there is nothing but gaps.
+/// Fills gaps by linear interpolation between their neighbours; `None` if there are only gaps.
 fn bridge(values: &mut [Option<f64>]) -> Option<Vec<f64>> {
     let known: Vec<(usize, f64)> = values
         .iter()

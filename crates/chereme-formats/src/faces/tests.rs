@@ -1,4 +1,4 @@
-//! Face systems as data, and what captures of each mean.
+//! Face systems as data, and the meaning of captures of each.
 
 use chereme_motion::{Column, Curve, Curves, Face, Rate, Times};
 

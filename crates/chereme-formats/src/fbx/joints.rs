@@ -10,7 +10,7 @@ use crate::finding::Finding;
 use crate::tally::Findings;
 use crate::tracks::unique;
 
-/// Scales this near to 1, or to each other, count as equal.
+/// Largest difference of scales, from 1 or from each other, that count as equal.
 const SAME_SCALE: f64 = 1e-4;
 
 /// The nodes that are joints, parents first.
@@ -29,7 +29,7 @@ pub(super) struct Local {
     pub(super) turn: DQuat,
 }
 
-/// The nodes that an animation changes, by element, and the ones whose places it changes.
+/// The nodes that an animation changes, by element.
 #[derive(Default)]
 pub(super) struct Animated {
     pub(super) nodes: BTreeSet<u32>,
@@ -37,7 +37,7 @@ pub(super) struct Animated {
 }
 
 impl Animated {
-    /// Returns what an animation of layers changes.
+    /// Returns the nodes that an animation of layers changes.
     pub(super) fn of(stack: &ufbx::AnimStack) -> Self {
         let mut found = Self::default();
         for prop in stack
@@ -65,7 +65,8 @@ impl Animated {
 }
 
 impl<'s> Rig<'s> {
-    /// Returns the joints of a scene: bones, animated nodes that are no camera, light or mesh, and all above them.
+    /// Returns the joints of a scene: bones, animated nodes other than cameras, lights and meshes, and all nodes above
+    /// them.
     pub(super) fn of(scene: &'s Scene, animated: &Animated, findings: &mut Findings) -> Self {
         let is_joint = |node: &Node| match node.attrib_type {
             ElementType::Bone => true,
@@ -146,7 +147,7 @@ impl<'s> Rig<'s> {
         rig
     }
 
-    /// Gives every joint its place and turn at rest.
+    /// Gives every joint its place and rotation at rest.
     fn rest(&mut self, findings: &mut Findings) {
         for node in self.nodes.iter().flatten() {
             let scale = node.local_transform.scale;
@@ -173,12 +174,12 @@ impl<'s> Rig<'s> {
         }
     }
 
-    /// Returns every joint at a time of an animation.
+    /// Returns the places and rotations of all joints at a time of an animation, in seconds.
     pub(super) fn at(&self, anim: &Anim, time: f64) -> Vec<Local> {
         self.locals(|node| ufbx::evaluate_transform(anim, node, time))
     }
 
-    /// Returns every joint in its parent's space with the scales above it in its place.
+    /// Returns every joint in its parent's space; its place includes the scales of the nodes above it.
     fn locals(&self, transform: impl Fn(&Node) -> Transform) -> Vec<Local> {
         let mut scales: Vec<(f64, f64)> = Vec::with_capacity(self.joints.len());
         let mut locals = Vec::with_capacity(self.joints.len());

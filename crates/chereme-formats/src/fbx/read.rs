@@ -26,7 +26,7 @@ pub enum Error {
         "FBX of this version is not supported; open it in Blender or MotionBuilder and save it as FBX 2013 or later"
     )]
     Version,
-    /// The file is damaged, or larger inside than it may be.
+    /// The file is damaged, or larger after decompression than the limit.
     #[error("the file is damaged: {0}")]
     Damaged(String),
     /// There is no skeleton.
@@ -49,20 +49,20 @@ pub enum Error {
     Skeleton(String),
 }
 
-/// Memory for a scene: so much, and so many times the size of its file.
+/// Memory for a scene: a fixed number of bytes, and a multiple of the file's size.
 const MEMORY: (usize, usize) = (64 << 20, 96);
-/// No scene gets more memory than this.
+/// The most memory for a scene, in bytes.
 const MOST_MEMORY: usize = 4 << 30;
-/// A deeper tree is no skeleton.
+/// The greatest depth of a tree of nodes.
 const DEEPEST: u32 = 512;
 const MOST_NODES: usize = 20_000;
 /// The most joints times frames.
 const MOST_POSITIONS: usize = 60_000_000;
-/// A take that begins later than this, in seconds, has timecodes for times.
+/// The start of a take, in seconds, beyond which its times are timecodes.
 const DAYTIME: f64 = 60.0;
-/// Frames a second where the file says none.
+/// Frames per second of a file that states no rate.
 const USUAL_RATE: f64 = 30.0;
-/// Curves are looked at for their rate up to this many keys.
+/// The most keys that are examined for their rate.
 const MOST_KEYS: usize = 4_000_000;
 
 /// Reads an FBX file, binary or ASCII.
@@ -119,7 +119,7 @@ pub fn read(bytes: &[u8]) -> Result<(Scene, Vec<Finding>), Error> {
     Ok((read, findings.finish()))
 }
 
-/// Returns whether bytes begin as binary FBX, or as text with what ASCII FBX has near its beginning.
+/// Returns whether bytes begin as binary FBX, or have the word `FBX` near their beginning, as ASCII FBX does.
 fn is_fbx(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(4096)];
     let has = |word: &[u8]| head.windows(word.len()).any(|it| it == word);
@@ -178,7 +178,7 @@ fn direction(axis: CoordinateAxis) -> Option<Direction> {
     Some(Direction { axis, negative })
 }
 
-/// Returns the first take that moves a node, else the first; the others that move are named.
+/// Returns the first take that moves a node, else the first one; a finding names the others that move.
 fn take<'s>(scene: &'s ufbx::Scene, findings: &mut Findings) -> Option<&'s AnimStack> {
     let stacks: Vec<&AnimStack> = scene.anim_stacks.into_iter().collect();
     let moving: Vec<&AnimStack> = stacks
@@ -218,7 +218,7 @@ fn still(rig: Rig<'_>, convention: Convention, findings: &mut Findings) -> Resul
     })
 }
 
-/// When frames are.
+/// The times of frames.
 struct Grid {
     rate: Rate,
     first: f64,
@@ -283,7 +283,7 @@ fn moving(
     })
 }
 
-/// Returns the frames of a take: its range, at the rate of its keys if they are dense, else that of the file.
+/// Returns the times of a take's frames: its range at the rate of its keys if they are dense, else at the file's rate.
 fn grid(
     scene: &ufbx::Scene,
     stack: &AnimStack,
@@ -348,7 +348,7 @@ fn grid(
 /// The rate and range of the keys of all curves.
 #[derive(Default)]
 struct Keys {
-    /// Keys a second of the curve with the most of them, if there is one in most of its frames.
+    /// Keys per second of the curve with the most keys, if a curve has keys in most of its frames.
     rate: Option<f64>,
     /// The times of the first and last key.
     range: Option<(f64, f64)>,

@@ -140,7 +140,8 @@ proptest! {
     }
 }
 
-/// Files of other people, where `CHEREME_SHARED_DATA` says that there are some: positions that another reader gives.
+/// Tests files by other people, if `CHEREME_SHARED_DATA` names their folder: positions are those that another reader
+/// gives.
 #[test]
 fn files_of_other_people_are_read_as_other_programs_read_them() {
     let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {

@@ -5,19 +5,20 @@ use std::cell::Cell;
 use super::error::Error;
 use super::model::{Accessor, Document, Sparse};
 
-/// So many numbers are read from any file, and two more for each byte of its buffers: accessors may share their bytes.
+/// The most numbers that are read from any file; each byte of its buffers allows two more, as accessors may share
+/// bytes.
 const NUMBERS: usize = 1 << 25;
 
 /// The document with the bytes of its buffers.
 pub(super) struct Data<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: Vec<Vec<u8>>,
-    /// How many more numbers may be read.
+    /// The number of numbers that may still be read.
     left: Cell<usize>,
 }
 
 impl<'a> Data<'a> {
-    /// Returns the data of a document, with what its size allows to be read.
+    /// Returns the data of a document, with a limit on reading that grows with its size.
     pub(super) fn new(document: &'a Document, buffers: Vec<Vec<u8>>) -> Self {
         let data = Self {
             document,
@@ -29,12 +30,12 @@ impl<'a> Data<'a> {
         data
     }
 
-    /// Returns how many bytes all buffers have.
+    /// Returns the number of bytes of all buffers.
     pub(super) fn bytes(&self) -> usize {
         self.buffers.iter().map(Vec::len).sum()
     }
 
-    /// Returns the numbers of an accessor that has `width` numbers in each element.
+    /// Returns the numbers of an accessor whose elements have `width` numbers each.
     pub(super) fn floats(&self, index: usize, width: usize) -> Result<Vec<f32>, Error> {
         let fault = |problem: &str| Error::element("accessors", index, problem);
         let accessor = self
@@ -174,7 +175,7 @@ impl<'a> Data<'a> {
     }
 }
 
-/// Returns the bytes of a number of a component type.
+/// Returns the number of bytes of a component type; `None` if it is unknown.
 fn size(component: u32) -> Option<usize> {
     match component {
         5120 | 5121 => Some(1),

@@ -18,14 +18,14 @@ use crate::tracks::{rate_of, unique};
 
 /// Frames a second of a skeleton without movement.
 const STILL_RATE: u32 = 30;
-/// Scales this near to 1, or to each other, count as equal.
+/// Largest difference of scales, from 1 or from each other, that count as equal.
 const SAME_SCALE: f64 = 1e-4;
-/// Keys lie within this share of a frame of an even grid if the animation has a rate.
+/// Largest distance of a key from an even grid, as a share of a frame, at which the animation still has a rate.
 const NEAR_FRAME: f64 = 0.05;
-/// A deeper joint, or a file with more nodes, is not a skeleton.
+/// The most nodes of a file, and the greatest depth of a joint.
 const MOST_NODES: usize = 20_000;
 const MOST_FRAMES: usize = 5_000_000;
-/// The most joints times frames of any file, and one more for each byte of its buffers.
+/// The most joints times frames of any file; each byte of its buffers allows one more.
 const MOST_POSITIONS: usize = 8_000_000;
 /// The most bytes of all buffers.
 const MOST_BYTES: usize = 1 << 31;

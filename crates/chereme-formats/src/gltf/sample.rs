@@ -9,12 +9,12 @@ pub(super) struct Keys {
     pub(super) times: Vec<f32>,
     pub(super) values: Vec<f32>,
     pub(super) interpolation: Interpolation,
-    /// Numbers in a value.
+    /// The number of numbers in a value.
     pub(super) width: usize,
 }
 
 impl Keys {
-    /// Returns whether there are as many values as times, and times rise.
+    /// Returns whether there are as many values as times, and the times rise.
     pub(super) fn are_sound(&self) -> bool {
         let each = if self.interpolation == Interpolation::Cubic {
             3
@@ -26,7 +26,7 @@ impl Keys {
             && self.times.windows(2).all(|pair| pair[0] < pair[1])
     }
 
-    /// Returns the value of a key; `part` is 0 and 2 for the tangents of a spline, 1 for its value.
+    /// Returns a part of a key: 1 for its value, 0 and 2 for the tangents of a spline.
     fn value(&self, key: usize, part: usize) -> &[f32] {
         let at = match self.interpolation {
             Interpolation::Cubic => 3 * key + part,
@@ -35,7 +35,7 @@ impl Keys {
         &self.values[at * self.width..(at + 1) * self.width]
     }
 
-    /// Returns the numbers at a time in seconds; before the first key and after the last those of that key.
+    /// Returns the value at a time in seconds; outside the keys, that of the first or last key.
     pub(super) fn at(&self, time: f64) -> Vec<f64> {
         let numbers = |values: &[f32]| values.iter().map(|value| f64::from(*value)).collect();
         let after = self.times.partition_point(|key| f64::from(*key) <= time);

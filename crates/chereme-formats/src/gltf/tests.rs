@@ -411,7 +411,7 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
     for node in document["nodes"].as_array().expect("nodes") {
         assert!(node.get("rotation").is_none() && node.get("scale").is_none());
     }
-    // A chain of whole bones turns as in the clip: its world rotation is that of the clip from the T-pose on.
+    // Bones with known joints rotate as in the clip: their world rotations are the clip's, counted from the T-pose.
     let (scene, _) = parse(&bytes).expect("a GLB");
     let again = scene.clip;
     let hand = at("LeftHand");

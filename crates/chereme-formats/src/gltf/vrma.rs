@@ -1,7 +1,7 @@
 //! A clip as VRMA: movement of a humanoid for avatars (VRMC_vrm_animation 1.0).
 //!
-//! Each bone stands for itself: the file's rest pose is the T-pose without rotations, and a frame's rotations are
-//! those from there, so that every avatar can take them. Source: the VRM specification of the VRM Consortium.
+//! The file's rest pose is the T-pose without rotations, and a frame's rotations count from there, so that every avatar
+//! can use them. Source: the VRM specification of the VRM Consortium.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, Clip, Finger, ModelPose, Part, Pose, Side, Skeleton};
@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 
 use super::write::{About, Parts, container, plain, turn, vector};
 
-/// How much of a face movement there is in each frame, from 0 to 1.
+/// The strength of a facial expression in each frame, from 0 to 1.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Expression {
     /// The name.
@@ -38,11 +38,11 @@ const PRESETS: [&str; 14] = [
 
 /// Returns a clip in metres of model space as VRMA.
 ///
-/// Rotations of joints that VRM does not know count for the bones below them. Only the hips move from their
-/// place. Feet of the rest pose stand at height 0.
+/// Rotations of joints that VRM does not know are added to those of the bones below them. Only the hips change their
+/// position. Feet of the rest pose stand at height 0.
 ///
 /// # Errors
-/// A sentence if the skeleton has no hips or no arms, or the clip no frame.
+/// Fails, with a sentence for the user, if the skeleton lacks hips or arms, or the clip has no frame.
 pub fn write(
     clip: &Clip,
     anatomy: &Anatomy,
@@ -185,7 +185,7 @@ pub fn write(
     Ok(container(&document, parts.bytes))
 }
 
-/// Returns the name of VRM 1.0 for a part.
+/// Returns the name of a part in VRM 1.0.
 fn name(part: Part) -> Option<String> {
     let sided = |side: Side, name: &str| match side {
         Side::Left => format!("left{name}"),

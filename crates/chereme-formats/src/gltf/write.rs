@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use crate::tracks::unique;
 
-/// An annotation that goes with the movement.
+/// An annotation of the movement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Note {
     /// The tier.
@@ -88,7 +88,7 @@ impl Parts {
         self.accessor(view, (FLOAT, shape), values.len() / width)
     }
 
-    /// Writes the least and the greatest of each column into an accessor.
+    /// Writes the minimum and maximum of each column into an accessor.
     pub(super) fn bounds(&mut self, accessor: usize, values: &[f32], width: usize) {
         let fold = |start: f32, pick: fn(f32, f32) -> f32| -> Vec<f32> {
             let column = |at: usize| {
@@ -106,7 +106,7 @@ impl Parts {
     }
 }
 
-/// Turns the annotations into markers of Blender's timeline, run there after the import as
+/// A script that makes the annotations markers of Blender's timeline; run there after the import as
 /// `exec(bpy.context.scene["chereme_markers"])`.
 const MARKERS: &str = r#"import bpy, json
 scene = bpy.context.scene

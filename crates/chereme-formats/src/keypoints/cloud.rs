@@ -13,7 +13,7 @@ use super::names;
 use crate::finding::Finding;
 use crate::tally::Findings;
 
-/// The most places of points of one person.
+/// The most coordinates of one person's points.
 const PLACES: usize = 30_000_000;
 
 /// The space of points.
@@ -47,7 +47,7 @@ fn number(value: &Value) -> Option<Number> {
     Number::parse(value.as_number()?.to_string().as_bytes()).ok()
 }
 
-/// Adds the points of one of OpenPose's lists: x, y and confidence, again and again; 0, 0, 0 is a gap.
+/// Adds the points of one of OpenPose's lists, which repeats x, y and confidence; 0, 0, 0 is a gap.
 pub(super) fn triples(group: &str, values: &[Value], points: &mut Vec<Point>) {
     let count = values.len() / 3;
     for (at, triple) in values.chunks_exact(3).enumerate() {
@@ -63,7 +63,8 @@ pub(super) fn triples(group: &str, values: &[Value], points: &mut Vec<Point>) {
     }
 }
 
-/// Adds landmarks: objects with x, y, z and perhaps a visibility; a list of such lists is of several hands or people.
+/// Adds landmarks: objects with x, y, z and an optional visibility; a list of such lists belongs to several hands or
+/// people.
 pub(super) fn landmarks(group: &str, value: &Value, points: &mut Vec<Point>) {
     let Value::Array(all) = value else { return };
     if all.iter().any(Value::is_array) {
@@ -98,7 +99,7 @@ pub(super) fn landmarks(group: &str, value: &Value, points: &mut Vec<Point>) {
     }
 }
 
-/// Returns the mean place of the points that are seen.
+/// Returns the mean position of the points that are seen.
 pub(super) fn middle(points: &[Point]) -> DVec2 {
     let seen: Vec<DVec2> = points
         .iter()
@@ -110,7 +111,7 @@ pub(super) fn middle(points: &[Point]) -> DVec2 {
     seen.iter().sum::<DVec2>() / seen.len().max(1) as f64
 }
 
-/// A column of numbers while it grows: three coordinates and the confidence.
+/// The growing columns of one point: three coordinates and the confidence.
 type Columns = [Vec<Option<Number>>; 4];
 
 /// The points of one person.
@@ -142,12 +143,12 @@ impl Cloud {
         self.kind
     }
 
-    /// Returns how far a place is from where the person was last.
+    /// Returns the distance of a position from the person's last one.
     pub(super) fn far(&self, at: DVec2) -> f64 {
         self.last.map_or(f64::MAX, |last| last.distance(at))
     }
 
-    /// Adds the points of a frame; of two frames of one number the first counts.
+    /// Adds the points of a frame; if two frames have the same number, the first counts.
     pub(super) fn push(&mut self, row: usize, points: Vec<Point>) -> Result<(), Error> {
         self.last = Some(middle(&points));
         self.reach(row)?;
@@ -173,7 +174,7 @@ impl Cloud {
             for (most, value) in self.largest.iter_mut().zip([x, y]) {
                 *most = most.max(value.to_f64());
             }
-            // A name that is there twice in a frame counts once.
+            // A name that occurs twice in a frame counts once.
             if self.columns[at][0].len() == row {
                 let places = point.at.unwrap_or_default();
                 for (column, value) in self.columns[at].iter_mut().zip(places) {
@@ -193,7 +194,7 @@ impl Cloud {
         }
     }
 
-    /// Adds gaps up to so many frames.
+    /// Adds gaps until there are `rows` frames.
     pub(super) fn reach(&mut self, rows: usize) -> Result<(), Error> {
         if rows <= self.rows {
             return Ok(());
@@ -206,7 +207,7 @@ impl Cloud {
         Ok(())
     }
 
-    /// Returns the track; nothing if there is no point.
+    /// Returns the track; `None` if there is no point.
     pub(super) fn markers(
         self,
         times: Times,

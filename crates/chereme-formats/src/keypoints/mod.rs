@@ -1,7 +1,7 @@
 //! JSON of points that were estimated from film: OpenPose, one file a frame or one for a film, and MediaPipe's landmarks.
 //!
-//! Every person of OpenPose becomes a track of its own, followed by the nearest mean place. OpenPose says neither the
-//! rate of the film nor, in files of one frame, the size of its pictures.
+//! Every person of OpenPose becomes a track of its own; from frame to frame a person is the one whose mean position is
+//! nearest. OpenPose states neither the rate of the film nor, in files of one frame, the size of its pictures.
 //!
 //! ```
 //! use chereme_formats::keypoints::{self, Reader};
@@ -33,7 +33,7 @@ use cloud::{Cloud, Kind, Point};
 pub const USUAL_RATE: u32 = 25;
 /// The most people that are followed.
 const PEOPLE: usize = 16;
-/// The greatest number of a frame.
+/// The greatest number that a frame may have.
 const FRAMES: u64 = 5_184_000;
 
 /// Why bytes could not be read as points from film.
@@ -90,7 +90,7 @@ pub struct Reader {
     findings: Findings,
 }
 
-/// The people of one camera, and the landmarks that belong to nobody in particular.
+/// The people of one camera, and the landmarks that belong to no particular person.
 #[derive(Debug, Default)]
 struct Film {
     camera: String,
@@ -100,7 +100,7 @@ struct Film {
 }
 
 impl Reader {
-    /// Adds a document: the frame of that number, or a film whole if its frames have numbers of their own.
+    /// Adds a document: one frame with the number `frame`, or a whole film if its frames have numbers of their own.
     ///
     /// # Errors
     /// [`Error`] if the bytes are not JSON of points, or there are too many of them.
@@ -125,7 +125,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Adds the frames of one camera: an object by number, or an array.
+    /// Adds the frames of one camera: an object of frames by number, or an array.
     fn camera(&mut self, document: &Value) -> Result<(), Error> {
         let name = document.get("camera").map(|it| match it {
             Value::String(name) => name.clone(),
@@ -274,7 +274,7 @@ fn millis(frame: &Value) -> Option<f64> {
 }
 
 impl Film {
-    /// Adds the people of a frame, each to the track of the person who was nearest.
+    /// Adds the people of a frame, each to the track of the person whose last position was nearest.
     fn people(
         &mut self,
         row: usize,
@@ -308,7 +308,8 @@ impl Film {
             }
         }
         let mut free: Vec<usize> = (0..self.people.len()).collect();
-        // The nearest pair first, so that two who pass each other are not exchanged by their order in the file.
+        // Pairs the nearest first, so that two people who pass each other are not exchanged because of their order in
+        // the file.
         while !bodies.is_empty() {
             let mut best: Option<(f64, usize, usize)> = None;
             for (body, points) in bodies.iter().enumerate() {
@@ -373,7 +374,7 @@ impl Film {
         Ok(())
     }
 
-    /// Makes every track reach so many frames.
+    /// Extends every track with gaps to `rows` frames.
     fn reach(&mut self, rows: usize) -> Result<(), Error> {
         let mut all = self.people.iter_mut().chain(&mut self.marks);
         all.try_for_each(|cloud| cloud.reach(rows))

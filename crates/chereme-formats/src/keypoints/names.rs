@@ -124,7 +124,7 @@ fn hand(at: usize) -> String {
     }
 }
 
-/// Returns the name of a point of OpenPose: that of the list of so many points, else its number.
+/// Returns the name of a point of OpenPose: that in its list of `count` points, else its number.
 pub(super) fn openpose(group: &str, count: usize, at: usize) -> String {
     let body = group.starts_with("pose");
     match count {

@@ -162,11 +162,10 @@ const MEASURES: [&str; 24] = [
     "rank",
 ];
 
-/// Returns the inferred meaning of each column. The first gloss column names the sign; further ones are
-/// translations. Of columns with unknown titles, those with HamNoSys's symbols are notation, the others
-/// attributes; if no column is called a gloss, one that is called a name or a word is the gloss, else the
-/// first one next to the notation. A column of measurements is an attribute even if its title names a
-/// component.
+/// Returns the inferred meaning of each column. The first gloss column names the sign; further ones are translations.
+/// Of columns with unknown titles, those with HamNoSys's symbols are notation, the others attributes; if no column is
+/// titled a gloss, one titled a name or a word is the gloss, else the first one next to the notation. A column of
+/// measurements is an attribute even if its title names a component.
 pub(super) fn meanings(
     header: &[String],
     rows: &[Row],
@@ -262,8 +261,8 @@ fn tell_attributes(columns: &[Column], findings: &mut Findings) {
     });
 }
 
-/// Returns whether a column holds measurements: its cells are numbers, and its title says so or some have
-/// decimals.
+/// Returns whether a column holds measurements: its cells are numbers, and its title is that of a measurement or some
+/// cells have decimals.
 fn measures(rows: &[Row], column: usize, title: &str) -> bool {
     let cells = rows.iter().filter_map(|row| row.cells.get(column));
     let cells = cells
@@ -288,7 +287,7 @@ fn measures(rows: &[Row], column: usize, title: &str) -> bool {
     all > 0 && numbers * 10 >= all * 9 && (said || parts > 0)
 }
 
-/// Returns the column that names the sign if none is called a gloss.
+/// Returns the column that names the sign if no column is titled a gloss.
 fn likely_gloss(columns: &[Column]) -> Option<usize> {
     let unknown = |column: &Column| column.why.is_empty();
     let called = columns

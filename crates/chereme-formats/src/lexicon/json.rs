@@ -4,7 +4,7 @@ use crate::table::{COLUMNS, Cells, PADDED, Row};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
 
-/// The most bytes of JSON that are read; in memory they take many times their size.
+/// The most bytes of JSON that are read; in memory they take many times as much.
 const BYTES: usize = 64 << 20;
 /// The title of the column for the keys of an object.
 const KEY: &str = "gloss";
@@ -95,8 +95,7 @@ struct Lines<'t> {
 }
 
 impl Lines<'_> {
-    /// Returns the line of the next occurrence of `text` in JSON; the previous line if the text does not
-    /// occur.
+    /// Returns the line of the next occurrence of `text` in the JSON; the previous line if the text does not occur.
     fn of(&mut self, text: &str) -> u64 {
         let quoted = serde_json::to_string(text).map_or(Cow::Borrowed(text), Cow::Owned);
         if let Some(found) = self.text[self.at..].find(&*quoted) {

@@ -1,11 +1,11 @@
 //! Tables of lexicon codings: one sign per row, one component per column.
 //!
-//! A column's component is guessed from its title (`schema/column_words.json`) or given by a [`Mapping`].
-//! Compound cells are kept apart: `neutral space > head` is two successive values, `S + W` two at once,
-//! `>S` a final value alone; `-` and `N/A` are not applicable, `?` is unclear. A column of HamNoSys,
-//! recognised by its title or by its symbols, is the sign's notation. A table may also come as JSON: an
-//! array of objects, an object whose keys are the glosses, or an export of SLP-AA. The original cells are kept together with
-//! their meanings, so that [`write()`] reproduces the table.
+//! A column's component is guessed from its title (`schema/column_words.json`) or given by a [`Mapping`]. Compound
+//! cells are split: `neutral space > head` is two successive values, `S + W` two at once, `>S` a final value alone; `-`
+//! and `N/A` are not applicable, `?` is unclear. A column of HamNoSys, recognised by its title or its symbols, gives
+//! the sign's notation. A table may also come as JSON: an array of objects, an object whose keys are the glosses, or an
+//! export of SLP-AA. The original cells are kept together with their meanings, so that [`write()`] reproduces the
+//! table.
 //!
 //! ```
 //! use chereme_formats::lexicon;
@@ -55,8 +55,7 @@ pub struct Entry {
     pub line: u64,
     /// The gloss, blanks at its ends left out.
     pub gloss: String,
-    /// Translations and glosses in other languages: the language (empty where not known) and the
-    /// text.
+    /// Translations and glosses in other languages: the language (empty if unknown) and the text.
     pub translations: Vec<(String, String)>,
     /// The component values of the sign, in the order of the columns; unset cells give no value.
     pub codings: Vec<Coding>,

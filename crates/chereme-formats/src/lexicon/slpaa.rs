@@ -1,8 +1,8 @@
-//! The JSON that SLP-AA exports: signs with modules, as a table of one sign a row.
+//! The JSON that SLP-AA exports: signs with modules; read as a table of one sign per row.
 //!
-//! A hand configuration is written there in the slots of Johnson and Liddell: thumb, thumb's contact, and three joints for
-//! each finger. The nearest handshape of the house's inventory stands in the column of handshapes; the slots themselves
-//! are kept next to it as text. Places and movements are the checked ends of SLP-AA's trees.
+//! A hand configuration is written there in the slots of Johnson and Liddell: thumb, thumb's contact, and three joints
+//! for each finger. The nearest handshape of this project's inventory goes into the column of handshapes; the slots
+//! themselves are kept next to it as text. Places and movements are the checked leaves of SLP-AA's trees.
 
 use chereme_motion::{FingerAngles, HandAngles};
 use chereme_sign::inventory;
@@ -13,7 +13,7 @@ use crate::table::{Cells, Row};
 
 /// The most bytes of JSON that are read.
 const BYTES: usize = 64 << 20;
-/// A posture farther than this from every handshape, in radians, gets no handshape.
+/// The greatest distance, in radians, of a posture from the handshape that it gets.
 const FAR: f64 = 0.33;
 
 const TITLES: [&str; 15] = [
@@ -34,7 +34,7 @@ const TITLES: [&str; 15] = [
     "note",
 ];
 
-/// The bends of base, middle and end joint in a fist, in degrees.
+/// The bends of the base, middle and end joints in a fist, in degrees.
 const FIST: [f64; 3] = [85.0, 100.0, 65.0];
 
 /// Returns the table of the signs of an export; `None` if the bytes are something else.
@@ -109,7 +109,7 @@ fn row(sign: &Value, level: &Map<String, Value>) -> Vec<String> {
     ]
 }
 
-/// Returns a value as text: a list as its first element.
+/// Returns a value as text; of a list, its first element.
 fn plain(value: Option<&Value>) -> String {
     match value {
         Some(Value::Array(all)) => cell(all.first()),
@@ -132,12 +132,12 @@ fn modules<'v>(sign: &'v Value, kind: &str) -> Vec<&'v Map<String, Value>> {
     found.into_iter().map(|(_, module)| module).collect()
 }
 
-/// Returns the attribute of a module, whose name may begin with an underline.
+/// Returns the attribute of a module; its name may begin with an underscore.
 fn attribute<'v>(module: &'v Map<String, Value>, name: &str) -> Option<&'v Value> {
     module.get(name).or_else(|| module.get(&format!("_{name}")))
 }
 
-/// Returns whether a module is of hand 1 or 2; 0 means any.
+/// Returns whether a module belongs to hand 1 or 2; 0 means any hand.
 fn moves(module: &Map<String, Value>, hand: usize) -> bool {
     if hand == 0 {
         return true;
@@ -149,12 +149,12 @@ fn moves(module: &Map<String, Value>, hand: usize) -> bool {
             is_hand.is_none_or(|part| part.eq_ignore_ascii_case("hand"))
                 && which.and_then(Value::as_bool) == Some(true)
         }
-        // A module that names nobody is of the dominant hand.
+        // A module that names no hand belongs to the dominant one.
         _ => hand == 1,
     }
 }
 
-/// Returns values that follow each other, as a table of a lexicon has them: `A > B`.
+/// Returns successive values as a lexicon table writes them: `A > B`.
 fn sequence(
     modules: &[&Map<String, Value>],
     hand: usize,
@@ -185,7 +185,7 @@ fn symbols(module: &Map<String, Value>) -> Option<[String; 35]> {
         .then_some(symbols)
 }
 
-/// Returns the slots as people write them, field by field in brackets.
+/// Returns the slots as people write them: each field in brackets.
 fn transcription(module: &Map<String, Value>) -> Option<String> {
     let symbols = symbols(module)?;
     let fields = [2..6, 6..16, 16..20, 20..25, 25..30, 30..35];
@@ -196,7 +196,7 @@ fn transcription(module: &Map<String, Value>) -> Option<String> {
     )
 }
 
-/// Returns the bend that a letter stands for, as a share of a fist.
+/// Returns the bend for a letter, as a share of the bend in a fist.
 fn bend(symbol: &str) -> Option<f64> {
     Some(match symbol {
         "H" => -0.12,
@@ -227,7 +227,8 @@ fn handshape(module: &Map<String, Value>) -> Option<String> {
     (far < FAR).then(|| id.clone())
 }
 
-/// Returns the posture that slots describe, and which of its angles they do; `None` if most fingers are not described.
+/// Returns the posture that the slots describe, and which of its angles they give; `None` if most fingers are not
+/// described.
 fn angles(symbols: &[String; 35]) -> Option<(HandAngles, [bool; HandAngles::LEN])> {
     let mut hand = HandAngles::default();
     let mut known = [false; HandAngles::LEN];
@@ -284,7 +285,7 @@ fn spreads(symbols: &[String; 35], fingers: &mut [FingerAngles; 4], known: &mut 
         Some(degrees.to_radians())
     };
     let [first, second, third] = [20, 25, 30].map(gap);
-    // A gap between two fingers moves the outer one; the middle finger stays.
+    // The symbol between two fingers moves the outer one; the middle finger stays.
     let straight = |finger: usize| fingers[finger].flexion[0] < 0.6;
     let open = [0, 1, 2, 3].map(straight);
     if let Some(gap) = first {
@@ -302,7 +303,7 @@ fn spreads(symbols: &[String; 35], fingers: &mut [FingerAngles; 4], known: &mut 
     }
 }
 
-/// Returns the ends of the checked branches of a tree, each the last part of its path.
+/// Returns the leaves of the checked branches of a tree, each as the last part of its path.
 fn leaves(tree: &Value) -> Vec<String> {
     let Some(Value::Object(states)) = tree.get("checkstates") else {
         return Vec::new();
@@ -326,7 +327,7 @@ fn leaves(tree: &Value) -> Vec<String> {
     .collect()
 }
 
-/// Returns how many hands a sign has, as the house's lexicons say it.
+/// Returns the number of hands of a sign, in the words of this project's lexicons.
 fn sign_type(sign: &Value) -> String {
     let specs = sign
         .get("type")

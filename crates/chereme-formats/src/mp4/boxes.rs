@@ -1,26 +1,26 @@
-//! A box at a time, never beyond its parent.
+//! Boxes of a file, one by one; no box reaches beyond its parent.
 
 use std::io::{Read, Seek, SeekFrom};
 
 use super::Error;
 
-/// Most bytes of a box that is read whole.
+/// The most bytes of a box that is read whole.
 const LARGEST: u64 = 256 << 20;
-/// Most boxes beside each other.
+/// The most boxes of a file at its top level.
 const MANY: usize = 400_000;
 
-/// A box in a file that is read by ranges.
+/// A box in a file that is read in parts.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) kind: [u8; 4],
-    /// Where it begins.
+    /// The byte at which it begins.
     pub(super) at: u64,
-    /// Where its content begins and ends.
+    /// The bytes at which its content begins and ends.
     pub(super) from: u64,
     pub(super) to: u64,
 }
 
-/// Returns the boxes of a file from its start; what follows a broken header is left out, and `true` returned.
+/// Returns the boxes at the top level of a file, and whether a broken header ended the list early.
 pub(super) fn places(input: &mut (impl Read + Seek)) -> Result<(Vec<Place>, bool), Error> {
     let end = input.seek(SeekFrom::End(0))?;
     let mut places = Vec::new();
@@ -78,13 +78,13 @@ pub(super) fn content(input: &mut (impl Read + Seek), place: &Place) -> Result<V
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Inner<'a> {
     pub(super) kind: [u8; 4],
-    /// Where its content begins in the file.
+    /// The byte of the file at which its content begins.
     pub(super) at: u64,
     pub(super) bytes: &'a [u8],
 }
 
 impl<'a> Inner<'a> {
-    /// Returns the failure about this box.
+    /// Returns an error about this box.
     pub(super) fn fault(&self, problem: &'static str) -> Error {
         Error::Box {
             kind: letters(self.kind),
@@ -93,7 +93,7 @@ impl<'a> Inner<'a> {
         }
     }
 
-    /// Returns the boxes in it that begin `skip` bytes after its start.
+    /// Returns the boxes inside it, from `skip` bytes after its start.
     pub(super) fn children(self, skip: usize) -> impl Iterator<Item = Inner<'a>> {
         let base = self.at;
         let mut at = skip.min(self.bytes.len());
@@ -117,7 +117,7 @@ impl<'a> Inner<'a> {
         })
     }
 
-    /// Returns the first box in it of that kind.
+    /// Returns the first box of a kind inside it.
     pub(super) fn child(self, kind: &[u8; 4]) -> Option<Inner<'a>> {
         self.children(0).find(|it| it.kind == *kind)
     }
@@ -147,7 +147,7 @@ impl<'a> Inner<'a> {
         first.ok_or_else(|| self.fault("it is too short"))
     }
 
-    /// Returns the rows of a table whose count stands at `at`: never more than its bytes hold.
+    /// Returns the rows of a table with its count at byte `at`; at most as many as the table's bytes hold.
     pub(super) fn rows(
         &self,
         at: usize,

@@ -1,10 +1,10 @@
-//! Samples of files that are written piece by piece.
+//! Samples of fragmented files, which are written piece by piece.
 
 use super::boxes::Inner;
 use super::table::Shape;
 use super::{Error, Frame, MAX_FRAMES};
 
-/// Properties of the samples of a track that a piece does not override.
+/// Default properties of a track's samples, which a fragment may override.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Defaults {
     duration: u32,
@@ -17,17 +17,17 @@ pub(super) struct Defaults {
 pub(super) struct Clock(i64);
 
 impl Clock {
-    /// Returns the time after frames in the order of decoding.
+    /// Returns the time after `frames`, which are in the order of decoding.
     pub(super) fn after(frames: &[Frame]) -> Self {
         let durations = frames.iter().map(|frame| i64::from(frame.duration));
         Self(durations.sum())
     }
 }
 
-/// Bit of the flags of a sample: decoding cannot begin with it.
+/// Bit in the flags of a sample: decoding cannot begin with it.
 const NOT_SYNC: u32 = 0x1_0000;
 
-/// Reads what the movie says of the samples of a track in pieces.
+/// Reads the default properties of a track's samples in fragments.
 pub(super) fn defaults(moov: Inner<'_>, track: u32) -> Result<Defaults, Error> {
     let Some(mvex) = moov.child(b"mvex") else {
         return Ok(Defaults::default());
@@ -44,7 +44,7 @@ pub(super) fn defaults(moov: Inner<'_>, track: u32) -> Result<Defaults, Error> {
     Ok(Defaults::default())
 }
 
-/// Adds the frames of a piece that begins at byte `start` of the file.
+/// Adds the frames of a fragment that begins at byte `start` of the file.
 pub(super) fn frames(
     moof: Inner<'_>,
     start: u64,
@@ -94,7 +94,7 @@ pub(super) fn frames(
     Ok(())
 }
 
-/// Adds the frames of a run, and returns where the next run begins if it does not say so.
+/// Adds the frames of a run, and returns the byte at which the next run begins unless it states another one.
 fn run(
     trun: Inner<'_>,
     (base, next): (u64, u64),
@@ -119,7 +119,7 @@ fn run(
     let columns = [0x100, 0x200, 0x400, 0x800];
     let width = 4 * columns.iter().filter(|bit| flags & **bit != 0).count();
     let held = match width {
-        // Nothing is said of single samples: never more of them than bytes in the file.
+        // The run describes no single samples: there are never more of them than bytes in the file.
         0 if own.size == 0 => 0,
         0 => (shape.end / u64::from(own.size)) as usize,
         width => trun.bytes.len().saturating_sub(at) / width,

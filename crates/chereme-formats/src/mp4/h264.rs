@@ -2,10 +2,10 @@
 
 use super::{Colours, Error};
 
-/// The content of `avcC`: how long the lengths of pieces are, and the parameter sets.
+/// The content of `avcC`: the width of the lengths of pieces, and the parameter sets.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Configuration {
-    /// How many bytes hold the length of a piece: 1, 2 or 4.
+    /// The number of bytes that hold the length of a piece: 1, 2 or 4.
     pub length: usize,
     /// Sequence and picture parameter sets, in this order.
     pub sets: Vec<Vec<u8>>,
@@ -16,7 +16,7 @@ pub struct Configuration {
 pub struct Sequence {
     /// `profile_idc`.
     pub profile: u8,
-    /// How colours are coded, if it says so.
+    /// The coding of colours, if the parameter set states it.
     pub colours: Option<Colours>,
     /// Whether pictures may be coded as two fields.
     pub interlaced: bool,
@@ -47,8 +47,8 @@ pub fn configuration(bytes: &[u8]) -> Result<Configuration, Error> {
     Ok(Configuration { length, sets })
 }
 
-/// Appends pieces with start codes (Annex B) to `out`: the parameter sets if `sets` is true, and those of a sample
-/// whose lengths stand before them.
+/// Appends pieces with start codes (Annex B) to `out`: the parameter sets if `sets` is true, and the pieces of a
+/// sample, in which each piece follows its length.
 ///
 /// # Errors
 /// [`Error::Parameters`] if a length goes beyond the sample.
@@ -102,7 +102,7 @@ pub fn is_sequence(piece: &[u8]) -> bool {
     piece.first().is_some_and(|first| first & 31 == SPS)
 }
 
-/// Returns whether a piece is a parameter set of pictures.
+/// Returns whether a piece is a picture parameter set.
 #[must_use]
 pub fn is_parameters(piece: &[u8]) -> bool {
     piece.first().is_some_and(|first| first & 31 == PPS)
@@ -114,7 +114,7 @@ pub fn is_refresh(piece: &[u8]) -> bool {
     piece.first().is_some_and(|first| first & 31 == 5)
 }
 
-/// Reads a sequence parameter set, as far as its colours.
+/// Reads a sequence parameter set up to its colours.
 ///
 /// # Errors
 /// [`Error::Parameters`] if it is cut short or nonsense.
@@ -199,7 +199,7 @@ pub fn sequence(piece: &[u8]) -> Result<Sequence, Error> {
     })
 }
 
-/// Bits of a piece, without the bytes that keep start codes out of it.
+/// The bits of a piece, without the bytes that prevent false start codes.
 struct Bits {
     bytes: Vec<u8>,
     at: usize,
@@ -231,7 +231,7 @@ impl Bits {
         Ok(value)
     }
 
-    /// Reads an Exp-Golomb code; signed ones are as long.
+    /// Reads an Exp-Golomb code; signed codes have the same length.
     fn code(&mut self) -> Result<u32, Error> {
         let mut zeros = 0;
         while self.number(1)? == 0 {
@@ -243,7 +243,7 @@ impl Bits {
         Ok((1_u32 << zeros) - 1 + self.number(zeros)?)
     }
 
-    /// Passes over a scaling list.
+    /// Skips a scaling list.
     fn scaling(&mut self, size: u32) -> Result<(), Error> {
         let (mut last, mut next) = (8_i64, 8_i64);
         for _ in 0..size {

@@ -1,17 +1,19 @@
-//! MP4 and QuickTime films: where each coded frame lies in the file and when it is shown, and films written.
+//! MP4 and QuickTime films: reads the position of each coded frame in the file and the time at which it is shown, and
+//! writes films.
 //!
-//! The pictures themselves stay coded: a decoder turns a [`Frame`]'s bytes into a picture. A file is read by ranges, so
-//! that a film of hours needs no more memory than its index. Every count of the file is bounded by the bytes that hold
-//! it; no input makes the reader hang or take memory without bound. Source: ISO/IEC 14496-12 (boxes), 14496-15 (`avcC`).
+//! The pictures themselves stay coded: a decoder turns a [`Frame`]'s bytes into a picture. Only the boxes of the index
+//! are read, so that a film of hours needs no more memory than its index. Every count of the file is bounded by the
+//! bytes that hold it; no input makes the reader hang or use unbounded memory. Source: ISO/IEC 14496-12 (boxes),
+//! 14496-15 (`avcC`).
 //!
 //! | module | holds |
 //! |---|---|
-//! | `boxes` | a box at a time, never beyond its parent |
+//! | `boxes` | the boxes of a file, none beyond its parent |
 //! | `read` | the tracks of a file and the index of its film |
 //! | `table` | the tables of samples: sizes, places, times |
-//! | `fragments` | the same of files that are written piece by piece |
-//! | `h264` | parameter sets, and what they say of colours |
-//! | `write` | a film of H.264 pictures to bytes |
+//! | `fragments` | the tables of samples in fragmented files |
+//! | `h264` | parameter sets with the coding of colours |
+//! | `write` | a writer for films of H.264 pictures |
 
 mod boxes;
 mod fragments;
@@ -27,7 +29,7 @@ pub use write::{Muxer, Picture};
 
 use serde::Serialize;
 
-/// Most frames that a film may have: a day at 60 a second.
+/// The most frames of a film: a day at 60 per second.
 pub const MAX_FRAMES: usize = 5_184_000;
 
 /// A film as its container describes it.
@@ -37,15 +39,15 @@ pub struct Container {
     pub coding: String,
     /// The data that a decoder needs before the first frame: for H.264 the content of `avcC`, else empty.
     pub configuration: Vec<u8>,
-    /// Width of a coded picture in pixels, before it is turned.
+    /// Width of a coded picture in pixels, before rotation.
     pub width: u32,
-    /// Height of a coded picture in pixels, before it is turned.
+    /// Height of a coded picture in pixels, before rotation.
     pub height: u32,
-    /// How a picture is turned to be looked at.
+    /// The rotation that shows pictures upright.
     pub turn: Turn,
-    /// How the container codes colours, if it says so.
+    /// The coding of colours, if the container states it.
     pub colours: Option<Colours>,
-    /// Ticks of a second.
+    /// Ticks per second.
     pub timescale: u32,
     /// The frames in the order in which they are decoded.
     pub frames: Vec<Frame>,
@@ -54,25 +56,26 @@ pub struct Container {
 /// A coded picture of a film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frame {
-    /// Where its bytes begin in the file.
+    /// The byte of the file at which it begins.
     pub offset: u64,
-    /// How many there are.
+    /// The number of its bytes.
     pub size: u32,
     /// Whether decoding can begin here.
     pub sync: bool,
-    /// When it is shown, in ticks from the start of the film; composition offset and edit list are in it.
+    /// The time at which it is shown, in ticks from the start of the film, with composition offset and edit list
+    /// applied.
     pub shown: i64,
-    /// How long it is shown, in ticks.
+    /// The time for which it is shown, in ticks.
     pub duration: u32,
-    /// Whether the edit list leaves it out; it may still be needed to decode others.
+    /// Whether the edit list hides it; it may still be needed to decode others.
     pub hidden: bool,
 }
 
-/// How a picture is turned to be looked at, clockwise.
+/// The clockwise rotation that shows a picture upright.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Turn {
-    /// As it is coded.
+    /// No rotation.
     #[default]
     None,
     /// By 90 degrees.
@@ -84,7 +87,7 @@ pub enum Turn {
 }
 
 impl Turn {
-    /// Returns the size of a picture after it was turned.
+    /// Returns the size of a picture after the rotation.
     #[must_use]
     pub fn size(self, [width, height]: [usize; 2]) -> [usize; 2] {
         match self {
@@ -94,7 +97,7 @@ impl Turn {
     }
 }
 
-/// How numbers of a picture are colours (ITU-T H.273).
+/// The mapping from a picture's numbers to colours (ITU-T H.273).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Colours {
     /// `matrix_coefficients`: 1 is BT.709, 5 and 6 are BT.601, 9 is BT.2020.
@@ -109,7 +112,7 @@ pub enum Error {
     /// The file is of another kind.
     #[error("this is no MP4 or QuickTime file")]
     NoMp4,
-    /// The file has no list of its tracks, as films that were never finished.
+    /// The file has no list of its tracks, like a film whose recording was never finished.
     #[error("the file has no movie header (moov); the recording was cut off, or is not finished")]
     NoMovie,
     /// No track holds pictures.
@@ -120,19 +123,19 @@ pub enum Error {
     Box {
         /// The four letters of the box.
         kind: String,
-        /// Where it begins.
+        /// The byte at which it begins.
         at: u64,
         /// The problem.
         problem: &'static str,
     },
-    /// It is larger than anything that is a film.
+    /// Something in the file exceeds a limit of the reader.
     #[error("{what}: {found} where at most {most} are read")]
     Limit {
-        /// The thing that there is too much of.
+        /// The kind of thing that exceeds the limit, in the plural, such as `frames`.
         what: &'static str,
-        /// How much there is.
+        /// The amount in the file.
         found: u64,
-        /// How much is read.
+        /// The limit.
         most: u64,
     },
     /// The parameter sets of H.264 are broken.
@@ -150,7 +153,7 @@ impl From<std::io::Error> for Error {
 }
 
 impl Container {
-    /// Returns how long the film is, in ticks.
+    /// Returns the length of the film in ticks.
     #[must_use]
     pub fn length(&self) -> i64 {
         let shown = self.frames.iter().filter(|frame| !frame.hidden);
@@ -158,7 +161,7 @@ impl Container {
         ends.max().unwrap_or_default().max(0)
     }
 
-    /// Returns a time in ticks in microseconds.
+    /// Converts a time in ticks to microseconds.
     #[must_use]
     pub fn micros(&self, ticks: i64) -> i64 {
         let scale = i128::from(self.timescale.max(1));
@@ -166,7 +169,8 @@ impl Container {
         i64::try_from(micros).unwrap_or_default()
     }
 
-    /// Returns the positions in [`frames`](Self::frames) of those that are shown, in the order in which they are.
+    /// Returns the positions in [`frames`](Self::frames) of the frames that are shown, in the order in which they are
+    /// shown.
     #[must_use]
     pub fn shown_order(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.frames.len())
@@ -176,8 +180,9 @@ impl Container {
         order
     }
 
-    /// Returns the position of the frame at which decoding begins to reach frame `at`: the last before it that is not
-    /// shown after it, since pictures that are shown before such a frame and decoded after it may need earlier ones.
+    /// Returns the position of the frame at which decoding must begin to reach frame `at`: the last sync frame before
+    /// it that is not shown later than it. A sync frame that is shown later does not do: frames decoded after it and
+    /// shown before it may need earlier ones.
     #[must_use]
     pub fn sync_before(&self, at: usize) -> usize {
         let shown = self.frames.get(at).map_or(i64::MAX, |frame| frame.shown);
@@ -186,7 +191,7 @@ impl Container {
         until.rposition(begins).unwrap_or_default()
     }
 
-    /// Returns the coding as the world calls it, such as `H.264`.
+    /// Returns the usual name of the coding, such as `H.264`.
     #[must_use]
     pub fn coding_name(&self) -> &str {
         match self.coding.as_str() {

@@ -1,4 +1,4 @@
-//! The tracks of a file and the index of its film.
+//! The tracks of a file, and the index of its film.
 
 use std::io::{Read, Seek};
 
@@ -12,7 +12,7 @@ const FIRST: [&[u8; 4]; 8] = [
     b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot", b"styp",
 ];
 
-/// Reads where the frames of a film lie; the first track of pictures is taken.
+/// Reads the index of a film: the positions and times of its frames, from the first track with pictures.
 ///
 /// # Errors
 /// [`Error`] if the file is no MP4, is not whole, or holds no pictures.
@@ -127,7 +127,7 @@ fn track_id(trak: Inner<'_>) -> Result<u32, Error> {
     tkhd.number(if tkhd.version()? == 1 { 20 } else { 12 })
 }
 
-/// Reads what a track says of its pictures.
+/// Reads the description of a track of pictures.
 fn track(trak: Inner<'_>) -> Result<Container, Error> {
     let mdhd = descend(trak, &[b"mdia", b"mdhd"]);
     let mdhd = mdhd.ok_or_else(|| trak.fault("it has no clock (mdhd)"))?;
@@ -163,7 +163,7 @@ fn track(trak: Inner<'_>) -> Result<Container, Error> {
     })
 }
 
-/// Reads a `colr` box; profiles of colours are not looked at.
+/// Reads a `colr` box; colour profiles are ignored.
 fn said_colours(colr: Inner<'_>) -> Option<Colours> {
     let kind = colr.bytes.get(..4)?;
     let matrix = u8::try_from(colr.short(8).ok()?).ok()?;
@@ -175,7 +175,7 @@ fn said_colours(colr: Inner<'_>) -> Option<Colours> {
     Some(Colours { matrix, full_range })
 }
 
-/// Returns how the matrix of a track turns its pictures; a matrix that is no turn by right angles turns nothing.
+/// Returns the rotation in a track's matrix; none if the matrix is not a rotation by right angles.
 fn turn(trak: Inner<'_>) -> Turn {
     let found = || {
         let tkhd = trak.child(b"tkhd")?;
@@ -191,7 +191,7 @@ fn turn(trak: Inner<'_>) -> Turn {
     }
 }
 
-/// Reads the edit list of a track: a start that is empty, and one piece of the film.
+/// Reads the edit list of a track: an optional empty start, and one piece of the film.
 fn edit(
     trak: Inner<'_>,
     timescale: u32,

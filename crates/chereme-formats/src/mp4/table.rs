@@ -6,28 +6,28 @@ use super::{Error, Frame, MAX_FRAMES};
 /// The effect of the edit list of a track on its clock.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Edit {
-    /// How much later the film begins, in ticks.
+    /// The delay before the film begins, in ticks.
     pub(super) delay: i64,
-    /// The time of the track with which it begins.
+    /// The time in the track at which the film begins.
     pub(super) from: i64,
-    /// The time of the track with which it ends.
+    /// The time in the track at which the film ends.
     pub(super) until: Option<i64>,
 }
 
-/// Frames that are being put together.
+/// Frames under construction.
 #[derive(Debug)]
 pub(super) struct Shape {
-    /// Where the file ends.
+    /// The length of the file in bytes.
     pub(super) end: u64,
     pub(super) edit: Edit,
-    /// Frames whose times are those of the track.
+    /// The frames, with times in the track.
     pub(super) frames: Vec<Frame>,
-    /// How many frames lie beyond the end of the file.
+    /// The number of frames that lie beyond the end of the file.
     pub(super) beyond: usize,
 }
 
 impl Shape {
-    /// Adds a frame where the file holds it.
+    /// Adds a frame if it lies inside the file, and counts it otherwise.
     pub(super) fn add(&mut self, frame: Frame) {
         let to = frame.offset.checked_add(u64::from(frame.size));
         if to.is_some_and(|to| to <= self.end) && frame.size > 0 {
@@ -38,7 +38,7 @@ impl Shape {
     }
 }
 
-/// Returns the frames with times from the start of the film, as the edit list says.
+/// Returns the frames with times from the start of the film, after the edit list.
 pub(super) fn settled(shape: Shape) -> Vec<Frame> {
     let Edit { delay, from, until } = shape.edit;
     let mut frames = shape.frames;
@@ -107,7 +107,7 @@ pub(super) fn frames(stbl: Inner<'_>, shape: &mut Shape) -> Result<(), Error> {
                     .rows(8, 4)?
                     .filter_map(|row| boxes::number(row, 0))
                     .collect(),
-                // A size for all: never more frames than bytes in the file.
+                // One size for all frames: there are never more of them than bytes in the file.
                 each => vec![each; count.min((shape.end / u64::from(each)) as usize + 1)],
             }
         }
@@ -131,7 +131,7 @@ pub(super) fn frames(stbl: Inner<'_>, shape: &mut Shape) -> Result<(), Error> {
     for (at, (size, offset)) in sizes.iter().zip(offsets).enumerate() {
         let duration = durations.next().unwrap_or(last);
         last = duration;
-        // Version 0 says that shifts are positive, and cameras write negative ones all the same.
+        // In version 0 shifts are positive, but cameras write negative ones all the same.
         let shift = shifts.next().unwrap_or_default().cast_signed();
         let number = at as u32 + 1;
         let is_sync = |sync: &Vec<u32>| sync.binary_search(&number).is_ok();
@@ -174,7 +174,7 @@ fn small_sizes(stbl: Inner<'_>) -> Result<Vec<u32>, Error> {
     })
 }
 
-/// Returns where each sample begins.
+/// Returns the byte at which each sample begins.
 fn offsets(stbl: Inner<'_>, sizes: &[u32]) -> Result<Vec<u64>, Error> {
     let chunks: Vec<u64> = match (stbl.child(b"stco"), stbl.child(b"co64")) {
         (Some(stco), _) => {

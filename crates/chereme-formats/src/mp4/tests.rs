@@ -79,7 +79,7 @@ fn opened(bytes: &[u8]) -> Container {
     read(&mut Cursor::new(bytes)).expect("a film").0
 }
 
-/// Returns where the content of the first box of that kind begins.
+/// Returns the byte at which the content of the first box of a kind begins.
 fn find(bytes: &[u8], kind: &[u8; 4]) -> usize {
     let at = memchr::memmem::find(bytes, kind);
     at.expect("the box is there") + 4
@@ -96,7 +96,7 @@ fn words(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|word| word.to_be_bytes()).collect()
 }
 
-/// Puts a box at the end of another inside `path`, lengthens those around it, and moves what the index points to.
+/// Appends a box to the one at `path`, lengthens the boxes around it, and shifts the offsets of the index.
 fn inserted(bytes: &[u8], path: &[&[u8; 4]], new: &[u8]) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     let mut sizes = Vec::new();
@@ -174,7 +174,7 @@ fn colours_are_read_from_the_stream_and_from_the_container() {
     };
     assert_eq!(film.colours, Some(limited));
     for cut in 0..sequence().len() {
-        // No part of a sequence makes the reader fail but in words.
+        // A sequence cut short gives an error, but no panic.
         let _ = h264::sequence(&sequence()[..cut]);
     }
 }
@@ -203,7 +203,8 @@ fn phones_turn_their_films() {
 
 #[test]
 fn pictures_are_shown_when_their_composition_times_say() {
-    // Decoded 0 1 2 3, shown 0 2 3 1, one frame later than decoded, and the edit list takes that frame away.
+    // Decoded in the order 0 1 2 3, shown in the order 0 2 3 1, one frame later than decoded; the edit list removes
+    // that delay.
     let ctts = [0, 4, 1, 3600, 1, 10_800, 1, 0, 1, 0];
     let bytes = inserted(
         &film(4),
@@ -222,7 +223,7 @@ fn pictures_are_shown_when_their_composition_times_say() {
 #[test]
 fn pictures_that_lead_a_refresh_are_decoded_from_the_one_before() {
     let mut film = opened(&film(8));
-    // Frame 4 refreshes, and frame 5 is shown before it.
+    // Frame 4 is a sync frame, and frame 5 is shown before it.
     (film.frames[4].shown, film.frames[5].shown) = (film.frames[5].shown, film.frames[4].shown);
     assert_eq!(film.sync_before(4), 4);
     assert_eq!(film.sync_before(5), 0);
@@ -231,7 +232,7 @@ fn pictures_that_lead_a_refresh_are_decoded_from_the_one_before() {
 
 #[test]
 fn an_edit_list_may_delay_and_cut_a_film() {
-    // Half a second of nothing, then the film from its third frame, for two frames.
+    // The edit list: half a second of nothing, then two frames from the film's third one on.
     let rows = [0, 2, 500, u32::MAX, 0x1_0000, 80, 7200, 0x1_0000];
     let edit = boxed(b"edts", &boxed(b"elst", &words(&rows)));
     let film = opened(&inserted(&film(8), &[b"moov", b"trak"], &edit));
@@ -245,7 +246,7 @@ fn an_edit_list_may_delay_and_cut_a_film() {
 fn films_in_pieces_are_read() {
     let whole = film(8);
     let described = opened(&whole);
-    // The same film without its table, and two pieces of four frames each behind it.
+    // The same film without its table, followed by two fragments of four frames each.
     let mut bytes = whole;
     let stsz = find(&bytes, b"stsz") + 8;
     bytes[stsz..stsz + 4].copy_from_slice(&0_u32.to_be_bytes());
@@ -317,7 +318,7 @@ fn counts_that_no_file_holds_take_no_memory() {
             assert!(film.frames.len() <= 4, "{kind:?}");
         }
     }
-    // A size for all of them, and as many as can be counted.
+    // One size for all frames, and the largest possible count.
     let mut bytes = film(4);
     let place = find(&bytes, b"stsz") + 4;
     bytes[place..place + 4].copy_from_slice(&1_u32.to_be_bytes());

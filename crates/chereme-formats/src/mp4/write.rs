@@ -1,14 +1,14 @@
-//! A film of H.264 pictures to bytes.
+//! Writes films of H.264 pictures.
 
 use std::io::Write;
 
 use super::{Colours, Error, h264};
 
-/// Ticks of a second in written films: 25, 30, 50, 60, 100 and 120 pictures a second last whole ticks.
+/// Ticks per second in written films; a picture at 25, 30, 50, 60, 100 or 120 per second lasts whole ticks.
 const TIMESCALE: u32 = 90_000;
-/// Ticks of a second in the header of the movie, which holds its length.
+/// Ticks per second in the header of the movie, which holds its length.
 const MOVIE: u32 = 1000;
-/// Most bytes of coded pictures.
+/// The most bytes of coded pictures.
 const LARGEST: usize = 2_000_000_000;
 
 /// Properties of a film.
@@ -18,14 +18,14 @@ pub struct Picture {
     pub width: u16,
     /// Height in pixels.
     pub height: u16,
-    /// Pictures, and the seconds in which so many are shown.
+    /// A number of pictures, and the seconds in which so many are shown.
     pub rate: (u32, u32),
-    /// How numbers are colours.
+    /// The mapping from numbers to colours.
     pub colours: Colours,
 }
 
-/// A film that is put together picture by picture; coded pictures stay in memory, so that the index comes first in the
-/// file and the film plays while it is still being fetched.
+/// A film under construction, picture by picture. Coded pictures stay in memory, so that the file can begin with the
+/// index and a film plays while it is being downloaded.
 #[derive(Debug)]
 pub struct Muxer {
     picture: Picture,
@@ -75,7 +75,7 @@ impl Muxer {
         }
     }
 
-    /// Returns how many pictures were added.
+    /// Returns the number of pictures added.
     #[must_use]
     pub fn pictures(&self) -> usize {
         self.sizes.len()
@@ -100,7 +100,7 @@ impl Muxer {
         let kind = boxed(b"ftyp", |it| {
             it.extend_from_slice(b"isom\0\0\x02\0isomiso2avc1mp41");
         });
-        // The index is as long whatever it says.
+        // The length of the index does not depend on the offsets in it.
         let start = kind.len() + self.movie(0).len() + 8;
         out.write_all(&kind)?;
         out.write_all(&self.movie(start as u32))?;
@@ -111,7 +111,7 @@ impl Muxer {
         Ok(())
     }
 
-    /// Returns how many ticks a picture is shown.
+    /// Returns the ticks for which a picture is shown.
     fn ticks(&self) -> u32 {
         let (frames, seconds) = self.picture.rate;
         let ticks = u64::from(TIMESCALE) * u64::from(seconds) / u64::from(frames.max(1));
@@ -225,7 +225,7 @@ impl Muxer {
     }
 }
 
-/// The matrix that turns nothing.
+/// The matrix without rotation.
 const STRAIGHT: [u32; 9] = [0x1_0000, 0, 0, 0, 0x1_0000, 0, 0, 0, 0x4000_0000];
 
 fn words(out: &mut Vec<u8>, words: &[u32]) {

@@ -241,7 +241,7 @@ fn role_of(found: &Match) -> Option<(TierRole, String)> {
     roles.first().map(|it| (*it).clone())
 }
 
-/// Compares texts as [`fold`] does, without blanks and punctuation.
+/// Returns whether texts are equal after [`fold`].
 pub(crate) fn same(a: &str, b: &str) -> bool {
     a == b || fold(a) == fold(b)
 }

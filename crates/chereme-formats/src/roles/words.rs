@@ -62,7 +62,7 @@ impl Words {
         Ok(table)
     }
 
-    /// Returns the hand that a whole word means.
+    /// Returns the hand that a word means, if it means one.
     pub(super) fn hand(&self, word: &str) -> Option<Hands> {
         self.hands.get(word).copied()
     }

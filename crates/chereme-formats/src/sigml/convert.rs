@@ -28,7 +28,7 @@ pub const NO_GLOSS: &str = "has no gloss";
 /// repeated letters, parts at other places.
 ///
 /// # Errors
-/// [`Error::Root`] if the root is neither `<sigml>` nor a sign, nor an element around some.
+/// [`Error::Root`] if the root is neither `<sigml>` nor a sign, nor an element that contains one.
 pub fn from_raw(root: &Element<'_>) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     let mut findings = Findings::default();
     let mut entries = Vec::new();
@@ -160,9 +160,9 @@ fn read_entry(element: &Element<'_>, findings: &mut Findings, entries: &mut Vec<
 
 /// Returns the document that holds these signs as gestural SiGML.
 ///
-/// To lose nothing, it goes beyond SiGML 1.2: it writes the attributes `speed`, `amount`, `timescale` and
-/// `duration` if the tree has them, `digits` of a finger play, `second_size` of a circle,
-/// `approx_repetition`, and an empty `location_hand` for an empty half of a split.
+/// To lose nothing, it goes beyond SiGML 1.2: it also writes the attributes `speed`, `amount`, `timescale` and
+/// `duration` if the tree has them, `digits` of a finger play, `second_size` of a circle, `approx_repetition`, and an
+/// empty `location_hand` for an empty half of a split.
 pub fn to_gestural<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> Element<'static> {
     let mut root = Element::new("sigml");
     for sign in signs {

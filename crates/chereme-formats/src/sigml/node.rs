@@ -114,7 +114,7 @@ impl<'e, 'f> Node<'e, 'f> {
         })
     }
 
-    /// Returns one of the 26 directions; repeated letters count once.
+    /// Returns one of the 26 directions; repeated letters are ignored.
     pub(super) fn direction(&mut self, name: &str) -> Option<Direction> {
         const RIGHT: &str = "one to three of u or d, o or i, l or r, such as u, ol or dir";
         let text = self.text(name)?;
@@ -353,7 +353,7 @@ fn bend_of(text: &str) -> Option<(Bend, Spelling)> {
     fits.then_some((Bend::Joints(joints), spelling))
 }
 
-/// Splits numbers without separators: each is one digit, with one more after a point if there is one.
+/// Splits numbers without separators: each is a digit, or a digit, a point and one decimal.
 fn joined(text: &str) -> Option<Vec<String>> {
     let mut parts: Vec<String> = Vec::new();
     let mut letters = text.chars().take(16).peekable();

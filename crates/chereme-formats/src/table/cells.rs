@@ -6,9 +6,9 @@ use std::borrow::Cow;
 
 /// The most columns of a table.
 pub(crate) const COLUMNS: usize = 4096;
-/// The most cells with which all short rows together are padded.
+/// The most empty cells that are added to short rows of a table, in all.
 pub(crate) const PADDED: usize = 1 << 22;
-/// The most lines that one cell may have before a quote is suspected to be missing.
+/// The most lines of one cell; a longer one suggests that a closing quote is missing.
 const LINES: usize = 40;
 
 /// The reason why bytes could not be read as a table.
@@ -44,7 +44,7 @@ pub enum TableError {
         /// The number of columns of the first row.
         width: usize,
     },
-    /// As seconds, bare numbers would be annotations longer or later than any.
+    /// Without a unit, bare numbers would be seconds, and their annotations implausibly long or late.
     #[error(
         "line {line}: from {start} to {end} without a unit would be seconds, and no annotation is so long or so \
          late; if these are milliseconds, call the columns start_ms and end_ms, else start_s and end_s"
@@ -188,7 +188,7 @@ fn fit(mut row: Row, width: usize, findings: &mut Findings) -> Row {
     row
 }
 
-/// The characters of the bytes 0x80 to 0x9F in Windows-1252; elsewhere it is Latin-1.
+/// The characters of the bytes 0x80 to 0x9F in Windows-1252; its other bytes are Latin-1.
 pub(crate) const WINDOWS: [char; 32] = [
     '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
     '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',

@@ -26,15 +26,16 @@ pub const POINTS: &str = "TextTier";
 /// The kind of a tier of intervals.
 pub const INTERVALS: &str = "IntervalTier";
 
-/// How long a point lasts as an annotation, unless the next one begins before: one frame of 25 a second.
+/// The length of a point as an annotation, in microseconds, unless the next one begins before: one frame at 25 per
+/// second.
 const POINT_MICROS: i64 = 40_000;
-/// Times beyond this many seconds are no times of a recording.
+/// The largest plausible time of a recording, in seconds.
 const LONGEST_SECONDS: f64 = 1e9;
 
 /// Reads a TextGrid in any of Praat's three forms.
 ///
 /// # Errors
-/// If the bytes are no TextGrid, or are cut short.
+/// Fails if the bytes are no TextGrid, or are cut short.
 pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
     let (grid, mut findings) = raw::read(bytes)?;
     let transcript = from_raw(&grid, &mut findings);
@@ -64,7 +65,7 @@ fn from_raw(grid: &Grid, findings: &mut Findings) -> Transcript {
     transcript
 }
 
-/// Returns a name that no tier before has.
+/// Returns a name that no earlier tier has.
 fn unique(name: &str, at: usize, names: &mut BTreeSet<String>, findings: &mut Findings) -> String {
     let wanted = if name.trim().is_empty() {
         format!("tier {}", at + 1)
@@ -235,7 +236,7 @@ fn grid_tier(tier: &Tier, (first, last): (Instant, Instant), findings: &mut Find
     }
 }
 
-/// Returns seconds with as many decimals as microseconds need.
+/// Returns a number of seconds with as many decimals as microseconds need.
 fn seconds(value: f64) -> String {
     let text = format!("{value:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

@@ -1,7 +1,7 @@
-//! A TextGrid as the file says it.
+//! Mirrors a TextGrid file.
 //!
-//! Praat reads text files by their free-standing numbers, quoted strings and flags, and skips every other
-//! word; so does the reader, and both forms of text come out alike.
+//! Praat reads text files by their free-standing numbers, quoted strings and flags, and skips every other word. The
+//! reader does the same, and so reads both forms of text alike.
 
 use std::borrow::Cow;
 
@@ -88,17 +88,17 @@ pub enum Error {
         /// The object class that the file declares.
         class: String,
     },
-    /// The file does not begin as Praat's files do.
+    /// The file does not begin like Praat's files.
     #[error(
         "this does not begin as a TextGrid does: File type = \"ooTextFile\", Object class = \"TextGrid\""
     )]
     NoTextGrid,
-    /// The file ends, or goes on with something else, where a value belongs.
+    /// The file lacks a value at a place that needs one.
     #[error("line {line}: {expected} belongs here; the file is cut short or damaged")]
     Expected {
         /// The line, counted from 1; 0 in a binary file.
         line: u64,
-        /// The value that belongs there.
+        /// The missing value.
         expected: &'static str,
     },
 }
@@ -118,7 +118,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Grid, Findings), Error> {
     Ok((grid, findings))
 }
 
-/// Adds the mark of UTF-16 to text that has none: Praat's own files always begin with the letter F.
+/// Adds a byte-order mark to text in UTF-16 that has none, recognised by the letter F with which Praat's files begin.
 fn without_mark(bytes: &[u8]) -> Cow<'_, [u8]> {
     let mark: &[u8] = match bytes {
         [b'F', 0, ..] => &[0xff, 0xfe],

@@ -241,7 +241,7 @@ fn minus_one_if(negative: bool) -> i64 {
     -i64::from(negative)
 }
 
-/// Returns the size with its sign: `minus` is -1 for a negative number, otherwise 0.
+/// Returns `size` with its sign: `minus` is -1 for a negative number, otherwise 0.
 #[inline(always)]
 fn signed(size: i64, minus: i64) -> i64 {
     (size ^ minus) - minus

@@ -9,7 +9,7 @@ use chereme_sign::Stereotype;
 use std::collections::{BTreeMap, HashMap};
 
 impl<'w> Work<'w, '_> {
-    /// Changes and removes annotations of the file, and adds those of tiers that it has.
+    /// Changes and removes annotations of the file, and adds new ones to its tiers.
     pub(super) fn annotations(&mut self, refs: &Refs) -> Option<()> {
         let (previous, next) = (before_each(self.before), before_each(self.after));
         let mut elements: HashMap<Place, usize> = HashMap::new();
@@ -53,7 +53,7 @@ impl<'w> Work<'w, '_> {
         Some(())
     }
 
-    /// Changes an annotation that stays.
+    /// Changes an annotation that remains.
     fn annotation(
         &mut self,
         element: usize,
@@ -106,7 +106,7 @@ impl<'w> Work<'w, '_> {
         Some(())
     }
 
-    /// Returns an annotation that the file does not have, as its lines.
+    /// Returns the lines of a new annotation.
     fn block(
         &self,
         place: Place,
@@ -211,7 +211,7 @@ fn bare<'t>(tier: &raw::Tier<'t>) -> raw::Tier<'t> {
     }
 }
 
-/// Returns the id of the annotation before each one of a chain below a symbolic parent.
+/// Returns for each annotation of a chain below a symbolic parent the id of the one before it.
 fn before_each(transcript: &Transcript) -> HashMap<Place, &str> {
     let mut found = HashMap::new();
     for (tier, it) in transcript.tiers.iter().enumerate() {

@@ -9,7 +9,7 @@ use crate::eaf::write;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
-/// An element in the spelling of ELAN, which is compared, and in that of the file.
+/// An element in two spellings: ELAN's, which is used for comparison, and the file's.
 struct Part {
     plain: String,
     written: String,
@@ -18,7 +18,7 @@ struct Part {
 type Writer<'x> = Output<'x, Vec<u8>>;
 
 impl Work<'_, '_> {
-    /// Brings everything but tiers from what the old document says to what the new one says.
+    /// Changes everything but tiers from its state in the old document to that in the new one.
     pub(super) fn parts(&mut self, old: &Document<'_>, new: &Document<'_>) -> Option<()> {
         let root = self.root()?;
         if old.author != new.author {
@@ -99,7 +99,7 @@ impl Work<'_, '_> {
         self.list(root, ("EXTERNAL_REF", "EXT_REF_ID"), references, &ORDER)
     }
 
-    /// Adds the stereotypes that tier types need and the file does not have.
+    /// Adds the stereotypes that tier types need and the file lacks.
     fn constraints(
         &mut self,
         root: usize,

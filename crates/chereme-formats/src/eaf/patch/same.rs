@@ -5,8 +5,8 @@ use crate::eaf::model::{Annotation, Tier, Timing, Transcript};
 use chereme_sign::Stereotype;
 use std::collections::BTreeMap;
 
-/// Reports whether two transcripts mean the same: the order of annotations on a tier, the date, times that
-/// follow from others, and the number that counts ids make no difference.
+/// Returns whether two transcripts mean the same. The order of annotations on a tier, the date, times that follow from
+/// others, and the counter of ids make no difference.
 #[must_use]
 pub fn same_meaning(a: &Transcript, b: &Transcript) -> bool {
     a.author == b.author

@@ -10,14 +10,14 @@ use std::collections::{BTreeMap, HashMap};
 
 /// One end of an annotation at a slot.
 struct User {
-    /// Its new place; nothing for one that was left out on reading.
+    /// Its new place; `None` if it was left out on reading.
     place: Option<Place>,
     side: usize,
     /// Its new time, if it moved.
     moved: Option<Option<i64>>,
 }
 
-/// The slots of the file, and what becomes of them.
+/// The time slots of the file, and their changes.
 struct Slots {
     names: Vec<String>,
     elements: Vec<usize>,
@@ -123,7 +123,7 @@ impl Work<'_, '_> {
         })
     }
 
-    /// Finds slots for the ends at a slot of the file that moved.
+    /// Finds slots for the ends at this slot that moved.
     fn place_users(
         &self,
         slot: usize,
@@ -166,7 +166,7 @@ impl Work<'_, '_> {
         Some(())
     }
 
-    /// Finds slots for annotations that the file does not have; those of a Time_Subdivision share them.
+    /// Finds slots for new annotations; those of a Time_Subdivision share them.
     fn place_added(&self, slots: &mut Slots, refs: &mut Refs) -> Option<()> {
         let depth = |tier: usize| {
             std::iter::successors(Some(tier), |at| self.after.tiers[*at].parent)
@@ -274,7 +274,7 @@ impl Slots {
         !self.fresh.is_empty() || self.removed.contains(&true) || self.retimed.contains(&true)
     }
 
-    /// Returns the slots that are removed, or that their new time takes past a neighbour.
+    /// Returns which slots are removed, or have a new time beyond a neighbour's.
     fn out_of_order(&self) -> Vec<bool> {
         let mut gone = self.removed.clone();
         loop {

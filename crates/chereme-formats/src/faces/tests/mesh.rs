@@ -1,4 +1,4 @@
-//! Faces of points on film, and weights that are fitted to a person.
+//! Faces as points on film, and weights fitted to a person.
 
 use chereme_motion::markers::Frame;
 use chereme_motion::{Column, Face, Marker, Markers, Rate, Space, Times};
@@ -204,7 +204,7 @@ fn weights_are_fitted_so_that_one_is_as_far_as_a_person_goes() {
     assert!(!fit.suits(&other));
 }
 
-/// Signers of other people: the medians of lids and brows that two of them are known to have, and mouths that open.
+/// Tests films of signers by other people: known medians of lids and brows for two of them, and mouths that open.
 #[test]
 fn meshes_of_others_show_faces() {
     let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {

@@ -14,7 +14,7 @@ use chereme_sign::hamnosys::{BodyAction, HandsUsed, Manual, Motion, Nonmanual, S
 pub(super) use nonmanual::{read_nonmanual, write_nonmanual};
 pub(super) use write::write_manual;
 
-/// Reads the actions of the hands, one `sign_manual` after the other; those in another are its parts.
+/// Reads the actions of the hands, one `sign_manual` after the other; nested ones are the parts of a compound.
 pub(super) fn read_manual(element: &Element<'_>, findings: &mut Findings, sign: &mut Sign) {
     let nested = |child: &&Element<'_>| child.name == "sign_manual";
     if !element.children.iter().any(|child| nested(&child)) {

@@ -90,7 +90,7 @@ fn is_simple(name: &str) -> bool {
     )
 }
 
-/// Finishes a motion without nested motions; a place in it is brushed along the way.
+/// Finishes a motion without nested motions; a place in it is one that the hand brushes along.
 fn simple(kind: MotionKind, element: &Element<'_>, mut node: Node<'_, '_>) -> MotionKind {
     if node.name_number("def_locname").is_some() {
         node.warn("places named by a motion", |tag| {
@@ -307,7 +307,7 @@ fn motions(element: &Element<'_>, findings: &mut Findings) -> Vec<Motion> {
     motions
 }
 
-/// Returns the one motion of an element; several become a sequence.
+/// Returns the motion of an element; several motions become a sequence.
 fn one(element: &Element<'_>, mut motions: Vec<Motion>, findings: &mut Findings) -> Option<Motion> {
     if motions.len() < 2 {
         return motions.pop();

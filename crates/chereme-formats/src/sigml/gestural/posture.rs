@@ -92,7 +92,7 @@ fn shared<T>(one: Option<T>) -> Each<T> {
     one.map_or(Each::Unset, Each::Shared)
 }
 
-/// Replaces a value unless the new one is unset; returns whether there was one before.
+/// Replaces a value unless the new one is unset; returns whether it replaced one.
 fn over<T>(said: &mut Each<T>, own: Each<T>) -> bool {
     if own.is_unset() {
         return false;
@@ -111,7 +111,7 @@ struct Hand {
 }
 
 impl Hand {
-    /// Reads an element; `known` is the direction that was read before it.
+    /// Reads an element; `known` is the direction from an earlier element.
     fn read(element: &Element<'_>, known: Option<Aim<Direction>>, findings: &mut Findings) -> Self {
         for child in &element.children {
             unexpected(child, element, findings);
@@ -314,9 +314,9 @@ fn split_place(element: &Element<'_>, findings: &mut Findings) -> Place {
     Place::Split(next(), next())
 }
 
-/// Reads a constellation of the two hands. Of two sites the first is the touched one, on the other hand,
-/// as in a `location_hand` with another one in it: transcribers write the wrist's back, then the index
-/// finger's tip, if the dominant hand points at a watch.
+/// Reads a constellation of the two hands. Of two sites the first is the touched one, on the other hand, as in nested
+/// `location_hand` elements: for a dominant hand that points at a watch, transcribers write the wrist's back, then the
+/// index finger's tip.
 fn constellation(element: &Element<'_>, findings: &mut Findings) -> Constellation {
     let mut node = Node::new(element, findings);
     let mut hands = Constellation {
@@ -360,7 +360,7 @@ fn body_place(element: &Element<'_>, findings: &mut Findings) -> BodyPlace {
     place
 }
 
-/// Reads a location with its side; a side alone is one of `here`.
+/// Reads a location with its side; a side without a location belongs to `here`.
 fn site(
     node: &mut Node<'_, '_>,
     prefix: &str,

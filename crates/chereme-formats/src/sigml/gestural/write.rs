@@ -10,7 +10,7 @@ use chereme_sign::hamnosys::{
 };
 use std::fmt::Display;
 
-/// Returns `sign_manual`; a compound has one in it for each part.
+/// Returns `sign_manual`; that of a compound contains one for each part.
 pub(in super::super) fn write_manual(sign: &Sign) -> Element<'static> {
     if let [part] = sign.parts.as_slice() {
         return part_element(part);

@@ -9,11 +9,11 @@ use crate::roles::normal;
 use crate::tally::Findings;
 use chereme_sign::text::{did_you_mean, nearest};
 
-/// A longer annotation than this (microseconds) suggests that its times are not in seconds.
+/// Length in microseconds above which an annotation suggests that its times are not in seconds.
 const LONG: i64 = 60_000_000;
-/// So does an annotation that ends later than this (microseconds).
+/// End in microseconds beyond which an annotation suggests that its times are not in seconds.
 const LATE: i64 = 3 * 3_600_000_000;
-/// The most rows that are examined to recognise columns.
+/// The most rows that are examined to recognise the columns.
 const LOOKED_AT: usize = 200;
 
 /// A column of times.
@@ -42,7 +42,7 @@ enum Title {
     Start(Option<TimeUnit>),
     End(Option<TimeUnit>),
     Duration(Option<TimeUnit>),
-    /// The value in ELAN's exports; otherwise the id.
+    /// ELAN's exports call the value so; other tables the id.
     Annotation,
     /// Known, but unused.
     Idle,
@@ -79,14 +79,14 @@ impl Columns {
             }
         }
         if let Some(column) = annotation {
-            // If rows name an action, this column names the annotation to act on.
+            // If rows name an action, this column identifies the annotation to act on.
             let value = found.at[4].is_none() && found.at[5].is_none();
             put(&mut found.at[if value { 4 } else { 6 }], column);
         }
         let timed = found.start.is_some() && (found.end.is_some() || found.duration.is_some());
         let placed = found.at[1].is_some() || found.at[6].is_some();
         if timed && !placed {
-            // Without a column of tiers, "Gloss" is the name of one.
+            // Without a column of tiers, "Gloss" is the name of a tier.
             let is_tier = |column: &usize| normal(&header[*column]) == "gloss";
             if let Some(column) = found.at[4].take_if(|column| is_tier(column)) {
                 unknown.push((column, header[column].clone()));
@@ -168,8 +168,8 @@ impl Columns {
         Some(found)
     }
 
-    /// Refuses bare whole numbers that would be annotations longer or later than any, such as milliseconds
-    /// read as seconds.
+    /// Refuses bare whole numbers that would be implausibly long or late annotations, such as milliseconds read as
+    /// seconds.
     pub(super) fn check_plausible(&self, rows: &[Row]) -> Result<(), TableError> {
         let (Some(start), Some(end)) = (self.start, self.end) else {
             return Ok(());

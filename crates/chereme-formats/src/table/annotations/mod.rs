@@ -101,8 +101,8 @@ const NAMES: [&str; 8] = [
 /// or a column for each tier.
 ///
 /// # Errors
-/// [`TableError`] if the bytes are not a table, no column names a tier or an id, or bare whole numbers
-/// would be annotations longer than any. Faults of single rows are in the result.
+/// [`TableError`] if the bytes are not a table, no column names a tier or an id, or bare whole numbers would be
+/// implausibly long or late annotations. Faults of single rows are in the result.
 pub fn read(
     bytes: &[u8],
     unit: Option<TimeUnit>,
