@@ -15,42 +15,42 @@ use crate::error::{Error, Result};
 use crate::inventories;
 use crate::tokens;
 
-/// The beginning of the keys under which conflicts are stored.
+/// The prefix of the keys under which conflicts are stored.
 const PREFIX: &str = "conflict:";
 
 /// Something on which two sides of a merge do not agree.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct CorpusConflict {
-    /// Its number, by which it is decided.
+    /// Its number, which a decision names.
     pub number: usize,
     /// The kind of thing: `annotation`, `tier`, `recording`, `signer`, `sign` and so on.
     pub what: String,
-    /// The place: the tier and recording of an annotation, else the name.
+    /// The place: the tier and recording of an annotation, otherwise the name.
     pub place: String,
-    /// The row of the recording that it is in, or is.
+    /// The row of the recording that it belongs to, or that it is.
     pub recording: Option<i64>,
-    /// The common state; nothing if it was not there.
+    /// The common state; nothing if the row did not exist then.
     pub base: Option<Candidate>,
-    /// The candidate of this corpus, which stands; nothing if it was removed here.
+    /// The candidate of this corpus, which is in place; nothing if it was removed here.
     pub mine: Option<Candidate>,
-    /// The other candidate; nothing if it was removed there.
+    /// The candidate of the other corpus; nothing if it was removed there.
     pub theirs: Option<Candidate>,
     /// The corpus or file that the other candidate comes from.
     pub from: String,
-    /// The decision, once there is one.
+    /// The decision, if somebody has decided.
     pub decided: Option<Decision>,
 }
 
 /// One side of a conflict.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Candidate {
-    /// The start in microseconds, of an annotation.
+    /// The start in microseconds, if it is an annotation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start_us: Option<i64>,
-    /// The first microsecond after it.
+    /// The first microsecond after it, if it is an annotation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub end_us: Option<i64>,
-    /// The value of an annotation, or what differs of something else.
+    /// The value of an annotation; for other rows the fields that differ.
     pub text: String,
 }
 
@@ -65,15 +65,15 @@ impl std::fmt::Display for Candidate {
     }
 }
 
-/// The outcome of a conflict.
+/// The decision on a conflict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Decision {
     /// This corpus stays as it is.
     Mine,
-    /// The other candidate takes its place.
+    /// The other candidate replaces that of this corpus.
     Theirs,
-    /// Both stay: the other annotation goes on its tier if there is room, else on a tier next to it.
+    /// Both stay: the other annotation goes on its own tier if there is room, otherwise on a tier next to it.
     Both,
 }
 
@@ -91,7 +91,7 @@ pub(crate) struct Open {
     pub(crate) decided: Option<Decision>,
 }
 
-/// Stores a conflict, unless the same one was kept before.
+/// Stores a conflict, unless the same one is stored already.
 pub(crate) fn keep(connection: &Connection, open: &Open) -> Result<()> {
     let all = db::notes(connection, PREFIX)?;
     let same = |known: &Open| {
@@ -173,7 +173,7 @@ fn image(connection: &Connection, row: &AnnotationRow) -> Result<Image> {
     Ok(image)
 }
 
-/// Returns a uid for an annotation that a file alone has: the same one whenever the file comes again.
+/// Returns a uid for an annotation that only a file has: the same one at every import of the file.
 fn made_uid(image: &Image) -> String {
     let text = format!("{:?} {:?}", image.get("tier_id"), image.get("external_id"));
     crate::db::motion::hex(&Sha256::digest(text.as_bytes())[..16]).to_uppercase()
@@ -183,7 +183,7 @@ fn read(text: &str) -> Option<Open> {
     serde_json::from_str(text).ok()
 }
 
-/// Returns all conflicts, decided ones among them.
+/// Returns all conflicts, including decided ones.
 pub(crate) fn list(connection: &Connection) -> Result<Vec<CorpusConflict>> {
     let side = Side::now(connection);
     let mut all = Vec::new();
@@ -284,7 +284,7 @@ fn place(connection: &Connection, side: &Side<'_>, table: &str, row: &Image) -> 
     Ok(name.unwrap_or_default().to_owned())
 }
 
-/// Returns the recording of a row; nothing if the row is of none, or its recording is gone.
+/// Returns the recording that a row belongs to; nothing if it belongs to no recording, or its recording was removed.
 fn recording(
     connection: &Connection,
     side: &Side<'_>,
@@ -308,7 +308,7 @@ fn recording(
 }
 
 impl Corpus {
-    /// Returns the conflicts of merges that nobody has decided yet; all of them if `decided`.
+    /// Returns the conflicts of merges that nobody has decided yet, or all of them if `decided`.
     ///
     /// # Errors
     /// If the database fails.
@@ -321,7 +321,7 @@ impl Corpus {
     /// Decides conflicts as one operation, and returns them.
     ///
     /// # Errors
-    /// If there is no such open conflict, or both candidates cannot stand: only annotations can be there twice.
+    /// Fails if there is no such open conflict, or if both candidates cannot stand: only annotations can exist twice.
     pub fn decide(&mut self, numbers: &[usize], decision: Decision) -> Result<Vec<CorpusConflict>> {
         self.store.operation("decide", |connection| {
             edits::defer_references(connection)?;
@@ -358,7 +358,7 @@ impl Corpus {
     }
 }
 
-/// Returns a stored row with the numbers of this corpus.
+/// Returns a stored row with uids replaced by row numbers of this corpus.
 fn local(side: &Side<'_>, table: &str, image: &Image) -> Result<Image> {
     let mut local = image.clone();
     for (column, value) in &mut local {
@@ -461,7 +461,7 @@ fn both(connection: &Connection, open: &Open) -> Result<()> {
     follow(connection, open)
 }
 
-/// Returns the tier for second candidates of a tier, which is made if it is missing.
+/// Returns the tier for second candidates of a tier; creates it if it is missing.
 fn next_to(connection: &Connection, tier: &TierRow) -> Result<i64> {
     let name = format!("{} (theirs)", tier.name);
     let all = tiers::tiers(connection, tier.recording_id)?;
@@ -484,7 +484,7 @@ fn next_to(connection: &Connection, tier: &TierRow) -> Result<i64> {
     )
 }
 
-/// Brings the tokens along.
+/// Derives the tokens of the conflict's recording again.
 fn follow(connection: &Connection, open: &Open) -> Result<()> {
     let side = Side::now(connection);
     let images = [&open.theirs, &open.mine, &open.base].into_iter().flatten();

@@ -1,5 +1,5 @@
-//! Two corpora that went apart, brought together: a change of one side alone is taken, different changes of
-//! both wait for a decision.
+//! Merges two corpora that have diverged: a change that only one side made is taken over; conflicting changes of both
+//! sides wait for a decision.
 
 mod conflicts;
 #[cfg(test)]
@@ -32,19 +32,21 @@ use crate::words::counted;
 /// The result of a merge of corpora.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct MergeReport {
-    /// How many rows of each kind came from the other corpus.
+    /// Number of rows of each kind that were added from the other corpus.
     pub added: BTreeMap<String, u64>,
-    /// How many rows of each kind follow the other corpus now.
+    /// Number of rows of each kind that were changed as in the other corpus.
     pub changed: BTreeMap<String, u64>,
-    /// How many rows of each kind went, as in the other corpus.
+    /// Number of rows of each kind that were removed because the other corpus removed them.
     pub removed: BTreeMap<String, u64>,
-    /// The rows that both corpora changed in different ways; mine stands until somebody decides.
+    /// The rows that both corpora changed in different ways; this corpus's version stays in place until somebody
+    /// decides.
     pub conflicts: Vec<CorpusConflict>,
-    /// Notes for people.
+    /// Remarks about the merge for the user.
     pub notes: Vec<String>,
 }
 
-/// The tables that are merged, those first that others refer to. Tokens of annotations follow from these.
+/// The tables that are merged; a table comes after those it refers to. Tokens of annotations are not merged but
+/// derived.
 const ORDER: [&str; 16] = [
     "signer",
     "skeleton",
@@ -65,14 +67,14 @@ const ORDER: [&str; 16] = [
 ];
 
 impl Corpus {
-    /// Brings another corpus into this one as one operation; one is a copy of the other, or both are copies of a
-    /// third.
+    /// Merges another corpus into this one as one operation. One of them is a copy of the other, or both are copies of
+    /// a third.
     ///
-    /// Rows are the same by their uids. A change of one side alone is taken, field by field. Different changes
-    /// of both, a change of a row that the other side removed, and annotations without room on their tier are
-    /// conflicts: this corpus stays as it is there, and the other candidate is kept until
-    /// [`decide`](Self::decide) is called. Their common state is that of the last operation that their
-    /// histories share, or `base`.
+    /// Rows correspond if they have the same uid. A change that only one side made is taken over, field by field. Three
+    /// kinds of change are conflicts: different changes of both sides, a change of a row that the other side removed,
+    /// and an annotation without room on its tier. In a conflict this corpus stays as it is, and the other candidate is
+    /// stored until [`decide`](Self::decide) is called. The common state of the two is that after the last operation
+    /// that their histories share, or `base`.
     ///
     /// # Errors
     /// If the corpora have no common beginning and there is no `base`.
@@ -102,7 +104,7 @@ impl Corpus {
                     None => {
                         let (own, fork) =
                             db::fork(connection, there)?.ok_or_else(|| no_beginning(other))?;
-                        // An earlier merge, in either direction, is a later common state.
+                        // An earlier merge, in either direction, gives a later common state.
                         let known = db::merged_before(there, fork, connection)?;
                         let back = db::merged_before(connection, own, there)?;
                         let back = back.map(|own| Side::since(connection, own)).transpose()?;
@@ -150,15 +152,15 @@ struct Work<'c> {
     connection: &'c Connection,
     mine: Side<'c>,
     theirs: Side<'c>,
-    /// This side since the other one merged it.
+    /// The changes of this side since the other side merged it.
     back: Option<Side<'c>>,
     from: String,
     report: MergeReport,
-    /// The recordings whose tokens follow from other annotations now.
+    /// The recordings whose tokens must be derived again.
     recordings: BTreeSet<i64>,
-    /// The annotations that came from the other side, or moved as there.
+    /// The annotations that were added or moved as on the other side.
     came: BTreeSet<String>,
-    /// The signs that came from the other side.
+    /// The signs that were added from the other side.
     signs: Vec<i64>,
 }
 
@@ -176,7 +178,7 @@ impl Work<'_> {
                 .filter(|key| key.0 == table)
                 .cloned()
                 .collect();
-            // Rows of one table may refer to each other: those above go first.
+            // Rows of one table may refer to each other: those higher up go first.
             loop {
                 let before = waiting.len();
                 let mut later = Vec::new();
@@ -226,7 +228,7 @@ impl Work<'_> {
             }
         }
         self.derive()?;
-        // A sign that only a candidate names is made again if the candidate is taken.
+        // A sign that only a conflict's candidate names is created again when that candidate is taken.
         for sign in std::mem::take(&mut self.signs) {
             signs::delete_empty_sign(self.connection, sign)?;
         }
@@ -237,7 +239,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Brings the tokens of recordings to what their tiers say now.
+    /// Derives the tokens of the touched recordings again from their tiers.
     fn derive(&mut self) -> Result<()> {
         for recording in std::mem::take(&mut self.recordings) {
             let inventories = inventories::load_of(self.connection, recording)?;
@@ -246,7 +248,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Merges a row that the other side has; reports whether it could, for it may refer to one that comes later.
+    /// Merges a row of the other side. Returns false if the row refers to one that has not been merged yet.
     fn row(&mut self, key: &Key) -> Result<bool> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
         let Some(theirs) = self.theirs.row(table, uid)? else {
@@ -260,7 +262,7 @@ impl Work<'_> {
         let Some(local) = self.resolved(table, &theirs)? else {
             return Ok(false);
         };
-        // A row that both made apart has the uid of this side from now on.
+        // A row that both sides created separately has the uid of this side from now on.
         let theirs = self.mine.named(table, local.clone())?;
         match self.mine.row(table, uid)? {
             Some(mine) => self.change(key, &bases, &mine, &theirs)?,
@@ -270,8 +272,8 @@ impl Work<'_> {
         Ok(true)
     }
 
-    /// Returns the common states of a row: before the other side changed it, and as this side was when the other
-    /// one merged it.
+    /// Returns the common states of a row: its state before the other side changed it, and its state on this side when
+    /// the other side merged it.
     fn bases(&self, key: &Key) -> Result<Vec<Image>> {
         let mut bases: Vec<Image> = self
             .theirs
@@ -291,7 +293,8 @@ impl Work<'_> {
         Ok(bases)
     }
 
-    /// Returns a row with the numbers of the rows that it refers to; nothing if one of them is not there.
+    /// Returns a row with uids replaced by row numbers of this corpus, or nothing if a row that it refers to does not
+    /// exist here.
     fn resolved(&self, table: &str, image: &Image) -> Result<Option<Image>> {
         let mut local = image.clone();
         for (column, value) in &mut local {
@@ -311,7 +314,8 @@ impl Work<'_> {
         Ok(Some(local))
     }
 
-    /// Returns the token here of the annotation that a token is of there.
+    /// Returns the row of this corpus's token that corresponds to the other corpus's token `uid`, if there is one: both
+    /// belong to the same annotation.
     fn token(&self, uid: &str) -> Result<Option<i64>> {
         let there = self.theirs.row("token", uid)?;
         let annotation = there.and_then(|row| Some(row.get("annotation_id")?.as_str()?.to_owned()));
@@ -366,7 +370,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Takes a row for one of this side that has its name: both were made apart.
+    /// Merges a row with the row of the same name here: both sides created it separately.
     fn join(&mut self, key: &Key, theirs: &Image, there: i64) -> Result<()> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
         self.mine.know(table, uid, Some(there))?;
@@ -446,7 +450,7 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// Returns the annotation of this side's own that one from the other side would lie over.
+    /// Returns the annotation created or changed on this side that a row of the other side would overlap.
     fn in_the_way(&self, own: Option<i64>, row: &Image) -> Result<Option<i64>> {
         let number = |column: &str| row.get(column).and_then(Value::as_i64).unwrap_or_default();
         let (tier, start, end) = (number("tier_id"), number("start_us"), number("end_us"));
@@ -468,7 +472,7 @@ impl Work<'_> {
         Ok(None)
     }
 
-    /// Removes what the other side removed; reports whether nothing here refers to it any more.
+    /// Removes a row that the other side removed. Returns false if other rows here still refer to it.
     fn remove(&mut self, key: &Key) -> Result<bool> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
         let bases = self.bases(key)?;
@@ -511,13 +515,13 @@ impl Work<'_> {
         Ok(true)
     }
 
-    /// Keeps what the other side says of a row that this side removed or changed.
+    /// Stores a conflict about a row that both sides changed, or one changed and the other removed.
     fn disagree(&mut self, key: &Key, theirs: Option<&Image>) -> Result<()> {
         let mine = self.mine.row(&key.0, &key.1)?;
         self.conflict(key, (mine.as_ref(), theirs), None)
     }
 
-    /// Keeps a row that refers to one which this side removed.
+    /// Stores a conflict about a row that refers to a row which this side removed.
     fn homeless(&mut self, key: &Key) -> Result<()> {
         let theirs = self.theirs.row(&key.0, &key.1)?;
         self.conflict(key, (None, theirs.as_ref()), None)
@@ -549,7 +553,7 @@ impl Work<'_> {
         keep(self.connection, &open)
     }
 
-    /// Notes whose tokens follow from a row.
+    /// Marks the recordings whose tokens depend on a row.
     fn touch(&mut self, table: &str, local: &Image, id: i64) -> Result<()> {
         let number = |column: &str| local.get(column).and_then(Value::as_i64);
         match table {

@@ -1,4 +1,4 @@
-//! Three states of one row.
+//! Three-way merge of a single row: its columns in the common state, here and in the other corpus.
 
 use rusqlite::Connection;
 use serde_json::Value;
@@ -7,7 +7,7 @@ use crate::db::merge::Image;
 use crate::db::tiers;
 use crate::error::Result;
 
-/// Columns of annotations that belong together: those of each end, and those of the value.
+/// Columns of annotations that are merged together: those of each end, those of the value, and the references.
 const ANNOTATION: [&[&str]; 5] = [
     &["start_us", "file_start_ms"],
     &["end_us", "file_end_ms"],
@@ -16,7 +16,7 @@ const ANNOTATION: [&[&str]; 5] = [
     &["parent_id"],
 ];
 
-/// Columns in which this side is right whenever both changed.
+/// Columns in which this side's change wins if both sides changed them.
 const SOFT: [(&str, &str); 6] = [
     ("tier", "position"),
     ("tier", "source"),
@@ -26,7 +26,7 @@ const SOFT: [(&str, &str); 6] = [
     ("recording", "duration_us"),
 ];
 
-/// Returns the columns that follow `theirs`, and whether both sides changed some in different ways.
+/// Returns the columns to take from `theirs`, and whether both sides changed some column in different ways.
 pub(super) fn merged(table: &str, base: &Image, mine: &Image, theirs: &Image) -> (Image, bool) {
     let mut taken = Image::new();
     let mut disagree = false;
@@ -58,7 +58,7 @@ pub(super) fn merged(table: &str, base: &Image, mine: &Image, theirs: &Image) ->
     (taken, disagree)
 }
 
-/// Reports whether a row says something else than before, whatever place it has among others.
+/// Reports whether the content of a row has changed; its position among other rows does not count.
 pub(super) fn differ(table: &str, base: &Image, mine: &Image) -> bool {
     let soft = |column: &str| SOFT.contains(&(table, column));
     mine.iter()
@@ -80,7 +80,7 @@ fn groups<'g>(table: &str, row: &'g Image) -> Vec<Vec<&'g str>> {
     groups
 }
 
-/// Reports whether an annotation would end before it starts with these columns.
+/// Reports whether an annotation would end before it starts if the columns `taken` were applied.
 pub(super) fn is_backwards(mine: &Image, taken: &Image) -> bool {
     let number = |column: &str| {
         let value = taken.get(column).or_else(|| mine.get(column));
@@ -96,7 +96,7 @@ pub(super) fn is_backwards(mine: &Image, taken: &Image) -> bool {
     spans(mine) && ends.is_some_and(|(start, end)| start >= end)
 }
 
-/// Returns the annotation that says the same at the same time on the same tier.
+/// Returns the annotation with the same value, time and tier.
 pub(super) fn twin(connection: &Connection, row: &Image) -> Result<Option<i64>> {
     let number = |column: &str| row.get(column).and_then(Value::as_i64);
     let (Some(tier), Some(start), Some(end)) =

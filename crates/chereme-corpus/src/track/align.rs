@@ -1,4 +1,4 @@
-//! Where one track lies on another's clock, found from what moves in both.
+//! Finds the position of one track on another track's clock from movement that both show.
 
 use chereme_analysis::align::{self, Signal as Samples};
 use chereme_motion::anatomy::Part;
@@ -19,7 +19,7 @@ use crate::error::{Error, Result};
 pub struct Signal {
     /// The track's name.
     pub track: String,
-    /// Joints, points or curves, by name; by default the wrists, and every channel if no wrist is known.
+    /// Names of joints, points or curves; by default the wrists, or every channel if no wrist is known.
     pub channels: Vec<String>,
 }
 
@@ -34,35 +34,35 @@ impl Signal {
     }
 }
 
-/// Where a track lies on the recording's clock, as its movement says.
+/// The position of a track on the recording's clock, inferred from its movement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Alignment {
     /// The track that would be moved.
     pub track: String,
     /// The track that it is compared with.
     pub to: String,
-    /// The compared channels of the two.
+    /// The compared channels of the two tracks.
     pub channels: [Vec<String>; 2],
-    /// Its offset on the recording's clock now, in microseconds.
+    /// Its present offset on the recording's clock, in microseconds.
     pub offset_now_us: i64,
-    /// Its offset on the recording's clock at which the two are most alike, in microseconds.
+    /// The offset on the recording's clock at which the two speeds are most alike, in microseconds.
     pub offset_us: i64,
-    /// The correlation of the two speeds there, at most 1.
+    /// The correlation of the two speeds at `offset_us`, at most 1.
     pub correlation: f64,
-    /// The best correlation of an offset elsewhere.
+    /// The best correlation at any offset away from `offset_us`.
     pub runner_up: f64,
-    /// How sure the offset is, from 0 to 1; below 0.5 look at both before it is used.
+    /// Confidence in the offset, from 0 to 1; below 0.5 a person should look at both tracks before using it.
     pub confidence: f64,
 }
 
 impl Corpus {
-    /// Finds where a track of a recording lies on the clock of another of its tracks: the offset at which the speeds
-    /// of the two, such as those of a wrist, are most alike. Nothing is changed.
+    /// Finds the position of a track on the clock of another track of its recording: the offset at which their speeds,
+    /// such as those of a wrist, are most alike. Changes nothing.
     ///
-    /// `limit_us` is how far from its offset now it may lie.
+    /// `limit_us` is the largest distance from its present offset.
     ///
     /// # Errors
-    /// If there is no such track or channel, or the two share no movement.
+    /// Fails if there is no such track or channel, or the two share no movement.
     pub fn align_track(
         &self,
         recording: &Name,
@@ -99,7 +99,7 @@ impl Corpus {
     }
 }
 
-/// Returns how fast the channels of a track are, on the recording's clock, and their names.
+/// Returns the mean speed of a track's channels over time on the recording's clock, and their names.
 fn signal(
     connection: &Connection,
     row: &TrackRow,
@@ -131,7 +131,7 @@ fn signal(
     Ok((Samples { points }, names))
 }
 
-/// Places by channel and frame, and the time of each frame.
+/// Positions by channel and frame, and the time of each frame.
 struct Paths {
     times: Vec<f64>,
     places: Vec<Vec<Option<DVec3>>>,
@@ -145,7 +145,7 @@ fn unknown(wanted: &str, names: &[String]) -> Error {
         .advise("`chereme list CORPUS tracks` lists tracks; export one as .csv to see its channels")
 }
 
-/// Returns the numbers of the wanted names, or those of `usual` if none is wanted, or all.
+/// Returns the indices of the wanted names; those of `usual` if none is wanted, or all.
 fn chosen(names: &[String], wanted: &[String], usual: Vec<usize>) -> Result<Vec<usize>> {
     if wanted.is_empty() {
         return Ok(if usual.is_empty() {

@@ -1,4 +1,4 @@
-//! Tracks of a recording as operations: added, moved on the clock, renamed, removed.
+//! Operations on the tracks of a recording: add, move on the clock, rename, remove.
 
 use chereme_motion::Span;
 
@@ -12,9 +12,9 @@ use crate::error::{Error, Result};
 /// A change of a track.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TrackChange {
-    /// Its own time 0 lies there on the recording's clock, in microseconds.
+    /// The time of its own time 0 on the recording's clock, in microseconds.
     Offset(i64),
-    /// It has another name.
+    /// Its new name.
     Name(String),
     /// It is removed, with all its numbers.
     Remove,
@@ -31,8 +31,8 @@ impl Corpus {
         tracks::tracks(connection, row.id)
     }
 
-    /// Returns what the track of that row holds, each number as its file has it: all of it, or the frames that lie
-    /// in a span of the recording's clock. Frame 0 is then the first of these.
+    /// Returns the content of the track of that row, with each number as in its file: all of it, or the frames within a
+    /// span of the recording's clock. Frame 0 is then the first frame of the span.
     ///
     /// # Errors
     /// If there is no such track, or it is damaged.

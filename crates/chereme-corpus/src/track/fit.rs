@@ -1,4 +1,4 @@
-//! A skeleton fitted to the markers of a recording, by command only.
+//! Fits a skeleton to the markers of a recording; runs only on command.
 
 use std::sync::Arc;
 
@@ -15,7 +15,8 @@ use crate::error::{Error, Result};
 use crate::movement;
 use crate::picture::built_in_body;
 
-/// A median distance above this, in metres, or markers seen in a smaller share of frames, make no capture.
+/// The largest median distance of usable results, in metres. A larger distance, or markers that are missing in too many
+/// frames, give a warning.
 const FAR: f64 = 0.02;
 const SEEN: f64 = 0.6;
 
@@ -24,17 +25,17 @@ const SEEN: f64 = 0.6;
 pub struct FitReport {
     /// The track of markers.
     pub markers: String,
-    /// The name of the new track with the movement; nothing if it was not stored.
+    /// The name of the new track with the movement; nothing if nothing was stored.
     pub track: Option<String>,
-    /// The size of the skeleton relative to the given one.
+    /// The size of the fitted skeleton relative to the given one.
     pub scale: f64,
-    /// The frames that were fitted.
+    /// The number of fitted frames.
     pub frames: usize,
-    /// Frames with too few markers, in which the posture before is held.
+    /// The number of frames with too few markers, which repeat the posture before them.
     pub held: usize,
     /// The median of the markers' median distances, in millimetres.
     pub median_mm: f64,
-    /// Each marker with its distance from where the skeleton has it.
+    /// The distance of each marker from its place on the fitted skeleton.
     pub residuals: Vec<FitResidual>,
     /// Labels of markers that belong to no known bone.
     pub unused: Vec<String>,
@@ -42,7 +43,7 @@ pub struct FitReport {
     pub findings: Vec<String>,
 }
 
-/// How far a marker is from where the fitted skeleton has it.
+/// The distance of a marker from its place on the fitted skeleton.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FitResidual {
     /// The marker's label.
@@ -51,9 +52,9 @@ pub struct FitResidual {
     pub joint: String,
     /// The median distance in millimetres.
     pub median_mm: f64,
-    /// The distance that 19 of 20 frames are below, in millimetres.
+    /// The 95th percentile of the distance, in millimetres.
     pub most_mm: f64,
-    /// The share of frames in which it is seen.
+    /// The share of frames in which the marker is seen.
     pub seen: f64,
 }
 

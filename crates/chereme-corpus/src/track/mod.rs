@@ -2,13 +2,13 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`store`] | a track into rows and blocks |
-//! | [`read`] | rows and blocks into a track, whole or in part |
-//! | [`change`] | tracks of a recording as operations: added, moved on the clock, renamed, removed |
-//! | [`align`] | where one track lies on another's clock, found from their movement |
-//! | [`fit`] | a skeleton fitted to markers |
-//! | [`piece`] | points of a span, to look at |
-//! | [`table`] | a track as a table of its exact numbers |
+//! | [`store`] | writes a track into rows and blocks |
+//! | [`read`] | reads a track from rows and blocks, whole or in part |
+//! | [`change`] | operations on tracks of a recording: add, move on the clock, rename, remove |
+//! | [`align`] | finds the position of one track on another's clock from their movement |
+//! | [`fit`] | fits a skeleton to markers |
+//! | [`piece`] | points within a span, for display |
+//! | [`table`] | writes a track as a table of its exact numbers |
 
 pub(crate) mod align;
 mod change;
@@ -29,7 +29,7 @@ pub use change::TrackChange;
 pub use fit::{FitReport, FitResidual};
 pub use piece::PointsPiece;
 
-/// What a track holds.
+/// The content of a track.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Track {
     /// Movement of a skeleton.
@@ -58,38 +58,39 @@ impl Track {
 /// Movement of a skeleton in its file's unit and axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SkeletonTrack {
-    /// The movement in the file's own unit and axes; each number is stored exactly.
+    /// The movement in the file's own unit and axes; each number is stored exactly as read.
     pub clip: Clip,
-    /// How the file's numbers become metres in model space.
+    /// The conversion of the file's numbers to metres in model space.
     pub convention: Convention,
-    /// Which joint is which part of the body, where a person says so.
+    /// The body part of each joint, if a person has set them.
     pub roles: Option<Roles>,
 }
 
 /// A film, sound or picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MediaFile {
-    /// Where the file lies: a path or an address.
+    /// The location of the file: a path or an address.
     pub url: String,
     /// Its media type, such as `video/mp4`.
     pub media_type: Option<String>,
 }
 
-/// A track to be stored.
+/// A track to store.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewTrack {
-    /// The name, such as `markers` or `face`; ` 2` and so on follows if the recording has one of that name.
+    /// The name, such as `markers` or `face`; a number (` 2`, ` 3` …) is appended if the recording already has a track
+    /// of that name.
     pub name: String,
-    /// Where the track's own time 0 lies on the recording's clock, in microseconds; may be negative.
+    /// The time of the track's own time 0 on the recording's clock, in microseconds; may be negative.
     pub offset_us: i64,
     /// The time of day of the track's own time 0, in microseconds after midnight, if it is known.
     pub clock_us: Option<i64>,
-    /// What it holds.
+    /// The content.
     pub track: Track,
 }
 
 impl NewTrack {
-    /// Returns a track that starts with its recording.
+    /// Returns a track that starts together with its recording.
     #[must_use]
     pub fn new(name: impl Into<String>, track: Track) -> Self {
         Self {

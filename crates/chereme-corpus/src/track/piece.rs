@@ -1,4 +1,4 @@
-//! Points of a span of a recording, to look at.
+//! Points within a span of a recording, for display.
 
 use chereme_motion::{Instant, Markers, Span};
 
@@ -7,14 +7,14 @@ use crate::Corpus;
 use crate::db::tracks;
 use crate::error::Result;
 
-/// The frames of a track of points in a span.
+/// The frames of a track of points within a span.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointsPiece {
     /// The track.
     pub track: TrackRow,
     /// Its points at the frames of the span.
     pub markers: Markers,
-    /// The moment of the recording that is time 0 of these points.
+    /// The moment of the recording that corresponds to time 0 of these points.
     pub start: Instant,
 }
 
@@ -33,7 +33,7 @@ impl PointsPiece {
 }
 
 impl Corpus {
-    /// Returns the points of a span of a recording, of every track of markers that has frames there.
+    /// Returns the points within a span of a recording, for every track of markers that has frames there.
     ///
     /// # Errors
     /// If there is no such recording, or rows or blocks are damaged.
@@ -49,7 +49,7 @@ impl Corpus {
             if markers.frames() == 0 {
                 continue;
             }
-            // Frames of an even rate count from the first one of the span.
+            // Frames at an even rate are counted from the first one of the span.
             let skipped = track.rate.map_or(0, |rate| {
                 let first = rate.frames_in(span.shifted(-track.offset_us)).start;
                 rate.instant(first).micros()

@@ -1,4 +1,4 @@
-//! Tracks out of rows and blocks, whole or in part.
+//! Reads tracks from rows and blocks, whole or in part.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -20,7 +20,7 @@ use crate::db::tracks::{self, ChannelRow};
 use crate::error::Result;
 use crate::movement::{self, BLOCK_FRAMES};
 
-/// Returns a track, whole, or the frames of it that lie in a span of the recording's clock.
+/// Returns a track: all of it, or the frames within a span of the recording's clock.
 ///
 /// # Errors
 /// If rows or blocks are damaged.
@@ -58,7 +58,7 @@ fn place(row: &TrackRow) -> String {
     format!("track {}", row.id)
 }
 
-/// The numbers of a track, by channel, and when its frames are.
+/// The numbers of a track by channel, and the times of its frames.
 struct Numbers {
     times: Times,
     channels: Vec<(ChannelRow, Vec<Column>)>,
@@ -148,7 +148,7 @@ pub(crate) fn markers(
     })
 }
 
-/// Returns when the frames of a track are.
+/// Returns the times of a track's frames.
 fn times(connection: &Connection, row: &TrackRow) -> Result<Times> {
     if let Some(rate) = row.rate {
         return Ok(Times::Even(rate));

@@ -1,4 +1,4 @@
-//! Tracks into rows and blocks.
+//! Writes tracks into rows and blocks.
 
 use std::collections::BTreeMap;
 
@@ -21,12 +21,12 @@ use crate::db::tracks::{self, ChannelRow, TrackForm};
 use crate::error::{Error, Result};
 use crate::movement::{self, BLOCK_FRAMES, Layout};
 
-/// The group of blocks with the time of each frame.
+/// The name of the group of blocks that hold the time of each frame.
 pub(super) const TIME: &str = "time";
-/// The groups of points and of scalar channels.
+/// The names of the groups of points and of scalar channels.
 const POINTS: &str = "points";
 const CURVES: &str = "curves";
-/// How many channels are stored together at most, so that some of many are read alone.
+/// The largest number of channels in one group, so that a few of many channels can be read alone.
 const TOGETHER: usize = 96;
 
 /// The properties of markers besides their numbers.
@@ -214,7 +214,7 @@ fn row(
     }
 }
 
-/// Stores channels with the columns of each, group by group, and the times of frames that have their own.
+/// Stores channels with their columns, group by group, and the frame times if they are not at an even rate.
 fn numbers(
     connection: &Connection,
     row: &TrackRow,
@@ -257,7 +257,7 @@ fn blocks(connection: &Connection, track: i64, group: &str, columns: &[&Column])
     Ok(())
 }
 
-/// Stores a skeleton's movement as unit quaternions and places of joints, exactly.
+/// Stores a skeleton's movement exactly, as unit quaternions and positions of joints.
 fn skeleton_track(
     connection: &Connection,
     recording_id: i64,
@@ -320,7 +320,7 @@ fn skeleton_track(
     Ok(track)
 }
 
-/// Returns the document of a skeleton: like that of a BVH without channels, with rotations at rest besides.
+/// Returns the document of a skeleton: like that of a BVH file without channels, plus the rest rotations.
 fn document(skeleton: &chereme_motion::Skeleton) -> Result<String> {
     let exact = |value: f64| value.to_string().parse::<Number>().unwrap_or(Number::ZERO);
     let place = |at: chereme_motion::glam::DVec3| at.to_array().map(exact);

@@ -8,8 +8,8 @@ use chereme_motion::{Curves, Markers, Times};
 use super::Track;
 use crate::error::{Error, Result};
 
-/// Writes a frame a row: its number, its time in seconds on the track's own clock, and every column's number as the
-/// file has it; a gap is an empty cell.
+/// Writes one row for each frame: its number, its time in seconds on the track's own clock, and the numbers of all
+/// columns as in the file; a gap is an empty cell.
 ///
 /// # Errors
 /// If the track is neither markers nor curves, or `out` fails.
