@@ -18,7 +18,7 @@ pub(crate) struct AttributeRow {
     pub(crate) number: Option<f64>,
 }
 
-/// Makes these the attributes of a token; those that stay as they are are not touched.
+/// Sets the attributes of a token; leaves rows that do not change untouched.
 pub(crate) fn set(connection: &Connection, token: i64, rows: &[AttributeRow]) -> Result<()> {
     if of_tokens(connection, &[token])?
         .remove(&token)
@@ -70,7 +70,7 @@ pub(crate) fn names(connection: &Connection) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// Returns the tokens for which an attribute of one of these names passes, and those that have one at all.
+/// Returns the tokens with an attribute of one of these names that passes, and all tokens with such an attribute.
 ///
 /// An entry of a lexicon has its own attributes; every other token of a sign has those of the sign's entries.
 pub(crate) fn tokens_that(
@@ -117,17 +117,17 @@ pub(crate) fn tokens_that(
     Ok((passing, having))
 }
 
-/// An attribute as an overview shows it.
+/// Summary of an attribute for an overview.
 pub(crate) struct Described {
     /// Its name.
     pub(crate) name: String,
     /// How many entries have it.
     pub(crate) entries: u64,
-    /// The least and the greatest of its numbers, where all are numbers.
+    /// The least and the greatest number, if all its values are numbers.
     pub(crate) range: Option<(f64, f64)>,
 }
 
-/// Returns every attribute with how often it is there.
+/// Returns every attribute with the number of entries that have it.
 pub(crate) fn described(connection: &Connection) -> Result<Vec<Described>> {
     let mut statement = connection.prepare_cached(
         "SELECT name, count(*), count(number), min(number), max(number) FROM attribute

@@ -15,7 +15,7 @@ pub(crate) fn integrity(connection: &Connection) -> Result<Vec<String>> {
     Ok(lines.into_iter().filter(|line| line != "ok").collect())
 }
 
-/// Returns the rows that refer to rows that are not there, as table, row and table referred to.
+/// Returns the rows with references to missing rows, as table, row and table referred to.
 pub(crate) fn broken_references(connection: &Connection) -> Result<Vec<(String, i64, String)>> {
     let mut statement = connection.prepare("PRAGMA foreign_key_check")?;
     let rows = statement
@@ -60,12 +60,12 @@ pub(crate) fn tokens(connection: &Connection) -> Result<i64> {
     Ok(connection.query_row("SELECT count(*) FROM token", [], |row| row.get(0))?)
 }
 
-/// Returns how many row changes the running work has made since the last time it was asked.
+/// Returns the number of row changes that the running operation has recorded so far.
 pub(crate) fn changes(connection: &Connection) -> Result<i64> {
     Ok(connection.query_row("SELECT count(*) FROM temp.change", [], |row| row.get(0))?)
 }
 
-/// Runs `work`, takes back what it did, and returns what it gave.
+/// Runs `work`, rolls its changes back, and returns its result.
 pub(crate) fn tried<T>(connection: &Connection, work: impl FnOnce() -> Result<T>) -> Result<T> {
     connection.execute_batch("SAVEPOINT tried")?;
     let done = work();

@@ -1,4 +1,4 @@
-//! Columns that hold one of a few words, read and written as the types that these words stand for.
+//! Columns that hold one of a few fixed words, read and written as Rust enums.
 //!
 //! The schema checks each of these columns against its list of words, so that reading fails only on a damaged file.
 
@@ -70,7 +70,7 @@ pub(crate) fn role(row: &Row<'_>, column: usize) -> rusqlite::Result<TierRole> {
     ))
 }
 
-/// Returns the three columns of a tier's role: its kind, its component and its feature.
+/// Returns the values of the three columns of a tier's role: its kind, its component and its feature.
 pub(super) fn role_parts(role: &TierRole) -> (&'static str, Option<&'static str>, Option<&str>) {
     let (component, feature) = role.component().unzip();
     (
@@ -80,7 +80,7 @@ pub(super) fn role_parts(role: &TierRole) -> (&'static str, Option<&'static str>
     )
 }
 
-/// Writes a role as the keys `role`, `component` and `feature` of the object around it.
+/// Writes a role as the keys `role`, `component` and `feature` of the enclosing object.
 pub(super) fn serialize_role<S: Serializer>(role: &TierRole, out: S) -> Result<S::Ok, S::Error> {
     let (kind, component, feature) = role_parts(role);
     let mut map = out.serialize_map(Some(3))?;
@@ -90,7 +90,7 @@ pub(super) fn serialize_role<S: Serializer>(role: &TierRole, out: S) -> Result<S
     map.end()
 }
 
-/// Reads a phase from its two columns, the name and then the place among several middle ones.
+/// Reads a phase from its two columns: the name, and the number among several middle phases.
 pub(crate) fn phase(row: &Row<'_>, column: usize) -> rusqlite::Result<Option<Phase>> {
     let name = row.get_ref(column)?.as_str_or_null()?;
     let place: i64 = row.get(column + 1)?;
@@ -102,7 +102,7 @@ pub(crate) fn phase(row: &Row<'_>, column: usize) -> rusqlite::Result<Option<Pha
     })
 }
 
-/// Returns the name under which a phase is stored, which does not count middle ones.
+/// Returns the name under which a phase is stored; all middle phases have the same name.
 pub(crate) fn phase_name(phase: Phase) -> &'static str {
     match phase {
         Phase::Initial => "initial",
@@ -111,7 +111,7 @@ pub(crate) fn phase_name(phase: Phase) -> &'static str {
     }
 }
 
-/// Returns the place of a phase among several of its name: middle ones are counted from 1, the others are 0.
+/// Returns the number of a phase among those of its name: middle phases are counted from 1, the others are 0.
 pub(crate) fn phase_place(phase: Option<Phase>) -> i64 {
     match phase {
         Some(Phase::Middle(place)) => i64::from(place),
@@ -119,7 +119,7 @@ pub(crate) fn phase_place(phase: Option<Phase>) -> i64 {
     }
 }
 
-/// How a recording or a token came about.
+/// The way in which a recording or a token came about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Origin {
@@ -130,7 +130,7 @@ pub enum Origin {
     Made,
     /// Synthesised by another program.
     Generated,
-    /// An entry of a lexicon, without a recording; of tokens only.
+    /// An entry of a lexicon, without a recording; only for tokens.
     Lexicon,
 }
 
@@ -152,7 +152,7 @@ impl Origin {
         Self::of_stored(name)
     }
 
-    /// Returns the origin of a recording that has this name.
+    /// Returns the origin of that name for a recording.
     ///
     /// # Errors
     /// [`Error::Wrong`] if no recording can have it.
@@ -172,7 +172,7 @@ impl fmt::Display for Origin {
     }
 }
 
-/// Who an annotation comes from.
+/// The source of an annotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum AnnotationOrigin {
@@ -200,11 +200,11 @@ impl AnnotationOrigin {
     }
 }
 
-/// Whether an annotation or a component of a token has a value.
+/// State of the value of an annotation, or of a component of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ValueState {
-    /// It has.
+    /// It has a value.
     Value,
     /// Nobody has coded it.
     #[default]
@@ -249,7 +249,7 @@ impl ValueState {
         }
     }
 
-    /// Returns the text that files, tables and commands write in place of a value: `n/a`, `unclear`, or `unset`.
+    /// Returns the text that stands for a missing value in files, tables and commands: `n/a`, `unclear`, or `unset`.
     #[must_use]
     pub fn missing_text(self) -> Option<&'static str> {
         match self {
@@ -270,7 +270,7 @@ impl ValueState {
         }
     }
 
-    /// Returns the state that an annotation file says with this text on a tier of glosses or components.
+    /// Returns the state that a text in an annotation file stands for, on a tier of glosses or components.
     #[must_use]
     pub fn of_file_text(text: &str) -> Self {
         match text {

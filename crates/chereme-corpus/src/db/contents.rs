@@ -1,4 +1,4 @@
-//! Rows as a window shows them: many at once, little of each.
+//! Rows for display in a window: many at once, with few columns each.
 
 use chereme_motion::{Instant, Rate, Span};
 use rusqlite::{Connection, OptionalExtension};
@@ -17,7 +17,7 @@ pub(crate) fn generation(connection: &Connection) -> Result<i64> {
         .query_row([], |row| row.get(0))?)
 }
 
-/// Returns whether the database was opened to be read only, as where the file may not be written.
+/// Returns whether the database is open for reading only, for example because the file is write-protected.
 pub(crate) fn is_read_only(connection: &Connection) -> Result<bool> {
     Ok(connection.is_readonly("main")?)
 }
@@ -123,7 +123,7 @@ pub(crate) fn annotations(connection: &Connection, tier: i64) -> Result<Annotati
     Ok(columns)
 }
 
-/// Returns what stands before and after a token on its tier, at most `most` annotations to each side.
+/// Returns the annotations before and after a token on its tier, at most `most` on each side.
 pub(crate) fn around(connection: &Connection, token: i64, most: usize) -> Result<Around> {
     let mut around = Around {
         token,

@@ -1,4 +1,4 @@
-//! The whole database for people without this program: a compact copy, and a table at a time.
+//! Exports of the whole database for people without this program: a compact copy, and single tables as text.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use super::motion::hex;
 use super::open;
 use crate::error::Result;
 
-/// The tables for a reader of the data, each after those it builds on.
+/// The tables that a reader of the data needs, each after those it refers to.
 pub(crate) const TABLES: [&str; 24] = [
     "meta",
     "signer",
@@ -43,7 +43,7 @@ pub(crate) fn copy(connection: &Connection, to: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Opens such a copy, to read it; that leaves its bytes as they are.
+/// Opens such a copy for reading, which does not change its bytes.
 pub(crate) fn read_copy(path: &Path) -> Result<Connection> {
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let mut connection = Connection::open_with_flags(path, flags)?;
@@ -52,8 +52,8 @@ pub(crate) fn read_copy(path: &Path) -> Result<Connection> {
     Ok(connection)
 }
 
-/// Calls `take` with the names of a table's columns, then with each row as text. An unset field is empty, bytes are
-/// hexadecimal, and bytes of kept files are left out.
+/// Calls `take` with the names of a table's columns, then with each row as text. A null is an empty text, bytes are in
+/// hexadecimal, and the bytes of stored files are left out.
 pub(crate) fn table(
     connection: &Connection,
     table: &str,

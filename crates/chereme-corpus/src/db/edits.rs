@@ -1,4 +1,4 @@
-//! Statements that only edits of annotations, tiers, recordings and signs need.
+//! SQL statements that only edits of annotations, tiers, recordings and signs need.
 
 use rusqlite::{Connection, params};
 
@@ -6,13 +6,13 @@ use super::recordings::{RecordingRow, SignerRow};
 use crate::db::columns::Col;
 use crate::error::Result;
 
-/// Lets rows refer to missing ones until the transaction ends, so that they can go in any order.
+/// Allows references to missing rows until the transaction ends, so that rows can be written in any order.
 pub(crate) fn defer_references(connection: &Connection) -> Result<()> {
     connection.execute_batch("PRAGMA defer_foreign_keys = ON;")?;
     Ok(())
 }
 
-/// Returns the annotations that a file called `id`, of one recording or of any.
+/// Returns the annotations with the id `id` in their file, of one recording or of all.
 pub(crate) fn called(
     connection: &Connection,
     recording: Option<i64>,
@@ -28,7 +28,7 @@ pub(crate) fn called(
     Ok(ids)
 }
 
-/// Returns the values that a tier's annotations have, and how many have each.
+/// Returns the values of a tier's annotations, and the number of annotations that have each.
 pub(crate) fn values_of_tier(connection: &Connection, tier: i64) -> Result<Vec<(String, i64)>> {
     let mut statement = connection.prepare_cached(
         "SELECT value, count(*) FROM annotation WHERE tier_id = ?1 AND state = 'value'
@@ -40,7 +40,7 @@ pub(crate) fn values_of_tier(connection: &Connection, tier: i64) -> Result<Vec<(
     Ok(values)
 }
 
-/// Deletes the annotations of a tier, and returns how many they were.
+/// Deletes the annotations of a tier, and returns their number.
 pub(crate) fn delete_annotations(connection: &Connection, tier: i64) -> Result<usize> {
     let deleted = connection
         .prepare_cached("DELETE FROM annotation WHERE tier_id = ?1")?
@@ -48,7 +48,7 @@ pub(crate) fn delete_annotations(connection: &Connection, tier: i64) -> Result<u
     Ok(deleted)
 }
 
-/// Gives the glosses of all gloss tiers that say `old` the value `new`, and returns how many.
+/// Replaces the value `old` by `new` on all gloss tiers, and returns the number of changed annotations.
 pub(crate) fn regloss(connection: &Connection, old: &str, new: &str) -> Result<usize> {
     let changed = connection
         .prepare_cached(
@@ -90,7 +90,7 @@ pub(crate) fn update_signer(connection: &Connection, row: &SignerRow) -> Result<
     Ok(())
 }
 
-/// Gives the tiers of a participant another name for that person.
+/// Renames a participant on all tiers.
 pub(crate) fn rename_participant(connection: &Connection, old: &str, new: &str) -> Result<()> {
     connection
         .prepare_cached("UPDATE tier SET participant = ?2 WHERE participant = ?1")?
@@ -98,7 +98,7 @@ pub(crate) fn rename_participant(connection: &Connection, old: &str, new: &str) 
     Ok(())
 }
 
-/// Returns the recordings that show a signer: those of that signer, and those with tiers of that participant.
+/// Returns the recordings that show a signer: the signer's own, and those with tiers for that participant.
 pub(crate) fn recordings_of_signer(connection: &Connection, signer: i64) -> Result<Vec<i64>> {
     let mut statement = connection.prepare_cached(
         "SELECT id FROM recording WHERE signer_id = ?1

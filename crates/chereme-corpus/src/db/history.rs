@@ -27,11 +27,11 @@ const PART_BYTES: usize = 4 << 20;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum OperationKind {
-    /// Work of its own.
+    /// Ordinary work.
     Do,
-    /// It takes another back.
+    /// An undo of another operation.
     Undo,
-    /// It does one again that was taken back.
+    /// A redo of an undone operation.
     Redo,
 }
 
@@ -50,25 +50,25 @@ impl OperationKind {
 pub struct OperationRow {
     /// Its number, counted up from 1.
     pub id: i64,
-    /// When, as `YYYY-MM-DDTHH:MM:SSZ`.
+    /// The time, as `YYYY-MM-DDTHH:MM:SSZ`.
     pub at: String,
-    /// Who.
+    /// The author.
     pub author: String,
-    /// Whether it was work of its own, an undo or a redo.
+    /// The kind: ordinary work, an undo or a redo.
     pub kind: OperationKind,
-    /// The operation that an undo or redo is about.
+    /// The operation that an undo or redo refers to.
     pub target: Option<i64>,
     /// The kind of work, such as `import`.
     pub name: String,
     /// A summary of the operation for people.
     pub summary: String,
-    /// How many rows changed.
+    /// The number of changed rows.
     pub changes: i64,
-    /// Whether it stands: it is not taken back at this time.
+    /// Whether it is in effect, that is, not undone at present.
     pub stands: bool,
 }
 
-/// Writes the operation's row, whose number the changeset will carry.
+/// Inserts the operation's row and returns its number, which the changeset will have too.
 pub(super) fn begin(connection: &Connection, author: &str, name: &str) -> Result<i64> {
     insert_operation(connection, author, OperationKind::Do, None, name)
 }
@@ -88,7 +88,7 @@ fn insert_operation(
     Ok(connection.last_insert_rowid())
 }
 
-/// Packs the recorded changes into the operation's changeset; without any the operation is no more.
+/// Packs the recorded changes into the operation's changeset; deletes the operation if nothing changed.
 pub(super) fn finish(
     connection: &Connection,
     operation: i64,
@@ -190,7 +190,7 @@ pub(super) fn redo(
     invert(connection, author, kind, pair, progress)
 }
 
-/// The operations that stand and can be undone, and those that can be redone, oldest first.
+/// Returns the operations that are in effect and can be undone, and those that can be redone, oldest first.
 fn stacks(connection: &Connection) -> Result<(Vec<i64>, Vec<i64>)> {
     let mut statement =
         connection.prepare_cached("SELECT id, kind, target FROM operation ORDER BY id")?;
@@ -216,7 +216,7 @@ fn stacks(connection: &Connection) -> Result<(Vec<i64>, Vec<i64>)> {
     Ok((done, undone))
 }
 
-/// Applies the inverse of `source`'s changeset as an operation of `kind` about `target`.
+/// Applies the inverse of `source`'s changeset as an operation of `kind` on `target`.
 fn invert(
     connection: &Connection,
     author: &str,
@@ -257,7 +257,7 @@ fn invert(
         .ok_or_else(|| damaged(format!("operation {source}"), "its changeset is empty"))
 }
 
-/// Returns the parts of all changesets, as operation and number, oldest first.
+/// Returns the parts of all changesets, as numbers of operation and part, oldest first.
 pub(super) fn parts(connection: &Connection) -> Result<Vec<(i64, i64)>> {
     let sql = "SELECT operation_id, part FROM changeset ORDER BY operation_id, part";
     let mut statement = connection.prepare(sql)?;
@@ -267,7 +267,7 @@ pub(super) fn parts(connection: &Connection) -> Result<Vec<(i64, i64)>> {
     Ok(rows)
 }
 
-/// Writes a part of a changeset again as a newer schema has its rows, with `added` more changes.
+/// Replaces a part of a changeset by its lines in the format of a newer schema, with `added` more changes.
 pub(super) fn replace_part(
     connection: &Connection,
     operation: i64,
@@ -315,7 +315,7 @@ pub(crate) struct RowChange {
     pub(crate) after: Value,
 }
 
-/// Gives the changes of an operation to `take`, in order.
+/// Calls `take` with the changes of an operation, in order.
 pub(crate) fn each_change(
     connection: &Connection,
     operation: i64,
@@ -342,13 +342,13 @@ pub(crate) fn each_change(
     Ok(())
 }
 
-/// Returns how many operations can be undone, and how many redone.
+/// Returns the number of operations that can be undone, and of those that can be redone.
 pub(crate) fn steps(connection: &Connection) -> Result<(usize, usize)> {
     let (done, undone) = stacks(connection)?;
     Ok((done.len(), undone.len()))
 }
 
-/// Returns the name of a row as people know it; `None` if it is gone or has no name.
+/// Returns the name of a row as the user knows it; `None` if it was removed or has no name.
 pub(crate) fn name_of(connection: &Connection, table: &str, id: i64) -> Result<Option<String>> {
     let sql = match table {
         "recording" => "SELECT name FROM recording WHERE id = ?1",
@@ -365,7 +365,7 @@ pub(crate) fn name_of(connection: &Connection, table: &str, id: i64) -> Result<O
         .optional()?)
 }
 
-/// Returns the row that a tier refers to by `column`; `None` if it is gone.
+/// Returns the row that `column` of a row refers to; `None` if that row was removed.
 pub(crate) fn reference_of(
     connection: &Connection,
     table: &str,
@@ -381,10 +381,10 @@ pub(crate) fn reference_of(
         .optional()?)
 }
 
-/// The statements that take changes of a table's rows back; `?1` and `?2` are rows as JSON.
+/// The statements that undo changes of a table's rows; `?1` and `?2` are rows as JSON.
 struct Inverse {
     key: String,
-    /// The row that has the key of `?1`, as JSON.
+    /// Selects the row that has the key of `?1`, as JSON.
     find: String,
     delete: String,
     insert: String,
@@ -398,7 +398,7 @@ impl Inverse {
         let key = columns[0].name.clone();
         let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
         let values: Vec<String> = columns.iter().map(from_image).collect();
-        // A field that an image of an earlier version lacks stays as it is.
+        // A column that the row image of an earlier version lacks keeps its value.
         let settings: Vec<String> = columns
             .iter()
             .map(|column| {
@@ -469,7 +469,7 @@ fn invert_change(
     Ok(())
 }
 
-/// Refuses to take back a change whose row something else has changed since.
+/// Fails if a row is no longer in the state in which the operation to be undone left it.
 fn expect_row(
     connection: &Connection,
     table: &str,
@@ -482,7 +482,7 @@ fn expect_row(
         .query_row([text], |row| row.get(0))
         .optional()?;
     let found = found.and_then(|text| serde_json::from_str::<Value>(&text).ok());
-    // An image of an earlier version has fewer columns.
+    // The row image of an earlier version has fewer columns.
     let same = found
         .zip(want.as_object())
         .is_some_and(|(found, want)| want.iter().all(|(column, value)| found[column] == *value));
@@ -505,7 +505,7 @@ fn expect_row(
     .advise("`chereme log CORPUS` lists all operations; `chereme check CORPUS` looks for damage"))
 }
 
-/// Returns the number of the newest operation; nothing where there was none.
+/// Returns the number of the newest operation; nothing if there are no operations.
 pub(crate) fn newest(connection: &Connection) -> Result<Option<i64>> {
     let sql = "SELECT max(id) FROM operation";
     Ok(connection.query_row(sql, [], |row| row.get(0))?)

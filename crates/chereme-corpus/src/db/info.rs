@@ -33,13 +33,13 @@ const KINDS: [(&str, &str); 17] = [
     ("operations", "operation"),
 ];
 
-/// How much movement there is.
+/// Amount of movement in the corpus.
 pub(crate) struct Motion {
     pub(crate) seconds: f64,
     pub(crate) frames: u64,
 }
 
-/// Returns how many rows there are of each kind.
+/// Returns the number of rows of each kind.
 pub(crate) fn counts(connection: &Connection) -> Result<BTreeMap<&'static str, u64>> {
     let mut counts = BTreeMap::new();
     for (kind, table) in KINDS {
@@ -56,7 +56,7 @@ fn number(connection: &Connection, sql: &str) -> Result<u64> {
     Ok(u64::try_from(number).unwrap_or_default())
 }
 
-/// Returns recordings by origin.
+/// Returns the number of recordings by origin.
 pub(crate) fn recordings(connection: &Connection) -> Result<BTreeMap<String, u64>> {
     grouped(
         connection,
@@ -64,7 +64,7 @@ pub(crate) fn recordings(connection: &Connection) -> Result<BTreeMap<String, u64
     )
 }
 
-/// Returns tokens by origin.
+/// Returns the number of tokens by origin.
 pub(crate) fn tokens(connection: &Connection) -> Result<BTreeMap<String, u64>> {
     grouped(
         connection,
@@ -72,12 +72,12 @@ pub(crate) fn tokens(connection: &Connection) -> Result<BTreeMap<String, u64>> {
     )
 }
 
-/// Returns tracks by kind.
+/// Returns the number of tracks by kind.
 pub(crate) fn tracks(connection: &Connection) -> Result<BTreeMap<String, u64>> {
     grouped(connection, "SELECT kind, count(*) FROM track GROUP BY kind")
 }
 
-/// Returns tiers by role, those of components by the component.
+/// Returns the number of tiers by role; tiers of components are counted by component.
 pub(crate) fn tiers(connection: &Connection) -> Result<BTreeMap<String, u64>> {
     grouped(
         connection,
@@ -93,7 +93,7 @@ fn grouped(connection: &Connection, sql: &str) -> Result<BTreeMap<String, u64>> 
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Returns how much movement there is.
+/// Returns the amount of movement in the corpus.
 pub(crate) fn motion(connection: &Connection) -> Result<Motion> {
     Ok(connection
         .prepare_cached(
@@ -108,7 +108,7 @@ pub(crate) fn motion(connection: &Connection) -> Result<Motion> {
         })?)
 }
 
-/// Returns the bytes of the file by what they hold.
+/// Returns the sizes of the file's contents in bytes, by kind of content.
 pub(crate) fn bytes(connection: &Connection) -> Result<BTreeMap<&'static str, u64>> {
     let total = number(
         connection,

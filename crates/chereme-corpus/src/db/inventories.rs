@@ -95,7 +95,7 @@ pub(crate) fn delete_value(connection: &Connection, inventory: i64, key: &str) -
     Ok(())
 }
 
-/// Gives the entries of lexicons that have a value of an inventory another one, and returns how many did.
+/// Replaces a value of an inventory by another one in the entries of lexicons, and returns the number of changes.
 pub(crate) fn revalue(
     connection: &Connection,
     inventory: i64,
@@ -111,7 +111,7 @@ pub(crate) fn revalue(
     Ok(changed as u64)
 }
 
-/// Returns what the annotations of tiers say whose values come from an inventory, each text once.
+/// Returns the distinct values of the annotations on tiers whose values come from an inventory.
 pub(crate) fn texts(connection: &Connection, inventory: i64) -> Result<Vec<String>> {
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT a.value FROM annotation a JOIN tier t ON t.id = a.tier_id
@@ -123,7 +123,7 @@ pub(crate) fn texts(connection: &Connection, inventory: i64) -> Result<Vec<Strin
     Ok(texts)
 }
 
-/// Lets the annotations of such tiers that say one text say another, and returns how many did.
+/// Replaces a value by another one on the tiers of an inventory, and returns the number of changed annotations.
 pub(crate) fn say(connection: &Connection, inventory: i64, old: &str, new: &str) -> Result<u64> {
     let changed = connection
         .prepare_cached(

@@ -1,11 +1,11 @@
-//! Rows of kept searches.
+//! Rows of saved searches.
 
 use rusqlite::{Connection, params};
 
 use crate::db::rows::KeptSearch;
 use crate::error::Result;
 
-/// Returns the kept searches with their rows, by name.
+/// Returns the saved searches with their rows, by name.
 pub(crate) fn searches(connection: &Connection) -> Result<Vec<(i64, KeptSearch)>> {
     let mut statement =
         connection.prepare_cached("SELECT id, name, query FROM kept_search ORDER BY name, id")?;
@@ -18,7 +18,7 @@ pub(crate) fn searches(connection: &Connection) -> Result<Vec<(i64, KeptSearch)>
     Ok(rows)
 }
 
-/// Adds a search under a name that none has.
+/// Adds a search under a name that is not in use.
 pub(crate) fn insert(connection: &Connection, search: &KeptSearch) -> Result<()> {
     connection
         .prepare_cached("INSERT INTO kept_search (name, query) VALUES (?1, ?2)")?
@@ -26,7 +26,7 @@ pub(crate) fn insert(connection: &Connection, search: &KeptSearch) -> Result<()>
     Ok(())
 }
 
-/// Gives a search another name and query.
+/// Changes the name and query of a search.
 pub(crate) fn update(connection: &Connection, id: i64, search: &KeptSearch) -> Result<()> {
     connection
         .prepare_cached("UPDATE kept_search SET name = ?2, query = ?3 WHERE id = ?1")?

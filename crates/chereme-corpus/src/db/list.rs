@@ -1,4 +1,4 @@
-//! Rows as lists: which columns each kind of row has, and how they are filtered, sorted and counted.
+//! Lists of rows: the columns that each kind of row has, and how lists are filtered, sorted and counted.
 
 use chereme_sign::query::Pattern;
 use chereme_sign::text::fold;
@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 use crate::error::Result;
 
-/// What a column holds.
+/// Type of a column's content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Holds {
     /// A name or text.
@@ -18,12 +18,12 @@ pub(crate) enum Holds {
     Number,
     /// Yes or no.
     Flag,
-    /// JSON, filtered by the text of the second expression.
+    /// JSON; filters apply to the text that the second expression gives.
     Json(&'static str),
     /// The components of a token, which the caller adds from the row's `id`.
     Components,
     /// The notation of a token, or of a sign's citation form, which the caller adds from the row number that the
-    /// expression gives; filtered by the text of the second expression.
+    /// expression gives; filters apply to the text that the second expression gives.
     Notation(&'static str),
 }
 
@@ -33,11 +33,11 @@ pub(crate) struct Column {
     pub(crate) name: &'static str,
     sql: &'static str,
     pub(crate) holds: Holds,
-    /// The row that it names, where it names one that has an address.
+    /// The kind of row that the text names, if such rows have addresses.
     row: Option<&'static str>,
 }
 
-/// A list: its columns, what they are of, and its order where nobody asks for another.
+/// A list: its columns, the rows that it shows, and its default order.
 #[derive(Debug)]
 pub(crate) struct Table {
     pub(crate) columns: &'static [Column],
@@ -61,7 +61,7 @@ const fn json(name: &'static str, sql: &'static str, filter: &'static str) -> Co
     column(name, sql, Holds::Json(filter), None)
 }
 
-/// A text that names the row `row`.
+/// Returns a text column that names a row of the kind `row`.
 const fn named(name: &'static str, sql: &'static str, row: &'static str) -> Column {
     column(name, sql, Holds::Text, Some(row))
 }
@@ -278,16 +278,16 @@ pub(crate) const INVENTORIES: Table = Table {
     order: "i.id",
 };
 
-/// How many tokens have a value, each once, however many of its hands and phases have it.
+/// Counts the tokens that have a value; a token counts once even if several of its hands or phases have it.
 const TOKENS_WITH_VALUE: &str = "(SELECT count(DISTINCT u.token_id) FROM token_value u
     WHERE u.component = i.component AND u.value = v.key AND u.inventory_id = i.id)";
 
-/// How many annotations of the tiers of an inventory say a value.
+/// Counts the annotations on the tiers of an inventory that have a value.
 const ANNOTATIONS_WITH_VALUE: &str =
     "(SELECT count(*) FROM annotation a JOIN tier t ON t.id = a.tier_id
     WHERE t.inventory_id = i.id AND a.state = 'value' AND a.value = v.key)";
 
-/// How many tokens have a value, and annotations that belong to none of them say it.
+/// Counts the tokens that have a value, plus the annotations with it that belong to none of these tokens.
 const USES_OF_VALUE: &str = "(SELECT count(DISTINCT u.token_id) FROM token_value u
     WHERE u.component = i.component AND u.value = v.key AND u.inventory_id = i.id)
     + (SELECT count(*) FROM annotation a JOIN tier t ON t.id = a.tier_id
@@ -373,27 +373,27 @@ pub(crate) const OPERATIONS: Table = Table {
     order: "o.id DESC",
 };
 
-/// What a row must fit.
+/// A condition on a column.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Test {
-    /// The text fits a pattern with `*`, whatever its case and accents.
+    /// The text matches a pattern with `*`; case and accents do not count.
     Like(String),
-    /// The number lies between two.
+    /// The number lies between two bounds, inclusive.
     Between(f64, f64),
-    /// It is so, or not.
+    /// The flag has this value.
     Is(bool),
-    /// It names this row.
+    /// The column names this row.
     Row(i64),
-    /// There is nothing.
+    /// The column is empty.
     Nothing,
 }
 
-/// Which rows, in which order.
+/// A request: conditions, order and page.
 #[derive(Debug, Default)]
 pub(crate) struct Wanted {
-    /// Columns and what each must fit.
+    /// Columns and their conditions.
     pub(crate) tests: Vec<(usize, Test)>,
-    /// The column to sort by, and whether the greatest comes first.
+    /// The column to sort by, and whether the greatest value comes first.
     pub(crate) sort: Option<(usize, bool)>,
     pub(crate) limit: Option<usize>,
     pub(crate) offset: usize,
@@ -408,7 +408,7 @@ impl Column {
     }
 }
 
-/// Returns how many rows fit, and those of them that are wanted.
+/// Returns the number of rows that meet the conditions, and the requested ones.
 pub(crate) fn list(
     connection: &Connection,
     table: &Table,
@@ -529,8 +529,8 @@ pub(crate) fn token_ids(connection: &Connection) -> Result<Vec<i64>> {
     ids(connection, "SELECT id FROM token ORDER BY id", [])
 }
 
-/// Returns the tokens of a signer, by recording and time: those on tiers of that participant, and those of the
-/// signer's recordings on tiers of no participant who is a signer.
+/// Returns the tokens of a signer, by recording and time: those on tiers for that participant, and those in the
+/// signer's recordings on tiers without a participant who is a signer.
 pub(crate) fn token_ids_of_signer(connection: &Connection, signer: i64) -> Result<Vec<i64>> {
     let sql = "SELECT t.id FROM token t JOIN recording r ON r.id = t.recording_id
                LEFT JOIN annotation a ON a.id = t.annotation_id LEFT JOIN tier i ON i.id = a.tier_id
@@ -547,7 +547,7 @@ fn ids(connection: &Connection, sql: &str, params: impl rusqlite::Params) -> Res
     Ok(ids)
 }
 
-/// Returns when the newest operation was.
+/// Returns the time of the newest operation.
 pub(crate) fn last_change(connection: &Connection) -> Result<Option<String>> {
     Ok(connection
         .prepare_cached("SELECT at FROM operation ORDER BY id DESC LIMIT 1")?

@@ -1,4 +1,4 @@
-//! Rows of two corpora that went apart: the changes since, with references by uid instead of number.
+//! Rows of two corpora that have diverged: their changes since then, with references by uid instead of row number.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
@@ -16,20 +16,20 @@ pub(crate) type Image = Map<String, Value>;
 /// The table and uid of a row.
 pub(crate) type Key = (String, String);
 
-/// The uids that numbers of rows stood for at an earlier time; nothing for rows that were not there.
+/// The uids that row numbers stood for at an earlier time; nothing if the row did not exist then.
 type Gone = BTreeMap<(String, i64), Option<String>>;
 
-/// A corpus since it went its own way.
+/// One side of a merge: a corpus and its changes since the common state.
 pub(crate) struct Side<'c> {
     pub(crate) connection: &'c Connection,
-    /// The rows that changed, as they were before; nothing for those that were not there.
+    /// The changed rows in their earlier state; nothing if they did not exist then.
     pub(crate) touched: BTreeMap<Key, Option<Image>>,
-    /// The rows of tables by uid, read when they are first asked for.
+    /// Row numbers by table and uid; each table is read when it is first used.
     ids: RefCell<HashMap<String, HashMap<String, i64>>>,
 }
 
-/// Returns the last operations that two corpora have in common, each by its number there; nothing if they have
-/// no common beginning.
+/// Returns the last operation that two corpora have in common, by its number in each; nothing if they share no
+/// beginning.
 pub(crate) fn fork(mine: &Connection, other: &Connection) -> Result<Option<(i64, i64)>> {
     let read = |connection: &Connection| -> Result<Vec<(i64, String)>> {
         let mut statement = connection.prepare("SELECT id, hex(uid) FROM operation ORDER BY id")?;
@@ -41,7 +41,7 @@ pub(crate) fn fork(mine: &Connection, other: &Connection) -> Result<Option<(i64,
     if let Some((x, y)) = shared {
         return Ok(Some((x.0, y.0)));
     }
-    // Copies of a corpus in which nothing was done yet share what every corpus begins with.
+    // Copies of a corpus without any operation still share the inventories of a new corpus.
     let first = |connection: &Connection| -> Result<Option<String>> {
         let sql = "SELECT hex(uid) FROM inventory ORDER BY id LIMIT 1";
         Ok(connection.query_row(sql, [], |row| row.get(0)).optional()?)
@@ -50,7 +50,7 @@ pub(crate) fn fork(mine: &Connection, other: &Connection) -> Result<Option<(i64,
     Ok((a.is_some() && a == b).then_some((0, 0)))
 }
 
-/// Returns the newest operation after one whose uid another corpus has written down as merged.
+/// Returns the newest operation later than `after` that the other corpus has recorded as merged.
 pub(crate) fn merged_before(
     connection: &Connection,
     after: i64,
@@ -68,7 +68,7 @@ pub(crate) fn merged_before(
     Ok(newest)
 }
 
-/// Writes down that all operations of another corpus were merged.
+/// Records that all operations of another corpus were merged.
 pub(crate) fn note_merged(connection: &Connection, other: &Connection) -> Result<()> {
     let sql = "SELECT hex(uid) FROM operation ORDER BY id DESC LIMIT 1";
     let newest: Option<String> = other.query_row(sql, [], |row| row.get(0)).optional()?;
@@ -78,11 +78,11 @@ pub(crate) fn note_merged(connection: &Connection, other: &Connection) -> Result
     }
 }
 
-/// The beginning of the keys under which merged operations are written down.
+/// The prefix of the keys under which merged operations are recorded.
 const MERGED: &str = "merged:";
 
 impl<'c> Side<'c> {
-    /// Reads a corpus as it stands.
+    /// Returns a side without changes: the corpus in its present state.
     pub(crate) fn now(connection: &'c Connection) -> Self {
         Self {
             connection,
@@ -91,7 +91,7 @@ impl<'c> Side<'c> {
         }
     }
 
-    /// Reads what the operations after one changed.
+    /// Returns a side with the changes of the operations later than `after`.
     pub(crate) fn since(connection: &'c Connection, after: i64) -> Result<Self> {
         let mut gone: Gone = BTreeMap::new();
         let mut first: BTreeMap<Key, Option<Image>> = BTreeMap::new();
@@ -110,7 +110,7 @@ impl<'c> Side<'c> {
                 let uid = any.get("uid").and_then(Value::as_str);
                 if let Some(uid) = uid.map(str::to_owned) {
                     let before = change.before.as_object().cloned();
-                    // Numbers are given again: the first change of one says whose it was before.
+                    // Row numbers are reused: the first change of a row number shows which row had it before.
                     if let Some(id) = any.get("id").and_then(Value::as_i64) {
                         let own = before.is_some().then(|| uid.clone());
                         gone.entry((change.table.clone(), id)).or_insert(own);
@@ -135,7 +135,7 @@ impl<'c> Side<'c> {
         Ok(side)
     }
 
-    /// Reads what differs from another corpus, which is the state before.
+    /// Returns a side with the differences from another corpus, which is the earlier state.
     pub(crate) fn against(connection: &'c Connection, base: &Connection) -> Result<Self> {
         let mut side = Self {
             connection,
@@ -165,7 +165,7 @@ impl<'c> Side<'c> {
         Ok(side)
     }
 
-    /// Returns a row as it stands.
+    /// Returns a row in its present state.
     pub(crate) fn row(&self, table: &str, uid: &str) -> Result<Option<Image>> {
         let Some(id) = self.id(table, uid)? else {
             return Ok(None);
@@ -198,7 +198,7 @@ impl<'c> Side<'c> {
         Ok(found)
     }
 
-    /// Has a uid stand for a row from now on; nothing for a row that is gone.
+    /// Associates a uid with a row from now on; nothing means that the row was removed.
     pub(crate) fn know(&self, table: &str, uid: &str, id: Option<i64>) -> Result<()> {
         self.id(table, uid)?;
         if let Some(all) = self.ids.borrow_mut().get_mut(table) {
@@ -225,12 +225,12 @@ impl<'c> Side<'c> {
         Ok(all)
     }
 
-    /// Returns a row with uids in place of the numbers of the rows that it refers to.
+    /// Returns a row with its references as uids instead of row numbers.
     pub(crate) fn named(&self, table: &str, image: Image) -> Result<Image> {
         self.by_uid(table, image, &BTreeMap::new())
     }
 
-    /// Replaces numbers of rows by their uids; `gone` knows those that stood for others.
+    /// Replaces row numbers by uids; `gone` holds the uids of row numbers that stood for other rows earlier.
     fn by_uid(&self, table: &str, mut image: Image, gone: &Gone) -> Result<Image> {
         image.remove("id");
         for (column, value) in &mut image {
@@ -262,7 +262,7 @@ pub(crate) fn uid_of(connection: &Connection, table: &str, id: i64) -> Result<Op
     Ok(statement.query_row([id], |row| row.get(0)).optional()?)
 }
 
-/// Inserts a row, whose references are numbers already, and returns its number.
+/// Inserts a row whose references are row numbers, and returns its number.
 pub(crate) fn insert(connection: &Connection, table: &str, image: &Image) -> Result<i64> {
     let all = columns(connection, table)?;
     let own: Vec<_> = all
@@ -281,7 +281,7 @@ pub(crate) fn insert(connection: &Connection, table: &str, image: &Image) -> Res
     Ok(connection.last_insert_rowid())
 }
 
-/// Writes some columns of a row, whose references are numbers already.
+/// Updates some columns of a row; references are row numbers.
 pub(crate) fn update(connection: &Connection, table: &str, id: i64, image: &Image) -> Result<()> {
     let all = columns(connection, table)?;
     let settings: Vec<String> = all
@@ -310,7 +310,7 @@ pub(crate) fn delete(connection: &Connection, table: &str, id: i64) -> Result<()
     Ok(())
 }
 
-/// Returns the row that stands in the way of another, for no two have its name.
+/// Returns the existing row with the same unique name as another one, if there is one.
 pub(crate) fn namesake(connection: &Connection, table: &str, image: &Image) -> Result<Option<i64>> {
     let keys: &[&str] = match table {
         "signer" | "kept_search" | "recording" => &["name"],
@@ -338,7 +338,7 @@ pub(crate) fn namesake(connection: &Connection, table: &str, image: &Image) -> R
     Ok(statement.query_row([text], |row| row.get(0)).optional()?)
 }
 
-/// Copies the rows that belong to one and have no uid, such as the blocks of a track, from another corpus.
+/// Copies the parts of a row that have no uid, such as the blocks of a track, from another corpus.
 pub(crate) fn copy_parts(
     (from, old): (&Connection, i64),
     (into, new): (&Connection, i64),
@@ -383,7 +383,7 @@ pub(crate) fn copy_parts(
     Ok(())
 }
 
-/// Copies the rows of a part, with references to rows that both corpora have by uid.
+/// Copies the rows of a part table; references to rows that both corpora have are matched by uid.
 fn copy_rows(
     (from, old): (&Connection, i64),
     (into, new): (&Connection, i64),
@@ -439,7 +439,7 @@ pub(crate) fn token_of(connection: &Connection, annotation: i64) -> Result<Optio
         .optional()?)
 }
 
-/// Returns an entry of the corpus's own notes whose key begins so, by key.
+/// Returns the entries of the corpus's own notes whose keys begin with `prefix`, by key.
 pub(crate) fn notes(connection: &Connection, prefix: &str) -> Result<Vec<(String, String)>> {
     let sql = "SELECT key, value FROM meta WHERE substr(key, 1, length(?1)) = ?1 ORDER BY key";
     let mut statement = connection.prepare_cached(sql)?;
@@ -478,7 +478,7 @@ pub(crate) fn has_blocks(connection: &Connection, track: i64) -> Result<bool> {
         .query_row([track], |row| row.get(0))?)
 }
 
-/// Reports whether a row is one that others refer to, but for its own parts and for tokens, which follow.
+/// Reports whether other rows refer to a row; its own parts and derived tokens do not count.
 pub(crate) fn is_referred_to(connection: &Connection, table: &str, id: i64) -> Result<bool> {
     for (other, references) in TRACKED {
         let follows = table == "annotation" && ["token", "token_value"].contains(&other);
@@ -498,7 +498,7 @@ pub(crate) fn is_referred_to(connection: &Connection, table: &str, id: i64) -> R
     Ok(false)
 }
 
-/// The tables whose rows are parts of a row of another one.
+/// Tables whose rows are parts of a row of another table.
 const PARTS: [(&str, &str); 6] = [
     ("track", "track_block"),
     ("sign", "sign_text"),

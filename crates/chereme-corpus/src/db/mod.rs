@@ -1,4 +1,4 @@
-//! The database room: the only place that holds SQL.
+//! The database layer: the only place that contains SQL.
 //!
 //! [`Store`] is one open connection. Every change goes through [`Store::operation`], which runs it
 //! in one transaction, records the rows before and after, and brings the search index along.
@@ -41,19 +41,19 @@ pub use history::{OperationKind, OperationRow};
 pub(crate) use open::SCHEMA_VERSION;
 pub use open::on_waiting;
 
-/// Something derived from the rows that is written in their transaction, such as the search index.
+/// Data derived from the rows and written in the same transaction, such as the search index.
 pub(crate) trait Derived: Default {
-    /// Brings it up to date before it is read.
+    /// Brings the data up to date before they are read.
     fn refresh(&mut self, connection: &Connection) -> Result<()>;
 
-    /// Takes in what the running operation touched, in its transaction.
+    /// Updates the data for the rows that the running operation touched, in its transaction.
     fn follow(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()>;
 
-    /// Derives it again from all rows, inside the caller's transaction.
+    /// Derives the data again from all rows, inside the caller's transaction.
     fn rebuild(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()>;
 }
 
-/// An open corpus file: its connection, what is derived from its rows, and who works with it.
+/// An open corpus file: its connection, the data derived from its rows, and the author of changes.
 pub(crate) struct Store<D: Derived> {
     connection: Connection,
     path: PathBuf,
@@ -62,9 +62,9 @@ pub(crate) struct Store<D: Derived> {
 }
 
 impl<D: Derived> Store<D> {
-    /// Makes an empty corpus at `path`, where nothing may be yet.
+    /// Creates an empty corpus at `path`, which must not exist yet.
     ///
-    /// `fill` writes what every corpus begins with; that is no operation and cannot be undone.
+    /// `fill` writes the initial content of every corpus; that is not an operation and cannot be undone.
     pub(crate) fn create(
         path: &Path,
         author: &str,
@@ -74,7 +74,7 @@ impl<D: Derived> Store<D> {
         Self::ready(connection, path, author)
     }
 
-    /// Opens the corpus at `path`, raising its schema to this version's if it is older.
+    /// Opens the corpus at `path`, and upgrades its schema if that is older than this version's.
     pub(crate) fn open(path: &Path, author: &str) -> Result<Self> {
         let connection = open::open(path)?;
         Self::ready(connection, path, author)
@@ -91,17 +91,17 @@ impl<D: Derived> Store<D> {
         })
     }
 
-    /// Returns the file.
+    /// Returns the path of the file.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Writes all of it to a new file.
+    /// Writes a copy of the corpus to a new file.
     pub(crate) fn copy(&self, to: &Path) -> Result<()> {
         open::copy(&self.connection, to)
     }
 
-    /// Returns the connection, to read.
+    /// Returns the connection for reading.
     pub(crate) fn read(&self) -> &Connection {
         &self.connection
     }
@@ -112,9 +112,9 @@ impl<D: Derived> Store<D> {
         Ok((&self.connection, &self.index))
     }
 
-    /// Runs `work` as one named operation: all of it happens, or nothing.
+    /// Runs `work` as one named operation: all of it is stored, or nothing.
     ///
-    /// `work` returns its result and a summary for people. Work that changes no row is no operation.
+    /// `work` returns its result and a summary for the user. Work that changes no row leaves no operation.
     pub(crate) fn operation<T>(
         &mut self,
         name: &str,
@@ -125,7 +125,8 @@ impl<D: Derived> Store<D> {
         self.operation_told(name, progress, |connection, _| work(connection))
     }
 
-    /// Does the same with work that reports its progress; it can be stopped until all of it is stored.
+    /// Runs `work` as [`operation`](Self::operation) does, with progress reports; it can be stopped until everything is
+    /// stored.
     pub(crate) fn operation_told<T>(
         &mut self,
         name: &str,
@@ -140,12 +141,12 @@ impl<D: Derived> Store<D> {
         })
     }
 
-    /// Takes the newest operation back that is not taken back yet, and returns it.
+    /// Undoes the newest operation that is in effect, and returns the undo.
     pub(crate) fn undo(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
         self.transact(progress, history::undo)
     }
 
-    /// Does the operation again that was taken back last, and returns it.
+    /// Redoes the operation that was undone last, and returns the redo.
     pub(crate) fn redo(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
         self.transact(progress, history::redo)
     }
@@ -187,7 +188,7 @@ impl<D: Derived> Store<D> {
         let done = work(&transaction, &self.author, progress).and_then(|value| {
             self.index.follow(&transaction, progress)?;
             transaction.execute_batch("DELETE FROM temp.change; DELETE FROM temp.touched;")?;
-            // From here on it can be stopped no more.
+            // From here on it cannot be stopped.
             progress.tell(Step {
                 task: "storing",
                 done: 0,
@@ -206,8 +207,8 @@ impl<D: Derived> Store<D> {
 
 impl<D: Derived> Drop for Store<D> {
     fn drop(&mut self) {
-        // Closing leaves one true single file; failing to is harmless, the next opening does it, and so
-        // nobody waits for another writer here.
+        // Closing leaves one single file without companions. A failure is harmless, since the next opening does it; so
+        // this does not wait for another writer.
         let _ = self.connection.busy_timeout(Duration::ZERO);
         let _ = self
             .connection
@@ -215,7 +216,7 @@ impl<D: Derived> Drop for Store<D> {
     }
 }
 
-/// Returns the failure that a stored row is not what it must be.
+/// Returns the error for a stored row with invalid content.
 pub(crate) fn damaged(place: impl Into<String>, reason: impl Into<String>) -> Error {
     Error::Damaged {
         place: place.into(),

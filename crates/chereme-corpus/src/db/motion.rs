@@ -17,7 +17,7 @@ pub(crate) struct BlockRow {
     pub(crate) data: Vec<u8>,
 }
 
-/// Stores `data` as `frames` frames from `first_frame` on of one channel group of a track.
+/// Stores `data` as one block of a track's channel group, with `frames` frames from `first_frame` on.
 pub(crate) fn insert_block(
     connection: &Connection,
     track: i64,
@@ -86,7 +86,7 @@ pub(crate) fn blocks(
     Ok(())
 }
 
-/// Returns the SHA-256 over the names of a track's blocks, and of its curves if it has any: the name of its
+/// Returns the SHA-256 of the names of a track's blocks and of its curves, if it has any: the content hash of its
 /// movement.
 pub(crate) fn content_hash(connection: &Connection, track: i64) -> Result<String> {
     let mut statement = connection.prepare_cached(
@@ -104,14 +104,14 @@ pub(crate) fn content_hash(connection: &Connection, track: i64) -> Result<String
     Ok(hex(&digest.finalize()))
 }
 
-/// Returns the SHA-256 over the names of a track's channels and blocks: the name of what it holds.
+/// Returns the SHA-256 of the names of a track's channels and blocks: the content hash of the track.
 pub(crate) fn track_hash(connection: &Connection, track: i64) -> Result<String> {
     let mut digest = Sha256::new();
     digest_track(connection, track, &mut digest)?;
     Ok(hex(&digest.finalize()))
 }
 
-/// Puts the names of the scalar curves that go with a movement, and of their blocks, into a digest.
+/// Adds the names of the scalar curves that accompany a movement, and of their blocks, to a digest.
 fn digest_nonmanuals(connection: &Connection, track: i64, digest: &mut Sha256) -> Result<()> {
     if let Some(curves) = nonmanuals(connection, track)? {
         digest_track(connection, curves, digest)?;
@@ -141,7 +141,7 @@ fn digest_track(connection: &Connection, curves: i64, digest: &mut Sha256) -> Re
     Ok(())
 }
 
-/// Returns the row of the track of non-manuals next to a movement's track.
+/// Returns the row of the track of non-manuals that accompanies a movement's track.
 pub(crate) fn nonmanuals(connection: &Connection, track: i64) -> Result<Option<i64>> {
     let sql = "SELECT recording_id FROM track WHERE id = ?1";
     let recording: i64 = connection

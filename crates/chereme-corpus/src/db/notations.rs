@@ -26,7 +26,7 @@ pub(crate) struct NotationRow {
     pub(crate) system: String,
     /// The text as it was written, if it is HamNoSys.
     pub(crate) text: Option<String>,
-    /// The tree with all that was said beside it, as JSON.
+    /// The notation tree with all annotations of its source, as JSON.
     pub(crate) document: String,
 }
 
@@ -80,7 +80,7 @@ pub(crate) fn of_tokens(
     Ok(rows)
 }
 
-/// Returns the notations that came from files of this name, or from the file at this place, by line.
+/// Returns the notations that came from files of this name or path, by line.
 pub(crate) fn of_file(connection: &Connection, name: &str) -> Result<Vec<NotationRow>> {
     let sql = format!(
         "{NOTATION} WHERE f.name = ?1 OR f.path = ?1 ORDER BY n.source_file_id, n.line, n.id"
@@ -105,8 +105,7 @@ pub(crate) fn each(
     Ok(())
 }
 
-/// Makes this the notation of its token; one that stays as it is is not touched. The row's `id`,
-/// `gloss` and `file` are not looked at.
+/// Sets the notation of its token; leaves an unchanged one untouched. The row's `id`, `gloss` and `file` are not used.
 pub(crate) fn set(connection: &Connection, row: &NotationRow) -> Result<()> {
     let Some(old) = of_token(connection, row.token_id)? else {
         connection

@@ -1,4 +1,4 @@
-//! Making, opening and raising a corpus file.
+//! Creates, opens and upgrades corpus files.
 
 use std::fs;
 use std::io::{ErrorKind, Read as _};
@@ -17,7 +17,7 @@ use crate::error::{Error, Result};
 /// Marks the file as a corpus: the letters `Cher`.
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
-/// The schema's steps; a file's `user_version` is how many of them it has taken.
+/// The steps of the schema; a file's `user_version` is the number of steps that it has taken.
 const STEPS: [&str; 8] = [
     include_str!("../../../../schema/sql/0001_corpus.sql"),
     include_str!("../../../../schema/sql/0002_notation.sql"),
@@ -32,13 +32,13 @@ const STEPS: [&str; 8] = [
 /// The schema version that this code writes.
 pub(crate) const SCHEMA_VERSION: i32 = STEPS.len() as i32;
 
-/// A value larger than this is not read: no block, changeset part or index file comes near it.
+/// The size of the largest value that is read, in bytes: all blocks, changeset parts and index files are far smaller.
 const LARGEST_VALUE: i32 = 512 << 20;
 
-/// Makes the file; `fill` writes what every corpus begins with.
+/// Creates the file; `fill` writes the initial content of every corpus.
 ///
-/// It is made under another name beside `path` and gets its own when it is whole: whoever looks, at
-/// whatever moment, finds a corpus there or nothing.
+/// The file is created under another name beside `path` and renamed when it is complete, so that at any moment there is
+/// a whole corpus at `path` or nothing.
 pub(super) fn create(
     path: &Path,
     fill: impl FnOnce(&Connection) -> Result<()>,
@@ -59,8 +59,8 @@ pub(super) fn create(
     open(path)
 }
 
-/// Writes all that `connection` reads to a new corpus file at `path`, whole or not at all, also where the file that
-/// it reads is gone from its folder.
+/// Writes all data of `connection` to a new corpus file at `path`, whole or not at all; works even if the file of
+/// `connection` was deleted from its folder.
 pub(super) fn copy(connection: &Connection, path: &Path) -> Result<()> {
     if path.exists() {
         return Err(Error::file(path, ErrorKind::AlreadyExists.into()));
@@ -86,7 +86,7 @@ fn make(path: &Path, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()>
     Ok(())
 }
 
-/// A corpus that is being made, under a name of its own; it is removed if the work fails.
+/// A corpus under construction, under a temporary name; the file is removed if the work fails.
 struct Making(PathBuf);
 
 impl Making {
@@ -95,10 +95,10 @@ impl Making {
         Self(path.with_file_name(format!(".{name}.{}", Uuid::now_v7().simple())))
     }
 
-    /// Gives the file its name if the name is free: a link never replaces an existing file.
+    /// Gives the file its final name if that is free: a link never replaces an existing file.
     fn publish(&self, path: &Path) -> Result<()> {
         let published = match fs::hard_link(&self.0, path) {
-            // Some file systems know no links.
+            // Some file systems do not support links.
             Err(error) if error.kind() != ErrorKind::AlreadyExists && !path.exists() => {
                 fs::rename(&self.0, path)
             }
@@ -121,7 +121,7 @@ impl Drop for Making {
 
 const CHOOSE: &str = "choose a file that `chereme new` or `chereme import` made";
 
-/// Returns why a file cannot be a whole corpus, and how to get one, judged by its size.
+/// Returns the reason why a file cannot be a complete corpus, judged by its size, and a remedy.
 fn outwardly_wrong(path: &Path) -> Result<Option<(String, &'static str)>> {
     let fault = |error| Error::file(path, error);
     let data = match fs::metadata(path) {
@@ -165,7 +165,7 @@ fn outwardly_wrong(path: &Path) -> Result<Option<(String, &'static str)>> {
     Ok(None)
 }
 
-/// Opens the database; where nothing may be written beside it, as a file that stays as it is.
+/// Opens the database; if nothing may be written beside it, as an immutable file.
 fn connect(path: &Path) -> Result<Connection> {
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let connection = Connection::open_with_flags(path, flags)?;
@@ -182,7 +182,7 @@ fn connect(path: &Path) -> Result<Connection> {
     }
 }
 
-/// Returns the address of a file that nobody writes, see <https://www.sqlite.org/uri.html>.
+/// Returns the URI of an immutable file, see <https://www.sqlite.org/uri.html>.
 fn unchanging(path: &Path) -> String {
     let name = path.to_string_lossy();
     let mut name = if cfg!(windows) {
@@ -264,15 +264,15 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
 
 static WAITING: OnceLock<fn()> = OnceLock::new();
 
-/// Has `tell` called whenever work has waited for a second for another program that writes to the corpus.
+/// Sets a function that is called when work has waited for one second for another program that writes to the corpus.
 ///
-/// It counts for the whole program, and only the first call does. After 20 seconds the work is refused.
+/// It applies to the whole program, and only the first call has an effect. After 20 seconds of waiting the work fails.
 pub fn on_waiting(tell: fn()) {
     // A second listener is not an error: the first one reports already.
     let _ = WAITING.set(tell);
 }
 
-/// The longest pause between two tries, in milliseconds; the first is the shortest.
+/// The longest pause between two tries, in milliseconds; the first pause is the shortest.
 const PAUSE: u64 = 25;
 const TOLD_AFTER: i32 = 44;
 const REFUSED_AFTER: i32 = 804;
@@ -291,7 +291,7 @@ pub(super) fn configure(connection: &mut Connection) -> Result<()> {
     connection.busy_handler(Some(wait))?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
-    // Without it statements are parsed again whenever a parameter changes.
+    // Without this flag statements are parsed again whenever a parameter changes.
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_ENABLE_QPSG, true)?;
     connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, LARGEST_VALUE)?;
     connection.set_prepared_statement_cache_capacity(128);
@@ -344,7 +344,7 @@ mod tests {
                     .query_row("SELECT count(*) FROM sign", [], |row| row.get::<_, i64>(0))?)
             });
         assert_eq!(opened.ok(), Some(0));
-        // So that the folder can go.
+        // Restores access so that the folder can be removed.
         lock(&shelf, false);
         lock(&path, false);
     }

@@ -1,28 +1,28 @@
-//! Rows of recipes and what they were made from.
+//! Rows of recipes and their inputs.
 
 use rusqlite::{Connection, OptionalExtension, params};
 use serde::Serialize;
 
 use crate::error::Result;
 
-/// How a made recording came about.
+/// The recipe of a generated recording.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct RecipeRow {
     /// The row.
     pub id: i64,
-    /// The made recording's row.
+    /// The generated recording's row.
     pub recording_id: i64,
     /// The recipe as text.
     pub text: String,
-    /// The recipe and what was chosen for it, as JSON.
+    /// The recipe and the choices made for it, as JSON.
     pub document: String,
     /// The report of the evaluation, as JSON.
     pub report: String,
-    /// The version of the program that made it.
+    /// The version of the program that evaluated it.
     pub engine: String,
 }
 
-/// Writes a recipe and returns its row; its `id` is not looked at.
+/// Writes a recipe and returns its row; its `id` is not used.
 pub(crate) fn insert(connection: &Connection, row: &RecipeRow) -> Result<i64> {
     connection
         .prepare_cached(
@@ -39,7 +39,7 @@ pub(crate) fn insert(connection: &Connection, row: &RecipeRow) -> Result<i64> {
     Ok(connection.last_insert_rowid())
 }
 
-/// Writes the recipe of a recording again, and forgets its earlier inputs.
+/// Writes the recipe of a recording again, and deletes its earlier inputs.
 pub(crate) fn update(connection: &Connection, row: &RecipeRow) -> Result<()> {
     connection
         .prepare_cached(
@@ -86,7 +86,7 @@ pub(crate) fn made_from_recording(
     Ok(rows)
 }
 
-/// Writes down one of the things that a recipe was made from.
+/// Records one input of a recipe.
 pub(crate) fn insert_input(
     connection: &Connection,
     recipe: i64,
@@ -124,8 +124,8 @@ pub(crate) fn of_recording(connection: &Connection, recording: i64) -> Result<Op
         .optional()?)
 }
 
-/// Returns the recording of the body that a recording was made on: of what it was made from the first that is not made
-/// itself and has that skeleton.
+/// Returns the recording that provided the body of a generated recording: the first of its inputs, direct or indirect,
+/// that is not generated itself and has that skeleton.
 pub(crate) fn body_of(
     connection: &Connection,
     recording: i64,
@@ -151,7 +151,7 @@ pub(crate) fn body_of(
         .optional()?)
 }
 
-/// Returns the addresses of what a recipe was made from, in their order, each once.
+/// Returns the addresses of a recipe's inputs, in order, each once.
 pub(crate) fn inputs(connection: &Connection, recipe: i64) -> Result<Vec<String>> {
     let mut statement = connection.prepare_cached(
         "SELECT address FROM recipe_input WHERE recipe_id = ?1 GROUP BY address ORDER BY min(id)",
@@ -162,7 +162,7 @@ pub(crate) fn inputs(connection: &Connection, recipe: i64) -> Result<Vec<String>
     Ok(rows)
 }
 
-/// Returns the recordings, by row and name, that were made from a token.
+/// Returns the recordings, by row and name, that were generated from a token.
 pub(crate) fn made_from(connection: &Connection, token: i64) -> Result<Vec<(i64, String)>> {
     let mut statement = connection.prepare_cached(
         "SELECT DISTINCT r.id, r.name FROM recipe_input i

@@ -24,7 +24,7 @@ pub struct SignerRow {
     pub notes: Option<String>,
 }
 
-/// A recording: one captured, made or generated take.
+/// A recording: one take, captured or generated.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct RecordingRow {
     /// The row.
@@ -35,7 +35,7 @@ pub struct RecordingRow {
     pub signer_id: Option<i64>,
     /// The signer's name.
     pub signer: Option<String>,
-    /// How it came about.
+    /// Its origin.
     pub origin: Origin,
     /// The length in microseconds.
     pub duration_us: i64,
@@ -64,23 +64,23 @@ pub(crate) struct MotionTrackRow {
     pub rate_frames: u32,
     /// Seconds that [`rate_frames`](Self::rate_frames) take.
     pub rate_seconds: u32,
-    /// The frame time as the file writes it.
+    /// The frame time as written in the file.
     pub frame_time: Option<String>,
-    /// How many metres one unit of the file is.
+    /// The length of one unit of the file in metres.
     pub metres_per_unit: f64,
     /// The file's axes, as `up,left`.
     pub axes: String,
-    /// The order in which the root's columns are meant, where the header has it wrong.
+    /// The actual order of the root's columns, if the header states a wrong one.
     pub root_order: Option<String>,
-    /// The factor for the root's positions, if they are in another unit than the bones.
+    /// The factor for the root's positions, if their unit differs from that of the bones.
     pub root_scale: Option<f64>,
     /// Joint roles that a person set, as JSON.
     pub roles: Option<String>,
-    /// Which joints lie in which channel group, as JSON.
+    /// The assignment of joints to channel groups, as JSON.
     pub channel_groups: String,
 }
 
-/// A track of a recording that is a file beside it.
+/// A media track of a recording: a file beside the corpus.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct MediaTrackRow {
     /// The row.
@@ -91,11 +91,11 @@ pub struct MediaTrackRow {
     pub name: String,
     /// Where it starts on the recording's clock, in microseconds.
     pub offset_us: i64,
-    /// Where the file lies, as the annotation file says.
+    /// The location of the file as the annotation file states it.
     pub url: String,
     /// Its media type.
     pub media_type: Option<String>,
-    /// Where films of its recording were imported from, seen from the corpus's folder, the newest first.
+    /// The folders from which films of its recording were imported, relative to the corpus's folder, newest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub imported: Vec<String>,
 }
@@ -172,7 +172,7 @@ pub(crate) fn skeleton_stored(
     Ok(connection.last_insert_rowid())
 }
 
-/// Gives a track another skeleton; the one before goes where no track has it any more.
+/// Gives a track another skeleton, and deletes the previous one if no track uses it any more.
 pub(crate) fn set_skeleton(connection: &Connection, track: i64, skeleton: i64) -> Result<()> {
     let former: i64 = connection
         .prepare_cached("SELECT skeleton_id FROM track WHERE id = ?1")?
@@ -199,7 +199,7 @@ pub(crate) fn skeleton_document(connection: &Connection, id: i64) -> Result<Stri
         .query_row([id], |row| row.get(0))?)
 }
 
-/// Writes a recording and returns its row; its `id` and `signer` are not looked at.
+/// Writes a recording and returns its row; its `id` and `signer` are not used.
 pub(crate) fn insert_recording(connection: &Connection, row: &RecordingRow) -> Result<i64> {
     connection
         .prepare_cached(
@@ -261,19 +261,19 @@ pub(crate) fn recording_named(connection: &Connection, name: &str) -> Result<Opt
 pub(crate) struct SourceFileRow {
     /// The row.
     pub id: i64,
-    /// The recording that it is about.
+    /// The recording that it describes.
     pub recording_id: Option<i64>,
     /// The kind of file, such as `bvh`, `eaf`, `lexicon`, `inventory` or `sigml`.
     pub kind: String,
     /// The file's name, without its folder.
     pub name: String,
-    /// Where it lay, seen from the folder of the corpus; nothing in corpora of earlier versions.
+    /// Its original path, relative to the folder of the corpus; nothing in corpora of earlier versions.
     pub path: Option<String>,
     /// The SHA-256 of the file, in hexadecimal.
     pub hash: String,
 }
 
-/// Records a file that rows came from, with its bytes if they are kept, and returns its row.
+/// Records a file that rows came from, with its bytes if they are to be stored, and returns its row.
 pub(crate) fn insert_source_file(
     connection: &Connection,
     row: &SourceFileRow,
@@ -334,7 +334,7 @@ fn source_file_row(row: &Row<'_>) -> rusqlite::Result<SourceFileRow> {
     })
 }
 
-/// Returns the files of lexicon tables that were kept, oldest first.
+/// Returns the stored files of lexicon tables, oldest first.
 pub(crate) fn lexicon_files(connection: &Connection) -> Result<Vec<i64>> {
     let mut statement = connection.prepare_cached(
         "SELECT id FROM source_file WHERE kind = 'lexicon' AND data IS NOT NULL ORDER BY id",
@@ -345,7 +345,7 @@ pub(crate) fn lexicon_files(connection: &Connection) -> Result<Vec<i64>> {
     Ok(files)
 }
 
-/// Returns the bytes of a file that was kept.
+/// Returns the bytes of a stored file.
 pub(crate) fn source_bytes(connection: &Connection, id: i64) -> Result<Option<Vec<u8>>> {
     let data: Option<Vec<u8>> = connection
         .prepare_cached("SELECT data FROM source_file WHERE id = ?1")?
@@ -375,7 +375,7 @@ pub(crate) fn lengthen(connection: &Connection, recording: i64, micros: i64) -> 
     Ok(())
 }
 
-/// Writes a motion track and returns its row; its `id` is not looked at.
+/// Writes a motion track and returns its row; its `id` is not used.
 pub(crate) fn insert_motion_track(connection: &Connection, row: &MotionTrackRow) -> Result<i64> {
     connection
         .prepare_cached(
@@ -404,7 +404,7 @@ pub(crate) fn insert_motion_track(connection: &Connection, row: &MotionTrackRow)
     Ok(connection.last_insert_rowid())
 }
 
-/// Takes a recording's movement away, says how long and whose what comes instead is; the blocks stay.
+/// Removes a recording's movement and sets the length and signer of the movement that replaces it; the blocks stay.
 pub(crate) fn clear_motion(
     connection: &Connection,
     recording: i64,
@@ -425,7 +425,7 @@ pub(crate) fn clear_motion(
     Ok(())
 }
 
-/// Writes down how many frames a track has, and so how long it lasts.
+/// Sets the number of frames of a track, and its length accordingly.
 pub(crate) fn set_frames(connection: &Connection, track: i64, frames: i64) -> Result<()> {
     connection
         .prepare_cached(
@@ -436,7 +436,7 @@ pub(crate) fn set_frames(connection: &Connection, track: i64, frames: i64) -> Re
     Ok(())
 }
 
-/// Returns the track that is a recording's body: the movement of a skeleton that is called `body`, else the oldest.
+/// Returns the track of a recording's body: the skeleton track called `body`, otherwise the oldest skeleton track.
 pub(crate) fn body_track(
     connection: &Connection,
     recording: i64,
@@ -450,7 +450,7 @@ pub(crate) fn body_track(
         .optional()?)
 }
 
-/// Returns the movement of a skeleton that is the track of that row.
+/// Returns the skeleton track of that row.
 pub(crate) fn skeleton_track(
     connection: &Connection,
     track: i64,
@@ -487,7 +487,7 @@ fn motion_track_row(row: &Row<'_>) -> rusqlite::Result<MotionTrackRow> {
     })
 }
 
-/// Writes a media track; its `id` is not looked at.
+/// Writes a media track; its `id` is not used.
 pub(crate) fn insert_media_track(connection: &Connection, row: &MediaTrackRow) -> Result<()> {
     connection
         .prepare_cached(
@@ -504,7 +504,7 @@ pub(crate) fn insert_media_track(connection: &Connection, row: &MediaTrackRow) -
     Ok(())
 }
 
-/// Says that the file of a media track lies elsewhere.
+/// Sets the location of a media track's file.
 pub(crate) fn move_media_track(connection: &Connection, track: i64, url: &str) -> Result<()> {
     connection
         .prepare_cached("UPDATE track SET media_url = ?2 WHERE id = ?1 AND kind = 'media'")?
@@ -545,7 +545,7 @@ pub(crate) fn media_tracks(connection: &Connection, recording: i64) -> Result<Ve
     Ok(rows)
 }
 
-/// Writes down whose a recording is, how it came about and under which terms; nothing leaves it as it is.
+/// Sets signer, origin and licence of a recording; nothing leaves a field unchanged.
 pub(crate) fn describe(
     connection: &Connection,
     recording: i64,
@@ -564,7 +564,7 @@ pub(crate) fn describe(
     Ok(())
 }
 
-/// Writes down in which order the root's columns of a track are meant, and their unit.
+/// Sets the actual order of the root's columns of a track, and the factor for their unit.
 pub(crate) fn set_root(
     connection: &Connection,
     track: i64,

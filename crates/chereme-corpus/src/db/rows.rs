@@ -1,4 +1,4 @@
-//! Rows that are read together, as the rest of the corpus and both skins see them.
+//! Rows read from several tables, for the rest of the corpus and both user interfaces.
 
 use chereme_motion::{Instant, Rate, Span};
 use serde::Serialize;
@@ -27,11 +27,11 @@ pub struct Around {
 pub struct RecordingGlance {
     /// The recording.
     pub row: RecordingRow,
-    /// How many frames of movement it has; 0 where it has none.
+    /// The number of frames of movement; 0 if it has none.
     pub frames: u64,
     /// The rate of its frames.
     pub rate: Option<Rate>,
-    /// Where its first frame lies on the recording's clock, in microseconds.
+    /// The time of its first frame on the recording's clock, in microseconds.
     pub offset_us: i64,
     /// The kinds of its tracks, each once.
     pub kinds: Vec<TrackKind>,
@@ -54,35 +54,35 @@ pub struct SignGlance {
     pub notes: Option<String>,
     /// How many tokens it has.
     pub tokens: u64,
-    /// The token of its citation form, one with movement before a lexicon entry.
+    /// The token of its citation form; a token with movement is preferred to a lexicon entry.
     pub citation: Option<i64>,
-    /// The recording that token lies in, and where.
+    /// The recording that contains the citation form, and its span there.
     pub place: Option<(i64, Span)>,
-    /// Whether that token is notated.
+    /// Whether the citation form has a notation.
     pub notated: bool,
 }
 
-/// Annotations of a tier column by column, by start, all columns equally long.
+/// Annotations of a tier by column and ordered by start; all columns have the same length.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct AnnotationColumns {
     /// The rows.
     pub ids: Vec<i64>,
-    /// Where they start, in microseconds; never falling.
+    /// Their starts in microseconds, in ascending order.
     pub starts: Vec<i64>,
-    /// The first microseconds after them.
+    /// The first microseconds after their ends.
     pub ends: Vec<i64>,
     /// Whether they have values.
     pub states: Vec<ValueState>,
-    /// What they say.
+    /// Their values.
     pub values: Vec<Box<str>>,
-    /// The annotations above.
+    /// Their parent annotations.
     pub parents: Vec<Option<i64>>,
-    /// How sure their origin is, from 0 to 1, where it says so.
+    /// The confidences of their origins, from 0 to 1, if given.
     pub confidences: Vec<Option<f64>>,
 }
 
 impl AnnotationColumns {
-    /// Returns how many there are.
+    /// Returns the number of annotations.
     #[must_use]
     pub fn len(&self) -> usize {
         self.ids.len()
@@ -94,10 +94,10 @@ impl AnnotationColumns {
         self.ids.is_empty()
     }
 
-    /// Returns the span of the one at `at`.
+    /// Returns the span of the annotation at index `at`.
     ///
     /// # Panics
-    /// Where there are not that many.
+    /// Panics if `at` is out of range.
     #[must_use]
     pub fn span(&self, at: usize) -> Span {
         let micros = Instant::from_micros;
@@ -105,12 +105,12 @@ impl AnnotationColumns {
     }
 }
 
-/// A query with a name.
+/// A saved search: a query with a name.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct KeptSearch {
-    /// Its name; no other of the corpus has it, whatever the case and accents.
+    /// Its name; unique in the corpus even if case and accents are ignored.
     pub name: String,
-    /// The query as it was written.
+    /// The query as the user wrote it.
     pub query: String,
 }
 
@@ -121,7 +121,7 @@ pub struct SignerInfo {
     pub name: String,
     /// The dominant hand, if it is known.
     pub handedness: Option<String>,
-    /// How many recordings there are.
+    /// The number of recordings.
     pub recordings: u64,
 }
 
@@ -130,10 +130,10 @@ pub struct SignerInfo {
 pub struct InventoryInfo {
     /// Its id, such as `configurations`.
     pub id: String,
-    /// The component that its values are of, with the feature.
+    /// The component of its values, with the feature.
     pub field: String,
-    /// How many values it has.
+    /// The number of values.
     pub values: u64,
-    /// How many tiers take their values from it.
+    /// The number of tiers that take their values from it.
     pub tiers: u64,
 }

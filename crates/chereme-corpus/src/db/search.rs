@@ -1,4 +1,4 @@
-//! The rows that the search index needs, and the place of its files among them.
+//! Rows that the search index needs, and the storage of its files in the database.
 
 pub(crate) mod answers;
 mod documents;
@@ -20,7 +20,7 @@ pub(crate) fn touched(connection: &Connection) -> Result<Vec<i64>> {
     Ok(tokens)
 }
 
-/// Returns how many row changes of the running operation the schema's counter has counted.
+/// Returns the number of row changes of the running operation that the schema's counter has counted.
 pub(crate) fn touches(connection: &Connection) -> Result<i64> {
     let count = connection
         .prepare_cached(
@@ -32,7 +32,7 @@ pub(crate) fn touches(connection: &Connection) -> Result<i64> {
     Ok(count)
 }
 
-/// The two counters that show whether the index follows the rows, and the format it was built in.
+/// The two counters that show whether the index is up to date with the rows, and the format that it was built in.
 pub(crate) struct State {
     pub(crate) content: i64,
     pub(crate) indexed: i64,
@@ -52,7 +52,7 @@ impl State {
             })?)
     }
 
-    /// Writes down that an index of `format` has seen the first `indexed` changes.
+    /// Records that an index of `format` includes the first `indexed` changes.
     pub(crate) fn seen(connection: &Connection, indexed: i64, format: i64) -> Result<()> {
         connection.execute(
             "UPDATE search_state SET indexed = ?1, format = ?2 WHERE id = 1",
@@ -62,7 +62,7 @@ impl State {
     }
 }
 
-/// Begins a transaction that may write, on a connection that is only borrowed.
+/// Begins a writing transaction on a connection that is only borrowed.
 pub(crate) fn begin(connection: &Connection) -> Result<Transaction<'_>> {
     Ok(Transaction::new_unchecked(
         connection,
@@ -70,7 +70,7 @@ pub(crate) fn begin(connection: &Connection) -> Result<Transaction<'_>> {
     )?)
 }
 
-/// Begins a transaction that reads one state of the rows, on a connection that is only borrowed.
+/// Begins a transaction that reads one state of the rows, on a borrowed connection.
 pub(crate) fn begin_reading(connection: &Connection) -> Result<Transaction<'_>> {
     Ok(Transaction::new_unchecked(
         connection,

@@ -39,7 +39,7 @@ pub struct TokenRow {
     pub recording_id: Option<i64>,
     /// The recording's name.
     pub recording: Option<String>,
-    /// The annotation on a gloss tier that it is.
+    /// Its annotation on a gloss tier.
     pub annotation_id: Option<i64>,
     /// Where it starts, in microseconds.
     pub start_us: Option<i64>,
@@ -47,7 +47,7 @@ pub struct TokenRow {
     pub end_us: Option<i64>,
     /// The hand or hands that make it.
     pub hand: Option<Hands>,
-    /// How it came about.
+    /// Its origin.
     pub origin: Origin,
     /// Whether it is the sign's citation form.
     pub citation: bool,
@@ -64,20 +64,20 @@ pub(crate) struct TokenValueRow {
     pub component: Component,
     /// The feature of the component.
     pub feature: Option<String>,
-    /// Which of several successive values it is, if the sign has more than one.
+    /// Its phase, if the sign has several successive values.
     pub phase: Option<Phase>,
-    /// Whether it has a value.
+    /// Whether there is a value.
     pub state: ValueState,
     /// The value.
     pub value: Option<String>,
     /// The inventory it comes from.
     pub inventory_id: Option<i64>,
-    /// The annotation that says so.
+    /// The annotation that gives the value.
     pub annotation_id: Option<i64>,
 }
 
 impl TokenValueRow {
-    /// Returns the row of a reading of `field`, from no inventory and no annotation.
+    /// Returns the row for a reading of `field`, without inventory and annotation.
     pub(crate) fn of(field: &Field, reading: &Reading) -> Self {
         Self {
             hand: field.hand.map(Hands::One),
@@ -92,7 +92,7 @@ impl TokenValueRow {
     }
 }
 
-/// Returns the row of the sign with this gloss, and inserts it if it is missing.
+/// Returns the row of the sign with this gloss; inserts it if it is missing.
 pub(crate) fn sign_glossed(connection: &Connection, gloss: &str) -> Result<i64> {
     if let Some(id) = find_sign(connection, gloss)? {
         return Ok(id);
@@ -103,7 +103,7 @@ pub(crate) fn sign_glossed(connection: &Connection, gloss: &str) -> Result<i64> 
     Ok(connection.last_insert_rowid())
 }
 
-/// Returns the row of the sign with this gloss, letter by letter.
+/// Returns the row of the sign with exactly this gloss.
 pub(crate) fn find_sign(connection: &Connection, gloss: &str) -> Result<Option<i64>> {
     Ok(connection
         .prepare_cached("SELECT id FROM sign WHERE gloss = ?1")?
@@ -169,7 +169,7 @@ pub(crate) fn add_text(
     Ok(())
 }
 
-/// Writes a token and returns its row; its `id`, `gloss` and `recording` are not looked at.
+/// Writes a token and returns its row; its `id`, `gloss` and `recording` are not used.
 pub(crate) fn insert_token(connection: &Connection, row: &TokenRow) -> Result<i64> {
     connection
         .prepare_cached(
@@ -223,7 +223,7 @@ pub(crate) fn delete_token(connection: &Connection, id: i64) -> Result<()> {
     Ok(())
 }
 
-/// Deletes signs that have no token and no translation left.
+/// Deletes a sign that has no token and no translation any more.
 pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> Result<()> {
     connection
         .prepare_cached(
@@ -235,7 +235,7 @@ pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> Result<()
     Ok(())
 }
 
-/// Makes these the values of a token; rows that stay as they are are not touched.
+/// Sets the values of a token; leaves unchanged rows untouched.
 pub(crate) fn set_values(
     connection: &Connection,
     token: i64,
@@ -346,10 +346,10 @@ pub(crate) fn token(connection: &Connection, id: i64) -> Result<TokenRow> {
         })
 }
 
-/// How many rows are asked for at once where a list of them is read.
+/// The number of rows that one query asks for when a list of rows is read.
 pub(crate) const AT_ONCE: usize = 512;
 
-/// Returns the tokens of these rows that are there, by row.
+/// Returns the existing tokens among these rows, by row.
 pub(crate) fn tokens(connection: &Connection, ids: &[i64]) -> Result<BTreeMap<i64, TokenRow>> {
     let sql = format!("{TOKEN} WHERE t.id IN (SELECT value FROM json_each(?1))");
     let mut statement = connection.prepare_cached(&sql)?;
@@ -359,7 +359,7 @@ pub(crate) fn tokens(connection: &Connection, ids: &[i64]) -> Result<BTreeMap<i6
     Ok(rows)
 }
 
-/// Returns rows as a JSON list, to be asked for at once.
+/// Returns row numbers as a JSON list, for a single query.
 pub(super) fn json_list(ids: &[i64]) -> String {
     let ids: Vec<String> = ids.iter().map(i64::to_string).collect();
     format!("[{}]", ids.join(","))
@@ -378,7 +378,7 @@ pub(crate) fn tokens_of_recording(
     Ok(rows)
 }
 
-/// Returns the tokens of a recording that share time with a span or touch it, by time.
+/// Returns the tokens of a recording that overlap or touch a span, by time.
 pub(crate) fn tokens_near(
     connection: &Connection,
     recording: i64,
@@ -423,12 +423,12 @@ pub(crate) struct HoldingRow {
     pub(crate) token: i64,
     pub(crate) hand: Option<Hands>,
     pub(crate) left_handed: bool,
-    /// The annotation that says so, within the token.
+    /// The annotation that gives the value, within the token.
     pub(crate) span_us: Option<(i64, i64)>,
 }
 
-/// Returns the tokens of recordings that hold a value of a component, captured ones first. Generated tokens are
-/// left out: they show nothing beyond their sources, and would be compared with themselves.
+/// Returns the tokens of recordings that have a value of a component, captured ones first. Generated tokens are left
+/// out: they show nothing beyond their sources, and would be compared with themselves.
 pub(crate) fn tokens_holding(
     connection: &Connection,
     component: &str,

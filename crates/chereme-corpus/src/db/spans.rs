@@ -1,4 +1,4 @@
-//! The annotations of captured movement, by time, for those who measure it.
+//! Annotations of captured movement by time, for measurements.
 
 use chereme_sign::tier::Hands;
 use rusqlite::{Connection, params};
@@ -18,7 +18,7 @@ pub(crate) struct MovementSpan {
     pub(crate) inventory_id: Option<i64>,
 }
 
-/// The movement that an entry of a lexicon gives for a captured token of the same sign.
+/// The movement that a lexicon entry states for a captured token of the same sign.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct LexiconMovement {
     pub(crate) token: i64,
@@ -60,8 +60,8 @@ pub(crate) fn movement_spans(connection: &Connection, most: usize) -> Result<Vec
     Ok(rows)
 }
 
-/// Returns up to `most` values of movement that lexicon entries give to captured tokens of the same sign
-/// which have none of their own; by token, entry and place in the entry.
+/// Returns up to `most` values of movement that lexicon entries state for captured tokens of the same sign that have no
+/// value of their own; by token, entry and place in the entry.
 pub(crate) fn lexicon_movements(
     connection: &Connection,
     most: usize,

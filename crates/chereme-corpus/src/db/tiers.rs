@@ -23,16 +23,16 @@ pub struct TierRow {
     pub position: i64,
     /// The tier above.
     pub parent_id: Option<i64>,
-    /// How it hangs below it.
+    /// The relation to the tier above.
     pub stereotype: Option<Stereotype>,
     /// The subject of its annotations; in JSON the keys `role`, `component` and `feature`.
     #[serde(flatten, serialize_with = "serialize_role")]
     pub role: TierRole,
-    /// The hand or hands it is about.
+    /// The hand or hands that it describes.
     pub hand: Option<Hands>,
-    /// Who is annotated.
+    /// The person who is annotated.
     pub participant: Option<String>,
-    /// Who annotates.
+    /// The annotator.
     pub annotator: Option<String>,
     /// The language of its values.
     pub language: Option<String>,
@@ -42,7 +42,7 @@ pub struct TierRow {
     pub source: Option<String>,
 }
 
-/// How a tier is shown, as the settings of ELAN next to its file say.
+/// Display settings of a tier, read from the ELAN settings file beside its annotation file.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Deserialize)]
 #[serde(default)]
 pub struct TierShown {
@@ -55,7 +55,7 @@ pub struct TierShown {
 }
 
 impl TierRow {
-    /// Returns how the settings of ELAN show the tier.
+    /// Returns the tier's display settings from ELAN.
     #[must_use]
     pub fn shown(&self) -> TierShown {
         let source = self
@@ -69,7 +69,7 @@ impl TierRow {
             .unwrap_or_default()
     }
 
-    /// Returns the role with the hands: `right.configuration`.
+    /// Returns the role with the hands, such as `right.configuration`.
     pub(crate) fn topic(&self) -> TierTopic {
         TierTopic {
             role: self.role.clone(),
@@ -77,7 +77,8 @@ impl TierRow {
         }
     }
 
-    /// Returns whether it divides movement into phases; these belong to a stretch of signing, not to a sign.
+    /// Returns whether the tier divides movement into phases, which belong to a stretch of signing rather than to a
+    /// sign.
     pub(crate) fn is_of_phases(&self) -> bool {
         self.role.component() == Some((Component::Movement, Some("phase")))
     }
@@ -102,15 +103,15 @@ pub(crate) struct AnnotationRow {
     pub parent_id: Option<i64>,
     /// Its place in a symbolic subdivision, from 0; 0 elsewhere.
     pub position: i64,
-    /// Who it comes from.
+    /// Its source.
     pub origin: AnnotationOrigin,
-    /// How sure its origin is, from 0 to 1.
+    /// The confidence of its source, from 0 to 1.
     pub confidence: Option<f64>,
-    /// Its name in the file it came from.
+    /// Its id in the file it came from.
     pub external_id: Option<String>,
-    /// Its start in that file, in milliseconds, while it has not moved.
+    /// Its start in that file, in milliseconds, as long as it has not been moved.
     pub file_start_ms: Option<i64>,
-    /// Its end in that file, in milliseconds, while it has not moved.
+    /// Its end in that file, in milliseconds, as long as it has not been moved.
     pub file_end_ms: Option<i64>,
     /// Properties from its file that have no column, as JSON.
     pub source: Option<String>,
@@ -122,7 +123,7 @@ impl AnnotationRow {
         self.state.reading(&self.value)
     }
 
-    /// Returns whether it has a value that is more than blanks.
+    /// Returns whether it has a value that is not blank.
     pub(crate) fn is_filled(&self) -> bool {
         self.state == ValueState::Value && !self.value.trim().is_empty()
     }
@@ -177,7 +178,7 @@ fn annotation_row(row: &Row<'_>) -> rusqlite::Result<AnnotationRow> {
     })
 }
 
-/// Writes a tier and returns its row; its `id` is not looked at.
+/// Writes a tier and returns its row; its `id` is not used.
 pub(crate) fn insert_tier(connection: &Connection, row: &TierRow) -> Result<i64> {
     let (role, component, feature) = role_parts(&row.role);
     connection
@@ -233,7 +234,7 @@ pub(crate) fn update_tier(connection: &Connection, row: &TierRow) -> Result<()> 
     Ok(())
 }
 
-/// Deletes a tier that holds no annotations any more.
+/// Deletes a tier that has no annotations any more.
 pub(crate) fn delete_tier(connection: &Connection, id: i64) -> Result<()> {
     connection
         .prepare_cached("DELETE FROM tier WHERE id = ?1")?
@@ -265,7 +266,7 @@ pub(crate) fn tiers(connection: &Connection, recording: i64) -> Result<Vec<TierR
     Ok(rows)
 }
 
-/// Returns one tier of each role and hand that tiers of a name have, without those that are free.
+/// Returns one tier for each role and hand among the tiers of a name, except tiers without a role.
 pub(crate) fn roles_named(connection: &Connection, name: &str) -> Result<Vec<TierRow>> {
     let mut statement = connection.prepare_cached(&format!(
         "{TIER} WHERE name = ?1 AND role <> 'free' GROUP BY role, component, feature, hand ORDER BY id"
@@ -276,7 +277,7 @@ pub(crate) fn roles_named(connection: &Connection, name: &str) -> Result<Vec<Tie
     Ok(rows)
 }
 
-/// Writes an annotation and returns its row; its `id` is not looked at.
+/// Writes an annotation and returns its row; its `id` is not used.
 pub(crate) fn insert_annotation(connection: &Connection, row: &AnnotationRow) -> Result<i64> {
     connection
         .prepare_cached(
@@ -329,7 +330,7 @@ pub(crate) fn update_annotation(connection: &Connection, row: &AnnotationRow) ->
     Ok(())
 }
 
-/// Deletes an annotation that nothing refers to any more.
+/// Deletes an annotation that no row refers to any more.
 pub(crate) fn delete_annotation(connection: &Connection, id: i64) -> Result<()> {
     connection
         .prepare_cached("DELETE FROM annotation WHERE id = ?1")?
@@ -356,7 +357,7 @@ pub(crate) fn annotations(connection: &Connection, tier: i64) -> Result<Vec<Anno
     collect(connection, &sql, params![tier])
 }
 
-/// A handshape as it is annotated.
+/// An annotated handshape.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct ConfigurationSpan {
     pub(crate) tier_id: i64,
@@ -365,7 +366,7 @@ pub(crate) struct ConfigurationSpan {
     pub(crate) value: String,
 }
 
-/// Returns up to `most` annotated handshapes of movement that no recipe made, tier by tier and by time.
+/// Returns up to `most` annotated handshapes of movement that was not generated by a recipe, by tier and time.
 pub(crate) fn configuration_spans(
     connection: &Connection,
     most: usize,
@@ -390,10 +391,10 @@ pub(crate) fn configuration_spans(
     Ok(rows)
 }
 
-/// Returns the annotations of a tier that share time with a span or touch it, by time.
+/// Returns the annotations of a tier that overlap or touch a span, by time.
 ///
-/// None that starts earlier than the tier's longest is long can reach the span: however many there
-/// are, few rows are looked at.
+/// No annotation that starts earlier than the span by more than the length of the tier's longest annotation can reach
+/// it, so that few rows are read even on a long tier.
 pub(crate) fn annotations_near(
     connection: &Connection,
     tier: i64,

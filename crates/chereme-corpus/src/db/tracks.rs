@@ -64,15 +64,15 @@ pub struct TrackRow {
     pub kind: TrackKind,
     /// The name, which no other track of the recording has.
     pub name: String,
-    /// Where the track's own time 0 lies on the recording's clock, in microseconds; may be negative.
+    /// The time of the track's own time 0 on the recording's clock, in microseconds; may be negative.
     pub offset_us: i64,
-    /// How long it lasts, in microseconds; `None` for media of unknown length.
+    /// Its length in microseconds; `None` for media of unknown length.
     pub duration_us: Option<i64>,
-    /// How many frames it has; `None` for media.
+    /// The number of frames; `None` for media.
     pub frames: Option<u64>,
-    /// The rate of its frames; `None` for media, and if frames have times of their own.
+    /// The rate of its frames; `None` for media, and for frames with individual times.
     pub rate: Option<Rate>,
-    /// How many joints, points or scalar channels it has; 0 for media.
+    /// The number of joints, points or scalar channels; 0 for media.
     pub channels: u64,
     /// The time of day of the track's own time 0, in microseconds after midnight, if it is known.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -88,12 +88,12 @@ impl TrackRow {
     }
 }
 
-/// The columns of a track that [`TrackRow`] has not.
+/// The columns of a track that [`TrackRow`] does not include.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct TrackForm {
-    /// How many metres one unit of places is.
+    /// The length of one unit of positions in metres.
     pub(crate) metres_per_unit: Option<f64>,
-    /// The axes of places, as `up,left`.
+    /// The axes of positions, as `up,left`.
     pub(crate) axes: Option<String>,
     /// Further properties needed to read this kind of track, as JSON.
     pub(crate) layout: Option<String>,
@@ -104,11 +104,11 @@ pub(crate) struct TrackForm {
 pub(crate) struct ChannelRow {
     /// The group of blocks that hold its numbers.
     pub(crate) group: String,
-    /// The part of the file that it belongs to.
+    /// The part of the file to which it belongs.
     pub(crate) part: String,
     pub(crate) name: String,
     pub(crate) unit: String,
-    /// How many columns of the blocks are its.
+    /// The number of its columns in the blocks.
     pub(crate) columns: usize,
 }
 
@@ -178,7 +178,7 @@ pub(crate) fn track(connection: &Connection, id: i64) -> Result<TrackRow> {
     })
 }
 
-/// Returns the rest of a track's row.
+/// Returns the columns of a track that [`TrackRow`] does not include.
 pub(crate) fn form(connection: &Connection, id: i64) -> Result<TrackForm> {
     let sql = "SELECT metres_per_unit, axes, layout FROM track WHERE id = ?1";
     Ok(connection.prepare_cached(sql)?.query_row([id], |row| {
@@ -190,7 +190,7 @@ pub(crate) fn form(connection: &Connection, id: i64) -> Result<TrackForm> {
     })?)
 }
 
-/// Writes a track of markers or curves and returns its row; `id` and `channels` are not looked at.
+/// Writes a track of markers or curves and returns its row; `id` and `channels` are not used.
 pub(crate) fn insert(connection: &Connection, row: &TrackRow, form: &TrackForm) -> Result<i64> {
     let frames = row
         .frames
@@ -242,7 +242,7 @@ pub(crate) fn insert_channels(
     Ok(())
 }
 
-/// Makes sure that a group of channels has a row; such rows are shared and belong to no operation.
+/// Inserts a row for a group of channels if it is missing; such rows are shared and belong to no operation.
 pub(crate) fn ensure_group(connection: &Connection, name: &str) -> Result<()> {
     connection
         .prepare_cached("INSERT OR IGNORE INTO channel_group (name, note) VALUES (?1, ?2)")?
@@ -305,7 +305,7 @@ pub(crate) fn set_offset(connection: &Connection, track: i64, offset_us: i64) ->
     Ok(())
 }
 
-/// Writes down the time of day of a track's own time 0.
+/// Sets the time of day of a track's own time 0.
 pub(crate) fn set_clock(connection: &Connection, track: i64, clock_us: i64) -> Result<()> {
     connection
         .prepare_cached("UPDATE track SET clock_us = ?2 WHERE id = ?1 AND clock_us IS NOT ?2")?
@@ -321,7 +321,7 @@ pub(crate) fn rename(connection: &Connection, track: i64, name: &str) -> Result<
     Ok(())
 }
 
-/// Takes a track away with its channels; the blocks stay.
+/// Removes a track with its channels; the blocks stay.
 pub(crate) fn remove(connection: &Connection, track: i64) -> Result<()> {
     for sql in [
         "DELETE FROM track_block WHERE track_id = ?1",
@@ -333,7 +333,7 @@ pub(crate) fn remove(connection: &Connection, track: i64) -> Result<()> {
     Ok(())
 }
 
-/// Returns what tracks of curves hold besides their numbers, with their recording and its signer, oldest first.
+/// Returns the layouts of tracks of curves with their recording and its signer, oldest first.
 pub(crate) fn layouts_of_curves(
     connection: &Connection,
 ) -> Result<Vec<(i64, Option<i64>, String)>> {
@@ -353,7 +353,7 @@ pub(crate) fn signers_of_recordings(connection: &Connection) -> Result<BTreeMap<
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Writes down how a skeleton track holds its numbers, and how long it lasts.
+/// Sets the layout of a skeleton track.
 pub(crate) fn set_layout(connection: &Connection, track: i64, layout: &str) -> Result<()> {
     connection
         .prepare_cached("UPDATE track SET layout = ?2 WHERE id = ?1")?

@@ -1,5 +1,5 @@
-//! The parts of schema steps that SQL alone cannot do: rows that a step sets aside become rows of another
-//! table, in the history too.
+//! The parts of schema upgrades that SQL alone cannot do: rows that a step sets aside become rows of another table,
+//! also in the history.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use super::history;
 use super::motion::hex;
 use crate::error::Result;
 
-/// The name of the tracks that scalar curves of made movement become.
+/// The name of tracks that hold the scalar curves of generated movement.
 pub(crate) const NONMANUALS: &str = "nonmanuals";
 
-/// Does what a schema step left to the program, if it left something.
+/// Completes a schema step with the work that its SQL left to the program, if there is any.
 pub(super) fn after_step(connection: &Connection) -> Result<()> {
     let left: i64 = connection.query_row(
         "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'old_curve'",
@@ -28,9 +28,9 @@ pub(super) fn after_step(connection: &Connection) -> Result<()> {
     Ok(())
 }
 
-/// Up to version 4 scalar curves were rows next to a skeleton's track; now they are a track of their own, on
-/// the same frames. Changesets name rows by their ids, so that ids are mapped in one way for the rows and for
-/// the history.
+/// Converts scalar curves to tracks. Up to version 4 they were rows next to a skeleton's track; now they are a track of
+/// their own on the same frames. Changesets refer to rows by id, so the same mapping of ids serves the rows and the
+/// history.
 fn curves_become_tracks(connection: &Connection) -> Result<()> {
     let parts = history::parts(connection)?;
     let mut largest = Largest::of_rows(connection)?;
@@ -60,7 +60,7 @@ fn curves_become_tracks(connection: &Connection) -> Result<()> {
     Ok(())
 }
 
-/// The largest ids that tracks and their blocks ever had.
+/// The largest ids that tracks and their blocks have ever had.
 struct Largest {
     track: i64,
     block: i64,
@@ -141,10 +141,10 @@ impl Change {
     }
 }
 
-/// A skeleton's track as the history last had it, with the uids that it refers to.
+/// The latest state of each skeleton track in the history, with the uids that it refers to.
 type Known = BTreeMap<i64, (Value, Value)>;
 
-/// By how much ids grow: a curve's track has the id of the skeleton's track plus `track`.
+/// Offsets that are added to ids: a curve track has the id of the skeleton's track plus `track`.
 struct Moved {
     track: i64,
     block: i64,
@@ -185,7 +185,7 @@ impl Moved {
         Ok(())
     }
 
-    /// Returns the row of the curves' track for the row of the skeleton's.
+    /// Returns the row of the curve track for the row of a skeleton track.
     fn track_image(&self, skeleton: &Value) -> Value {
         let number = |name: &str| skeleton[name].as_i64().unwrap_or_default();
         let uid = skeleton["uid"].as_str().unwrap_or_default();
@@ -225,7 +225,7 @@ impl Moved {
         Value::Object(image)
     }
 
-    /// Returns the lines of a changeset as they are written now, and how many lines came to it.
+    /// Returns the lines of a changeset in the new format, and the number of added lines.
     fn lines(&self, text: &str, known: &mut Known) -> (String, i64) {
         let (mut lines, mut added) = (String::with_capacity(text.len()), 0);
         for line in text.lines() {
@@ -260,7 +260,7 @@ impl Moved {
         (lines, added)
     }
 
-    /// Returns the change of the curves' track that goes with that of its first curve.
+    /// Returns the change of the curve track that accompanies the change of its first curve.
     fn track_change(&self, curve: &Change, skeleton: &Value, refs: &Value) -> Change {
         let image = |of: &Value| match of {
             Value::Null => Value::Null,
@@ -306,7 +306,7 @@ impl Moved {
     }
 }
 
-/// Returns the uid of the curves' track for that of the skeleton's, in hexadecimal.
+/// Returns the uid of the curve track for that of the skeleton track, in hexadecimal.
 fn curves_uid(skeleton: &str) -> String {
     let digest = Sha256::digest(format!("{NONMANUALS} {skeleton}").as_bytes());
     hex(&digest[..16]).to_uppercase()

@@ -66,7 +66,7 @@ pub(in crate::db) const TRACKED: [(&str, &[(&str, &str)]); 21] = [
     ("kept_search", &[]),
 ];
 
-/// Changes that alter what the search index holds of tokens: table, event, and which tokens.
+/// Changes that affect what the search index stores about tokens: table, event, and the affected tokens.
 const TOUCHING: [(&str, &str, &str); 9] = [
     ("sign", "UPDATE", "WHERE t.sign_id = NEW.id"),
     ("sign_text", "INSERT", "WHERE t.sign_id = NEW.sign_id"),
@@ -92,7 +92,7 @@ const TOUCHING: [(&str, &str, &str); 9] = [
     ("tier", "UPDATE", "WHERE t.recording_id = NEW.recording_id"),
 ];
 
-/// Annotations during a token are found by search too: event, row, start and end of the change.
+/// Changes of annotations affect the index of tokens at the same time: event, row, start and end of the change.
 const SAYING: [(&str, &str, &str, &str); 3] = [
     ("INSERT", "NEW", "NEW.start_us", "NEW.end_us"),
     (
@@ -104,7 +104,7 @@ const SAYING: [(&str, &str, &str, &str); 3] = [
     ("DELETE", "OLD", "OLD.start_us", "OLD.end_us"),
 ];
 
-/// Sets up this connection's triggers that record every change of a tracked table.
+/// Creates this connection's triggers, which record every change of a tracked table.
 pub(in crate::db) fn record_changes(connection: &Connection) -> Result<()> {
     let mut sql = String::from(
         "CREATE TEMP TABLE change (
@@ -171,7 +171,7 @@ pub(in crate::db) fn record_changes(connection: &Connection) -> Result<()> {
 /// A column of a tracked table.
 pub(in crate::db) struct Column {
     pub(in crate::db) name: String,
-    /// Whether it holds bytes, which JSON has in hexadecimal.
+    /// Whether it holds bytes, which are hexadecimal in JSON.
     pub(in crate::db) blob: bool,
 }
 
@@ -190,7 +190,7 @@ pub(in crate::db) fn columns(connection: &Connection, table: &str) -> Result<Vec
     Ok(columns)
 }
 
-/// Returns the SQL of a row as JSON.
+/// Returns the SQL expression for a row as JSON.
 pub(in crate::db) fn row_image(columns: &[Column], row: &str) -> String {
     let fields: Vec<String> = columns
         .iter()
@@ -212,7 +212,7 @@ pub(crate) fn refers_to(table: &str, column: &str) -> Option<&'static str> {
     Some(other)
 }
 
-/// Returns the SQL of a column's value in the row `?1` as JSON.
+/// Returns the SQL expression for a column's value in the JSON row `?1`.
 pub(in crate::db) fn from_image(column: &Column) -> String {
     let name = &column.name;
     if column.blob {

@@ -1,4 +1,4 @@
-//! The rows that an answer reads beyond the index.
+//! Rows that search results read in addition to the index.
 
 use chereme_sign::tier::Hands;
 use chereme_sign::{Component, Phase, TierRole};
@@ -7,7 +7,7 @@ use rusqlite::{Connection, OptionalExtension, Row};
 use crate::db::columns::{Origin, ValueState, phase, role, word, word_or_null};
 use crate::error::Result;
 
-/// Returns two numbers that change whenever anybody has changed a row, this connection or another.
+/// Returns two numbers that change whenever any connection changes a row.
 pub(crate) fn versions(connection: &Connection) -> Result<(i64, u64)> {
     let others = connection
         .prepare_cached("PRAGMA data_version")?
@@ -50,7 +50,7 @@ pub(crate) fn name(connection: &Connection, named: Named, id: i64) -> Result<Opt
         .optional()?)
 }
 
-/// A token as an answer shows it.
+/// A token as a search result shows it.
 pub(crate) struct HitRow {
     pub(crate) gloss: String,
     pub(crate) recording: Option<String>,
@@ -79,7 +79,7 @@ pub(crate) fn hit(connection: &Connection, token: i64) -> Result<Option<HitRow>>
         .optional()?)
 }
 
-/// Something coded over a span of a recording, or of a token.
+/// An annotation or value over a span of a recording or token.
 pub(crate) struct CodedRow<'r> {
     /// Start and end; a lexicon entry has none.
     pub(crate) span: Option<(i64, i64)>,
@@ -135,9 +135,9 @@ pub(crate) fn coded_of_token(
     each_coded(connection, sql, [token], take)
 }
 
-/// Calls `take` with what is coded of a component in a recording: the annotations of its tiers,
-/// and the values of tokens that no annotation says. With `phases` it is the values of tokens, each
-/// over the span of its annotation.
+/// Calls `take` with the readings of a component in a recording: the annotations of its tiers, and the values of tokens
+/// that come from no annotation. With `phases` it is the values of tokens instead, each over the span of its
+/// annotation.
 pub(crate) fn coded_in_recording(
     connection: &Connection,
     recording: i64,
@@ -213,8 +213,7 @@ pub(crate) fn on_tier(
     each_coded(connection, sql, [tier], take)
 }
 
-/// Returns the translations of a token and the remarks on it: those of its sign, and the annotations that share
-/// time with it.
+/// Returns the translations and remarks for a token: those of its sign, and the annotations that overlap it.
 pub(crate) fn texts_of_token(
     connection: &Connection,
     token: i64,

@@ -1,4 +1,4 @@
-//! Tokens as the search index holds them, read in one pass where all are wanted.
+//! Tokens in the form in which the search index stores them; if all are wanted they are read in one pass.
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -12,7 +12,7 @@ use super::terms::{Mark, hand_codes, phase_code, reading_term, reading_text};
 use crate::db::columns::{self, word, word_or_null};
 use crate::error::Result;
 
-/// A token as the index holds it; texts are folded.
+/// A token in the form in which the index stores it; texts are folded.
 #[derive(Default)]
 pub(crate) struct TokenDocument {
     pub(crate) id: i64,
@@ -33,7 +33,7 @@ pub(crate) struct TokenDocument {
 /// The terms of a row of values in the index.
 pub(crate) struct ReadingTerms {
     pub(crate) terms: Vec<String>,
-    /// `right.configuration=U`, where the row has a value.
+    /// `right.configuration=U`, if the row has a value.
     pub(crate) facet: Option<String>,
 }
 
@@ -89,7 +89,7 @@ struct TokenFields {
     origin: String,
     hand: Option<sign_tier::Hands>,
     tier: Option<i64>,
-    /// The participant of its tier, as a signer, and whether that one is left-handed.
+    /// The participant of its tier, if that is a signer, and whether that signer is left-handed.
     participant: Option<(i64, bool)>,
 }
 
@@ -111,10 +111,10 @@ impl TokenFields {
     }
 }
 
-/// Rows of values in order of tokens; gives those of the next token at a time.
+/// Rows of values ordered by token; returns those of one token at a time.
 struct Values<'s> {
     rows: Rows<'s>,
-    /// The token of the row that the cursor stands on.
+    /// The token of the row at the cursor.
     token: Option<i64>,
     started: bool,
 }
@@ -137,7 +137,7 @@ impl<'s> Values<'s> {
         Ok(())
     }
 
-    /// Calls `take` with each row of `token`; rows of lesser tokens are stepped over.
+    /// Calls `take` with each row of `token`; skips rows of lesser tokens.
     fn of(
         &mut self,
         token: i64,
@@ -158,7 +158,7 @@ impl<'s> Values<'s> {
     }
 }
 
-/// Memory of what many tokens share; each part is emptied when it grows beyond its use.
+/// Cache of data that many tokens share; each part is emptied when it has grown too large.
 struct Reader<'c> {
     connection: &'c Connection,
     signs: HashMap<i64, Rc<SignTexts>>,
@@ -180,7 +180,7 @@ struct SignTexts {
     translations: Vec<Rc<str>>,
 }
 
-/// The hands of a token: the one that it is annotated for, else those that something is coded of.
+/// The hands of a token: the hand for which it is annotated, otherwise those that have coded values.
 #[derive(Default)]
 struct Hands {
     dominant: bool,
@@ -452,7 +452,7 @@ fn named(
     Ok(name)
 }
 
-/// Adds the texts that share time with a token; `said` is in order of start.
+/// Adds the texts that overlap a token in time; `said` is ordered by start.
 fn said_during(said: &[Said], (start, end): (i64, i64), texts: &mut Vec<Rc<str>>) {
     let until = said.partition_point(|said| said.start < end);
     let during = said[..until].iter().filter(|said| said.end > start);

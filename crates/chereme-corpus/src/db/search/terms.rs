@@ -1,4 +1,4 @@
-//! The terms by which the index finds what is coded of a token.
+//! Index terms for the coded properties of a token.
 //!
 //! A reading is `component|hand and phase|part|value`, such as `placement|ri||chin`. The hand is
 //! `r`, `l` (by side), `d`, `w` (by part in signing) or `n` (none); the phase `o` (the only value),
@@ -9,21 +9,21 @@ use chereme_sign::{HandRef, Phase, Reading};
 
 use crate::db::columns::ValueState;
 
-/// The content of a reading's term without a value.
+/// Values in a term for readings without a value.
 mod special {
     pub(super) const NOT_APPLICABLE: &str = "\u{1}n/a";
     pub(super) const UNCLEAR: &str = "\u{1}unclear";
     pub(super) const UNSET: &str = "\u{1}unset";
 }
 
-/// Something known of a token that is no component.
+/// A property of a token that is not a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Mark {
     Origin,
     Hand,
     Tier,
     Inventory,
-    /// Which texts it has: `translation`, `comment`.
+    /// The kinds of text that it has: `translation`, `comment`.
     Has,
 }
 
@@ -38,18 +38,18 @@ impl Mark {
         }
     }
 
-    /// Returns the term that says so.
+    /// Returns the term for a value of this mark.
     pub(crate) fn term(self, value: &str) -> String {
         format!("{}|{value}", self.name())
     }
 
-    /// Returns what all terms of this mark begin with.
+    /// Returns the prefix of all terms of this mark.
     pub(crate) fn prefix(self) -> String {
         self.term("")
     }
 }
 
-/// Returns what all readings of a component begin with.
+/// Returns the prefix of the terms of all readings of a component.
 pub(crate) fn component_prefix(component: &str) -> String {
     format!("{component}|")
 }
@@ -66,7 +66,7 @@ pub(crate) fn reading_term(
     format!("{component}|{hand}{phase}|{part}|{value}")
 }
 
-/// Returns how a term writes the reading that a row gives as state and value.
+/// Returns the text in a term for the reading of a row's state and value.
 pub(crate) fn reading_text(state: ValueState, value: Option<&str>) -> &str {
     match state {
         ValueState::Value => value.unwrap_or(special::UNSET),
@@ -76,12 +76,12 @@ pub(crate) fn reading_text(state: ValueState, value: Option<&str>) -> &str {
     }
 }
 
-/// Returns the reading that a row gives as state and value.
+/// Returns the reading for a row's state and value.
 pub(crate) fn reading(state: ValueState, value: Option<&str>) -> Reading {
     from_text(reading_text(state, value))
 }
 
-/// Returns how a term writes a reading.
+/// Returns the text in a term for a reading.
 pub(crate) fn text_of(reading: &Reading) -> &str {
     match reading {
         Reading::Value(value) => value,
@@ -100,7 +100,7 @@ fn from_text(text: &str) -> Reading {
     }
 }
 
-/// A reading's term, taken apart.
+/// The parts of a reading's term.
 pub(crate) struct Parsed<'a> {
     pub(crate) hand: char,
     pub(crate) phase: &'a str,
@@ -108,7 +108,7 @@ pub(crate) struct Parsed<'a> {
     pub(crate) reading: Reading,
 }
 
-/// Takes the term of a reading apart.
+/// Parses the term of a reading.
 pub(crate) fn parse(term: &str) -> Option<Parsed<'_>> {
     let mut pieces = term.splitn(4, '|').skip(1);
     let (place, part, value) = (pieces.next()?, pieces.next()?, pieces.next()?);
@@ -131,7 +131,7 @@ pub(crate) fn phase_code(phase: Option<Phase>) -> String {
     }
 }
 
-/// A side and a part in signing for every hand; of both hands all four, and of no hand its own.
+/// Returns the codes of a hand, by side and by part in signing: all four for both hands, and `n` for no hand.
 pub(crate) fn hand_codes(hand: Option<Hands>, left_handed: bool) -> &'static [char] {
     let hand = match hand {
         Some(Hands::One(hand)) => hand,
@@ -146,9 +146,9 @@ pub(crate) fn hand_codes(hand: Option<Hands>, left_handed: bool) -> &'static [ch
     }
 }
 
-/// Returns the codes of the hands that a field means.
+/// Returns the codes of the hands that a field stands for.
 ///
-/// Either hand is both parts in signing, and what belongs to no hand.
+/// Either hand stands for both parts in signing, and for readings without a hand.
 pub(crate) fn hands_of(hand: Option<HandRef>) -> &'static [char] {
     match hand {
         Some(HandRef::Right) => &['r'],
@@ -159,7 +159,7 @@ pub(crate) fn hands_of(hand: Option<HandRef>) -> &'static [char] {
     }
 }
 
-/// Returns whether a value of this phase code counts for a query of `phase`: the only value of a sign is its first
+/// Returns whether a value with this phase code matches a query for `phase`: the only value of a sign is both its first
 /// and its last.
 pub(crate) fn phase_counts(phase: Option<Phase>, code: &str) -> bool {
     match phase {
