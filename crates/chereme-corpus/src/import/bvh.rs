@@ -1,4 +1,4 @@
-//! Motion files: a recording with its skeleton and its movement, every number kept.
+//! Imports motion files: a recording with its skeleton and its movement, every number stored exactly.
 
 use std::fs::File;
 use std::sync::Arc;
@@ -102,7 +102,8 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     Ok(report)
 }
 
-/// Returns that the movement is there already: at its place, or under its name in an earlier import.
+/// Returns the report of movement that was imported before, from the same path, or under the same name by an earlier
+/// import.
 fn known(job: &mut Job<'_>) -> Result<Option<FileReport>> {
     let name = job.file_name.to_lowercase();
     let known = job.places.hashed(&job.hash).find(|row| {
@@ -118,15 +119,15 @@ fn known(job: &mut Job<'_>) -> Result<Option<FileReport>> {
         report.recording = Some(recordings::recording(job.connection, id)?.name);
     }
     if elsewhere.is_some() {
-        // The annotations that lie next to it now are of the same take.
+        // The annotation files beside the file's new place belong to the same take.
         row.path = Some(job.place.clone());
         job.places.add(row);
     }
     Ok(Some(report))
 }
 
-/// Says which other files of the corpus have to do with this one: the same movement under another name,
-/// or earlier movement at its place.
+/// Reports other files of the corpus that are related to this one: the same movement under another name, or other
+/// movement that was imported from its path.
 fn compare(job: &Job<'_>, report: &mut FileReport) -> Result<()> {
     let name = |id: i64| recordings::recording(job.connection, id).map(|row| row.name);
     let before = job.places.at(&job.place, job.kind);
@@ -154,7 +155,7 @@ fn compare(job: &Job<'_>, report: &mut FileReport) -> Result<()> {
     Ok(())
 }
 
-/// Stores the joints' positions as the whole movement places them, and reports offsets that differ.
+/// Stores the positions of joints as the whole movement gives them, and reports offsets that differ.
 fn place_joints(
     job: &Job<'_>,
     track: i64,
@@ -182,7 +183,7 @@ fn place_joints(
     Ok(())
 }
 
-/// Names a few things, and says how many more there are.
+/// Lists the first few names, and the number of those left out.
 fn listed(names: &[&str]) -> String {
     let shown = names.iter().take(6).copied().collect::<Vec<_>>().join(", ");
     match names.len().saturating_sub(6) {
@@ -233,7 +234,7 @@ fn wrong(error: chereme_formats::bvh::raw::BvhError) -> Error {
 /// Guesses of unit and axes with less confidence than this are reported.
 pub(super) const SURE: f64 = 0.7;
 
-/// The interpretation of a file's skeleton.
+/// Interpretation of a file's skeleton: unit and axes, channel groups, joint roles, and its first frames.
 struct Understood {
     convention: Convention,
     groups: std::collections::BTreeMap<ChannelGroup, Vec<usize>>,
@@ -298,7 +299,7 @@ fn understand(
     })
 }
 
-/// Guesses the unit and axes from the first frame that is not odd: a bind pose may face another way.
+/// Guesses the unit and axes from the first ordinary frame: a bind pose may face another direction.
 fn convention(
     anatomy: &Anatomy,
     skeleton: &Skeleton,
@@ -428,7 +429,7 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
     }
 }
 
-/// Returns the recording that lacks this movement, where its annotations came first.
+/// Returns the recording without movement that this movement belongs to, if its annotations were imported first.
 fn without_movement(job: &Job<'_>, report: &mut FileReport) -> Result<Option<i64>> {
     let lacks = |id: i64| {
         recordings::body_track(job.connection, id).map(|track| track.is_none().then_some(id))
@@ -451,8 +452,8 @@ fn without_movement(job: &Job<'_>, report: &mut FileReport) -> Result<Option<i64
     Ok(None)
 }
 
-/// Returns the recording that movement belongs to: the one that the caller named, one of this name that has no
-/// movement yet, or a new one.
+/// Returns the recording that movement belongs to: the one that the caller named, one of this name without movement, or
+/// a new one.
 pub(super) fn insert_recording(job: &mut Job<'_>, report: &mut FileReport) -> Result<i64> {
     let options = job.options;
     if let Some(into) = &options.into {
@@ -547,8 +548,8 @@ fn finish(job: &mut Job<'_>, recording: i64, track: i64, frames: u64, rate: Rate
     Ok(())
 }
 
-/// The factor for the root's positions that makes the legs reach the ground, if it is a step between units: the
-/// root in metres above bones in centimetres.
+/// Returns the factor for the root's positions that makes the legs reach the ground, if it is a ratio of common units,
+/// such as metres for the root and centimetres for the bones.
 fn root_scale(first: &Clip, anatomy: &Anatomy, up: DVec3) -> Option<f64> {
     let rest = first.skeleton().rest_model_pose();
     let feet = Side::BOTH.map(|side| anatomy.joint(Part::Foot(side)));

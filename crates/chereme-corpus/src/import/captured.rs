@@ -1,4 +1,4 @@
-//! Captures that are no BVH: markers, curves and skeletons of other formats, and tiers of other programs.
+//! Imports captures in formats other than BVH: markers, curves and skeletons, and tiers of other programs.
 
 use std::fs::{self, File};
 use std::io::Read as _;
@@ -17,7 +17,7 @@ use crate::error::{Error, Result};
 use crate::progress::Progress;
 use crate::track::{NewTrack, SkeletonTrack, Track};
 
-/// So many bytes of a table or JSON document show whether it holds curves.
+/// The number of bytes that are enough to see whether a table or JSON document holds curves.
 const HEAD: usize = 1 << 14;
 
 /// Reads a C3D file: markers, analog channels, model outputs, events.
@@ -49,7 +49,7 @@ pub(super) fn import_curves(job: &mut Job<'_>, progress: &mut Progress<'_>) -> R
     })
 }
 
-/// Reads a table: curves if its first column is a time, else a lexicon.
+/// Reads a table: curves if its first column is a time, otherwise a lexicon.
 pub(super) fn import_table(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     match holds_curves(job.path)? {
         true => import_curves(job, progress),
@@ -57,7 +57,7 @@ pub(super) fn import_table(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Re
     }
 }
 
-/// Reads JSON: scores of a face, points from film, else an inventory or signs.
+/// Reads JSON: scores of a face, points from film, otherwise an inventory or signs.
 pub(super) fn import_json(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     let head = head(job.path)?;
     if curves::Kind::of(&head).is_some() {
@@ -69,7 +69,7 @@ pub(super) fn import_json(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Res
     }
 }
 
-/// Reads a text: signs that another program exported as JSON, else lines of HamNoSys.
+/// Reads a text file: signs that another program exported as JSON, otherwise lines of HamNoSys.
 pub(super) fn import_text(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     match is_export_of_signs(job.path) {
         true => lexicon::import(job, progress),
@@ -77,7 +77,7 @@ pub(super) fn import_text(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Res
     }
 }
 
-/// Returns whether a file of text is an export of signs as JSON, which SLP-AA calls `.txt`.
+/// Returns whether a text file is an export of signs as JSON, which SLP-AA names `.txt`.
 pub(super) fn is_export_of_signs(path: &Path) -> bool {
     let head = head(path).unwrap_or_default();
     let text = String::from_utf8_lossy(&head);
@@ -102,7 +102,7 @@ fn head(path: &Path) -> Result<Vec<u8>> {
     Ok(head)
 }
 
-/// Reads a skeleton of glTF with its movement, and the weights of morph targets.
+/// Reads a skeleton from glTF with its movement, and the weights of morph targets.
 pub(super) fn import_gltf(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     let folder = job.path.parent().unwrap_or(Path::new("")).to_owned();
     scene(job, progress, |bytes| {
@@ -111,7 +111,7 @@ pub(super) fn import_gltf(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Res
     })
 }
 
-/// Reads a skeleton of FBX with its movement, and the weights of blend shapes.
+/// Reads a skeleton from FBX with its movement, and the weights of blend shapes.
 #[cfg(feature = "fbx")]
 pub(super) fn import_fbx(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     scene(job, progress, |bytes| {
@@ -119,7 +119,7 @@ pub(super) fn import_fbx(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Resu
     })
 }
 
-/// Stores the body of a scene and the curves of its face, and describes them as those of a BVH.
+/// Stores the body of a scene and the curves of its face, with the same report as for BVH.
 fn scene(
     job: &mut Job<'_>,
     progress: &mut Progress<'_>,
@@ -182,7 +182,8 @@ fn scene(
     Ok(report)
 }
 
-/// Returns unit and axes: the file's, with left as the body's joints show it, or what the caller says.
+/// Returns unit and axes: the caller's if given, otherwise the file's, with the left side corrected by the body's
+/// joints.
 fn facing(job: &Job<'_>, scene: &Scene, anatomy: &Anatomy) -> Convention {
     let stated = scene.convention;
     let pose = (scene.clip.frames() > 0).then(|| scene.clip.model_pose(0));
@@ -201,7 +202,7 @@ fn facing(job: &Job<'_>, scene: &Scene, anatomy: &Anatomy) -> Convention {
     }
 }
 
-/// Reads a TextGrid of Praat.
+/// Reads a Praat TextGrid.
 pub(super) fn import_text_grid(
     job: &mut Job<'_>,
     progress: &mut Progress<'_>,
@@ -272,7 +273,7 @@ pub(super) fn keep_take(
     Ok(report)
 }
 
-/// Stores events of a capture as a tier, unless the recording has a tier of their name.
+/// Stores events of a capture as a tier, unless the recording already has a tier of their name.
 fn add_events(
     job: &mut Job<'_>,
     recording: i64,

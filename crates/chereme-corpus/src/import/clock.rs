@@ -1,4 +1,4 @@
-//! Tracks of one take brought together by timecode: the time of day at which each began.
+//! Aligns tracks of one take by timecode: the time of day at which each began.
 
 use std::ops::Range;
 
@@ -12,16 +12,16 @@ use crate::error::Result;
 
 /// A day in microseconds.
 const DAY: i64 = 86_400_000_000;
-/// Two tracks are of one take if they share this part of the shorter one.
+/// The smallest share of the shorter track that two tracks of one take have in common.
 const SHARED: f64 = 0.5;
 
-/// Returns the span of a track in the day.
+/// Returns the span of a track within the day.
 fn day(row: &TrackRow) -> Option<Range<i64>> {
     let start = row.clock_us?;
     Some(start..start.saturating_add(row.duration_us.unwrap_or_default()))
 }
 
-/// Returns how much of the shorter of two spans both share, midnight being passed or not.
+/// Returns the overlap of two spans as a share of the shorter one; one of them may cross midnight.
 fn shared(a: &Range<i64>, b: &Range<i64>) -> f64 {
     let least = (a.end - a.start).min(b.end - b.start).max(1) as f64;
     let common = [-DAY, 0, DAY].map(|day| {
@@ -31,7 +31,7 @@ fn shared(a: &Range<i64>, b: &Range<i64>) -> f64 {
     common.into_iter().max().unwrap_or_default().max(0) as f64 / least
 }
 
-/// Returns the one recording near this file whose tracks were captured at the same time of day.
+/// Returns the recording near this file whose tracks were captured at the same time of day, if there is exactly one.
 pub(super) fn take_of(
     job: &Job<'_>,
     days: &[Range<i64>],
@@ -80,7 +80,8 @@ pub(super) fn take_of(
     }
 }
 
-/// Puts new tracks of a recording where the times of day of all its tracks say, unless the caller gave an offset.
+/// Moves new tracks of a recording so that their times of day agree with the other tracks, unless the caller gave an
+/// offset.
 pub(super) fn place(
     job: &Job<'_>,
     recording: i64,

@@ -1,4 +1,4 @@
-//! ELAN's annotation files: tiers, annotations and vocabularies onto a recording.
+//! Imports tiers, annotations and vocabularies from ELAN's annotation files into a recording.
 
 mod remap;
 mod target;
@@ -27,15 +27,15 @@ use crate::tokens;
 use remap::{remap, set_role};
 pub(super) use vocabulary::tier_inventory;
 
-/// The properties by which a file says what its recording is.
+/// The properties in which a file describes its recording.
 pub(crate) const ORIGIN: &str = "chereme.origin";
 pub(crate) const LICENCE: &str = "chereme.licence";
 pub(crate) const SIGNER: &str = "chereme.signer";
 pub(crate) const HANDEDNESS: &str = "chereme.handedness";
-/// The property by which a file says what its tiers are: the `tiers` of a [`Mapping`], as JSON.
+/// The property in which a file states the roles of its tiers: the `tiers` of a [`Mapping`], as JSON.
 pub(crate) const TIERS: &str = "chereme.tiers";
 
-/// How long after the end of the movement annotations may end without a word.
+/// How far annotations may extend beyond the end of the movement without a warning, in microseconds.
 const BEYOND: i64 = 1_000_000;
 
 /// Reads an annotation file onto its recording.
@@ -45,7 +45,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     })
 }
 
-/// Adds tiers to a recording that has none of their names; returns whether it did.
+/// Adds tiers to a recording that has none of their names; returns whether it added them.
 pub(super) fn add(
     job: &mut Job<'_>,
     recording: i64,
@@ -64,7 +64,7 @@ pub(super) fn add(
     Ok(true)
 }
 
-/// Takes tiers of any format in; `read` turns the file's bytes into a transcript.
+/// Imports tiers of any format; `read` converts the file's bytes to a transcript.
 pub(super) fn import_as(
     job: &mut Job<'_>,
     progress: &mut Progress<'_>,
@@ -148,8 +148,8 @@ pub(super) fn import_as(
     Ok(report)
 }
 
-/// Brings a recording to what an edited file says; refuses that where edits of the corpus would be lost,
-/// unless the options say what becomes of them.
+/// Updates a recording from an edited file. Fails if edits of the corpus would be lost, unless the options decide about
+/// them.
 fn update(
     job: &mut Job<'_>,
     (recording, there): (i64, &BTreeMap<String, TierRow>),
@@ -233,15 +233,15 @@ fn update(
     Ok(())
 }
 
-/// Returns which rules of tiers a recording breaks.
+/// Returns the tier rules that a recording violates.
 fn rules_broken(job: &Job<'_>, recording: i64) -> Result<BTreeSet<String>> {
     let set = crate::check::tier_set(job.connection, recording)?;
     let broken = chereme_sign::tier::check(&set).into_iter();
     Ok(broken.map(|it| it.to_string()).collect())
 }
 
-/// What the tiers are: as the caller says, else the file, else by their names; those whose names say
-/// nothing are what tiers of that name are elsewhere in the corpus.
+/// Guesses the roles of tiers from the caller's mapping, then the file, then the names. A tier whose name says nothing
+/// gets the role that tiers of that name have elsewhere in the corpus.
 fn guess(
     job: &mut Job<'_>,
     transcript: &Transcript,
@@ -277,7 +277,7 @@ fn guess(
     Ok(guesses)
 }
 
-/// Warns where the annotations go on long after the movement.
+/// Warns if the annotations extend long past the end of the movement.
 fn warn_of_length(
     job: &Job<'_>,
     recording: i64,
@@ -305,7 +305,7 @@ fn warn_of_length(
     Ok(())
 }
 
-/// The recording that the annotations are about, or a new one without movement.
+/// Returns the recording that the annotations belong to, or a new one without movement.
 fn recording(
     job: &mut Job<'_>,
     transcript: &Transcript,
@@ -377,7 +377,7 @@ fn media(job: &mut Job<'_>, recording: i64, transcript: &Transcript) -> Result<(
             continue;
         }
         let url = media.relative_url.as_ref().unwrap_or(&media.url);
-        // A film that came before its annotation file is the one that the file names.
+        // If the film was imported before the annotation file, it is the one that the annotation file names.
         let film = there.iter().find(|it| {
             it.name.starts_with("film ") && is_same_film(it, &crate::media::file_name(url))
         });
@@ -403,7 +403,7 @@ fn media(job: &mut Job<'_>, recording: i64, transcript: &Transcript) -> Result<(
     Ok(())
 }
 
-/// The one participant of all tiers, where there is one.
+/// Returns the participant of the tiers, if all tiers have the same one.
 fn participant(transcript: &Transcript) -> Option<String> {
     let all = participants(transcript);
     let mut all = all.into_iter();
@@ -418,7 +418,7 @@ fn participants(transcript: &Transcript) -> BTreeSet<&str> {
     named.filter(|name| !name.trim().is_empty()).collect()
 }
 
-/// Makes the participants of a file of several people signers; a single one is the recording's signer.
+/// Adds the participants as signers if a file has several; a single participant is the recording's signer.
 fn know_participants(job: &mut Job<'_>, transcript: &Transcript) -> Result<()> {
     let all = participants(transcript);
     if all.len() < 2 {
@@ -432,7 +432,7 @@ fn know_participants(job: &mut Job<'_>, transcript: &Transcript) -> Result<()> {
     Ok(())
 }
 
-/// The tiers of the recording, where the file is one that they came from and some of them are in it.
+/// Returns the tiers of the recording, if the file is a version of the one that they came from and shares some of them.
 fn standing_tiers(
     job: &Job<'_>,
     recording: i64,
@@ -540,7 +540,7 @@ fn write_annotations(
     Ok(())
 }
 
-/// Sets a row's state if its value is missing, on tiers of glosses and components.
+/// Sets the state of a row without a value, on tiers of glosses and components.
 fn coded(mut row: AnnotationRow, guess: &TierGuess) -> AnnotationRow {
     let coded = guess.role.as_ref().is_some_and(TierRole::is_coded);
     let state = ValueState::of_file_text(&row.value);
@@ -551,7 +551,7 @@ fn coded(mut row: AnnotationRow, guess: &TierGuess) -> AnnotationRow {
     row
 }
 
-/// Returns whether a text is a value or nothing at all.
+/// Returns the state of a text: a value, or nothing coded.
 fn plain_state(text: &str) -> ValueState {
     match text {
         "" => ValueState::Unset,

@@ -1,4 +1,4 @@
-//! Files that ELAN keeps next to its annotation files: vocabularies, templates of tiers, and how tiers are shown.
+//! Imports files that ELAN stores beside annotation files: vocabularies, tier templates, and display settings of tiers.
 
 use std::collections::BTreeSet;
 
@@ -15,8 +15,8 @@ use crate::db::{recordings, tiers};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
-/// Reads an external vocabulary: those that are of a component become inventories; all of them are kept for the
-/// annotation files that name this one.
+/// Reads an external vocabulary file. Vocabularies of a component become inventories; all are stored for the annotation
+/// files that refer to this one.
 pub(super) fn import_vocabularies(job: &mut Job<'_>, _: &mut Progress<'_>) -> Result<FileReport> {
     if let Some(report) = job.unchanged() {
         return Ok(report);
@@ -28,7 +28,7 @@ pub(super) fn import_vocabularies(job: &mut Job<'_>, _: &mut Progress<'_>) -> Re
     report
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
-    // A vocabulary says by its name what it is of, as a tier does.
+    // The name of a vocabulary indicates its component, as for a tier.
     let names: Vec<TierName<'_>> = vocabularies
         .iter()
         .map(|it| TierName {
@@ -72,7 +72,7 @@ pub(super) fn import_vocabularies(job: &mut Job<'_>, _: &mut Progress<'_>) -> Re
     Ok(report)
 }
 
-/// Fills the vocabularies of an annotation file that lie in other files, from those that were imported.
+/// Fills the external vocabularies of an annotation file from the vocabulary files that were imported.
 pub(super) fn fill(job: &Job<'_>, transcript: &mut Transcript) -> Result<()> {
     for vocabulary in &mut transcript.vocabularies {
         let Some(place) = vocabulary.external.as_deref() else {
@@ -97,8 +97,8 @@ pub(super) fn fill(job: &Job<'_>, transcript: &mut Transcript) -> Result<()> {
     Ok(())
 }
 
-/// Reads a template: its tiers go to the recording that the caller names, the one of its name, or those next to it that
-/// have no tiers.
+/// Reads a template. Its tiers are added to the recording that the caller names, otherwise to the one of the same name
+/// in this folder, otherwise to all recordings of the folder that have no tiers.
 pub(super) fn import_template(
     job: &mut Job<'_>,
     progress: &mut Progress<'_>,
@@ -175,7 +175,7 @@ pub(super) fn import_template(
     Ok(report)
 }
 
-/// Reads how ELAN shows the tiers of the annotation file of the same name: their order and colours.
+/// Reads ELAN's display settings for the annotation file of the same name: order and colours of its tiers.
 pub(super) fn import_settings(job: &mut Job<'_>, _: &mut Progress<'_>) -> Result<FileReport> {
     let bytes = job.bytes()?;
     let (settings, findings) =
@@ -202,7 +202,7 @@ pub(super) fn import_settings(job: &mut Job<'_>, _: &mut Progress<'_>) -> Result
         if order.is_none() && colour.is_none() && !hidden {
             continue;
         }
-        // A tier that was made here has no properties of a file, and stays so.
+        // A tier that was created here has no properties from a file, and gets none now.
         let Some(Ok(Value::Object(mut source))) =
             row.source.as_deref().map(serde_json::from_str::<Value>)
         else {

@@ -1,4 +1,4 @@
-//! Films: linked to the recording whose take they show, or a recording of their own.
+//! Imports films: links them to the recording whose take they show, or creates a recording for them.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -17,12 +17,12 @@ use crate::film::Film;
 use crate::media::{find_media, is_same_film, media_type};
 use crate::progress::Progress;
 
-/// The word for films in `source_file.kind`.
+/// The kind of films in `source_file.kind`.
 pub(super) const KIND: &str = "film";
-/// So many bytes at either end of a film identify it, with its size.
+/// The number of bytes at either end of a film that identify it, together with its size.
 const ENDS: u64 = 1 << 20;
 
-/// Returns a hash of both ends of a film and its size: films are too large to be read whole.
+/// Returns a hash of both ends of a film and of its size: films are too large to be read completely.
 pub(super) fn hash(path: &Path) -> Result<String> {
     let fault = |error| Error::file(path, error);
     let mut file = File::open(path).map_err(fault)?;
@@ -39,15 +39,15 @@ pub(super) fn hash(path: &Path) -> Result<String> {
     Ok(hex(&digest.finalize()))
 }
 
-/// Links a film to its recording: that of the files next to it, one whose annotation file names it, one of its name
-/// without a film, or a new one.
+/// Links a film to its recording: the recording of the files beside it, one whose annotation file names it, one of the
+/// same name without a film, or a new one.
 pub(super) fn import(job: &mut Job<'_>, _progress: &mut Progress<'_>) -> Result<FileReport> {
     if job.options.into.is_none() {
         let here = job.places.at(&job.place, KIND);
         if here.is_some_and(|row| row.hash == job.hash) {
             return Ok(FileReport::unchanged(job.path, None));
         }
-        // A film that left its place and comes again from another.
+        // A film that was moved away and is imported from its new place.
         let gone = |path: &String| !job.base.join(path).is_file();
         let moved = job.places.hashed(&job.hash).find(|row| {
             row.kind == KIND && row.path.as_ref().is_some_and(gone) && job.places.is_earlier(row)
@@ -98,7 +98,7 @@ pub(super) fn import(job: &mut Job<'_>, _progress: &mut Progress<'_>) -> Result<
     Ok(report)
 }
 
-/// Returns how long a film is, in microseconds; 0 if nothing here can find that out.
+/// Returns the length of a film in microseconds; 0 if no reader here can determine it.
 fn length(path: &Path, report: &mut FileReport) -> Result<i64> {
     let mut file = File::open(path).map_err(|error| Error::file(path, error))?;
     match mp4::read(&mut file) {
@@ -131,7 +131,7 @@ fn length(path: &Path, report: &mut FileReport) -> Result<i64> {
     }
 }
 
-/// Returns whether a film should be MP4 or QuickTime by its name.
+/// Returns whether a film is MP4 or QuickTime, judged by its name.
 fn is_mp4(path: &Path) -> bool {
     let kind = path.extension().unwrap_or_default().to_string_lossy();
     ["mp4", "m4v", "mov"].contains(&kind.to_lowercase().as_str())
@@ -164,7 +164,7 @@ fn recording(job: &Job<'_>) -> Result<Option<RecordingRow>> {
     Ok(without)
 }
 
-/// Returns whether the film of a track is missing, or is this very file.
+/// Returns whether the film of a track is missing, or is the file being imported.
 fn is_here(job: &Job<'_>, track: MediaTrackRow) -> bool {
     let corpus = job.base.join("corpus");
     let found = find_media(track, &corpus);
@@ -180,7 +180,7 @@ fn has_film(connection: &Connection, recording: i64) -> Result<bool> {
     Ok(tracks.iter().any(MediaTrackRow::is_film))
 }
 
-/// Makes a recording for a film that is of no other.
+/// Creates a recording for a film that belongs to no other.
 fn new(job: &mut Job<'_>, report: &mut FileReport) -> Result<(i64, String)> {
     let (name, note) = job.own_name()?;
     report.findings.extend(note);

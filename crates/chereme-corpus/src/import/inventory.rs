@@ -1,4 +1,4 @@
-//! Inventories from JSON; JSON of signs is a lexicon.
+//! Imports inventories from JSON; JSON that holds signs is imported as a lexicon.
 
 use chereme_formats::{hns, lexicon};
 use chereme_sign::Inventory;
@@ -48,7 +48,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     for inventory in &all {
         inventories::store(job.connection, inventory)?;
     }
-    // Values that existed before stay, so that both together may be refused.
+    // Existing values remain, so the old and new values together may be refused.
     let now = inventories::load(job.connection).map_err(|error| match error {
         Error::Damaged { reason, .. } => Error::wrong(format!(
             "with the values that the corpus has of it already: {reason}"
@@ -78,7 +78,7 @@ fn holds_signs(job: &Job<'_>, bytes: &[u8]) -> bool {
     })
 }
 
-/// Reports whether JSON is whole, and nothing that somebody meant as an inventory.
+/// Reports whether a text is valid JSON without signs of being meant as an inventory.
 fn is_other(text: &str) -> bool {
     let inventory =
         |value: &Value| value.get("values").is_some() || value.get("component").is_some();

@@ -1,4 +1,4 @@
-//! Tables of lexicon codings: each row a sign whose citation form is a token without movement.
+//! Imports tables of lexicon codings: each row is a sign whose citation form is a token without movement.
 
 use std::collections::BTreeMap;
 
@@ -92,7 +92,7 @@ fn wrong(error: &TableError) -> Error {
         .advise("a lexicon is a table with a header row and a column of glosses")
 }
 
-/// Notes which entries of the mapping name a column of the table, and returns whether any does.
+/// Records which entries of the mapping name a column of the table, and returns whether any does.
 fn map_columns(job: &mut Job<'_>, table: &Lexicon) -> bool {
     let mut any = false;
     for column in &table.columns {
@@ -106,18 +106,18 @@ fn map_columns(job: &mut Job<'_>, table: &Lexicon) -> bool {
 
 type Part = (Component, Option<String>);
 
-/// The row of the inventory for a part, and the value that each spelling of the table stands for.
+/// The row of a part's inventory, and the value for each spelling in the table.
 struct Known {
     row: i64,
     values: BTreeMap<String, String>,
 }
 
-/// Entries of the file at the same place that was imported before, by gloss, the last one first.
+/// Entries from an earlier import of the file at the same path, by gloss, in reverse order.
 #[derive(Default)]
 struct Earlier(BTreeMap<String, Vec<i64>>);
 
 impl Earlier {
-    /// Returns the entry that the next row with this gloss stands for; entries of other files are others.
+    /// Returns the earlier entry that corresponds to the next row with this gloss; entries of other files do not count.
     fn next(&mut self, job: &Job<'_>, gloss: &str, tokens: &[TokenRow]) -> Result<Option<i64>> {
         if let Some(known) = self.0.get_mut(gloss) {
             return Ok(known.pop());
@@ -136,7 +136,7 @@ impl Earlier {
                 Some(path) => path == job.place,
                 None => source["file"].as_str() == Some(&job.file_name),
             };
-            // A sign of a SiGML file is an entry of its own.
+            // A sign from a SiGML file is a separate entry.
             let notation = notations::of_token(job.connection, token.id)?;
             if same && notation.is_none_or(|notation| notation.system == "hamnosys") {
                 own.push(token.id);
@@ -149,7 +149,7 @@ impl Earlier {
     }
 }
 
-/// Stores the values that the table uses, unless an inventory of the corpus has them all.
+/// Stores the values that the table uses, unless an inventory of the corpus already has them all.
 fn store_inventories(job: &mut Job<'_>, table: &Lexicon) -> Result<BTreeMap<Part, Known>> {
     let mut known = BTreeMap::new();
     for used in table.inventories() {
@@ -288,7 +288,7 @@ fn value_row(coding: &Coding, inventories: &BTreeMap<Part, Known>) -> TokenValue
     }
 }
 
-/// The row as the table has it, so that nothing is lost.
+/// Returns the cells of a row as in the table, so that nothing is lost.
 fn cells(job: &Job<'_>, table: &Lexicon, entry: &Entry) -> Value {
     let cells: Map<String, Value> = table
         .columns

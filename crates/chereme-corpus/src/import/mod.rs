@@ -1,7 +1,7 @@
-//! Files into the corpus: recordings, annotations, lexicons, notation, inventories, and folders of them.
+//! Imports files into the corpus: recordings, annotations, lexicons, notation, inventories, and folders of these.
 //!
-//! One import is one operation, whatever it takes in; a file that is refused leaves nothing behind
-//! and does not keep the others out.
+//! One import is one operation, however many files it reads. A file that is refused leaves nothing behind and does not
+//! prevent the others from being imported.
 
 mod bvh;
 mod captured;
@@ -48,72 +48,71 @@ pub use report::{
     FileReport, FileStatus, ImportReport, Outcome, OwnEdit, ReportFinding, Saying, Unread,
 };
 
-/// Returns the moment that a timecode such as `12:34:56:07` or `12:34:56:07@25` names; 30 frames make a second if no other
-/// number stands behind the `@`.
+/// Returns the time of day for a timecode such as `12:34:56:07` or `12:34:56:07@25`; the number behind `@` is the
+/// frames per second, 30 by default.
 #[must_use]
 pub fn time_of_day(timecode: &str) -> Option<Instant> {
     chereme_formats::timecode::time_of_day(timecode, 30.0)
 }
 
-/// A text file larger than this is no annotation file, lexicon or inventory.
+/// The size of the largest annotation file, lexicon or inventory that is read, in bytes.
 const LARGEST_TEXT: u64 = 512 << 20;
 const DEEPEST_FOLDER: usize = 32;
 
-/// Facts that the caller knows better than the files.
+/// Information from the caller that overrides the files, and choices for the import.
 #[derive(Debug, Clone, Default)]
 pub struct ImportOptions {
-    /// Whose movement it is.
+    /// The name of the signer.
     pub signer: Option<String>,
     /// The signer's dominant hand, `right` or `left`.
     pub handedness: Option<String>,
-    /// How many metres one unit of the motion files is.
+    /// The length of one unit of the motion files in metres.
     pub metres_per_unit: Option<f64>,
     /// The motion files' axes.
     pub axes: Option<Axes>,
-    /// Which joint is which part of the body.
+    /// The assignment of joints to parts of the body.
     pub roles: Option<Roles>,
-    /// Whether root columns that lie in another order than their header says are read as they lie.
+    /// Whether root columns whose order differs from their header are read in their actual order.
     pub mend_root: bool,
-    /// The meaning of tiers and columns; it goes before what an annotation file says of its tiers itself.
+    /// The meaning of tiers and columns; it takes precedence over statements in an annotation file.
     pub mapping: Mapping,
-    /// How the recordings came about.
+    /// The origin of the recordings.
     pub origin: Option<Origin>,
     /// The terms under which the recordings may be used.
     pub licence: Option<String>,
-    /// The fate of edits of the corpus that an annotation file, imported again, would take back.
+    /// The treatment of edits in the corpus that an annotation file would revert when it is imported again.
     pub own_edits: OwnEdits,
-    /// The recording that everything belongs to, instead of the one that a file's name says.
+    /// The recording that all files belong to, instead of the one that their names indicate.
     pub into: Option<Name>,
-    /// Where the tracks of the files start on the recording's clock, in microseconds; may be negative.
+    /// The start of the files' tracks on the recording's clock, in microseconds; may be negative.
     pub offset_us: i64,
-    /// The time of day at which the tracks start, where files do not state it; tracks of one recording whose times of day
-    /// are known are put where these say.
+    /// The time of day at which the tracks start, if the files do not state it; tracks of one recording with known
+    /// times of day are aligned by these.
     pub clock: Option<Instant>,
-    /// Frames a second of films whose files do not state it.
+    /// The frame rate of films whose files do not state it.
     pub rate: Option<Rate>,
-    /// Report what would be done, and write nothing.
+    /// Whether the import only reports what it would do, and writes nothing.
     pub dry_run: bool,
 }
 
-/// The fate of edits of the corpus that a file, imported again, would take back.
+/// The treatment of edits in the corpus that a file would revert when it is imported again.
 ///
-/// With any choice but the first, a file of the same name in another folder counts as a version of the one
-/// that was imported.
+/// With any choice but the first, a file of the same name in another folder counts as a version of the imported one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum OwnEdits {
-    /// The file is refused, and what would be lost is listed in [`FileReport::edits`].
+    /// The file is refused, and [`FileReport::edits`] lists what would be lost.
     #[default]
     Ask,
-    /// The corpus stays as it is.
+    /// The edits in the corpus win.
     Mine,
-    /// The file's annotations take their place.
+    /// The file's annotations replace the edits.
     Theirs,
-    /// A change of one side alone is taken; if both changed the same annotation, the edit stays and is
+    /// A change that only one side made is taken over; if both changed the same annotation, the edit stays and is
     /// listed.
     Merge,
 }
 
-/// The file and the state that every reader needs.
+/// The file being imported, and the state that every reader needs.
 struct Job<'a> {
     connection: &'a Connection,
     options: &'a ImportOptions,
@@ -121,24 +120,24 @@ struct Job<'a> {
     /// The file's name without folder and extension.
     stem: String,
     file_name: String,
-    /// Where the file lies, seen from the folder of the corpus.
+    /// The path of the file relative to the folder of the corpus.
     place: String,
     /// The folder of the corpus.
     base: &'a Path,
-    /// The word for its kind in `source_file.kind`.
+    /// The kind of the file in `source_file.kind`.
     kind: &'static str,
     hash: String,
     inventories: Rc<Vec<StoredInventory>>,
-    /// The files that the corpus came from.
+    /// The files that were imported into the corpus.
     places: &'a mut Places,
     counts: Counts,
-    /// Names and patterns of the mapping that a tier or column of this import has.
+    /// Names and patterns of the mapping that match a tier or column of this import.
     used: &'a mut BTreeSet<String>,
-    /// Whether the caller named the file, instead of a folder that it lies in.
+    /// Whether the caller named the file itself rather than a folder that contains it.
     named: bool,
-    /// The number of steps that progress heard of.
+    /// The number of progress reports so far.
     told: u64,
-    /// The recording of the one file of movement in this file's folder, if the folder holds one take.
+    /// The recording of the only motion file in this file's folder, if the folder holds one take.
     folder_take: Option<i64>,
 }
 
@@ -147,7 +146,7 @@ impl Job<'_> {
         self.counts.created(what, many);
     }
 
-    /// Reports that the work goes on, and hears whether it should stop.
+    /// Reports progress; fails if the caller asks the work to stop.
     fn tell(&mut self, progress: &mut Progress<'_>) -> Result<()> {
         self.told += 1;
         progress.tell(Step {
@@ -158,8 +157,7 @@ impl Job<'_> {
         })
     }
 
-    /// Returns the file of these bytes that was imported before, whatever its place, and the report that
-    /// nothing changed.
+    /// Returns a report that nothing changed, if a file with the same bytes was imported before, from any path.
     fn unchanged(&self) -> Option<FileReport> {
         let known = self
             .places
@@ -169,7 +167,7 @@ impl Job<'_> {
         Some(FileReport::unchanged(self.path, elsewhere))
     }
 
-    /// Writes down the file, with its bytes if they are kept, and returns its row.
+    /// Records the file, with its bytes if they are to be stored, and returns its row.
     fn keep(&mut self, recording_id: Option<i64>, bytes: Option<&[u8]>) -> Result<i64> {
         let mut row = SourceFileRow {
             id: 0,
@@ -199,16 +197,16 @@ impl Job<'_> {
 }
 
 impl Corpus {
-    /// Takes files and folders into the corpus as one operation.
+    /// Imports files and folders into the corpus as one operation.
     ///
-    /// A motion file and an annotation file of the same folder and stem become one recording.
-    /// Where a file lies identifies it: files of one name in two folders are two. Files that were imported
-    /// before are left alone, unless the mapping says otherwise of their tiers or columns; a file that is
-    /// refused is reported, leaves nothing behind, and does not keep the others out.
+    /// A motion file and an annotation file of the same folder and stem become one recording. A file is identified by
+    /// its path: files of one name in two folders are two. Files that were imported before are left alone, unless the
+    /// mapping gives their tiers or columns another meaning. A file that is refused is reported, leaves nothing behind,
+    /// and does not prevent the others from being imported.
     ///
     /// # Errors
-    /// Where nothing but one file is to be read and it is not there or of no kind that is read, the work is
-    /// stopped, or the database fails.
+    /// Fails if the only file to read does not exist or has an unknown format, if the work is stopped, or if the
+    /// database fails.
     pub fn import(
         &mut self,
         paths: &[PathBuf],
@@ -255,16 +253,16 @@ impl Corpus {
     }
 }
 
-/// A file to take in, or the reason why it is not read.
+/// A file to import, or the reason why it is not read.
 struct Candidate {
     path: PathBuf,
-    /// Its place in [`READERS`], or why it is not read.
+    /// Its index in [`READERS`], or the reason why it is not read.
     reader: std::result::Result<usize, Error>,
-    /// Whether the caller named it, instead of a folder that it lies in.
+    /// Whether the caller named it rather than a folder that contains it.
     named: bool,
 }
 
-/// The state that the files of an import share.
+/// State shared by the files of an import.
 struct Import<'a> {
     connection: &'a Connection,
     options: &'a ImportOptions,
@@ -272,14 +270,14 @@ struct Import<'a> {
     base: &'a Path,
     places: Places,
     inventories: Option<Rc<Vec<StoredInventory>>>,
-    /// Names and patterns of the mapping that a tier or column has.
+    /// Names and patterns of the mapping that match a tier or column.
     used: BTreeSet<String>,
-    /// Files that stand alone of their kind and name next to the one file of movement in their folder.
+    /// Files that are the only one of their kind and name beside a single motion file in their folder.
     one_take: BTreeSet<PathBuf>,
 }
 
-/// Returns the files of folders that hold one take: next to one file of movement, the only one of its kind, with a name
-/// that no other file there has.
+/// Returns the files of folders that hold one take: each is beside a single motion file, is the only one of its kind,
+/// and has a name that no other file in the folder has.
 fn one_take(files: &[Candidate]) -> BTreeSet<PathBuf> {
     let readable = |it: &&Candidate| it.reader.is_ok() && !it.named;
     let mut kinds: BTreeMap<(&Path, &str), usize> = BTreeMap::new();
@@ -376,7 +374,7 @@ impl Import<'_> {
                 Err(error) => FileReport::refused(path, &error),
             };
             connection.execute_batch("ROLLBACK TO file; RELEASE file")?;
-            // The rows that it had added do not exist any more.
+            // The rows that the file had added were removed again.
             self.inventories = None;
             self.places.forget(known);
             report.files.push(file);
@@ -425,14 +423,14 @@ impl Import<'_> {
             job.folder_take = job.places.movement_beside(&job.place);
         }
         let done = (READERS[reader].read)(&mut job, progress)?;
-        // Files that add inventories make the next one load them again.
+        // Files that add inventories make the next file load the inventories again.
         let same = Rc::ptr_eq(&job.inventories, &inventories) && READERS[reader].keeps_inventories;
         let counts = job.counts;
         self.inventories = same.then_some(inventories);
         Ok((done, counts))
     }
 
-    /// Warns of names in the mapping that no tier and no column of the files has.
+    /// Warns about names in the mapping that match no tier and no column of the files.
     fn warn_of_mapping(&self, report: &mut ImportReport) {
         let all = self.options.mapping.entries();
         let unused: Vec<String> = all
@@ -451,15 +449,15 @@ impl Import<'_> {
     }
 }
 
-/// Returns a path from the root, links and `..` resolved if it exists.
+/// Returns a path from the root, with links and `..` resolved if it exists.
 fn absolute(path: &Path) -> PathBuf {
     fs::canonicalize(path)
         .or_else(|_| std::path::absolute(path))
         .unwrap_or_else(|_| path.to_owned())
 }
 
-/// Returns where a file lies, seen from a folder: `A/x.eaf`, or `../A/x.eaf`, with `/` on every system.
-/// On another drive it is the whole path.
+/// Returns the path of a file relative to a folder: `A/x.eaf`, or `../A/x.eaf`, with `/` on every system. On another
+/// drive it is the absolute path.
 fn place(path: &Path, folder: &Path) -> String {
     let (own, base): (Vec<_>, Vec<_>) =
         (path.components().collect(), folder.components().collect());
@@ -498,7 +496,7 @@ fn hash_file(path: &Path, progress: &mut Progress<'_>) -> Result<String> {
     }
 }
 
-/// Returns the files in the order in which [`READERS`] reads them, those that are not read first.
+/// Returns the files in the order in which [`READERS`] reads them, preceded by those that are not read.
 fn gather(paths: &[PathBuf]) -> Vec<Candidate> {
     let mut files = Vec::new();
     for path in paths {
@@ -514,7 +512,7 @@ fn gather(paths: &[PathBuf]) -> Vec<Candidate> {
     }
     files.sort_by(|a, b| (&a.path, b.named).cmp(&(&b.path, a.named)));
     files.dedup_by(|a, b| a.path == b.path);
-    // Of a film with a file for each frame the first stands for all.
+    // If a film has a file for each frame, the first file stands for all.
     let mut films = BTreeSet::new();
     files.retain(|it| match points::series(&it.path) {
         Some(film) if it.reader.is_ok() => films.insert(film),
@@ -525,7 +523,7 @@ fn gather(paths: &[PathBuf]) -> Vec<Candidate> {
 }
 
 impl Candidate {
-    /// Returns what cannot be read at all, which the import does not pass over in silence.
+    /// Returns a candidate for a path that cannot be read at all, so that the import reports it.
     fn broken(path: &Path, error: std::io::Error) -> Self {
         Self {
             path: path.to_owned(),

@@ -1,5 +1,5 @@
-//! Files of notation, SiGML or lines of HamNoSys: each sign a lexicon entry with its notation, and with
-//! components from it.
+//! Imports notation files (SiGML, or lines of HamNoSys): each sign becomes a lexicon entry with its notation and the
+//! components derived from it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -34,7 +34,7 @@ fn import(job: &mut Job<'_>, form: Form, progress: &mut Progress<'_>) -> Result<
     let bytes = job.bytes()?;
     let (entries, findings) = notation::read_signs(&bytes, form)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
-    // The names that these signs get are reported below.
+    // The names given to these signs are reported below.
     let named = |finding: &Finding| !finding.message.ends_with(sigml::NO_GLOSS);
     let findings = findings.into_iter().filter(named);
     report.findings.extend(findings.map(ReportFinding::from));
@@ -71,8 +71,8 @@ fn import(job: &mut Job<'_>, form: Form, progress: &mut Progress<'_>) -> Result<
     Ok(report)
 }
 
-/// Returns the tokens that came of this file before. Those of a file of its name in another folder are of
-/// other signs, which is noted.
+/// Returns the tokens of an earlier import of this file. Tokens of a file of the same name in another folder are other
+/// signs; a note says so.
 fn earlier(job: &Job<'_>, report: &mut FileReport) -> Result<Earlier> {
     let mut files = BTreeSet::new();
     let mut elsewhere = None;
@@ -98,7 +98,7 @@ fn earlier(job: &Job<'_>, report: &mut FileReport) -> Result<Earlier> {
     Ok(Earlier::new(rows))
 }
 
-/// Tokens of files of the same name that were imported before, by gloss, the last one first.
+/// Tokens of earlier imports of the file, by gloss, in reverse order.
 struct Earlier(BTreeMap<String, Vec<i64>>);
 
 impl Earlier {
@@ -116,7 +116,7 @@ impl Earlier {
     }
 }
 
-/// The file that signs come from.
+/// The file from which signs come.
 struct Place {
     file: i64,
     form: Form,
@@ -127,7 +127,7 @@ struct Place {
 }
 
 impl Place {
-    /// Returns which names signs without a gloss got.
+    /// Returns a note with the names given to signs without a gloss.
     fn unnamed_signs(&self) -> Option<ReportFinding> {
         const REMEDY: &str = "give each sign a gloss in the file, and import it again";
         let message = match self.unnamed.as_slice() {

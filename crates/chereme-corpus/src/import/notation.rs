@@ -1,4 +1,4 @@
-//! Notation as it is stored, with components from it.
+//! Stores notation and the components derived from it.
 
 use std::collections::BTreeMap;
 
@@ -25,7 +25,7 @@ pub(super) struct Text<'t> {
 }
 
 impl Text<'_> {
-    /// Stores the notation of the token, and its components where the table has no word on them.
+    /// Stores the notation of the token, and its components for which the table has no coding.
     pub(super) fn import(
         &self,
         job: &mut Job<'_>,
@@ -81,7 +81,7 @@ impl Text<'_> {
     }
 }
 
-/// Returns why a text cannot code a sign: it was garbled, or holds no symbol.
+/// Returns the reason why a text cannot code a sign: it was garbled, or holds no symbol.
 pub(super) fn uncoded(gloss: &str, line: u64, text: &str) -> Option<ReportFinding> {
     let (message, remedy) = if is_garbled(text) {
         (
@@ -104,7 +104,7 @@ pub(super) fn uncoded(gloss: &str, line: u64, text: &str) -> Option<ReportFindin
     Some(finding)
 }
 
-/// Returns a notated sign as it is stored.
+/// Returns the stored form of a notated sign.
 pub(super) fn document(sign: &Notated) -> Result<String> {
     serde_json::to_string(sign).map_err(|error| {
         Error::wrong(format!(
@@ -114,7 +114,7 @@ pub(super) fn document(sign: &Notated) -> Result<String> {
     })
 }
 
-/// Returns what the components of a sign leave out of its notation, as a finding.
+/// Returns a finding about the parts of a notation that the components of the sign cannot express.
 pub(super) fn lost(gloss: &str, line: u64, mapped: &Mapped) -> Option<ReportFinding> {
     if mapped.lost.is_empty() {
         return None;
@@ -127,7 +127,7 @@ pub(super) fn lost(gloss: &str, line: u64, mapped: &Mapped) -> Option<ReportFind
     Some(note)
 }
 
-/// Notation in the words of the corpus's inventories.
+/// Mapping of notation to the values of the corpus's inventories.
 pub(super) struct Words<'i> {
     mapper: Mapper<'i>,
     rows: BTreeMap<(Component, Option<&'i str>), i64>,
@@ -145,12 +145,12 @@ impl<'i> Words<'i> {
         Self { mapper, rows }
     }
 
-    /// Returns what a sign has in each component.
+    /// Returns the values of a sign in each component.
     pub(super) fn map(&self, sign: &Notated) -> Mapped {
         self.mapper.map(sign)
     }
 
-    /// Returns the values as they are stored.
+    /// Returns the values as rows for storage.
     pub(super) fn rows(&self, mapped: &Mapped) -> Vec<TokenValueRow> {
         mapped.values.iter().map(|value| self.row(value)).collect()
     }

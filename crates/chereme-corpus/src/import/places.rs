@@ -1,8 +1,8 @@
-//! Which file of the corpus a file is: one that it has, a new version of one, or another of the same name.
+//! Identifies a file among those of the corpus: an imported file, a new version of one, or another of the same name.
 //!
-//! Where a file lies identifies it. Files that lie next to each other with one name but for the ending
-//! (and for capital letters) are of one take. A file elsewhere is another file, unless an earlier import
-//! brought the same bytes, or its content shows that it was moved.
+//! A file is identified by its path. Files in one folder whose names differ only in the ending (and in capital letters)
+//! belong to one take. A file elsewhere is another file, unless an earlier import read the same bytes, or its content
+//! shows that it was moved.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,11 +14,11 @@ use super::report::ReportFinding;
 use crate::db::recordings::{self, SourceFileRow};
 use crate::error::Result;
 
-/// The files that the corpus came from; those of the running import are added as they are read.
+/// The files that were imported into the corpus; those of the running import are added as they are read.
 #[derive(Default)]
 pub(super) struct Places {
     rows: Vec<SourceFileRow>,
-    /// The last row that an earlier import wrote.
+    /// The last row written by an earlier import.
     earlier: i64,
     by_stem: BTreeMap<String, Vec<usize>>,
     by_hash: BTreeMap<String, Vec<usize>>,
@@ -41,12 +41,12 @@ impl Places {
         self.rows.push(row);
     }
 
-    /// Returns how many files are known, for [`forget`](Self::forget).
+    /// Returns the number of known files, for [`forget`](Self::forget).
     pub(super) fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// Forgets all files but the first ones, as a file that is refused leaves nothing behind.
+    /// Forgets all files but the first ones, after a refused file.
     pub(super) fn forget(&mut self, first: usize) {
         for row in self.rows.drain(first..) {
             for (list, key) in [
@@ -58,30 +58,30 @@ impl Places {
         }
     }
 
-    /// Returns the files of this name, whatever its ending and capital letters, the newest first.
+    /// Returns the files of this name, ignoring ending and case, newest first.
     pub(super) fn namesakes(&self, name: &str) -> impl Iterator<Item = &SourceFileRow> {
         let found = self.by_stem.get(&stem(name)).into_iter().flatten();
         found.rev().map(|&at| &self.rows[at])
     }
 
-    /// Returns the files of these bytes, the newest first.
+    /// Returns the files with these bytes, newest first.
     pub(super) fn hashed(&self, hash: &str) -> impl Iterator<Item = &SourceFileRow> {
         let found = self.by_hash.get(hash).into_iter().flatten();
         found.rev().map(|&at| &self.rows[at])
     }
 
-    /// Returns the newest file of a kind at this place.
+    /// Returns the newest file of a kind at this path.
     pub(super) fn at(&self, place: &str, kind: &str) -> Option<&SourceFileRow> {
         self.namesakes(name(place))
             .find(|row| row.kind == kind && row.path.as_deref() == Some(place))
     }
 
-    /// Reports whether an earlier import brought a file; two files of one import are never the same.
+    /// Reports whether an earlier import read a file; two files of one import are never the same.
     pub(super) fn is_earlier(&self, row: &SourceFileRow) -> bool {
         row.id <= self.earlier
     }
 
-    /// Returns the recording of the files that lie next to this one and have its name but for the ending.
+    /// Returns the recording of files in the same folder whose names differ only in the ending.
     pub(super) fn beside(&self, place: &str) -> Option<i64> {
         let own = Path::new(place).file_stem();
         let near = || {
@@ -96,12 +96,12 @@ impl Places {
         if let Some((_, exact)) = near().find(|(exact, _)| *exact) {
             return Some(exact);
         }
-        // On systems that know `take` from `TAKE`, two takes may differ in nothing else.
+        // On systems that distinguish `take` from `TAKE`, the names of two takes may differ only in case.
         let first = near().next()?.1;
         near().all(|(_, id)| id == first).then_some(first)
     }
 
-    /// Returns the recording of the newest file of movement in the folder of this one.
+    /// Returns the recording of the newest motion file in the same folder.
     pub(super) fn movement_beside(&self, place: &str) -> Option<i64> {
         let is = |row: &&SourceFileRow| {
             let near = row
@@ -113,7 +113,7 @@ impl Places {
         self.rows.iter().rev().find(is)?.recording_id
     }
 
-    /// Returns the recordings of files in the folder of this one, in the order of their files.
+    /// Returns the recordings of files in the same folder, in the order of their files.
     pub(super) fn in_folder(&self, place: &str) -> Vec<i64> {
         let near = |row: &&SourceFileRow| {
             let path = row.path.as_deref();
@@ -133,7 +133,8 @@ impl Places {
         found
     }
 
-    /// Returns the recordings of files in folders next to each other: this one's, the one above, those below that.
+    /// Returns the recordings of files in neighbouring folders: this one, the one above, and those below either of
+    /// them.
     pub(super) fn near(&self, place: &str) -> Vec<i64> {
         let above = |it: &str| {
             folder(it)
@@ -159,7 +160,7 @@ impl Places {
         found
     }
 
-    /// Returns the recordings of files of this name elsewhere, those in folders of alike names first.
+    /// Returns the recordings of files of this name elsewhere; those with the most folder names in common come first.
     pub(super) fn recordings_named(&self, place: &str) -> Vec<i64> {
         let mut found: Vec<(usize, i64)> = Vec::new();
         for row in self.namesakes(name(place)) {
@@ -174,7 +175,7 @@ impl Places {
         found.into_iter().map(|(_, id)| id).collect()
     }
 
-    /// Returns where the newest file of a recording lies.
+    /// Returns the path of the newest file of a recording.
     fn of_recording(&self, id: i64) -> Option<&str> {
         let row = self
             .rows
@@ -186,8 +187,8 @@ impl Places {
 }
 
 impl Job<'_> {
-    /// Returns the name of a new recording: that of the file, or one of its own where another has it, with
-    /// a note that says so.
+    /// Returns the name for a new recording: that of the file, or if another recording has that, a name of its own with
+    /// a note about it.
     pub(super) fn own_name(&self) -> Result<(String, Option<ReportFinding>)> {
         let Some(other) = recordings::recording_named(self.connection, &self.stem)? else {
             return Ok((self.stem.clone(), None));
@@ -208,14 +209,14 @@ impl Job<'_> {
     }
 }
 
-/// Returns the folder of `new` that distinguishes it from `old`: the nearest one that differs.
+/// Returns the folder that distinguishes `new` from `old`: the nearest one that differs.
 fn apart<'p>(new: &'p str, old: &str) -> Option<&'p str> {
     let mut old = folder(old).rsplit('/');
     let differs = folder(new).rsplit('/').find(|own| old.next() != Some(own));
     differs.filter(|folder| !folder.is_empty() && *folder != "..")
 }
 
-/// Returns how many folders above two files have the same names.
+/// Returns the number of equal folder names, from the files upwards.
 fn shared(a: &str, b: &str) -> usize {
     let pairs = folder(a).rsplit('/').zip(folder(b).rsplit('/'));
     pairs.take_while(|(a, b)| a == b && !a.is_empty()).count()

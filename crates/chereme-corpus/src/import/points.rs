@@ -1,4 +1,4 @@
-//! Points from film as JSON: a file for each frame, or one for a film.
+//! Imports points from film as JSON: a file for each frame, or one for a whole film.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,17 +11,17 @@ use crate::db::motion::hex;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 
-/// The most files of one film.
+/// The largest number of files for one film.
 const MOST: usize = 2_000_000;
 
-/// Returns the folder and prefix that all files of frames of one film share, if this is one of them.
+/// Returns the folder and prefix that the frame files of one film share, if this is one of them.
 pub(super) fn series(path: &Path) -> Option<(PathBuf, String)> {
     let name = path.file_name()?.to_str()?;
     let (prefix, _) = frame_of_name(name)?;
     Some((path.parent()?.to_owned(), prefix.to_owned()))
 }
 
-/// Returns the files of the film that a file of one frame belongs to, in the order of their numbers.
+/// Returns the frame files of a film in the order of their numbers.
 fn frames(folder: &Path, prefix: &str) -> Result<Vec<(u64, PathBuf)>> {
     let fault = |error| Error::file(folder, error);
     let mut found = Vec::new();

@@ -1,6 +1,6 @@
-//! The kinds of files that an import knows: those that it reads, and those that it can only name.
+//! The kinds of files that an import recognises: those that it reads, and those that it can only name.
 //!
-//! Another format is a module with a reading function and a line in [`READERS`].
+//! To add a format, write a module with a reading function and add a line to [`READERS`].
 
 use std::path::Path;
 
@@ -9,15 +9,15 @@ use crate::error::{Error, Result};
 use crate::notation::Form;
 use crate::progress::Progress;
 
-/// A kind of file that the corpus takes in.
+/// A kind of file that can be imported.
 pub(super) struct Reader {
-    /// The endings of such files' names, in lower case, without the dot.
+    /// The file name endings of such files, in lower case, without the dot.
     pub(super) endings: &'static [&'static str],
-    /// The word for the kind in `source_file.kind`.
+    /// The kind in `source_file.kind`.
     pub(super) kind: &'static str,
     /// The contents of such files, in the plural.
     pub(super) holds: &'static str,
-    /// Whether a file with one of these endings is of this kind, where the ending alone does not decide.
+    /// Decides whether a file with one of these endings is of this kind, if the ending alone does not determine it.
     looks: fn(&Path) -> bool,
     /// Whether such files never add an inventory, so that the next one need not load them again.
     pub(super) keeps_inventories: bool,
@@ -25,9 +25,9 @@ pub(super) struct Reader {
     pub(super) read: fn(&mut Job<'_>, &mut Progress<'_>) -> Result<FileReport>,
 }
 
-/// The kinds in the order in which an import reads them: annotations come after movement, so that they find
-/// their recordings and the values that they use; films come after
-/// these, as annotation files name theirs, and templates last, for the recordings that still lack tiers.
+/// The kinds in the order in which an import reads them. Annotations come after movement, so that they find their
+/// recordings and values; films come after annotations, because annotation files name them; templates come last, for
+/// the recordings that still have no tiers.
 pub(super) static READERS: &[Reader] = &[
     Reader {
         endings: &["json"],
@@ -180,7 +180,7 @@ fn always(_: &Path) -> bool {
     true
 }
 
-/// A kind of file that people have next to those that are read.
+/// A kind of file that often accompanies readable files but is not read.
 struct Unread {
     endings: &'static [&'static str],
     /// A noun for such files.
@@ -225,7 +225,7 @@ static UNREAD: &[Unread] = &[
     },
 ];
 
-/// Returns the place in [`READERS`] of the kind of a file, if it is one that is read.
+/// Returns the index in [`READERS`] of a file's kind, if files of that kind are read.
 pub(super) fn reader(path: &Path) -> Option<usize> {
     let ending = ending(path)?;
     READERS
@@ -238,7 +238,7 @@ pub(super) fn ending(path: &Path) -> Option<String> {
     Some(path.extension()?.to_string_lossy().to_lowercase())
 }
 
-/// Returns the refusal of a file of a kind that is not read, with a step that makes its contents readable.
+/// Returns the error for a file of a kind that is not read, with a way to make its contents readable.
 pub(super) fn unread(path: &Path) -> Error {
     let ending = ending(path).unwrap_or_default();
     let known = UNREAD
@@ -253,7 +253,7 @@ pub(super) fn unread(path: &Path) -> Error {
         .advise(remedy)
 }
 
-/// Lists the endings that are read, with what such files hold.
+/// Lists the endings that are read, and the content of such files.
 fn endings() -> String {
     let mut kinds: Vec<(&str, Vec<String>)> = Vec::new();
     for reader in READERS {

@@ -14,17 +14,17 @@ use crate::error::Error;
 /// The report of an import.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct ImportReport {
-    /// How many rows of each kind were made.
+    /// Number of created rows of each kind.
     pub created: BTreeMap<&'static str, u64>,
-    /// How many rows of each kind were there before and say something else now.
+    /// Number of changed rows of each kind.
     pub changed: BTreeMap<&'static str, u64>,
-    /// How many rows of each kind went.
+    /// Number of removed rows of each kind.
     pub removed: BTreeMap<&'static str, u64>,
     /// The report of each file.
     pub files: Vec<FileReport>,
     /// Oddities of the import as a whole, such as a mapping that names no tier of any file.
     pub findings: Vec<ReportFinding>,
-    /// Whether nothing was written, as asked.
+    /// Whether nothing was written because the caller asked for a dry run.
     pub dry_run: bool,
     #[serde(skip)]
     pub(super) complete: bool,
@@ -35,51 +35,51 @@ pub struct ImportReport {
 pub struct FileReport {
     /// The file.
     pub path: String,
-    /// Whether it was taken in.
+    /// The result: imported, unchanged, refused and so on.
     pub status: FileStatus,
     /// The recording that it became or was added to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recording: Option<String>,
-    /// How it was understood: unit and axes, joint roles, tiers, columns.
+    /// Its interpretation: unit and axes, joint roles, tiers, columns.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub understood: BTreeMap<&'static str, Value>,
     /// Its oddities, or the reason why it was refused.
     pub findings: Vec<ReportFinding>,
-    /// Edits of the corpus that the file says otherwise, and what became of them. A file that is refused
-    /// for their sake can be imported with another [`OwnEdits`](super::OwnEdits).
+    /// Edits in the corpus that the file contradicts, and the outcome of each. If the file is refused because of them,
+    /// it can be imported with another [`OwnEdits`](super::OwnEdits).
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<OwnEdit>,
 }
 
-/// An annotation that was edited in the corpus, and that a file imported again says otherwise.
+/// An annotation that was edited in the corpus, and that differs in a file imported again.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct OwnEdit {
     /// The name of the tier.
     pub tier: String,
     /// The annotation in the corpus; nothing if it was removed there.
     pub mine: Option<Saying>,
-    /// The annotation in the file; nothing if the file has it no more.
+    /// The annotation in the file; nothing if the file no longer has it.
     pub theirs: Option<Saying>,
-    /// The fate of the edit.
+    /// The outcome.
     pub outcome: Outcome,
 }
 
 /// The value of an annotation, and its time.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Saying {
-    /// Its start in microseconds, to the millisecond of files.
+    /// Its start in microseconds, in whole milliseconds as in files.
     pub start_us: i64,
-    /// Its end likewise.
+    /// Its end in microseconds, in whole milliseconds.
     pub end_us: i64,
     /// Its value.
     pub value: String,
 }
 
-/// The fate of an edit of the corpus.
+/// The outcome of an edit in the corpus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
-    /// The file's annotation takes its place; in a file that is refused: would take it.
+    /// The file's annotation replaces it; if the file is refused, it would replace it.
     Lost,
     /// It stays; the file did not change the annotation.
     Kept,
@@ -88,7 +88,7 @@ pub enum Outcome {
 }
 
 impl OwnEdit {
-    /// Returns an annotation with its times where both sides differ in these.
+    /// Returns an annotation as text, with its times if those of the two sides differ.
     fn text(&self, side: &Saying) -> String {
         let times = |it: &Saying| (it.start_us, it.end_us);
         let both = self.mine.as_ref().zip(self.theirs.as_ref());
@@ -143,7 +143,7 @@ impl fmt::Display for OwnEdit {
     }
 }
 
-/// How many rows of each kind a file made, changed and removed.
+/// Number of rows of each kind that a file created, changed and removed.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Counts {
     pub(super) created: BTreeMap<&'static str, u64>,
@@ -169,15 +169,15 @@ impl Counts {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum FileStatus {
-    /// It was taken in.
+    /// The file was imported.
     Imported,
-    /// It was taken in before and edited since; the corpus follows it now.
+    /// The file was imported before and edited since; the corpus was updated.
     Updated,
-    /// It was taken in before, and is the same.
+    /// The file was imported before and has not changed.
     Unchanged,
-    /// It is of no kind that the corpus takes in.
+    /// The file is of a kind that cannot be read.
     Skipped,
-    /// It could not be taken in.
+    /// The file could not be imported.
     Refused,
 }
 
@@ -188,22 +188,22 @@ pub struct Unread {
     pub ending: Option<String>,
     /// The files.
     pub files: Vec<String>,
-    /// Why they were not read.
+    /// The reason why they were not read.
     pub why: String,
-    /// A step that makes their contents readable.
+    /// A way to make their contents readable.
     pub remedy: Option<String>,
 }
 
-/// Something about a file that a person should know.
+/// A finding about a file for the user.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ReportFinding {
     /// `note`, `warning` or `error`.
     pub severity: &'static str,
     /// The line of the file, from 1.
     pub line: Option<u64>,
-    /// What it is.
+    /// The finding.
     pub message: String,
-    /// What would be right.
+    /// A remedy.
     pub remedy: Option<String>,
 }
 
@@ -268,7 +268,7 @@ impl FileReport {
         }
     }
 
-    /// Returns that a file was left alone, and why.
+    /// Returns the report of a file that was skipped, with the reason.
     pub(super) fn skipped(path: &Path, why: &Error) -> Self {
         let mut report = Self::new(path, FileStatus::Skipped);
         report.findings.push(ReportFinding {
@@ -280,7 +280,7 @@ impl FileReport {
         report
     }
 
-    /// Returns that a file is one that the corpus has; `earlier` is where it lay, if it lay elsewhere.
+    /// Returns the report of a file that the corpus already has; `earlier` is its earlier path, if that differs.
     pub(super) fn unchanged(path: &Path, earlier: Option<&str>) -> Self {
         let mut report = Self::new(path, FileStatus::Unchanged);
         let message = match earlier {
@@ -306,7 +306,7 @@ impl FileReport {
         report
     }
 
-    /// Returns how it was understood, for `key`, as JSON.
+    /// Adds an interpretation under `key`, as JSON.
     pub(super) fn understand(&mut self, key: &'static str, value: impl Serialize) {
         let value = serde_json::to_value(value).unwrap_or(Value::Null);
         self.understood.insert(key, value);
@@ -314,8 +314,8 @@ impl FileReport {
 }
 
 impl ImportReport {
-    /// Returns which kinds of files of the folders were not read: the ending, how many files have it,
-    /// what they are, and what to do to have what is in them.
+    /// Returns the kinds of files in the folders that were not read: their ending, the files, the reason, and a way to
+    /// make their contents readable.
     #[must_use]
     pub fn unread(&self) -> Vec<Unread> {
         let mut kinds: Vec<Unread> = Vec::new();

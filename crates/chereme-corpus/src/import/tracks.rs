@@ -1,4 +1,4 @@
-//! Tracks that a file holds into the recording that they belong to.
+//! Stores the tracks of a file in the recording that they belong to.
 
 use chereme_motion::{
     Anatomy, Clip, Column, Convention, Instant, Marker, Markers, Rate, Skeleton, Space, Times,
@@ -13,10 +13,10 @@ use crate::error::Result;
 use crate::movement::{self, BLOCK_FRAMES};
 use crate::track::{NewTrack, Track, store};
 
-/// Stores the tracks of a file and returns their recording: the one that the caller named, that of the files with this
-/// folder and stem, or a new one. The report gets a line for each track, and the caller's offset is added to each.
+/// Stores the tracks of a file and returns their recording: the one that the caller named, the one of the files with
+/// this folder and stem, or a new one. Adds a line for each track to the report, and the caller's offset to each track.
 ///
-/// The reader itself keeps the file ([`Job::keep`]) and reports what was odd about it.
+/// The reader stores the file itself ([`Job::keep`]) and reports its oddities.
 pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileReport) -> Result<i64> {
     let same_take = job
         .places
@@ -69,10 +69,10 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
     Ok(recording)
 }
 
-/// Two tracks of a folder are of one take if the longer is at most so many times as long as the other.
+/// The largest ratio of lengths of two tracks in a folder that are taken for one take.
 const LONGER: i64 = 2;
 
-/// Returns the recording of the one file of movement in the folder, if it is about as long as the tracks.
+/// Returns the recording of the only motion file in the folder, if its length is similar to that of the tracks.
 fn folder_take(job: &Job<'_>, new: &[NewTrack]) -> Result<Option<i64>> {
     let Some(recording) = job.folder_take.filter(|_| job.options.into.is_none()) else {
         return Ok(None);
@@ -84,7 +84,7 @@ fn folder_take(job: &Job<'_>, new: &[NewTrack]) -> Result<Option<i64>> {
     Ok(Some(recording).filter(|_| alike))
 }
 
-/// Reports that a file is taken for the take of its folder.
+/// Reports that a file was assigned to the take of its folder.
 fn tell_folder(job: &Job<'_>, recording: i64, report: &mut FileReport) -> Result<()> {
     let name = recordings::recording(job.connection, recording)?.name;
     report.findings.push(ReportFinding {
@@ -98,7 +98,7 @@ fn tell_folder(job: &Job<'_>, recording: i64, report: &mut FileReport) -> Result
     Ok(())
 }
 
-/// Returns how long a track lasts.
+/// Returns the length of a track in microseconds.
 fn length_us(track: &Track) -> i64 {
     match track {
         Track::Skeleton(skeleton) => skeleton
@@ -112,7 +112,7 @@ fn length_us(track: &Track) -> i64 {
     }
 }
 
-/// Keeps the optical markers that are leaves beside the skeleton as a track of points.
+/// Stores the optical markers among the skeleton's leaf joints as a track of points.
 pub(super) fn keep_beside(
     job: &mut Job<'_>,
     recording: i64,
@@ -149,10 +149,10 @@ pub(super) fn keep_beside(
     Ok(())
 }
 
-/// The most places of markers beside a skeleton that are kept as a track.
+/// The largest number of marker positions beside a skeleton that are stored as a track.
 const MOST: usize = 12_000_000;
 
-/// The optical markers beside a skeleton, collected as points in the file's unit and axes.
+/// The optical markers beside a skeleton as points in the file's unit and axes.
 pub(super) struct Beside {
     joints: Vec<usize>,
     names: Vec<String>,
@@ -160,7 +160,7 @@ pub(super) struct Beside {
 }
 
 impl Beside {
-    /// Starts with the markers that an anatomy knows.
+    /// Creates an empty collection for the markers of an anatomy.
     pub(super) fn of(skeleton: &Skeleton, anatomy: &Anatomy) -> Self {
         let joints = anatomy.markers().to_vec();
         let name = |&joint: &usize| skeleton.joint(joint).name.clone();
@@ -171,12 +171,12 @@ impl Beside {
         }
     }
 
-    /// Returns whether there is a marker, and few enough places of them in so many frames.
+    /// Returns whether there are markers, and few enough positions of them in this number of frames.
     pub(super) fn fits(&self, frames: usize) -> bool {
         !self.joints.is_empty() && self.joints.len().saturating_mul(frames) <= MOST
     }
 
-    /// Adds frames that follow the ones before.
+    /// Adds the frames that follow those added before.
     pub(super) fn push(&mut self, clip: &Clip) {
         for (&joint, places) in self.joints.iter().zip(&mut self.places) {
             for at in clip.path(joint) {

@@ -1,4 +1,4 @@
-//! Tiers that are in the corpus already, and what a mapping says of them later.
+//! Applies a mapping to tiers that are already in the corpus.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::Result;
 use crate::import::report::ReportFinding;
 
-/// Makes tiers that are there what the caller's mapping says, and returns how many it changed.
+/// Gives existing tiers the roles of the caller's mapping, and returns the number of changed tiers.
 pub(super) fn remap(
     job: &mut Job<'_>,
     there: &BTreeMap<String, TierRow>,
@@ -47,7 +47,7 @@ pub(super) fn remap(
     Ok(changed)
 }
 
-/// Writes how values are missing as the new role of a tier has it.
+/// Updates the states of missing values for the new role of a tier.
 fn recode(job: &Job<'_>, tier: &TierRow, guess: &TierGuess) -> Result<()> {
     for old in tiers::annotations(job.connection, tier.id)? {
         let value = old.file_text();
@@ -64,7 +64,7 @@ fn recode(job: &Job<'_>, tier: &TierRow, guess: &TierGuess) -> Result<()> {
     Ok(())
 }
 
-/// Writes down what a tier is taken for.
+/// Sets role and hand of a tier as guessed.
 pub(super) fn set_role(row: &mut TierRow, guess: &TierGuess) {
     row.role = guess.role.clone().unwrap_or_default();
     row.hand = guess.hand;

@@ -1,4 +1,4 @@
-//! Which recording an annotation file is about, and which file of the corpus it is a new version of.
+//! Determines the recording of an annotation file, and the earlier file that it is a new version of.
 
 use chereme_formats::eaf::convert::Transcript;
 use chereme_formats::{eaf, subtitles, textgrid};
@@ -12,20 +12,20 @@ use crate::import::report::ReportFinding;
 /// The recording and the earlier version that an annotation file belongs to.
 #[derive(Default)]
 pub(super) struct Target {
-    /// Its recording, where the corpus has it.
+    /// Its recording, if the corpus has it.
     pub(super) recording: Option<i64>,
     /// The file's earlier version.
     pub(super) base: Option<SourceFileRow>,
 }
 
 impl Target {
-    /// Returns where the earlier version lay, if it lay elsewhere.
+    /// Returns the path of the earlier version, if it differs.
     pub(super) fn elsewhere(&self, job: &Job<'_>) -> Option<&str> {
         let path = self.base.as_ref()?.path.as_deref()?;
         (path != job.place).then_some(path)
     }
 
-    /// Reads the earlier version; nothing where the corpus does not have it or it cannot be read.
+    /// Reads the earlier version; nothing if the corpus does not have it or it cannot be read.
     pub(super) fn transcript(&self, job: &Job<'_>) -> Result<Option<Transcript>> {
         match &self.base {
             Some(base) => read(job, base),
@@ -44,7 +44,7 @@ fn read(job: &Job<'_>, file: &SourceFileRow) -> Result<Option<Transcript>> {
     Ok(bytes.and_then(parsed))
 }
 
-/// Returns the report of a file that is in its place as it was, if it is of the take that lies next to it.
+/// Returns the report of an unchanged file at an unchanged path, if it belongs to the take beside it.
 pub(super) fn unchanged(job: &Job<'_>, here: &SourceFileRow) -> Result<Option<FileReport>> {
     let Some(id) = here.recording_id else {
         return Ok(None);
@@ -57,8 +57,8 @@ pub(super) fn unchanged(job: &Job<'_>, here: &SourceFileRow) -> Result<Option<Fi
     Ok(Some(report))
 }
 
-/// Finds the recording of a file: that of the take next to it, else that of the file that it is a version
-/// of, else one of its name that has no annotation file from elsewhere.
+/// Finds the recording of a file: that of the take beside it, otherwise that of the file that it is a version of,
+/// otherwise one of its name that has no annotation file from elsewhere.
 pub(super) fn find(
     job: &Job<'_>,
     transcript: &Transcript,
@@ -100,7 +100,7 @@ pub(super) fn find(
     Ok(Target::default())
 }
 
-/// Returns the newest annotation file of a recording: the one that lay here, or else one of this name.
+/// Returns the newest annotation file of a recording: the one at this path, otherwise one of this name.
 fn earlier(job: &Job<'_>, recording: i64) -> Result<Option<SourceFileRow>> {
     let files = recordings::source_files(job.connection, recording)?;
     let all = || files.iter().rev().filter(|row| row.kind == job.kind);
@@ -110,8 +110,8 @@ fn earlier(job: &Job<'_>, recording: i64) -> Result<Option<SourceFileRow>> {
     Ok(here.or_else(named).cloned())
 }
 
-/// Reports whether a file from elsewhere is a version of one of its name that an earlier import brought: the
-/// caller says so, the bytes are the same, or at least half of its annotations are.
+/// Reports whether a file from elsewhere is a version of one of the same name that an earlier import read: the caller
+/// says so, the bytes are the same, or at least half of the annotations are the same.
 fn is_version(
     job: &Job<'_>,
     base: &SourceFileRow,

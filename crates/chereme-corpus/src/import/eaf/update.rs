@@ -1,8 +1,8 @@
-//! An annotation file that was imported before, edited since, and comes again.
+//! Updates the corpus from an annotation file that was imported before and edited since.
 //!
-//! The corpus, the file and the file's earlier version are compared annotation by annotation, by their names
-//! in the file. A change of one side alone is taken. If the corpus was edited and the file would take the edit
-//! back, the edit is lost; a merge keeps it.
+//! The corpus, the file and the file's earlier version are compared annotation by annotation, by the ids in the file. A
+//! change that only one side made is taken over. If the corpus was edited and the file would revert the edit, the edit
+//! is lost; a merge preserves it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,10 +19,10 @@ use crate::error::Result;
 use crate::import::report::{Outcome, OwnEdit, ReportFinding, Saying};
 use crate::progress::Progress;
 
-/// So many changes are listed one by one.
+/// The largest number of changes that are listed one by one.
 const TOLD: usize = 20;
 
-/// How many annotations of a file differ from those of the corpus.
+/// Numbers of annotations in a file compared with the corpus.
 #[derive(Debug, Default, Clone, Copy, Serialize)]
 pub(super) struct Changes {
     pub(super) added: usize,
@@ -37,28 +37,28 @@ pub(super) struct Updated {
     pub(super) edits: Vec<OwnEdit>,
     /// The conflicts: the row of the corpus, and the annotation of the file.
     pub(super) conflicts: Vec<(Option<i64>, Option<AnnotationRow>)>,
-    /// The changes of the file, for people.
+    /// The changes of the file as texts for the user.
     told: Vec<String>,
-    /// How many are kept that the file never had.
+    /// The number of annotations in the corpus that stay although the file never had them.
     kept: usize,
 }
 
-/// The files that an update compares, and the tiers that they are about.
+/// The files that an update compares, and the affected tiers.
 pub(super) struct Sides<'a> {
     pub(super) transcript: &'a Transcript,
     pub(super) guesses: &'a [TierGuess],
-    /// The earlier version of the file, where the corpus has it.
+    /// The earlier version of the file, if the corpus has it.
     pub(super) base: Option<&'a Transcript>,
     /// The tiers of the recording, by name.
     pub(super) known: &'a BTreeMap<String, TierRow>,
     /// The row of each tier of the file.
     pub(super) tier_rows: &'a [i64],
-    /// Whether edits of the corpus are kept.
+    /// Whether edits of the corpus survive.
     pub(super) merge: bool,
 }
 
-/// Reports whether a file is one of those that the tiers came from: of a tier that both have, it knows
-/// annotations by their names, or the corpus has none.
+/// Reports whether a file is a version of one that the tiers came from: for some tier of both, annotations share ids,
+/// or the corpus has no annotations.
 pub(super) fn is_edited(
     job: &Job<'_>,
     transcript: &Transcript,
@@ -81,7 +81,8 @@ pub(super) fn is_edited(
     Ok(false)
 }
 
-/// Returns how many annotations two files say alike, by name, time and value, and how many the longer has.
+/// Returns the number of annotations that are the same in two files (id, time and value), and that of the file with
+/// more.
 pub(super) fn alike(a: &Transcript, b: &Transcript) -> (usize, usize) {
     let said = |transcript: &'_ Transcript| -> BTreeMap<(String, String), Said> {
         let own = Base::of(transcript);
@@ -92,8 +93,8 @@ pub(super) fn alike(a: &Transcript, b: &Transcript) -> (usize, usize) {
     (same.count(), a.len().max(b.len()))
 }
 
-/// Brings annotations to what an edited file says: by their names in the file; those that the corpus
-/// added since by their time. Annotations that the file has no more are removed, unless it never had them.
+/// Updates annotations from an edited file. They are matched by id; those that the corpus added since are matched by
+/// time. Annotations that the file no longer has are removed, unless it never had them.
 pub(super) fn annotations(
     job: &mut Job<'_>,
     sides: &Sides<'_>,
@@ -123,7 +124,7 @@ pub(super) fn annotations(
         };
         work.tier(job, tier, old, progress)?;
     }
-    // Those below go before those above.
+    // Children go before their parents.
     for (tier, row) in std::mem::take(&mut work.left).into_iter().rev() {
         work.remove(job, &tier, &row)?;
     }
@@ -133,10 +134,10 @@ pub(super) fn annotations(
 /// The parts of an annotation that are compared.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Said {
-    /// Start and end in milliseconds, as files have them.
+    /// Start and end in milliseconds, as in files.
     time: [i64; 2],
     value: String,
-    /// The name of the annotation above.
+    /// The id of the parent annotation.
     above: Option<String>,
 }
 
@@ -153,7 +154,7 @@ impl Said {
         }
     }
 
-    /// Returns what a row says, its missing values in the words of files.
+    /// Returns the content of a row; missing values are written as in files.
     fn in_corpus(row: &AnnotationRow, names: &BTreeMap<i64, String>) -> Self {
         Self {
             time: millis(row),
@@ -171,7 +172,7 @@ impl Said {
         }
     }
 
-    /// Reports whether `mine` differs from `base` in something that `theirs` says otherwise.
+    /// Reports whether `theirs` would overwrite a change from `base` to `mine`.
     fn is_lost(mine: &Self, base: Option<&Self>, theirs: &Self) -> bool {
         let Some(base) = base else {
             return mine != theirs;
@@ -186,7 +187,7 @@ fn millis(row: &AnnotationRow) -> [i64; 2] {
     [row.start_us, row.end_us].map(|micros| Instant::from_micros(micros).millis())
 }
 
-/// The annotations of the earlier file, by tier and name.
+/// The annotations of the earlier file, by tier and id.
 struct Base {
     said: BTreeMap<(String, String), Said>,
 }
@@ -205,7 +206,7 @@ impl Base {
     }
 }
 
-/// Returns what comes of three sides, and whether both changed it to different things; `mine` is kept then.
+/// Returns the three-way merge of a value, and whether both sides changed it in different ways; `mine` stays then.
 fn merged<'t, T: PartialEq>(base: Option<&T>, mine: &'t T, theirs: &'t T) -> (&'t T, bool) {
     if mine == theirs || base == Some(theirs) {
         (mine, false)
@@ -221,9 +222,9 @@ struct Update<'s> {
     base: Option<Base>,
     /// The rows of annotations by their place in the file.
     rows: BTreeMap<Place, i64>,
-    /// The names of rows in the file.
+    /// The ids of rows in the file.
     names: BTreeMap<i64, String>,
-    /// Annotations that the file has no more, with the tier's name.
+    /// Annotations that the file no longer has, with the names of their tiers.
     left: Vec<(String, AnnotationRow)>,
     done: Updated,
 }
@@ -234,7 +235,7 @@ impl Update<'_> {
         self.base.as_ref()?.said.get(&key)
     }
 
-    /// Reports whether the corpus says something of its own in a row.
+    /// Reports whether a row was added or edited in the corpus.
     fn is_own(&self, tier: &str, row: &AnnotationRow) -> bool {
         let known = row.external_id.as_deref();
         match known.and_then(|id| self.said_before(tier, id)) {
@@ -317,7 +318,7 @@ impl Update<'_> {
         Ok(())
     }
 
-    /// Adds what the corpus has not, unless somebody removed it here, or it has no room.
+    /// Adds an annotation that the corpus lacks. A merge leaves it out if it was removed here or has no room.
     fn add(
         &mut self,
         job: &Job<'_>,
@@ -345,7 +346,7 @@ impl Update<'_> {
         Ok(Some(tiers::insert_annotation(job.connection, &new)?))
     }
 
-    /// Writes an annotation that was there before.
+    /// Updates an annotation that exists in the corpus.
     fn put(
         &mut self,
         job: &Job<'_>,
@@ -396,7 +397,7 @@ impl Update<'_> {
         Ok(id)
     }
 
-    /// Writes what is taken of a file's annotation: its time, its value, and what it hangs below.
+    /// Writes the parts taken from a file's annotation: time, value and parent, as the flags say.
     fn write(
         &mut self,
         job: &Job<'_>,
@@ -438,7 +439,7 @@ impl Update<'_> {
         Ok(())
     }
 
-    /// Removes what the file has no more, with what hangs below it.
+    /// Removes an annotation that the file no longer has, together with its children.
     fn remove(&mut self, job: &Job<'_>, tier: &str, row: &AnnotationRow) -> Result<()> {
         let before = row.external_id.as_deref();
         let before = before.and_then(|id| self.said_before(tier, id)).cloned();
@@ -491,7 +492,7 @@ fn at(micros: i64) -> Instant {
 }
 
 impl Updated {
-    /// Reports what the file changed.
+    /// Adds the file's changes to the report.
     pub(super) fn report(self, sides: &Sides<'_>, report: &mut FileReport) {
         let Changes {
             added,
@@ -547,7 +548,7 @@ impl Updated {
     }
 }
 
-/// Passes on the first lines of many, and how many more there are.
+/// Passes on the first lines of many, and the number of remaining ones.
 pub(super) fn some(lines: &[String], take: &mut dyn FnMut(String)) {
     for line in lines.iter().take(TOLD) {
         take(line.clone());
@@ -558,7 +559,7 @@ pub(super) fn some(lines: &[String], take: &mut dyn FnMut(String)) {
     }
 }
 
-/// The annotations of a tier that no annotation of the file was matched with yet.
+/// The annotations of a tier that are not matched with one of the file yet.
 struct Standing {
     rows: BTreeMap<i64, AnnotationRow>,
     by_name: BTreeMap<String, i64>,
@@ -582,7 +583,8 @@ impl Standing {
         standing
     }
 
-    /// Takes the row of an annotation: that of its name, else one without a name at its time.
+    /// Removes and returns the row for an annotation: the one with its id, otherwise one without an id at the same
+    /// time.
     fn take(&mut self, annotation: &Annotation, new: &AnnotationRow) -> Option<AnnotationRow> {
         let id = self.by_name.remove(&annotation.id);
         let id = id.or_else(|| self.by_time.remove(&millis(new)))?;

@@ -1,4 +1,4 @@
-//! The values of component tiers: the vocabularies of a file as inventories.
+//! Converts the vocabularies of component tiers in a file to inventories.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,7 @@ use crate::error::Result;
 use crate::import::report::ReportFinding;
 use crate::inventories::{self, StoredInventory};
 
-/// The inventory of a component tier: its vocabulary, or one of the corpus that has all its values.
+/// Returns the inventory of a component tier: its vocabulary, or one of the corpus that has all its values.
 pub(in crate::import) fn tier_inventory(
     job: &mut Job<'_>,
     transcript: &Transcript,
