@@ -1,4 +1,4 @@
-//! Movement as BVH: captured numbers come back as the file gave them.
+//! Exports movement as BVH: captured numbers are written exactly as in the imported file.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -14,10 +14,10 @@ use crate::error::{Error, Result};
 use crate::movement::{BLOCK_FRAMES, ChannelGroup, Track};
 use crate::progress::{Progress, Step, Unit};
 
-/// Writes the movement of a stretch of a recording, and returns how many frames there were.
+/// Writes the movement of a stretch of a recording, and returns the number of frames.
 ///
 /// # Errors
-/// Where the recording has no movement, or writing fails.
+/// Fails if the recording has no movement, or if writing fails.
 pub(crate) fn write(
     connection: &Connection,
     stretch: &Stretch,
@@ -67,10 +67,10 @@ pub(crate) fn write(
     Ok(frames.len())
 }
 
-/// Decimals of numbers that no BVH gave.
+/// The number of decimals for numbers that did not come from a BVH file.
 const DECIMALS: u8 = 6;
 
-/// Writes movement that came from another format, with its rotations as Euler angles.
+/// Writes movement from another format, with rotations as Euler angles.
 fn write_converted(
     connection: &Connection,
     track: &Track,
@@ -95,7 +95,7 @@ fn write_converted(
     Ok(clip.frames())
 }
 
-/// The columns of `own`, which lies in the block that starts at `first`, in the order of the file.
+/// Returns the columns of the frames `own` within the block that starts at frame `first`, in the order of the file.
 fn columns(
     connection: &Connection,
     track: &Track,

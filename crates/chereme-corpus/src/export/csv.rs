@@ -1,8 +1,7 @@
-//! Tokens and annotations as tables.
+//! Exports tokens and annotations as tables.
 //!
-//! The columns of components are named as queries spell the field, and several values of one field
-//! stand in one cell as lexicons write them (`chin > chest`, `S + W`), so that importing the table
-//! gives the same codings.
+//! The columns of components have the names of fields in queries. Several values of one field are written in one cell
+//! as in lexicons (`chin > chest`, `S + W`), so that importing the table gives the same codings.
 
 use chereme_sign::Phase;
 use chereme_sign::tier::Hands;
@@ -43,7 +42,7 @@ const FIXED: [&str; 9] = [
     "citation",
 ];
 
-/// Writes a token a row, with all its components and its own attributes.
+/// Writes one row for each token, with all its components and its own attributes.
 pub(super) fn tokens(
     connection: &Connection,
     tokens: &[i64],
@@ -148,7 +147,7 @@ pub(super) fn tokens(
     table.flush().map_err(|error| fault(error.into()))
 }
 
-/// Writes the annotations of a tier as a table of changes that would leave it as it is.
+/// Writes the annotations of a tier as a table of changes; applied unchanged, it leaves the tier as it is.
 pub(super) fn annotations(
     connection: &Connection,
     tier: i64,
@@ -253,7 +252,7 @@ fn fixed(token: &TokenRow, signers: &BTreeMap<i64, String>) -> Vec<String> {
     ]
 }
 
-/// Microseconds as seconds with all their decimals.
+/// Returns microseconds as seconds with six decimals.
 fn seconds(micros: Option<i64>) -> String {
     let Some(micros) = micros else {
         return String::new();
@@ -273,11 +272,11 @@ fn title((component, feature, hand, phase): &Column) -> String {
         .as_ref()
         .map(|feature| format!(".{feature}"))
         .unwrap_or_default();
-    // `both` is no hand of a field and stands first; `right.final` would be read as well.
+    // `both` is not a hand in fields and comes first; `right.final` can be read back too.
     format!("{hand}{phase}{component}{feature}")
 }
 
-/// Returns the cells of a token; counts values that would not be read back as one.
+/// Returns the cells of a token; counts values in `unclear` that could not be read back as a single value.
 fn cells(values: &[TokenValueRow], unclear: &mut usize) -> BTreeMap<Column, String> {
     let mut fields: BTreeMap<Column, BTreeMap<Option<Phase>, Vec<&str>>> = BTreeMap::new();
     for row in values {
@@ -321,7 +320,7 @@ fn text(row: &TokenValueRow) -> &str {
     }
 }
 
-/// Successive values parted by `>`, an empty part for each phase that says nothing.
+/// Returns successive values separated by `>`, with an empty part for each phase without a value.
 fn compound(phases: &BTreeMap<Option<Phase>, Vec<&str>>) -> String {
     if let Some(texts) = phases.get(&None) {
         return texts.join(" + ");

@@ -1,9 +1,9 @@
-//! The description of the database that goes with an exported folder, made from `schema/README.md`.
+//! The description of the database in an exported folder, generated from `schema/README.md`.
 
 /// The description of every table and column, with example queries.
 const SCHEMA: &str = include_str!("../../../../schema/README.md");
 
-/// The first section for readers of the database; those before it describe the source tree.
+/// The first section for readers of the database; the sections before it describe the source tree.
 const LEFT_OUT_TO: &str = "## At a glance";
 
 /// Returns the data dictionary: tables, columns and conventions, with example queries.
@@ -18,7 +18,7 @@ pub(super) fn dictionary() -> String {
     )
 }
 
-/// Returns the example queries, each below a comment that says what it finds.
+/// Returns the example queries, each below a comment that describes its result.
 pub(super) fn queries() -> String {
     let mut text = String::from(
         "-- Example queries on corpus.chereme; DICTIONARY.md explains tables and columns.\n",
@@ -31,7 +31,7 @@ pub(super) fn queries() -> String {
                 inside = true;
             }
             "```" => {
-                // A query without its semicolon would run into the next one.
+                // Without its semicolon a query would run into the next one.
                 if inside && !text.ends_with(";\n") {
                     text.insert(text.trim_end().len(), ';');
                 }

@@ -1,7 +1,7 @@
-//! A recording's tiers as a file of ELAN.
+//! Exports a recording's tiers as an ELAN file.
 //!
-//! Unchanged parts of such a file go back byte for byte; a changed annotation changes its
-//! own lines in the layout of the file.
+//! Unchanged parts of an imported file are written byte for byte; a changed annotation changes only its own lines, in
+//! the layout of the file.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -37,7 +37,7 @@ pub(super) fn write_file(
     write(connection, recording, &mut file)
 }
 
-/// Writes the tiers of a recording: the bytes of the file that they came from, changed only where they were.
+/// Writes the tiers of a recording: the bytes of the file that they came from, except for the changes.
 pub(super) fn write(
     connection: &Connection,
     recording: &RecordingRow,
@@ -57,7 +57,7 @@ pub(super) fn write(
     raw::write(&to_raw(&transcript, &template), out).map_err(fault)
 }
 
-/// Returns the tiers of a recording for files of other programs.
+/// Returns the tiers of a recording, for export to formats of other programs.
 pub(crate) fn tiers_of(connection: &Connection, recording: &RecordingRow) -> Result<Transcript> {
     let files = files(connection, recording)?;
     let texts = texts(&files, recording)?;
@@ -65,9 +65,9 @@ pub(crate) fn tiers_of(connection: &Connection, recording: &RecordingRow) -> Res
     transcript(connection, recording, &documents)
 }
 
-/// Returns the annotation files that the recording's tiers came from, the newest state of each.
+/// Returns the annotation files that the recording's tiers came from, each in its newest version.
 fn files(connection: &Connection, recording: &RecordingRow) -> Result<Vec<(String, Vec<u8>)>> {
-    // A file that was edited and came again stands for what it was before.
+    // A file that was edited and imported again replaces its earlier version.
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     for file in recordings::source_files(connection, recording.id)? {
         if file.kind != "eaf" {
@@ -84,7 +84,7 @@ fn files(connection: &Connection, recording: &RecordingRow) -> Result<Vec<(Strin
     Ok(files)
 }
 
-/// Returns the texts of files, whatever their encoding.
+/// Returns the texts of files in any encoding.
 fn texts<'f>(
     files: &'f [(String, Vec<u8>)],
     recording: &RecordingRow,
@@ -130,7 +130,7 @@ fn transcript(
     Ok(transcript)
 }
 
-/// The document besides its tiers: that of the recording's first file, and the vocabularies of the others.
+/// Returns the document without tiers: that of the recording's first file, with the vocabularies of the others.
 fn base(
     connection: &Connection,
     recording: &RecordingRow,
@@ -160,7 +160,7 @@ fn base(
     })
 }
 
-/// Writes the new place of media that were linked again after the import; other links stay as the file has them.
+/// Updates the links of media that were linked again after the import; other links stay as in the file.
 fn relink(connection: &Connection, recording: i64, transcript: &mut Transcript) -> Result<()> {
     let tracks = recordings::media_tracks(connection, recording)?;
     let before = std::mem::take(&mut transcript.media);
@@ -179,7 +179,7 @@ fn relink(connection: &Connection, recording: i64, transcript: &mut Transcript) 
     Ok(())
 }
 
-/// Writes down what importing the file again would not guess.
+/// Adds the properties that a new import of the file would not guess.
 fn describe(
     connection: &Connection,
     recording: &RecordingRow,
@@ -235,7 +235,7 @@ fn describe(
     Ok(())
 }
 
-/// The roles of tiers whose names alone would be read differently, in the spelling of a mapping.
+/// Returns the roles of tiers whose names alone would suggest others, in the format of a mapping.
 fn roles_of_tiers(
     connection: &Connection,
     recording: &RecordingRow,
@@ -255,7 +255,7 @@ struct Writing<'a> {
     connection: &'a Connection,
     inventories: Vec<StoredInventory>,
     transcript: &'a mut Transcript,
-    /// Where each annotation went.
+    /// The place of each annotation in the written file.
     places: BTreeMap<i64, Place>,
 }
 
@@ -295,7 +295,7 @@ impl Writing<'_> {
         Ok(())
     }
 
-    /// The vocabulary of a tier, with whatever it says; that of its file, or else its inventory.
+    /// Returns the vocabulary of a tier, completed by all its values: that of its file, otherwise its inventory.
     fn vocabulary(&mut self, tier: &TierRow, said: &[AnnotationRow]) -> Option<String> {
         let source = source(tier.source.as_deref());
         let named = text(&source, "vocabulary");
@@ -333,7 +333,7 @@ impl Writing<'_> {
     fn annotation(&self, tier: &Tier, row: &AnnotationRow, ids: &mut Ids) -> Annotation {
         let source = source(row.source.as_deref());
         let value = row.file_text().to_owned();
-        // A value that its file left without an entry stays so.
+        // A value that had no vocabulary entry in its file gets none.
         let entry = match text(&source, "entry") {
             None if row.origin != AnnotationOrigin::File => tier
                 .vocabulary
@@ -387,7 +387,7 @@ fn tier(row: &TierRow, parent: Option<usize>) -> Tier {
     }
 }
 
-/// Annotations in the order of time, or in that of their file if the two differ.
+/// Returns annotations by time, or in the order of their file if that differs.
 fn in_order(rows: Vec<AnnotationRow>) -> Vec<AnnotationRow> {
     let time = |row: &AnnotationRow| (row.start_us, row.position);
     let mut by_row = rows.clone();
@@ -463,7 +463,7 @@ fn of_inventory(stored: &StoredInventory) -> Vocabulary {
     }
 }
 
-/// Adds the values that people entered since to a vocabulary.
+/// Adds values that people have entered since the import to a vocabulary.
 fn complete(vocabulary: &mut Vocabulary, said: &[AnnotationRow]) {
     let language = vocabulary
         .entries
@@ -497,7 +497,7 @@ fn complete(vocabulary: &mut Vocabulary, said: &[AnnotationRow]) {
     }
 }
 
-/// Names of annotations: those of the file, and fresh ones after the last it ever used.
+/// Ids of annotations: those of the file, and fresh ones after the last one that it ever used.
 struct Ids {
     taken: BTreeSet<String>,
     last: u64,

@@ -1,5 +1,5 @@
-//! The enriched database as a folder that anyone can read, cite and check; the same corpus always
-//! gives the same bytes.
+//! Exports the enriched database as a folder that anyone can read, cite and check; the same corpus always gives the
+//! same bytes.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -25,7 +25,7 @@ use crate::track::{self, TrackKind};
 /// The guide to the folder.
 const ABOUT: &str = include_str!("enriched.md");
 
-/// Writes the folder, which must not be there yet, and returns its files, checksums last.
+/// Writes the folder, which must not exist yet, and returns its files, with the checksums last.
 pub(super) fn write(
     connection: &Connection,
     to: &Path,
@@ -59,7 +59,7 @@ pub(super) fn write(
 
 struct Folder {
     root: PathBuf,
-    /// Paths within the folder, with `/` between the parts.
+    /// Paths within the folder, separated by `/`.
     files: Vec<String>,
 }
 
@@ -70,7 +70,7 @@ impl Folder {
         self.text("queries.sql", &dictionary::queries())?;
         let copy = self.make("corpus.chereme")?;
         dump::copy(connection, &copy)?;
-        // The other files come from the copy, so that all of the folder is of one moment.
+        // The other files are written from the copy, so that the whole folder shows one moment.
         let connection = &dump::read_copy(&copy)?;
         for table in dump::TABLES {
             self.table(connection, table)?;
@@ -198,7 +198,7 @@ impl Folder {
         Ok(())
     }
 
-    /// Who signed what under which terms, and how made signs came about.
+    /// Writes the signers and licences of recordings, and the sources of generated signs.
     fn provenance(&mut self, connection: &Connection) -> Result<()> {
         let mut list = Vec::new();
         let mut terms = String::from(
@@ -262,7 +262,7 @@ fn hash(path: &Path) -> Result<String> {
     }
 }
 
-/// Returns a file name like `name` that every system takes and no other of `taken` has.
+/// Returns a file name similar to `name` that is valid on every system and not in `taken`.
 pub(super) fn file_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     let plain: String = name
         .chars()

@@ -1,4 +1,4 @@
-//! Movement as glTF and VRMA, markers as C3D and TRC, tiers as TextGrid, subtitles and a table of ELAN.
+//! Exports movement as glTF and VRMA, markers as C3D and TRC, and tiers as TextGrid, subtitles and ELAN tables.
 
 use std::io::Write;
 use std::ops::Range;
@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::movement::{ChannelGroup, Track};
 use crate::track::{self, TrackKind};
 
-/// Writes the movement of a stretch as GLB, in metres, with the annotations that lie in it, and returns how many.
+/// Writes the movement of a stretch as GLB, in metres, with the annotations in it, and returns their number.
 ///
 /// # Errors
 /// If the recording has no movement, or writing fails.
@@ -46,7 +46,7 @@ pub(super) fn glb(
     Ok(about.notes.len())
 }
 
-/// Returns when frames of a track are on the clock of its recording.
+/// Returns the span of frames of a track on the clock of its recording.
 fn on_the_clock(track: &Track, clip: &Clip, frames: &Range<usize>) -> Span {
     let own = Span::between(
         clip.rate().instant(frames.start),
@@ -97,7 +97,7 @@ pub(super) enum Points {
 /// Writes the markers of a stretch as C3D or TRC, on the recording's clock.
 ///
 /// # Errors
-/// Fails if the recording has no markers, if they are not places in a room, or if the file cannot be written.
+/// Fails if the recording has no markers, if these are not positions in a room, or if the file cannot be written.
 pub(super) fn points(
     connection: &Connection,
     stretch: &Stretch,
@@ -121,7 +121,7 @@ pub(super) fn points(
     put(out, &bytes)
 }
 
-/// Writes the curves or markers of a stretch as a table, a frame a row.
+/// Writes the curves or markers of a stretch as a table with one row for each frame.
 ///
 /// # Errors
 /// If the recording has neither, or writing fails.
@@ -146,7 +146,7 @@ pub(super) fn has(connection: &Connection, recording: i64, kind: TrackKind) -> R
         .any(|row| row.kind == kind))
 }
 
-/// Returns the first track of a kind; a note names the others.
+/// Returns the first track of a kind; adds a note that names the others.
 fn only(
     connection: &Connection,
     stretch: &Stretch,
@@ -223,7 +223,7 @@ fn tab_table(transcript: &Transcript) -> String {
     rows
 }
 
-/// Returns the annotations that lie in a span, cut to it, in seconds from its start.
+/// Returns the annotations within a span, cut to it, in seconds from its start.
 fn notes(connection: &Connection, recording: i64, span: Span) -> Result<Vec<gltf::Note>> {
     let mut notes = Vec::new();
     for tier in tiers::tiers(connection, recording)? {

@@ -1,4 +1,4 @@
-//! The long tables of Parquet, and what becomes of them in a program that was built without it.
+//! The long tables of Parquet, and an error in their place in a program that was built without Parquet.
 
 use std::io::Write;
 
@@ -11,18 +11,18 @@ use crate::progress::Progress;
 /// The long tables of Parquet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Long {
-    /// A token a row.
+    /// One row for each token.
     Tokens,
-    /// A value of a token a row.
+    /// One row for each value of a token.
     Components,
-    /// An annotation a row.
+    /// One row for each annotation.
     Annotations,
-    /// A joint of a frame a row.
+    /// One row for each joint of a frame.
     Frames,
 }
 
 impl Long {
-    /// Returns the table that an extension before `.parquet` means.
+    /// Returns the table for the extension before `.parquet`.
     pub(super) fn of(inner: &str) -> Self {
         match inner {
             "components" => Self::Components,
@@ -36,7 +36,7 @@ impl Long {
 /// Writes a long table as Parquet.
 ///
 /// # Errors
-/// If `what` is not there, rows are damaged, or `out` fails.
+/// Fails if `what` does not exist, rows are damaged, or `out` fails.
 #[cfg(feature = "parquet")]
 pub(super) fn write(
     connection: &Connection,
@@ -67,7 +67,8 @@ pub(super) fn write(
     }
 }
 
-/// Returns the recordings and tokens that are meant; a lexicon entry has neither annotations nor frames.
+/// Returns the selected recordings and tokens; lexicon entries are left out, as they have neither annotations nor
+/// frames.
 #[cfg(feature = "parquet")]
 fn stretches(
     connection: &Connection,
@@ -111,10 +112,10 @@ fn stretches(
     Ok(several)
 }
 
-/// Refuses Parquet, which this program was built without.
+/// Refuses Parquet, because this program was built without it.
 ///
 /// # Errors
-/// Always, with what can be written instead.
+/// Always fails; the error names the formats that can be written instead.
 #[cfg(not(feature = "parquet"))]
 pub(super) fn write(
     _connection: &Connection,

@@ -1,4 +1,4 @@
-//! The corpus into files that others read; the format is that of the file's extension.
+//! Exports the corpus to files in other formats; the extension of the file determines the format.
 
 mod bvh;
 mod csv;
@@ -37,14 +37,14 @@ use crate::values;
 use crate::words::counted;
 use long::Long;
 
-/// What to export.
+/// The part of the corpus to export.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ExportWhat {
-    /// The thing at an address.
+    /// The object at an address.
     Address(Address),
-    /// These tokens, such as those that a query finds, in this order.
+    /// These tokens in this order, such as the results of a query.
     Tokens(Vec<i64>),
-    /// The things at several addresses.
+    /// The objects at several addresses.
     Several(Vec<Address>),
     /// The inventory of this name.
     Inventory(String),
@@ -52,17 +52,17 @@ pub enum ExportWhat {
     All,
 }
 
-/// How to export.
+/// Options for an export.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ExportOptions {
-    /// Whether a file that is there already is replaced.
+    /// Whether an existing file is replaced.
     pub force: bool,
-    /// The format, as its extension without the dot, such as `bvh` or `curves.csv`. With it a name without
-    /// an extension is a folder that gets a file for each recording or token; else the extension says it.
+    /// The format, as its extension without the dot, such as `bvh` or `curves.csv`. If it is given, a name without an
+    /// extension is a folder with a file for each recording or token; otherwise the extension determines the format.
     pub format: Option<String>,
 }
 
-/// What was written.
+/// The result of an export.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct ExportReport {
     /// The files.
@@ -74,11 +74,11 @@ pub struct ExportReport {
 /// A file that was written.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ExportedFile {
-    /// Where it is.
+    /// Its path.
     pub path: PathBuf,
-    /// How large it is.
+    /// Its size in bytes.
     pub bytes: u64,
-    /// The SHA-256 of it, in hexadecimal.
+    /// Its SHA-256, in hexadecimal.
     pub sha256: String,
 }
 
@@ -87,31 +87,32 @@ impl Corpus {
     ///
     /// | extension | what is written |
     /// |---|---|
-    /// | `.csv`, `.tsv` | a token a row, with its components; of a tier its annotations |
-    /// | `.curves.csv`, `.curves.tsv` | the scalar curves of one recording or token, a frame a row |
+    /// | `.csv`, `.tsv` | one row for each token, with its components; or the annotations of a tier |
+    /// | `.curves.csv`, `.curves.tsv` | the scalar curves of one recording or token, one row for each frame |
     /// | `.eaf` | the tiers of one recording, for ELAN |
     /// | `.bvh` | the movement of one recording or token |
-    /// | `.glb` | the same as glTF with a skin, bones to look at and the annotations, for Blender and the web |
+    /// | `.glb` | the same as glTF with a skin, visible bones and the annotations, for Blender and the web |
     /// | `.vrma` | the movement of a humanoid for avatars, its non-manuals as expressions |
     /// | `.c3d`, `.trc` | the markers of one recording or token |
-    /// | `.markers.csv`, `.markers.tsv` | the same as a table of exact numbers, a frame a row |
+    /// | `.markers.csv`, `.markers.tsv` | the same as a table of exact numbers, one row for each frame |
     /// | `.TextGrid` | the tiers of one recording, for Praat |
-    /// | `.elan.txt` | the same as ELAN exports tab-delimited text |
+    /// | `.elan.txt` | the same in the form of ELAN's tab-delimited export |
     /// | `.srt`, `.vtt` | the glosses and translations of one recording as subtitles |
-    /// | `.parquet`, `.components.parquet` | a token, or a value of a token, a row (feature `parquet`) |
-    /// | `.annotations.parquet`, `.frames.parquet` | an annotation, or a joint of a frame, a row (likewise) |
+    /// | `.parquet`, `.components.parquet` | one row for each token, or each value of a token (feature `parquet`) |
+    /// | `.annotations.parquet`, `.frames.parquet` | one row for each annotation, or each joint of a frame (the same
+    /// feature) |
     /// | `.sigml` | notated tokens as gestural SiGML |
     /// | `.hsigml` | notated tokens as H-SiGML, HamNoSys's symbols as elements |
-    /// | `.hns`, `.txt` | notated tokens as HamNoSys text, a sign a line: the gloss, a tab, the text |
-    /// | `.json` | an inventory, as it can be imported again |
+    /// | `.hns`, `.txt` | notated tokens as HamNoSys text, one line for each sign: the gloss, a tab, the text |
+    /// | `.json` | an inventory, in the form that can be imported |
     /// | none | everything, as a folder of files that anyone can read |
     /// | none, with a format | a folder with a file of that format for each recording or token |
     ///
-    /// A file appears whole or not at all.
+    /// A file appears complete or not at all.
     ///
     /// # Errors
-    /// Where the extension is of no format, `what` cannot be written in it, or something is there
-    /// already.
+    /// Fails if the extension belongs to no format, if `what` cannot be written in it, or if the file or folder already
+    /// exists.
     pub fn export(
         &self,
         what: &ExportWhat,
@@ -158,11 +159,11 @@ impl Corpus {
         Ok(report)
     }
 
-    /// Writes a part of the corpus to `out` in the format that is called `format`, such as `bvh`, and
-    /// returns what its reader should know.
+    /// Writes a part of the corpus to `out` in the format named `format`, such as `bvh`, and returns notes for the
+    /// reader of the output.
     ///
     /// # Errors
-    /// Where there is no such format, or `what` cannot be written in it.
+    /// Fails if there is no such format, or if `what` cannot be written in it.
     pub fn export_stream(
         &self,
         what: &ExportWhat,
@@ -178,7 +179,7 @@ impl Corpus {
     }
 }
 
-/// Returns the format that people call by its extension, and the extension.
+/// Returns the format with this extension, and the extension.
 fn named(format: &str) -> Result<(Format, String)> {
     let extension = format.trim().trim_start_matches('.').to_lowercase();
     let (inner, last) = extension.split_once('.').unwrap_or(("", &extension));
@@ -189,7 +190,7 @@ fn named(format: &str) -> Result<(Format, String)> {
     }
 }
 
-/// Returns the failure that there is no such format, with what comes nearest to the common ones.
+/// Returns the error for an unknown format, with the most similar common ones.
 fn unknown(to: &Path, extension: &str) -> Error {
     let wrong = |message: String, remedy: &str| {
         Error::wrong(message)
@@ -216,9 +217,9 @@ fn unknown(to: &Path, extension: &str) -> Error {
 /// A format of single files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Format {
-    /// A table with this between its cells.
+    /// A table with this separator.
     Table(u8),
-    /// Likewise, of curves.
+    /// A table of curves with this separator.
     Curves(u8),
     Eaf,
     Bvh,
@@ -228,7 +229,7 @@ enum Format {
     Vrma,
     /// Markers as a file of their own.
     Points(foreign::Points),
-    /// Markers as a table with this between its cells.
+    /// Markers as a table with this separator.
     Markers(u8),
     TextGrid,
     ElanTable,
@@ -259,7 +260,7 @@ impl Format {
         }
     }
 
-    /// Returns the format that an extension before the last one makes of it, such as that of `x.curves.csv`.
+    /// Returns the variant of a format that the extension before the last one selects, such as that of `x.curves.csv`.
     fn within(self, inner: &str) -> Self {
         match (self, inner) {
             (Self::Table(delimiter), "curves") => Self::Curves(delimiter),
@@ -270,7 +271,7 @@ impl Format {
         }
     }
 
-    /// Reports whether it holds tiers, in which a token stands for its recording.
+    /// Reports whether the format holds tiers; a token then stands for its recording.
     fn is_of_tiers(self) -> bool {
         matches!(
             self,
@@ -288,7 +289,7 @@ fn inner_extension(to: &Path) -> String {
         .unwrap_or_default()
 }
 
-/// The note on how the annotations of a GLB become markers.
+/// The note on importing the annotations of a GLB file as markers.
 const MARKERS: &str = "annotations become markers of Blender's timeline by `exec(bpy.context.scene[\"chereme_markers\"])` \
                        in its Python console after the import";
 
@@ -396,7 +397,7 @@ fn no_format(to: &Path, message: &str) -> Error {
     )
 }
 
-/// The tokens that are meant.
+/// Returns the selected tokens.
 fn tokens(connection: &Connection, what: &ExportWhat) -> Result<Vec<i64>> {
     let ids = |rows: Vec<signs::TokenRow>| rows.into_iter().map(|row| row.id).collect();
     match what {
@@ -433,7 +434,7 @@ fn tokens(connection: &Connection, what: &ExportWhat) -> Result<Vec<i64>> {
     }
 }
 
-/// The one recording or token that is meant.
+/// Returns the selected recording or token, if it is a single one.
 fn stretch(connection: &Connection, what: &ExportWhat) -> Result<Stretch> {
     let several = |count: usize, what: &str| {
         Error::wrong(format!(
@@ -460,7 +461,7 @@ fn stretch(connection: &Connection, what: &ExportWhat) -> Result<Stretch> {
     }
 }
 
-/// Writes a file beside where it shall be, and puts it there when it is whole.
+/// Writes a file under a temporary name beside its path, and renames it when it is complete.
 fn whole(
     to: &Path,
     force: bool,
@@ -479,13 +480,13 @@ fn whole(
         })
     });
     if done.is_err() {
-        // The rest of a failed export is of no use; if it stays, that is no second failure.
+        // The remains of a failed export are useless; failing to remove them is not a second error.
         let _ = fs::remove_file(&part);
     }
     done
 }
 
-/// Refuses a place in a folder that is not there.
+/// Fails if the folder of the path does not exist.
 fn check_folder(to: &Path) -> Result<()> {
     let folder = to.parent().unwrap_or(to);
     if folder.as_os_str().is_empty() || folder.is_dir() {
@@ -495,7 +496,7 @@ fn check_folder(to: &Path) -> Result<()> {
     Err(Error::wrong(message).advise("make it first, or choose another place"))
 }
 
-/// Returns the name beside `to` under which it is made until it is whole.
+/// Returns the temporary name beside `to` for a file that is being written.
 fn unfinished(to: &Path) -> PathBuf {
     let name = to.file_name().unwrap_or_default().to_string_lossy();
     to.with_file_name(format!(".{name}.{}", Uuid::now_v7().simple()))
@@ -522,7 +523,7 @@ fn fill(part: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<()>) -> Res
     })
 }
 
-/// Counts and hashes what goes through it.
+/// Writer that counts and hashes the bytes written to it.
 struct Hashed<W> {
     out: W,
     digest: Sha256,
@@ -542,7 +543,7 @@ impl<W: Write> Write for Hashed<W> {
     }
 }
 
-/// Returns a file of a folder as reports show it.
+/// Returns a file of a folder in the form for reports.
 fn exported(path: PathBuf) -> Result<ExportedFile> {
     let fault = |error| Error::file(&path, error);
     let mut file = File::open(&path).map_err(fault)?;

@@ -1,4 +1,4 @@
-//! Notated tokens as SiGML and as HamNoSys text.
+//! Exports notated tokens as SiGML and as HamNoSys text.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -13,18 +13,18 @@ use crate::notation;
 use crate::progress::{Progress, Step, Unit};
 use crate::words::counted;
 
-/// How notation is written.
+/// Format of written notation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
     /// Gestural SiGML.
     Gestural,
     /// H-SiGML.
     Symbols,
-    /// A sign a line: the gloss, a tab, and HamNoSys.
+    /// One line for each sign: the gloss, a tab, and HamNoSys.
     Text,
 }
 
-/// Writes the notation of tokens; those without any are counted in a note.
+/// Writes the notation of tokens; a note gives the number of tokens without notation.
 pub(super) fn write(
     connection: &Connection,
     tokens: &[i64],
@@ -74,7 +74,7 @@ fn notated(
     Ok(signs)
 }
 
-/// Notes each kind of property that the file cannot hold, with its count and the first sign that has it.
+/// Adds a note for each kind of property that the file cannot hold, with its count and the first sign that has it.
 fn tell_lost(signs: &[Notated], lost: &[Vec<String>], notes: &mut Vec<String>) {
     let mut kinds: BTreeMap<&str, (usize, &str)> = BTreeMap::new();
     for (sign, own) in signs.iter().zip(lost) {

@@ -1,4 +1,4 @@
-//! Several recordings or tokens at once, a file for each of them in one folder.
+//! Exports several recordings or tokens at once, with a file for each of them in one folder.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -13,8 +13,7 @@ use crate::db::{recordings, signs};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 
-/// Writes a file of `format` for each recording or token into the folder `to`, and makes the folder if it
-/// is missing.
+/// Writes a file of `format` for each recording or token into the folder `to`, and creates the folder if it is missing.
 pub(super) fn write(
     connection: &Connection,
     what: &ExportWhat,
@@ -36,7 +35,7 @@ pub(super) fn write(
     let mut report = ExportReport::default();
     if format == Format::Glb {
         let path = to.join("annotations_to_markers.py");
-        // It is the same whenever it is written.
+        // The content of the script is always the same.
         let file = whole(&path, true, &mut |out| {
             let text = include_bytes!("annotations_to_markers.py");
             out.write_all(text)
@@ -72,8 +71,8 @@ pub(super) fn write(
     Ok(report)
 }
 
-/// Returns the recordings and tokens that get a file, with its name. In formats of tiers a token stands for
-/// its recording.
+/// Returns the recordings and tokens that get a file, with its name. In formats of tiers a token stands for its
+/// recording.
 fn each(
     connection: &Connection,
     what: &ExportWhat,

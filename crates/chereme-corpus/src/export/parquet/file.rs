@@ -1,6 +1,6 @@
-//! A Parquet file, written group by group.
+//! Writes a Parquet file group by group.
 //!
-//! The same table always gives the same bytes: the file holds neither a time nor a path.
+//! The same table always gives the same bytes: the file contains neither a time nor a path.
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
@@ -66,7 +66,7 @@ impl Column {
     }
 }
 
-/// Some rows, column by column.
+/// A set of rows, stored column by column.
 pub(super) type Table = Vec<Column>;
 
 /// A file under construction.
@@ -116,7 +116,7 @@ impl<'o> File<'o> {
         self.drain()
     }
 
-    /// Passes on what was written so far.
+    /// Writes the bytes so far to the output.
     fn drain(&mut self) -> Result<()> {
         let taken = self
             .held
@@ -128,7 +128,7 @@ impl<'o> File<'o> {
     }
 }
 
-/// Writes the cells that are there, and for each row whether it is.
+/// Writes the cells that have a value, and for each row whether it has one.
 fn with_gaps<T: DataType>(
     writer: &mut SerializedColumnWriter<'_>,
     cells: &[Option<T::T>],
@@ -167,7 +167,7 @@ fn schema(table: &Table) -> Result<TypePtr> {
     Ok(Arc::new(whole.map_err(fault)?))
 }
 
-/// Returns how columns are packed: texts by dictionary, numbers of movement with equal bytes together.
+/// Returns the encodings of columns: dictionaries for texts, byte stream split for numbers of movement.
 fn properties(table: &Table, about: &str) -> Result<WriterPropertiesPtr> {
     let level = ZstdLevel::try_new(3).map_err(fault)?;
     let about = KeyValue::new("chereme".to_owned(), about.to_owned());
@@ -186,7 +186,7 @@ fn properties(table: &Table, about: &str) -> Result<WriterPropertiesPtr> {
     Ok(Arc::new(builder.build()))
 }
 
-/// The bytes of a file under construction, until they go out.
+/// The bytes of a file under construction that have not been written out yet.
 #[derive(Clone, Default)]
 struct Held(Arc<Mutex<Vec<u8>>>);
 

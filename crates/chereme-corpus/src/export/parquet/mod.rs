@@ -26,10 +26,10 @@ use crate::movement::{ChannelGroup, Track};
 use crate::progress::{Progress, Step, Unit};
 use file::{Cells, Column, File, Table};
 
-/// So many rows of movement are in a group at most.
+/// The largest number of movement rows in a group.
 const GROUP: usize = 1 << 18;
 
-/// Returns what the columns of a table hold, for the file's metadata.
+/// Returns a description of a table's columns for the file's metadata.
 fn about(long: Long) -> String {
     let (table, columns) = match long {
         Long::Tokens => (
@@ -57,7 +57,7 @@ fn about(long: Long) -> String {
     serde_json::json!({ "program": program, "table": table, "columns": columns }).to_string()
 }
 
-/// Writes the table of tokens that a CSV would hold, with numbers as numbers.
+/// Writes the same table of tokens as the CSV export, with typed numbers.
 ///
 /// # Errors
 /// If rows are damaged, or `out` fails.
@@ -109,13 +109,13 @@ pub(super) fn tokens(
     file.finish()
 }
 
-/// Returns the attributes that are a number for each token that has them.
+/// Returns the names of attributes that are numbers for every token that has them.
 fn numeric(connection: &Connection, tokens: &[i64]) -> Result<BTreeSet<String>> {
     let mut all: BTreeMap<String, bool> = BTreeMap::new();
     for ids in tokens.chunks(signs::AT_ONCE) {
         let rows = attributes::of_tokens(connection, ids)?;
         for row in rows.into_values().flatten() {
-            // A number that Rust would read differently stays the text that it is.
+            // A number that Rust would read differently stays text.
             let plain = row.number.is_some() && row.text.trim().parse::<f64>().ok() == row.number;
             *all.entry(row.name).or_insert(true) &= plain || row.text.is_empty();
         }
@@ -130,7 +130,7 @@ fn parsed<T: std::str::FromStr>(cells: &[Option<String>]) -> Vec<Option<T>> {
         .collect()
 }
 
-/// Returns a title in small letters, digits and underscores, each once.
+/// Returns a title in lower-case letters, digits and underscores that is not in `taken`.
 fn plain(title: &str, taken: &mut BTreeSet<String>) -> String {
     let mut name = String::new();
     for letter in title.to_lowercase().chars() {
@@ -225,7 +225,7 @@ fn tell(progress: &mut Progress<'_>, done: usize, total: usize, task: &str) -> R
     })
 }
 
-/// Writes a row for each annotation of recordings; of a token those that lie in its span or reach into it.
+/// Writes a row for each annotation of recordings; for tokens, each annotation that overlaps their span.
 ///
 /// # Errors
 /// If rows are damaged, or `out` fails.
@@ -236,7 +236,7 @@ pub(super) fn annotations(
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     let mut file = File::new(&annotations_table(), &about(Long::Annotations), out)?;
-    // Two tokens may share an annotation: it is one row.
+    // An annotation that two tokens share is written as one row.
     let mut written = BTreeSet::new();
     for (done, stretch) in stretches.iter().enumerate() {
         let mut table = annotations_table();
@@ -314,7 +314,8 @@ fn annotation(table: &mut Table, stretch: &Stretch, tier: &TierRow, row: &Annota
     }
 }
 
-/// Writes a row for each joint of each frame: its place and turn below its parent, and its place in the room.
+/// Writes a row for each joint of each frame: its position and rotation relative to its parent, and its position in the
+/// room.
 ///
 /// # Errors
 /// If blocks are damaged, or `out` fails.
