@@ -3,8 +3,8 @@
 //! `cargo run --release -p chereme-tests --example cued -- table` prints the table, `… -- table FILE` writes it into a
 //! Markdown file between the lines `<!-- cued -->` and `<!-- end of cued -->`;
 //! `… -- session OUT [SENTENCES] [SEED]` writes a session, 238 sentences if no number is given: C3D with TextGrid, TRC with
-//! EAF, the truth as CSV, and a README that says that nothing of it was captured. `… -- fable` prints the keys of a fable of La Fontaine, line by line; the same text
-//! is cued with `chereme cue CORPUS "$(cat tests/examples/cued/fable.txt)"`.
+//! EAF, the truth as CSV, and a README that says that nothing of it was captured. `… -- fable` prints the keys of two fables of La Fontaine, line by line; the same
+//! text is cued with `chereme cue CORPUS "$(cat tests/examples/cued/corbeau.txt)"`.
 
 #![allow(
     clippy::print_stdout,
@@ -65,7 +65,8 @@ fn main() -> ExitCode {
             }
         }
         Some("fable") => {
-            for line in include_str!("fable.txt").lines() {
+            let fables = [include_str!("fable.txt"), include_str!("corbeau.txt")];
+            for line in fables.into_iter().flat_map(str::lines) {
                 match chereme_corpus::cue_keys(line, &chereme_corpus::KeysOptions::default()) {
                     Ok(read) => {
                         let keys = read.keys.iter();

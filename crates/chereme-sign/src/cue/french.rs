@@ -33,7 +33,8 @@ impl Default for Options {
 pub enum Schwa {
     /// Never.
     Dropped,
-    /// Between two consonants such as *tr* and a consonant of the next word, as in *maître corbeau*.
+    /// Between two consonants such as *tr* and a consonant of the next word, as in *maître corbeau*, and where four
+    /// consonants would meet, as in *quelque grain*.
     #[default]
     Usual,
     /// Before every consonant, as in verse.
@@ -343,7 +344,11 @@ impl Rules {
             && ["p", "b", "t", "d", "k", "g", "f", "v"].contains(&before.as_str());
         let says = match options.schwa {
             Schwa::Dropped => false,
-            Schwa::Usual => cluster,
+            Schwa::Usual => {
+                let mut first = next.phones.iter().take(2);
+                let two = first.len() == 2 && first.all(|phone| !is_vowel(phone));
+                cluster || (two && !is_vowel(end) && !is_vowel(before))
+            }
             Schwa::Said => true,
         };
         if silent_e && says && !is_vowel(end) {
@@ -362,6 +367,11 @@ impl Rules {
                 "y" | "en" if ends(&['s', 'z']) => return Some("z"),
                 _ => {}
             }
+        }
+        // A pronoun after its verb does not link to what follows: *faisiez-vous au*.
+        let is_subject = matches!(text, "nous" | "vous" | "ils" | "elles" | "on");
+        if word.hyphened && is_subject && !next.hyphened {
+            return None;
         }
         if let Some(sound) = self.liaison.get(text) {
             return Some(sound);

@@ -152,6 +152,13 @@ fn french_spelling_is_read_by_rules_lists_and_neighbours() {
     let cases = [
         ("oiseau", "w a z o"),
         ("parlent", "p a R l"),
+        ("prient", "p R i"),
+        ("jouent", "Z u"),
+        ("priant", "p R i j A~"),
+        ("patients", "p a s j A~"),
+        ("subsister", "s y b z i s t e"),
+        ("quelque grain", "k E l k @ g R E~"),
+        ("quelque peu", "k E l k p 2"),
         ("content", "k O~ t A~"),
         ("grenouille", "g R @ n u j"),
         ("aujourd'hui", "o Z u R d H i"),
@@ -309,12 +316,14 @@ fn british_keys_say_that_their_vowels_are_unchecked_and_aligners_agree() {
 }
 
 #[test]
-fn a_fable_has_almost_the_keys_of_a_careful_hand() {
+fn fables_have_almost_the_keys_of_a_careful_hand() {
     let french = code("french").expect("French");
-    let text = include_str!("../../../../tests/examples/cued/fable.txt");
-    let by_hand = include_str!("../../../../tests/examples/cued/fable-phones.txt");
+    let cigale = include_str!("../../../../tests/examples/cued/fable.txt").lines();
+    let corbeau = include_str!("../../../../tests/examples/cued/corbeau.txt").lines();
+    let by_hand = include_str!("../../../../tests/examples/cued/fable-phones.txt").lines();
+    let second = include_str!("../../../../tests/examples/cued/corbeau-phones.txt").lines();
     let (mut errors, mut all, mut lines) = (0, 0, Vec::new());
-    for (line, phones) in text.lines().zip(by_hand.lines()) {
+    for (line, phones) in cigale.chain(corbeau).zip(by_hand.chain(second)) {
         let named = |phones: &[Phone]| -> Vec<String> {
             let keys = french.keys(phones, Alphabet::Sampa).0;
             let words = keys
@@ -336,7 +345,7 @@ fn a_fable_has_almost_the_keys_of_a_careful_hand() {
         }
     }
     assert!(
-        errors * 100 <= 4 * all,
+        all > 400 && errors * 100 <= 2 * all,
         "{errors} of {all} keys\n{}",
         lines.join("\n")
     );
@@ -354,6 +363,10 @@ fn verbs_link_to_their_pronouns_and_nouns_do_not() {
         ("le lait est", "l @ l E E"),
         ("pas un", "p a z 9~"),
         ("jusqu'à", "Z y s k a"),
+        ("faisiez-vous au", "f @ z j e v u o"),
+        ("allez-vous-en", "a l e v u z A~"),
+        ("mais un peu", "m E z 9~ p 2"),
+        ("il tint à", "i l t E~ t a"),
     ] {
         assert_eq!(said(text, usual), expected, "{text}");
     }
