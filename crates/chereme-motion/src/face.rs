@@ -22,7 +22,7 @@ pub struct Face {
     pub lids: [f64; 2],
     /// Where the eyes look: to the signer's left and up; -1 is to the right and down.
     pub gaze: [f64; 2],
-    /// The nose wrinkled.
+    /// The nose wrinkled; -1 is the nostrils widened.
     #[serde(rename = "nose_wrinkle", alias = "nose")]
     pub nose: f64,
     /// The jaw dropped.
@@ -98,7 +98,7 @@ impl Face {
     /// Returns the least value that the number at this position can have: -1 if it has an opposite, else 0.
     #[must_use]
     pub fn least(position: usize) -> f64 {
-        const SINGLE: [usize; 8] = [2, 7, 8, 10, 14, 15, 16, 17];
+        const SINGLE: [usize; 7] = [2, 8, 10, 14, 15, 16, 17];
         if SINGLE.contains(&position) {
             0.0
         } else {

@@ -18,6 +18,7 @@ pub(super) fn add(mesh: &mut Mesh, features: &Features, canon: &Canon, palette: 
         eye(mesh, features, sign, side, palette);
         brow(mesh, features, canon, (sign, side), palette);
         ear(mesh, sign, palette);
+        nostril(mesh, features, canon, sign, palette);
     }
     teeth(mesh, features, palette);
     tongue(mesh, features, palette);
@@ -154,6 +155,23 @@ fn finish(mesh: &mut Mesh, base: usize, mut triangles: Vec<[u32; 3]>, flip: bool
     }
     smooth(&mut mesh.vertices[base..], &triangles, base as u32);
     mesh.triangles.extend(triangles);
+}
+
+fn nostril(mesh: &mut Mesh, features: &Features, canon: &Canon, sign: f32, palette: &Palette) {
+    let widened = (-features.nose).max(0.0);
+    let (x, y) = ((0.024 + 0.016 * widened) * sign, -0.188);
+    let skin = Vec3::new(x, y, canon.front(x, y));
+    let size = Vec3::new(0.015 + 0.021 * widened, 0.006 + 0.014 * widened, 0.010);
+    let colour = palette.face.mixed(palette.mouth, 0.35).scaled(0.42);
+    let whole = ellipsoid(
+        skin + features.landmarks(skin) + Vec3::Z * 0.003,
+        size,
+        Quat::from_rotation_z(-0.25 * sign),
+        [10, 6],
+        |point| (point, colour),
+        group::HEAD,
+    );
+    mesh.append(&whole);
 }
 
 fn ear(mesh: &mut Mesh, sign: f32, palette: &Palette) {

@@ -27,7 +27,7 @@ pub(super) struct Features {
     pub(super) teeth: f32,
     pub(super) tongue: f32,
     pub(super) tongue_aside: f32,
-    cheeks: [f32; 2],
+    pub(super) cheeks: [f32; 2],
 }
 
 /// How far the chin moves down with the jaw.
@@ -50,7 +50,7 @@ impl Features {
             frown: only_up(face.frown),
             lids: face.lids.map(number),
             gaze: face.gaze.map(number),
-            nose: only_up(face.nose),
+            nose: number(face.nose),
             jaw: only_up(face.jaw),
             aside: number(face.aside),
             parted: only_up(face.parted),
@@ -136,7 +136,11 @@ impl Features {
         let lift = 0.042 * corner.clamp(-1.0, 1.1) * cosine.abs().powf(2.2)
             - 0.035 * self.jaw * (1.0 - self.pressed) * cosine.abs().powi(3);
         let aside = 0.055 * self.aside * (0.35 + 0.65 * smooth_step(-sine));
-        let nose = if upper { 0.010 * self.nose } else { 0.0 };
+        let nose = if upper {
+            0.010 * self.nose.max(0.0)
+        } else {
+            0.0
+        };
         Vec3::new(
             self.width() * wide * cosine + aside,
             LIPS + sine.signum() * (thick * inner + gap) + lift + nose,
@@ -223,18 +227,20 @@ impl Features {
             let inner = near(sign * 0.05, 0.10, 0.05);
             by += Vec3::new(-0.020 * sign, -0.016, 0.012) * self.frown * inner;
             let wing = near(sign * 0.050, -0.165, 0.035);
-            by += Vec3::new(0.012 * sign, 0.036, 0.0) * self.nose * wing;
+            let (wrinkled, widened) = (self.nose.max(0.0), (-self.nose).max(0.0));
+            by += Vec3::new(0.012 * sign, 0.036, 0.0) * wrinkled * wing;
+            by += Vec3::new(0.036 * sign, 0.007, 0.004) * widened * wing;
             let fold = near(sign * 0.125, -0.12, 0.055);
-            by += Vec3::new(0.0, 0.030, 0.022) * self.nose * fold;
+            by += Vec3::new(0.0, 0.030, 0.022) * wrinkled * fold;
             let corner = self.corners[side];
             let apple = near(sign * 0.155, -0.165, 0.062);
             by += Vec3::new(0.006 * sign, 0.020, 0.050) * corner.max(0.0) * apple;
             let cheek = self.cheeks[side];
             let puff = near(sign * 0.190, -0.250, 0.095);
             let much = if cheek > 0.0 {
-                [0.036, 0.060]
+                [0.050, 0.076]
             } else {
-                [0.030, 0.045]
+                [0.040, 0.060]
             };
             by += Vec3::new(much[0] * sign, 0.0, much[1]) * cheek * puff;
         }

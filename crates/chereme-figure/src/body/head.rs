@@ -130,12 +130,17 @@ fn colour(place: Place, at: Vec3, features: &Features, palette: &Palette) -> Col
             let side = if at.x > 0.0 { 1.0 } else { -1.0 };
             let cheek = (at - Vec3::new(0.185 * side, -0.14, 0.25)).length();
             let warm = (1.0 - smooth_step(cheek / 0.15)) * 0.16;
-            let fold = features.nose
-                * 0.10
+            let (wrinkled, widened) = (features.nose.max(0.0), (-features.nose).max(0.0));
+            let fold = (0.10 * wrinkled + 0.22 * widened)
                 * (1.0 - smooth_step((at - Vec3::new(0.09 * side, -0.13, 0.33)).length() / 0.06));
+            // A cheek that stands out catches light, one that is drawn in does not.
+            let puff = (at - Vec3::new(0.175 * side, -0.23, 0.20)).length();
+            let puffed =
+                features.cheeks[usize::from(side > 0.0)] * (1.0 - smooth_step(puff / 0.13));
+            let shade = puffed * if puffed > 0.0 { 0.10 } else { 0.22 };
             let grown = palette.cut != Hair::None && scalp(at) > 0.02;
             let under = if grown { palette.crown } else { skin };
-            under.mixed(palette.mouth, warm).scaled(1.0 - fold)
+            under.mixed(palette.mouth, warm).scaled(1.0 - fold + shade)
         }
         Place::Mouth(0, k) => lips.scaled(if features.is_open() {
             0.80

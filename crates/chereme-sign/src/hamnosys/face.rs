@@ -176,7 +176,6 @@ mod tests {
             assert!(face.numbers().iter().all(|n| (-1.0..=1.0).contains(n)));
             let only_up = [
                 face.frown,
-                face.nose,
                 face.jaw,
                 face.parted,
                 pressed,
