@@ -18,12 +18,12 @@ pub enum Obstacle {
 impl fmt::Display for Obstacle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Window(window) => write!(f, "the window {window:?} does not reach both corners"),
+            Self::Window(window) => write!(f, "the window {window} does not reach both corners"),
             Self::Slope(pattern) => write!(f, "{pattern:?} steps cannot stretch so far"),
             Self::Together(window, pattern) => {
                 write!(
                     f,
-                    "{pattern:?} steps find no way inside the window {window:?}"
+                    "{pattern:?} steps find no way inside the window {window}"
                 )
             }
         }

@@ -35,6 +35,7 @@ pub use pattern::StepPattern;
 pub use series::Series;
 pub use window::Window;
 
+use std::fmt;
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
@@ -122,6 +123,16 @@ pub enum Made {
     Resampled,
     /// In a slanted band of this half width, by [`Policy::SlantedBand`].
     SlantedBand(usize),
+}
+
+impl fmt::Display for Made {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::AsAsked => f.write_str("as asked"),
+            Self::Resampled => f.write_str("resampled"),
+            Self::SlantedBand(width) => write!(f, "slanted band of {width}"),
+        }
+    }
 }
 
 /// The cost of the best alignment.

@@ -1,5 +1,6 @@
 //! Windows: limits on the distance of an alignment from the diagonal.
 
+use std::fmt;
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,18 @@ pub enum Window {
     /// the reference's first. Very unequal lengths may have no path, as the line then rises by more than
     /// the band's width per step.
     SlantedBand(usize),
+}
+
+impl fmt::Display for Window {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::None => f.write_str("without a limit"),
+            Self::SakoeChiba(width) => write!(f, "of {width} frames about the diagonal"),
+            Self::SlantedBand(width) => {
+                write!(f, "of {width} frames about the line from corner to corner")
+            }
+        }
+    }
 }
 
 impl Window {

@@ -102,7 +102,7 @@ fn faces(corpus: &Corpus, both: [&Address; 2], args: &Args, output: &mut Output)
                 it.phase.name().to_owned(),
                 format!("{} / {}", it.frames[0], it.frames[1]),
                 number(it.normalized),
-                it.made.map_or(String::new(), |made| format!("{made:?}")),
+                it.made.map_or(String::new(), |made| made.to_string()),
             ]
         })
         .collect();

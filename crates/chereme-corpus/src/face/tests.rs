@@ -438,6 +438,12 @@ fn curves_are_searched_while_a_token_lasts() {
         found("nonmanual.brows>0.5 for 0.3s gloss=QUOI"),
         ["W1 QUOI"]
     );
+    assert_eq!(
+        found("nonmanual.brows>0.5 for 0.3s overlaps gloss=QUOI"),
+        ["W1 QUOI"],
+        "the stretch of the curve overlaps the sign"
+    );
+    assert_eq!(found("gloss=QUOI overlaps gloss=QUOI"), [""; 0]);
     assert_eq!(found("nonmanual.brows>0.5 for 3s"), [""; 0]);
     assert_eq!(found("nonmanual.brows=0.1..0.3 gloss=QUOI"), ["W2 QUOI"]);
     assert_eq!(found("nonmanual.head_pitch>8 gloss=ANNA"), ["W1 ANNA"]);

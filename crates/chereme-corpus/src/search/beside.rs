@@ -28,6 +28,8 @@ pub(crate) struct Beside {
     /// counts as unset.
     relation: Option<Relation>,
     other: Vec<Other>,
+    /// Whether the token may overlap what it is itself.
+    itself: bool,
 }
 
 enum Other {
@@ -60,7 +62,19 @@ impl Beside {
                 Vec::new()
             }
         };
-        Ok(Self { relation, other })
+        Ok(Self {
+            relation,
+            other,
+            itself: false,
+        })
+    }
+
+    /// Returns it so that the token itself may be the other that it overlaps.
+    pub(crate) fn or_itself(self) -> Self {
+        Self {
+            itself: self.relation == Some(Relation::Overlaps),
+            ..self
+        }
     }
 
     /// Returns the candidates that stand in the relation.
@@ -136,7 +150,7 @@ impl Beside {
                 if recordings.contains(&recording) {
                     marks.entry(recording).or_default().push(Mark {
                         span: span(start, end),
-                        token: ids.get(doc),
+                        token: ids.get(doc).filter(|_| !self.itself),
                         passes: true,
                     });
                 }

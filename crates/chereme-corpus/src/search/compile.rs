@@ -124,7 +124,15 @@ pub(crate) fn plan(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
     match expr {
         Expr::And(terms) => {
             let ranked = |term: &&Expr| !matches!(term, Expr::Like(_));
-            let plans = terms.iter().filter(ranked).map(|term| plan(ask, term));
+            // What overlaps is then a stretch of the curve, and the token in which it lies may be the other's own.
+            let of_curve = terms.iter().any(is_of_curve);
+            let plans = terms.iter().filter(ranked).map(|term| match term {
+                Expr::Relation(related) if of_curve => {
+                    let beside = Beside::new(ask, Some(related.relation), &related.other)?;
+                    Ok(Plan::Beside(Box::new(beside.or_itself())))
+                }
+                term => plan(ask, term),
+            });
             Ok(Plan::all(plans.collect::<Asked<_>>()?))
         }
         Expr::Or(terms) => {
@@ -146,6 +154,10 @@ pub(crate) fn plan(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
         }
         .into()),
     }
+}
+
+fn is_of_curve(term: &Expr) -> bool {
+    matches!(term, Expr::Test(test) if matches!(test.what, What::Curve(..)))
 }
 
 /// Returns the plan for what stands under a joint, where a search by example has no place.
