@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 fn shows(window: &Window<'_>, part: &str) -> bool {
     window.query_all_by_label_contains(part).next().is_some()
@@ -30,7 +30,7 @@ fn open_pane(window: &mut Window<'_>) {
 }
 
 #[test]
-fn a_text_is_cued_and_corrected() {
+fn a_text_is_cued_corrected_shown_and_stored() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     open_pane(&mut window);
@@ -45,6 +45,21 @@ fn a_text_is_cued_and_corrected() {
         shows(&window, "throat 5 for m e"),
         "the click took the other vowel"
     );
+    type_into(&mut window, "Gloss of the new sign", "MAISON");
+    until(&mut window, "the cuer on the stage", |window| {
+        let store = window.get_by_label("Store");
+        !store.accesskit_node().is_disabled()
+    });
+    idle(&mut window);
+    press(&mut window, "Store");
+    until(&mut window, "the stored sign", |window| {
+        shows(window, "Stored as MAISON")
+    });
+    idle(&mut window);
+    press(&mut window, "Change how la is said: l a");
+    until(&mut window, "the phones of a word", |window| {
+        has(window, "Phones of la")
+    });
 }
 
 #[test]
