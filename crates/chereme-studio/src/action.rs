@@ -1,4 +1,4 @@
-//! What keys, menus and the command palette can ask for: one table, each row an [`Action`].
+//! The table of everything that keys, menus and the command palette can request; each row is an [`Action`].
 //!
 //! An action has no data; its object is the selection. To add one, write a row here and an arm in
 //! [`perform`](crate::perform); give it keys in [`keys::table`](crate::keys::table).
@@ -6,7 +6,7 @@
 use crate::panes::PaneKind;
 use crate::words::{Text, actions as words, shell};
 
-/// Where an action is found in the menu bar.
+/// The menu that lists an action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Menu {
     File,
@@ -43,14 +43,14 @@ impl Menu {
     ];
 }
 
-/// Where the keys of an action count.
+/// Where the keys of an action have an effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Context {
-    /// Wherever one is.
+    /// In the whole window.
     Everywhere,
     /// Only with a corpus open.
     Corpus,
-    /// Only in that pane; there it goes before the others.
+    /// Only in that pane; there they take precedence over other actions with the same keys.
     #[allow(dead_code, reason = "the keys of a pane of its own")]
     Pane(PaneKind),
 }
@@ -59,7 +59,7 @@ pub(crate) enum Context {
 #[derive(Debug)]
 pub(crate) struct ActionRow {
     pub(crate) action: Action,
-    /// The name under which the settings file knows it; never changed.
+    /// Name of the action in the settings file; it never changes.
     pub(crate) id: &'static str,
     pub(crate) name: Text,
     pub(crate) menu: Menu,
@@ -293,7 +293,7 @@ actions! {
 }
 
 impl Action {
-    /// Returns whether it changes the corpus, or begins to.
+    /// Returns whether the action changes the corpus, or begins to change it.
     pub(crate) fn changes(self) -> bool {
         use Action::{
             AddTier, BeginEndAnnotation, ChangeTier, CopyTier, CopyToTier, Cut, DeleteAnnotation,
@@ -350,7 +350,7 @@ impl Action {
             )
     }
 
-    /// Returns the row of the table.
+    /// Returns the row of this action.
     pub(crate) fn row(self) -> &'static ActionRow {
         &ACTIONS[self as usize]
     }

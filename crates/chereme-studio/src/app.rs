@@ -37,20 +37,20 @@ pub struct Studio {
     pub(crate) author: String,
     pub(crate) folders: Folders,
     pub(crate) settings: Settings,
-    /// The settings as the file has them.
+    /// The settings as they are in the file.
     pub(crate) saved: Settings,
     pub(crate) keys: Keys,
     pub(crate) desk: Option<Desk>,
     pub(crate) beginning: Option<Beginning>,
-    /// The open corpus, if it was created only to receive files.
+    /// The file of the open corpus, if it was created only to receive imported files.
     pub(crate) made_for: Option<PathBuf>,
-    /// The gloss that the starter corpus opens with, empty for any.
+    /// The gloss to show first in the starter corpus; empty for any.
     pub(crate) greets: Option<String>,
-    /// Whether the import of a corpus that was just made has room to be looked at.
+    /// Whether a new corpus was created for an import, whose pane has most of the window until the import ends.
     looking: bool,
-    /// Whether the file of the open corpus is gone from its place.
+    /// Whether the file of the open corpus is missing from its place.
     pub(crate) gone: bool,
-    /// Nothing before the corpus was first read.
+    /// `None` before the corpus is first read.
     pub(crate) snapshot: Option<Snapshot>,
     pub(crate) shown: Shown,
     pub(crate) reel: Reel,
@@ -71,18 +71,18 @@ pub struct Studio {
     pub(crate) walk: crate::bars::Walk,
     pub(crate) out: Outbox,
     pub(crate) drafts: Drafts,
-    /// Under which name it is remembered how the open corpus is looked at.
+    /// Key under which the view of the open corpus is stored in the settings.
     pub(crate) view: Option<String>,
     pub(crate) wake: Wake,
     ctx: Arc<OnceLock<Context>>,
     /// The title of the window.
     title: String,
-    /// When the last frame was, in seconds of the window's clock.
+    /// Time of the last frame, in seconds of the window's clock.
     clock: Option<f64>,
 }
 
 impl Studio {
-    /// Returns the window's state before its first frame.
+    /// Returns the state of the window before its first frame.
     #[must_use]
     pub fn new(options: Options) -> Self {
         let Options {
@@ -162,7 +162,7 @@ impl Studio {
         self.panes.search.show_made(&mut self.out);
         self.panes.library.show_made(&mut self.out);
         if self.panes.recombine.has_news() {
-            // The new movement is in the pictures that this frame asks for.
+            // The pictures requested in this frame must show the new movement.
             self.keep_up(&ctx);
             self.carry_out(&ctx);
         }
@@ -193,32 +193,32 @@ impl Studio {
         self.remember(&ctx);
     }
 
-    /// Returns where the playhead is.
+    /// Returns the playhead.
     #[must_use]
     pub fn playhead(&self) -> Instant {
         self.shown.player.playhead()
     }
 
-    /// Returns how long the pictures of the stage took that were drawn last, by a thread of their own.
+    /// Returns how long the latest pictures of the stage took to draw, on their own thread.
     #[must_use]
     pub fn drawing_time(&self) -> Duration {
         self.panes.stage.drawing_time()
     }
 
-    /// Returns whether the pictures on the stage are those that were asked for last.
+    /// Returns whether the stage shows the latest requested pictures.
     #[must_use]
     pub fn is_drawn(&self) -> bool {
         self.panes.stage.is_drawn()
     }
 
-    /// Returns whether every film shows the frame that was wished for last.
+    /// Returns whether every film shows the latest requested frame.
     #[must_use]
     pub fn is_filmed(&self) -> bool {
         self.films.are_pictured()
     }
 
-    /// Returns the name of the movement on the stage, if it comes from a recipe and its newest picture is drawn:
-    /// the recipe, or a gloss.
+    /// Returns the name of the movement on the stage, a recipe or a gloss, if the movement comes from a recipe and its
+    /// newest picture is drawn.
     #[must_use]
     pub fn drawn(&self) -> Option<&str> {
         let showing = self.shown.made.as_ref()?;
@@ -226,19 +226,19 @@ impl Studio {
         there.then_some(showing.made.name.as_str())
     }
 
-    /// Returns the open corpus's file.
+    /// Returns the file of the open corpus.
     #[must_use]
     pub fn corpus(&self) -> Option<&PathBuf> {
         self.desk.as_ref().map(|desk| &desk.path)
     }
 
-    /// Returns the moment of the corpus that is shown, as [`generation`](chereme_corpus::Corpus::generation) counts.
+    /// Returns the [`generation`](chereme_corpus::Corpus::generation) of the corpus that the window shows.
     #[must_use]
     pub fn generation(&self) -> Option<i64> {
         Some(self.snapshot.as_ref()?.overview.generation)
     }
 
-    /// Returns whether nothing is being done: no work, no opening, the corpus read.
+    /// Returns whether the window is idle: no work runs, no corpus is being opened, and the open corpus is read.
     #[must_use]
     pub fn is_idle(&self) -> bool {
         let working = self
@@ -252,7 +252,7 @@ impl Studio {
             && self.desk.is_some() == self.snapshot.is_some()
     }
 
-    /// Runs `draw` with what panes see.
+    /// Returns the view that panes draw from; `None` without a snapshot.
     pub(crate) fn seen(&self, ctx: &Context) -> Option<Seen<'_>> {
         Some(Seen {
             snapshot: self.snapshot.as_ref()?,
@@ -268,7 +268,7 @@ impl Studio {
         })
     }
 
-    /// Receives the threads' results.
+    /// Receives the results of the threads.
     fn listen(&mut self) {
         let ended = self.beginning.as_mut().and_then(Beginning::ended);
         if let Some(ended) = ended {
@@ -280,7 +280,7 @@ impl Studio {
                     self.open(&path);
                     self.made_for = made;
                     if !look.is_empty() {
-                        // Nothing else is there to be seen yet.
+                        // Nothing else in the corpus can be shown yet.
                         self.looking = true;
                         self.out.send(Command::Do(Action::LayoutSearch));
                         self.out.send(Command::Import(look));
@@ -325,7 +325,7 @@ impl Studio {
         }
     }
 
-    /// Reports at once that the file of the corpus is gone, and how to save all of it.
+    /// Reports at once if the file of the corpus is missing, and how to save a complete copy.
     fn stands(&mut self, stands: bool) {
         self.gone = !stands;
         let language = self.settings.language;
@@ -351,7 +351,7 @@ impl Studio {
         self.overlays.notices.offer(text, remedy, offers);
     }
 
-    /// Goes on in a copy that was saved.
+    /// Continues in the copy that was saved, or reports why it could not be saved.
     fn copied(&mut self, saved: Result<PathBuf, chereme_corpus::Error>) {
         let language = self.settings.language;
         match saved {
@@ -369,7 +369,7 @@ impl Studio {
         }
     }
 
-    /// Hears what was chosen.
+    /// Handles the result of an open file chooser.
     fn hear_chooser(&mut self, ctx: &Context) {
         let now = ctx.input(|input| input.time);
         match self.chooser.ended(&self.wake, now) {
@@ -400,7 +400,7 @@ impl Studio {
             let lanes = desk.running.values().map(|it| it.lane);
             lanes.filter(|lane| *lane == Lane::Movement).count()
         });
-        // While one drags over hours, what was only passed is not loaded.
+        // While the user drags over hours of movement, passed pieces are not loaded.
         if loading < 2
             && let Some((recording, piece, span)) = self.reel.wanted(at, direction)
         {
@@ -512,8 +512,7 @@ impl Studio {
         Panel::bottom("status").show(ui, |ui| self.status(ui));
     }
 
-    /// Writes what is half typed at once, and the settings where they changed, when nothing is being
-    /// dragged.
+    /// Writes unfinished text at once, and changed settings once no pointer button is down.
     fn remember(&mut self, ctx: &Context) {
         if self.desk.is_some()
             && let Err(error) = self.drafts.keep(self.panes.timeline.draft())
@@ -560,7 +559,7 @@ impl Studio {
         layout.as_ref() == Some(&self.tree)
     }
 
-    /// Returns where the layout is remembered that the window has now.
+    /// Returns the settings entry that stores the present layout: that of small windows, or that of large ones.
     fn laid_out(&mut self) -> &mut Option<Tree<PaneKind>> {
         if self.small {
             &mut self.settings.small_layout
@@ -569,8 +568,8 @@ impl Studio {
         }
     }
 
-    /// Switches to the layout of small windows or back if the window's size calls for it; the pane in use stays in
-    /// sight.
+    /// Switches between the layouts of small and large windows if the window's size calls for it; the pane in use stays
+    /// in sight.
     fn fit(&mut self, size: egui::Vec2) {
         let small = layout::is_small(size);
         if small == self.small {
@@ -600,7 +599,7 @@ impl Studio {
 }
 
 impl Drop for Studio {
-    /// The zoom is written when the window closes.
+    /// Writes the zoom of the timelines when the window closes.
     fn drop(&mut self) {
         self.keep_view(true);
         self.leave();
@@ -617,20 +616,20 @@ impl eframe::App for Studio {
         Self::ui(self, ui);
     }
 
-    /// The ground of all panes, which then need none of their own: where windows are drawn in software
-    /// each layer that fills the window takes milliseconds of every frame.
+    /// Returns the background of all panes, which then draw none of their own: in windows drawn by software, each layer
+    /// that fills the window takes milliseconds of every frame.
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
 }
 
-/// The panes as the layout asks for them.
+/// The panes, as drawn by the tile layout.
 struct Workbench<'a> {
     panes: &'a mut Panes,
     seen: Seen<'a>,
     out: &'a mut Outbox,
     pane: &'a mut Option<PaneKind>,
-    /// The pane whose tab something is carried over.
+    /// The pane whose tab is below the dragged thing.
     under: Option<PaneKind>,
 }
 

@@ -14,21 +14,22 @@ use crate::words::{fill, shell as words};
 use crate::work::Lane;
 use crate::work::begin::Begin;
 
-/// How the arrow keys walk from menu to menu.
+/// State of walking from menu to menu with the arrow keys.
 #[derive(Debug, Default)]
 pub(crate) struct Walk {
-    /// The menus' popups, in their order, as they were drawn last.
+    /// Popups of the menus, in order, as they were drawn last.
     popups: Vec<Id>,
-    /// The menu that the keys opened; its first entry has the keyboard.
+    /// Index of the menu that the keys opened; its first entry gets the keyboard.
     came: Option<usize>,
-    /// Whether it was opened in this frame: the same key may still move the keyboard at the frame's end.
+    /// Whether the menu was opened in this frame: the same key may still move the keyboard focus at the end of the
+    /// frame.
     waits: bool,
     /// Whether the pointer has not moved since the keys opened a menu.
     rests: bool,
 }
 
 impl Walk {
-    /// Opens the menu beside the one that is open where an arrow key asks for that.
+    /// Opens the neighbour of the open menu if an arrow key was pressed.
     fn take_keys(&mut self, ui: &Ui) {
         let ctx = ui.ctx();
         self.waits = false;
@@ -48,9 +49,9 @@ impl Walk {
         (self.came, self.waits, self.rests) = (Some(next), true, true);
     }
 
-    /// Keeps the menu that the keys opened while the pointer rests on the name of another, which would open that.
+    /// Keeps the menu that the keys opened. Without this, a pointer at rest on another menu's name would open that one.
     fn keep(&mut self, ui: &Ui) {
-        /// Where egui keeps which menu of a bar is open.
+        /// Key under which egui stores the open menu of a bar.
         const OPEN: &str = "egui_menu_bar_open_menu";
         self.rests &= ui.input(|input| input.pointer.delta() == Vec2::ZERO);
         if self.rests {
@@ -61,9 +62,9 @@ impl Walk {
     }
 }
 
-/// The part of the window's height that a menu leaves free.
+/// The part of the window's height that a menu leaves free, in points.
 const MARGIN: f32 = 60.0;
-/// The room that the three layouts want beside the menus.
+/// The width that the three layout buttons need beside the menus, in points.
 const LAYOUTS: f32 = 280.0;
 
 /// The entries that begin a group of a menu.
@@ -121,7 +122,7 @@ impl Studio {
         });
     }
 
-    /// Shows what one can be busy with, from right to left.
+    /// Shows the layouts to choose from, from right to left.
     fn layouts(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
         for (action, text, busy) in [
@@ -144,7 +145,7 @@ impl Studio {
         }
     }
 
-    /// Shows the entries of a menu; returns whether the `first` that can be chosen was given the keyboard.
+    /// Shows the entries of a menu. With `first`, gives the keyboard to the first enabled entry and returns `true`.
     fn menu(&mut self, ui: &mut Ui, menu: Menu, mut first: bool) -> bool {
         let wanted = first;
         let open = self.snapshot.is_some();
@@ -176,7 +177,7 @@ impl Studio {
         wanted && !first
     }
 
-    /// Returns what a step back or forward would change in the corpus.
+    /// Returns a description of what Undo or Redo would change in the corpus; `None` for other actions.
     fn steps(&self, action: Action) -> Option<String> {
         if !matches!(action, Action::Undo | Action::Redo) {
             return None;
@@ -199,7 +200,7 @@ impl Studio {
         });
     }
 
-    /// Returns what the window is called: the program, the corpus, and that it may only be read.
+    /// Returns the title of the window: the program, the corpus, and whether the corpus is read-only.
     pub(crate) fn title(&self) -> String {
         let name = words::START_TITLE.of(self.settings.language);
         let Some(stem) = self.desk.as_ref().and_then(|desk| desk.path.file_stem()) else {

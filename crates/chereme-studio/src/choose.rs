@@ -1,4 +1,4 @@
-//! The system's own file choosers, beside the typed paths that always work.
+//! The file choosers of the system, a complement to typed paths, which always work.
 
 use std::future::Future;
 use std::path::PathBuf;
@@ -13,24 +13,24 @@ use crate::words::{Language, shell as words};
 use crate::work::begin::Begin;
 use crate::work::desk::Wake;
 
-/// The object of a chooser, which decides its use.
+/// The purpose of a chooser, which decides how the chosen path is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Choose {
     /// A corpus to open.
     Corpus,
-    /// Where a new corpus is made.
+    /// Where to create a new corpus.
     NewCorpus,
-    /// Where a copy of the open corpus is saved.
+    /// Where to save a copy of the open corpus.
     Copy,
-    /// A folder that becomes a corpus.
+    /// A folder to make a corpus of.
     CorpusOfFolder,
-    /// Files to take into the open corpus.
+    /// Files to import into the open corpus.
     Files,
-    /// A folder to take into the open corpus.
+    /// A folder to import into the open corpus.
     Folder,
     /// A corpus to merge into the open one.
     Merge,
-    /// A media file for the recording of that row, in place of the track of that row where one is said.
+    /// A media file for the recording with that row id; it replaces the track with the given row id, if any.
     Media(i64, Option<i64>),
 }
 
@@ -48,15 +48,15 @@ pub(crate) struct Chooser {
 /// The result of an open chooser.
 #[derive(Debug)]
 pub(crate) enum Chosen {
-    /// Something was chosen: do this.
+    /// A path was chosen: carry out this command.
     Command(Command),
-    /// It was put away.
+    /// The user closed the chooser.
     Nothing,
-    /// It ended sooner than anybody can put it away: this system has none.
+    /// The chooser ended sooner than a person can close it: this system has none.
     NoChooser,
 }
 
-/// No person closes a chooser faster, in seconds.
+/// Shortest time in which a person can close a chooser, in seconds.
 const AT_ONCE: f64 = 0.4;
 
 impl Default for Chooser {
@@ -69,7 +69,7 @@ impl Default for Chooser {
 }
 
 impl Chooser {
-    /// Shows a chooser; the one that is open is forgotten.
+    /// Shows a chooser, and forgets the one that is open.
     pub(crate) fn ask(&mut self, what: Choose, language: Language, now: f64) {
         self.open = Some((what, (self.show)(what, language), now));
     }
@@ -79,7 +79,7 @@ impl Chooser {
         self.open.is_some()
     }
 
-    /// Returns what became of the open chooser, when it has ended; wakes the window when it does.
+    /// Returns the result of the open chooser if it has ended; arranges for the window to wake at its end.
     pub(crate) fn ended(&mut self, wake: &Wake, now: f64) -> Option<Chosen> {
         let (what, paths, since) = self.open.as_mut()?;
         let waker = Arc::new(Waking(wake.clone())).into();
@@ -125,7 +125,7 @@ impl Choose {
     }
 }
 
-/// Shows the chooser of the desktop.
+/// Shows the file chooser of the desktop.
 fn native(what: Choose, language: Language) -> Paths {
     let dialog = AsyncFileDialog::new();
     let one = |file: Option<FileHandle>| file.map(|it| it.path().to_owned()).into_iter().collect();

@@ -1,11 +1,11 @@
-//! The clipboard of the system, and what is waited for from it.
+//! The clipboard of the system, and pending requests for its text.
 
 use eframe::egui::text_selection::LabelSelectionState;
 use eframe::egui::{Context, Event, ViewportCommand};
 
 use crate::action::Action;
 
-/// How many frames the system is waited for.
+/// How many frames to wait for the system's text.
 const PATIENCE: u32 = 4;
 
 /// The text copied here, and the pending paste.
@@ -13,9 +13,9 @@ const PATIENCE: u32 = 4;
 pub(crate) struct Clipboard {
     /// The last text copied here: pasted if the system's clipboard is empty.
     own: String,
-    /// The text that came with the key that pastes.
+    /// The text that came with the paste key.
     given: Option<String>,
-    /// The action that waits for the system's text, and for how many frames.
+    /// The action that waits for the system's text, and for how many frames it has waited.
     waits: Option<(Action, u32)>,
 }
 
@@ -26,14 +26,14 @@ impl Clipboard {
         self.own = text;
     }
 
-    /// Takes the text that came with a key.
+    /// Stores the text that came with a key.
     pub(crate) fn give(&mut self, text: Option<String>) {
         if text.is_some() {
             self.given = text;
         }
     }
 
-    /// Returns the text to paste; where none is at hand the system is asked, and it [`came`](Self::came)
+    /// Returns the text to paste. If it is not here yet, requests it from the system; [`came`](Self::came) returns it
     /// later.
     pub(crate) fn given(&mut self, ctx: &Context, action: Action) -> Option<String> {
         let given = self.given.take();
@@ -44,7 +44,7 @@ impl Clipboard {
         given
     }
 
-    /// Returns the awaited text when it has come, or the text copied here if none comes.
+    /// Returns the awaited text and its action once the text has come; after [`PATIENCE`] frames the text copied here.
     pub(crate) fn came(&mut self, ctx: &Context) -> Option<(Action, String)> {
         let (action, frames) = self.waits?;
         let text = ctx.input_mut(|input| {
@@ -69,7 +69,7 @@ impl Clipboard {
     }
 }
 
-/// Returns whether text of a label is marked.
+/// Returns whether the user has selected text of a label.
 pub(crate) fn is_text_marked(ctx: &Context) -> bool {
     let marks = ctx.plugin::<LabelSelectionState>();
     marks.lock().has_selection()

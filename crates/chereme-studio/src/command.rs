@@ -1,4 +1,4 @@
-//! Everything that can be asked for, as one value: menus, keys, palette and panes send the same.
+//! Every possible request, as one value: menus, keys, palette and panes send the same commands.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -19,18 +19,18 @@ use crate::words::Text;
 use crate::work::begin::Begin;
 use crate::work::{Work, WorkId};
 
-/// Something asked for.
+/// A request to the window.
 #[derive(Debug, Clone)]
 pub(crate) enum Command {
-    /// What keys, menus and the palette can ask for.
+    /// Carry out an action of keys, menus or the palette.
     Do(Action),
-    /// A use case of the corpus.
+    /// Run a use case of the corpus.
     Work(WorkId, Work),
     /// Stop a piece of work.
     Stop(WorkId),
     /// Open a corpus.
     Begin(Begin),
-    /// Have files or a folder chosen, and go on with them.
+    /// Let the user choose files or a folder, and use them.
     Choose(Choose),
     /// Stop opening.
     StopBeginning,
@@ -38,7 +38,7 @@ pub(crate) enum Command {
     Recording(i64),
     /// Show a span of a recording, selected, with the playhead at its start.
     Place(i64, Span),
-    /// Bring the stage into sight, so that people see the opened thing.
+    /// Bring the stage into sight after something was opened, so that it can be seen.
     Look,
     /// Select a tier.
     Tier(Option<i64>),
@@ -48,57 +48,58 @@ pub(crate) enum Command {
     Span(Option<Span>),
     /// Move the playhead.
     Seek(Instant),
-    /// Move the playhead of what is on the stage, made movement too.
+    /// Move the playhead of the stage, even if it shows generated movement.
     Cue(Instant),
-    /// A placement value was clicked on the body: [`Shown::spot`](crate::context::Shown::spot).
+    /// Note the placement value that was clicked on the body: [`Shown::spot`](crate::context::Shown::spot).
     Spot(Option<String>),
-    /// Play that many times as fast.
+    /// Play at that multiple of the recorded speed.
     Speed(f64),
-    /// Show movement that lies in no recording on the stage, in a loop; nothing goes back to the
-    /// recording, as does whatever shows or moves in one.
+    /// Show movement outside of recordings on the stage, in a loop, or `None` to end that. Commands that show or move
+    /// something in a recording end it too.
     Made(Option<Arc<Made>>),
-    /// A placement that can be dragged on the stage, or `None` to remove it:
+    /// Set the placement that can be dragged on the stage, or `None` to remove it:
     /// [`Shown::handle`](crate::context::Shown::handle).
     Handle(Option<Handle>),
-    /// A path that can be pulled on the stage, or `None` to remove it:
+    /// Set the path that can be pulled on the stage, or `None` to remove it:
     /// [`Shown::course`](crate::context::Shown::course).
     Course(Option<Box<Course>>),
-    /// The path of that card was pulled or drawn: its points to the left, up and forward.
+    /// Change the path of a card, which was pulled or drawn: the card's number, and the points of the path as lengths
+    /// to the left, up and forward.
     Travelled(u64, Vec<[Length; 3]>),
-    /// The placement of that card was dragged there.
+    /// Change the placement of a card, which was dragged: the card's number and the new goal.
     Placed(u64, Goal),
-    /// A media file goes with the recording of that row, in place of the track of that row where one is said.
+    /// Add a media file to the recording with that row id, or replace its track with the given row id.
     Media(i64, Option<i64>, PathBuf),
-    /// Have these files and folders taken in: opens the import with them.
+    /// Open the import pane with these files and folders.
     Import(Vec<PathBuf>),
-    /// Show all that is known of something in the inspector.
+    /// Show everything known about something in the inspector.
     Inspect(Thing),
     /// Show something in the inspector, and bring the inspector into sight unless that hides the stage.
     Note(Thing),
-    /// Find what this query asks for.
+    /// Run a search with this query.
     Find(String),
-    /// Turn to a recipe, that of the stored recording of that name where there is one.
+    /// Open a recipe; the name is that of the stored recording that was made from it, if any.
     Recipe(String, Option<String>),
-    /// Begin to make a sign by a recipe, which may be empty.
+    /// Begin to make a sign from a recipe, which may be empty.
     Make { recipe: String, gloss: String },
-    /// Take a sign into the recipe.
+    /// Add a sign to the recipe.
     Use(Carried),
-    /// Change which queries are kept and remembered.
+    /// Replace the saved and recent searches.
     Searches(Searches),
-    /// Change what is remembered of the stage.
+    /// Replace the stage's settings.
     Stage(Box<StageWays>),
-    /// Change what is remembered.
+    /// Replace the settings.
     Settings(Box<Settings>),
-    /// Say why something cannot be done, which goes away by itself.
+    /// Report why something cannot be done; the notice disappears by itself.
     Cannot(Text),
-    /// Say something that goes away by itself.
+    /// Show a notice that disappears by itself.
     Say(String),
-    /// Save a copy of the corpus there and go on in it.
+    /// Save a copy of the corpus there and continue in it.
     SaveCopy(PathBuf),
     /// Put a text on the clipboard.
     Copy(String),
-    /// Say something that stays, with what helps.
+    /// Show a notice that stays, with a remedy.
     Tell(String, Text),
-    /// Put a notice away.
+    /// Dismiss a notice.
     Dismiss(u64),
 }

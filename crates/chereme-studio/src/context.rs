@@ -20,18 +20,18 @@ use crate::words::{Language, Text};
 use crate::work::desk::Running;
 use crate::work::{Far, Work, WorkId};
 
-/// The displayed and selected things; only commands change them.
+/// The state of the display and the selection; only commands change it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Shown {
     /// The recording.
     pub(crate) recording: Option<i64>,
-    /// The tier that edits are about.
+    /// The tier that edits apply to.
     pub(crate) tier: Option<i64>,
-    /// The annotations that edits are about.
+    /// The annotations that edits apply to.
     pub(crate) annotations: BTreeSet<i64>,
-    /// Those that were selected and are gone, to be selected again where they come back.
+    /// Annotations that were selected when they disappeared; they are selected again if they come back.
     pub(crate) lost: BTreeSet<i64>,
-    /// The selected time, which is not the playhead.
+    /// The selected span of time, independent of the playhead.
     pub(crate) span: Option<Span>,
     /// The playhead and how it moves.
     pub(crate) player: Player,
@@ -41,25 +41,25 @@ pub(crate) struct Shown {
     pub(crate) handle: Option<Handle>,
     /// The path of the open recipe that can be pulled on the stage.
     pub(crate) course: Option<Box<Course>>,
-    /// Movement that lies in no recording and is shown instead, with a playhead of its own.
+    /// Generated movement, shown instead of the recording, with its own playhead.
     pub(crate) made: Option<Showing>,
 }
 
-/// Made movement on the stage.
+/// Generated movement on the stage.
 #[derive(Debug, Clone)]
 pub(crate) struct Showing {
     pub(crate) made: Arc<Made>,
-    /// Its own time, from 0.
+    /// Its own playhead; its time starts at 0.
     pub(crate) player: Player,
 }
 
 impl Shown {
-    /// Returns the playhead that the stage shows: that of made movement where there is some.
+    /// Returns the player of the movement on the stage: that of generated movement if it is shown.
     pub(crate) fn on_stage(&self) -> &Player {
         self.made.as_ref().map_or(&self.player, |it| &it.player)
     }
 
-    /// Returns the same to be moved.
+    /// Returns the same player, to be changed.
     pub(crate) fn on_stage_mut(&mut self) -> &mut Player {
         match &mut self.made {
             Some(showing) => &mut showing.player,
@@ -67,8 +67,8 @@ impl Shown {
         }
     }
 
-    /// Drops annotations that are gone from the selection, and selects again those that came back, as by undo; the
-    /// selected time follows if it is that of the selected annotations, as `before` has them.
+    /// Drops annotations that are gone from the selection, and selects again those that came back, for example after an
+    /// undo. If the selected time was exactly that of the selected annotations in `before`, it follows their times.
     pub(crate) fn follow(&mut self, before: Option<&Snapshot>, snapshot: &Snapshot) {
         let was = before.and_then(|it| hull(it, &self.annotations));
         if was.is_some() && was == self.span {
@@ -88,7 +88,7 @@ impl Shown {
         }
     }
 
-    /// Returns the annotation that is selected alone.
+    /// Returns the selected annotation, if exactly one is selected.
     pub(crate) fn annotation(&self) -> Option<i64> {
         (self.annotations.len() == 1)
             .then(|| self.annotations.first().copied())
@@ -96,7 +96,7 @@ impl Shown {
     }
 }
 
-/// Returns the time from the first of annotations to the end of the last, as far as they are there.
+/// Returns the span from the start of the first to the end of the last of the annotations that the snapshot holds.
 fn hull(snapshot: &Snapshot, annotations: &BTreeSet<i64>) -> Option<Span> {
     let found = annotations.iter().filter_map(|id| snapshot.annotation(*id));
     found
@@ -104,7 +104,7 @@ fn hull(snapshot: &Snapshot, annotations: &BTreeSet<i64>) -> Option<Span> {
         .reduce(|a, b| Span::between(a.start().min(b.start()), a.end().max(b.end())))
 }
 
-/// The view of a pane while it draws.
+/// The read-only input of a pane while it draws.
 #[derive(Clone, Copy)]
 pub(crate) struct Seen<'a> {
     pub(crate) snapshot: &'a Snapshot,
@@ -118,12 +118,12 @@ pub(crate) struct Seen<'a> {
     pub(crate) settings: &'a Settings,
     pub(crate) language: Language,
     pub(crate) dark: bool,
-    /// Work that was given out and has not ended.
+    /// Work that has been started and has not ended.
     pub(crate) running: &'a BTreeMap<WorkId, Running>,
 }
 
 impl Seen<'_> {
-    /// Returns words in the window's language.
+    /// Returns a text in the window's language.
     pub(crate) fn say(&self, text: Text) -> &'static str {
         text.of(self.language)
     }
@@ -132,7 +132,7 @@ impl Seen<'_> {
         Colours::of(self.dark)
     }
 
-    /// Returns how far a piece of work is that runs.
+    /// Returns the progress of a running piece of work.
     pub(crate) fn far(&self, work: WorkId) -> Option<&Far> {
         self.running.get(&work).map(|it| &it.far)
     }
@@ -150,7 +150,7 @@ pub(crate) struct Outbox {
 }
 
 impl Outbox {
-    /// Returns an empty one that goes on counting where `other` is.
+    /// Returns an empty outbox that continues the work numbers of `other`.
     pub(crate) fn after(other: &Self) -> Self {
         Self {
             commands: Vec::new(),
@@ -162,7 +162,7 @@ impl Outbox {
         self.commands.push(command);
     }
 
-    /// Requests work, and returns the number that its outcome carries.
+    /// Requests work, and returns the id that its outcome carries.
     pub(crate) fn work(&mut self, work: Work) -> WorkId {
         self.next += 1;
         let id = WorkId(self.next);
@@ -210,7 +210,7 @@ mod tests {
         for (annotations, before, after) in [
             (&[1][..], span(30, 40), span(10, 20)),
             (&[1, 2], span(30, 60), span(10, 60)),
-            // A time of one's own stays, and so does that of what did not move.
+            // A span that the user chose stays, and so does that of annotations that did not move.
             (&[1], span(31, 40), span(31, 40)),
             (&[2], span(50, 60), span(50, 60)),
             (&[], span(30, 40), span(30, 40)),
@@ -219,7 +219,7 @@ mod tests {
             shown.follow(Some(&moved), &undone);
             assert_eq!(shown.span, after, "{annotations:?} {before:?}");
         }
-        // An annotation that is gone and comes back has its time again.
+        // An annotation that is gone and comes back gets its selected span back.
         let mut shown = shown(&[1], span(30, 40));
         let without = snapshot(&[(2, 50, 60)]);
         shown.follow(Some(&moved), &without);

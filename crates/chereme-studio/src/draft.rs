@@ -1,6 +1,6 @@
-//! What is half typed: written beside the settings while it is typed, read when the corpus is opened again.
+//! Unfinished text: written beside the settings while it is typed, read again when the corpus is opened again.
 //!
-//! It belongs to the person at this machine and not to the corpus, whose file may be copied and mailed.
+//! A draft belongs to the user of this machine and not to the corpus, whose file may be copied and mailed.
 
 use std::fs;
 use std::io;
@@ -11,12 +11,12 @@ use serde::{Deserialize, Serialize};
 use crate::panes::timeline::Draft;
 use crate::settings::{Folders, write_whole};
 
-/// The file of one corpus.
+/// The draft file of one corpus.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Drafts {
     file: Option<PathBuf>,
     corpus: PathBuf,
-    /// What the file says.
+    /// The draft as it is in the file.
     written: Option<Draft>,
 }
 
@@ -27,7 +27,7 @@ struct Kept {
 }
 
 impl Drafts {
-    /// Returns the file of the corpus at `path`, which is absolute; a missing file gives an empty draft.
+    /// Returns the drafts of the corpus at `path`, which must be absolute; reads no file yet.
     pub(crate) fn of(folders: &Folders, path: &Path) -> Self {
         let name = format!("{:016x}.json", hash(&path.to_string_lossy()));
         let folder = folders.config.as_ref().map(|it| it.join("drafts"));
@@ -38,7 +38,7 @@ impl Drafts {
         }
     }
 
-    /// Reads the unfinished work.
+    /// Reads the draft; `None` if there is no readable file, or if it belongs to another corpus.
     pub(crate) fn read(&mut self) -> Option<Draft> {
         let text = fs::read_to_string(self.file.as_ref()?).ok()?;
         let kept: Kept = serde_json::from_str(&text).ok()?;
@@ -49,7 +49,7 @@ impl Drafts {
         Some(kept.draft)
     }
 
-    /// Writes the unfinished work if it changed; removes the file if there is no unfinished work.
+    /// Writes the draft if it changed; removes the file if there is no draft.
     pub(crate) fn keep(&mut self, draft: Option<Draft>) -> io::Result<()> {
         let Some(file) = self.file.as_ref().filter(|_| draft != self.written) else {
             return Ok(());
@@ -68,7 +68,7 @@ impl Drafts {
     }
 }
 
-/// Returns a number for a text, the same on every machine: FNV-1a.
+/// Returns the FNV-1a hash of a text, the same on every machine.
 fn hash(text: &str) -> u64 {
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)

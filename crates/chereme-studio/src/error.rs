@@ -4,12 +4,12 @@
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The system gave no window.
+    /// The system could not open a window.
     #[error("no window can be opened: {reason}")]
     Window {
         /// The message of the system.
         reason: String,
-        /// What would be right.
+        /// What to do about it.
         remedy: String,
     },
 }
@@ -30,7 +30,7 @@ impl Error {
         }
     }
 
-    /// Returns what would be right.
+    /// Returns what to do about the failure.
     #[must_use]
     pub fn remedy(&self) -> &str {
         match self {
@@ -39,7 +39,7 @@ impl Error {
     }
 }
 
-/// Returns a reason without the line of source that winit puts before it.
+/// Returns a reason without the source file and line that winit puts before it.
 fn without_place(reason: &str) -> String {
     let after = |place: &str| Some(reason.split_once(place)?.1.split_once(": ")?.1.to_owned());
     after(".rs:").unwrap_or_else(|| reason.to_owned())

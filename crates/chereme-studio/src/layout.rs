@@ -1,4 +1,4 @@
-//! Where the panes are.
+//! The places of the panes.
 
 use eframe::egui::{Id, Vec2, vec2};
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
@@ -8,11 +8,11 @@ use crate::panes::PaneKind;
 
 const ID: &str = "panes";
 
-/// The current task, which decides the panes that get room.
+/// The user's task, which decides the panes that get room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Busy {
-    /// The timeline goes from edge to edge, as annotators know it.
+    /// The timeline has the full width, as annotators know it.
     #[default]
     Annotating,
     /// Hits have half of the window.
@@ -21,16 +21,16 @@ pub(crate) enum Busy {
     Recombining,
 }
 
-/// A window narrower or lower than this, in points, has no room for panes on either side of the stage.
+/// The smallest size of a window, in points, that has room for panes on either side of the stage.
 const ROOMY: Vec2 = vec2(1000.0, 640.0);
 
-/// Returns whether a window of that size has the layouts of small windows, which show fewer panes at once.
+/// Returns whether a window of that size gets the small layouts, which show fewer panes at once.
 pub(crate) fn is_small(size: Vec2) -> bool {
     size.x < ROOMY.x || size.y < ROOMY.y
 }
 
-/// Returns the layout for that work; in a small window the stage and what one is busy with have all of it,
-/// and the other panes are behind them.
+/// Returns the layout for a task. In a small window the stage and the pane of the task have all the room, and the other
+/// panes are in tabs behind them.
 pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
     use LinearDir::{Horizontal, Vertical};
     use PaneKind::{
@@ -70,7 +70,7 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
     } else {
         let left = tabs(&[Library, Search, Map, Faces, Recombine, Cue, Import]);
         let stage = tabs(&[Stage]);
-        // Three panes above each other would be too low to read.
+        // Three panes above each other would have too little height to read.
         let below = match busy {
             Busy::Annotating => tabs(&[Timeline]),
             _ => tabs(&[Timeline, Inspector, Film, History]),
@@ -107,8 +107,8 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
     tree
 }
 
-/// Gives every pane the room that it had beside the others when one was put among them or taken away: one that comes
-/// takes as much as its new neighbours have on average, and beside several it takes as much as one of them.
+/// Scales the shares of all panes to an average of 1 within their container, so that the panes keep their relative
+/// sizes when one is added or removed. egui_tiles gives a new pane a share of 1, the average of its neighbours.
 pub(crate) fn settle(tree: &mut Tree<PaneKind>) {
     let ids: Vec<TileId> = tree.tiles.tile_ids().collect();
     for id in ids {
@@ -136,7 +136,7 @@ pub(crate) fn settle(tree: &mut Tree<PaneKind>) {
     }
 }
 
-/// Returns how many panes stand beside each other below a tile, those behind each other counted once.
+/// Returns how many panes stand side by side below a tile; panes in tabs count as one.
 fn groups(tree: &Tree<PaneKind>, id: TileId) -> usize {
     match tree.tiles.get(id) {
         Some(Tile::Container(Container::Linear(linear))) => {
@@ -149,13 +149,14 @@ fn groups(tree: &Tree<PaneKind>, id: TileId) -> usize {
 fn shares(tiles: &mut Tiles<PaneKind>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {
     let mut linear = Linear::new(dir, parts.iter().map(|(tile, _)| *tile).collect());
     for (tile, share) in parts {
-        // A pane that comes has a share of 1: as much as these have on average.
+        // A new pane has a share of 1: the average of the panes here.
         linear.shares.set_share(*tile, *share * parts.len() as f32);
     }
     tiles.insert_container(Container::Linear(linear))
 }
 
-/// Returns a remembered layout where every pane is in it once, else that for `busy`.
+/// Returns the remembered layout if it contains every pane once, else the layout for the task `busy` and the window
+/// size.
 pub(crate) fn remembered(
     tree: Option<&Tree<PaneKind>>,
     (busy, small): (Busy, bool),
@@ -171,19 +172,19 @@ pub(crate) fn remembered(
         .unwrap_or_else(|| of(busy, small))
 }
 
-/// Returns whether a pane is in sight, and not behind another.
+/// Returns whether a pane is in sight, and not behind another tab.
 pub(crate) fn shows(tree: &Tree<PaneKind>, kind: PaneKind) -> bool {
     let tile = tree.tiles.find_pane(&kind);
     tile.is_some_and(|tile| tree.active_tiles().contains(&tile))
 }
 
-/// Returns whether a pane stands behind the other or before it, so that only one of them is in sight.
+/// Returns whether two panes are tabs of the same container, so that only one of them is in sight.
 pub(crate) fn hides(tree: &Tree<PaneKind>, kind: PaneKind, other: PaneKind) -> bool {
     let parent = |kind: PaneKind| tree.tiles.parent_of(tree.tiles.find_pane(&kind)?);
     kind != other && parent(kind).is_some_and(|it| Some(it) == parent(other))
 }
 
-/// Brings the stage into sight, and the timeline if only a pane of information covers it.
+/// Brings the stage into sight, and the timeline if only the inspector, the films or the history covers it.
 pub(crate) fn look(tree: &mut Tree<PaneKind>) {
     use PaneKind::{Film, History, Inspector, Stage, Timeline};
     if !shows(tree, Stage) {
@@ -196,7 +197,7 @@ pub(crate) fn look(tree: &mut Tree<PaneKind>) {
     }
 }
 
-/// Puts all panes away but these, or brings all of them back where any is away.
+/// Hides all panes but these, or shows all panes again if any is hidden.
 pub(crate) fn enlarge(tree: &mut Tree<PaneKind>, kinds: &[PaneKind]) {
     let tiles = PaneKind::ALL.map(|kind| (kind, tree.tiles.find_pane(&kind)));
     let away = |tile: &Option<TileId>| tile.is_some_and(|tile| !tree.tiles.is_visible(tile));
@@ -211,7 +212,7 @@ pub(crate) fn enlarge(tree: &mut Tree<PaneKind>, kinds: &[PaneKind]) {
     }
 }
 
-/// Brings a pane to the front of its tabs; one that was put away comes back with all others.
+/// Brings a pane to the front of its tabs; if it was hidden, shows all panes again.
 pub(crate) fn bring(tree: &mut Tree<PaneKind>, kind: PaneKind) {
     if let Some(tile) = tree.tiles.find_pane(&kind) {
         if !tree.tiles.is_visible(tile) {
@@ -250,7 +251,7 @@ mod tests {
         }
     }
 
-    /// Returns the shares of the width that the panes beside each other above the timeline have.
+    /// Returns the width shares of the panes side by side above the timeline.
     fn widths(tree: &Tree<PaneKind>) -> Vec<f32> {
         let stage = tree.tiles.find_pane(&PaneKind::Stage).expect("a stage");
         let tabs = tree.tiles.parent_of(stage).expect("tabs");
@@ -286,7 +287,7 @@ mod tests {
                 "{before:?} {after:?}"
             );
         }
-        // Beside all others it takes as much as one of them.
+        // A pane beside several others takes as much as one of them.
         let mut tree = of(Busy::Annotating, false);
         let root = tree.root().expect("a root");
         let history = tree.tiles.find_pane(&PaneKind::History).expect("a history");

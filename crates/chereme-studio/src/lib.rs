@@ -7,20 +7,20 @@
 //! | module | holds |
 //! |---|---|
 //! | `app` | the window: one frame after the other |
-//! | `action` | what keys, menus and palette can ask for: a table |
-//! | `command`, `perform` | everything that can be asked for, and the one place that does it |
-//! | `context` | what a pane sees, what it may ask for, what is selected |
+//! | `action` | the table of everything that keys, menus and the palette can request |
+//! | `command`, `perform` | every possible request, and the one place that carries requests out |
+//! | `context` | the input of a pane, its requests, and the selection |
 //! | `model` | the corpus at one moment; movement in pieces around the playhead |
 //! | `work` | use cases of the corpus on threads, with progress and stopping |
 //! | `keys` | default keymaps as a table, the user's changes, matching |
 //! | `words` | every text in English and French |
 //! | `player` | the transport |
 //! | `little` | looping little figures, for any pane |
-//! | `draft` | what is half typed, kept through a crash |
-//! | `settings`, `layout`, `theme` | what is remembered, where panes are, how it looks |
-//! | `script` | text in the scripts of the world: fonts, and what is read from the right |
+//! | `draft` | unfinished text, kept through a crash |
+//! | `settings`, `layout`, `theme` | the stored settings, the places of the panes, colours and fonts |
+//! | `script` | text in the scripts of the world: fonts, and text that is read from the right |
 //! | `panes` | one module each: rows by plain functions in `data`, widgets in `ui` |
-//! | `bars`, `start`, `overlay` | menus and status, the page without a corpus, what lies above |
+//! | `bars`, `start`, `overlay` | menus and status line, the page without a corpus, windows above the panes |
 
 mod action;
 mod app;
@@ -64,20 +64,20 @@ use eframe::egui::ViewportBuilder;
 pub struct Options {
     /// The corpus to open; the start page if `None`.
     pub corpus: Option<PathBuf>,
-    /// Who does the work, for the history.
+    /// Name of the person at work, for the history.
     pub author: String,
     /// Where settings and the starter corpus are kept.
     pub folders: Folders,
-    /// The language where the settings say nothing yet.
+    /// The language to use if the settings name none.
     pub language: Language,
-    /// The language that was asked for at this start; it becomes the setting.
+    /// The language requested for this start; it is stored in the settings.
     pub asked_language: Option<Language>,
 }
 
-/// Opens the window, and returns when it is closed.
+/// Opens the window, and returns after it is closed.
 ///
 /// # Errors
-/// [`Error::Window`] where the system has no display, or none that can draw.
+/// [`Error::Window`] if the system has no display, or none that can draw.
 pub fn run(options: Options) -> Result<(), Error> {
     let native = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
@@ -86,7 +86,7 @@ pub fn run(options: Options) -> Result<(), Error> {
             .with_inner_size([1280.0, 800.0])
             .with_min_inner_size([640.0, 420.0])
             .with_drag_and_drop(true),
-        // It smooths gradients, which only occur at the ends of lists, and is slow in windows drawn by software.
+        // Dithering smooths gradients, which only occur at the ends of lists; it is slow in windows drawn by software.
         dithering: false,
         // `script` finds fonts, for pictures too.
         system_font_fallback: false,

@@ -31,17 +31,17 @@ use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::Desk;
 
 const SECOND: i64 = 1_000_000;
-/// How much more than the selection is played around it, as in ELAN.
+/// Time added on either side of the selection when playing around it, in microseconds; as in ELAN.
 const AROUND: i64 = 500_000;
-/// How often commands may ask for others within one frame.
+/// How many rounds of follow-up commands are carried out within one frame.
 const ROUNDS: usize = 8;
-/// How a frame is stepped where a recording has no movement.
+/// Frames per second for stepping in recordings without movement.
 const NO_FRAMES: u32 = 25;
 
 impl Studio {
-    /// Carries out what was asked for in this frame.
+    /// Carries out the requests of this frame.
     pub(crate) fn carry_out(&mut self, ctx: &Context) {
-        // Commands that follow from an action are carried out at once too, so that the next frame shows them.
+        // Follow-up commands of an action are carried out at once too, so that the next frame shows them.
         for _ in 0..ROUNDS {
             let commands = self.out.take();
             if commands.is_empty() {
@@ -128,7 +128,7 @@ impl Studio {
                 self.bring(PaneKind::Import);
             }
             Command::Inspect(thing) => {
-                // It shows itself, and what is typed goes on to where it went.
+                // The inspector comes to the front, but the keyboard focus does not move.
                 self.panes.inspector.turn_to(thing);
                 layout::bring(&mut self.tree, PaneKind::Inspector);
             }
@@ -183,7 +183,7 @@ impl Studio {
         }
     }
 
-    /// Returns whether a corpus is open that may only be read.
+    /// Returns whether the open corpus is read-only.
     pub(crate) fn is_read_only(&self) -> bool {
         self.snapshot.as_ref().is_some_and(Snapshot::is_read_only)
     }
@@ -211,7 +211,7 @@ impl Studio {
                 self.out.work(Work::Check { mend });
             }
             Action::MergeCorpus => {
-                // Where no chooser comes up, the path is typed there.
+                // If no chooser opens, the path can be typed in the import pane.
                 self.bring(PaneKind::Import);
                 self.out.send(Command::Choose(Choose::Merge));
             }
@@ -235,7 +235,7 @@ impl Studio {
         }
     }
 
-    /// Evaluates a changed recipe at once, and gives the stage the result.
+    /// Evaluates a changed recipe at once, and passes the result to the stage.
     pub(crate) fn keep_up(&mut self, ctx: &Context) {
         if !layout::shows(&self.tree, PaneKind::Recombine) {
             return;
@@ -249,7 +249,7 @@ impl Studio {
         (self.panes, self.out) = (panes, out);
     }
 
-    /// Takes one step back or forward: of the recipe if it changed last and is in sight, else of the corpus.
+    /// Undoes or redoes one step: of the recipe if it changed last and is in sight, else of the corpus.
     fn walk_one(&mut self, back: bool) {
         let snapshot = self.snapshot.as_ref();
         let operations = snapshot.map_or(&[][..], |it| &it.overview.operations);
@@ -262,7 +262,7 @@ impl Studio {
         self.out.work(work);
     }
 
-    /// Opens the recipe again of the recording that is shown.
+    /// Opens the recipe of the displayed recording again.
     fn open_recipe(&mut self) {
         let snapshot = self.snapshot.as_ref().zip(self.shown.recording);
         match snapshot.and_then(|(snapshot, recording)| snapshot.recipe_of(recording)) {
@@ -273,7 +273,7 @@ impl Studio {
         }
     }
 
-    /// Takes the sign that is chosen in the pane that was used last into the recipe.
+    /// Adds the sign that is selected in the last used pane to the recipe.
     fn use_in_recipe(&mut self, ctx: &Context) {
         let carried = match self.pane {
             Some(PaneKind::Search) => self.panes.search.carried(),
@@ -284,7 +284,7 @@ impl Studio {
             let (token, gloss) = recombine::selected_token(&self.seen(ctx)?)?;
             Some(Carried { token, gloss })
         };
-        // A notated sign that was opened stands on the stage, whatever pane is before the hits.
+        // An opened notated sign is on the stage, whichever pane covers the results.
         let notated = || {
             let made = &self.shown.made.as_ref()?.made;
             let (token, gloss) = (made.token?, made.name.clone());
@@ -296,13 +296,13 @@ impl Studio {
         }
     }
 
-    /// Pastes a text where the action says.
+    /// Pastes a text at the place that the action names.
     pub(crate) fn paste(&mut self, action: Action, text: String, ctx: &Context) {
         self.panes.timeline.hold_clip(text);
         self.act_in_panes(action, ctx);
     }
 
-    /// Offers an action to the panes; the first that knows it does it.
+    /// Offers an action to the panes; the first that knows it carries it out.
     fn act_in_panes(&mut self, action: Action, ctx: &Context) {
         let mut panes = std::mem::take(&mut self.panes);
         let mut out = std::mem::take(&mut self.out);
@@ -421,7 +421,7 @@ impl Studio {
         true
     }
 
-    /// Turns to the films of the recording that is shown; it lasts as long as the longest of them.
+    /// Loads the films of the displayed recording; the recording lasts at least as long as the longest of them.
     pub(crate) fn follow_films(&mut self, ctx: &Context) {
         let Some(snapshot) = &self.snapshot else {
             return;
@@ -484,7 +484,7 @@ impl Studio {
         }
     }
 
-    /// Shows a recording; one that is shown already stays as it is.
+    /// Shows a recording; nothing changes if it is shown already.
     fn turn_to(&mut self, id: i64) {
         let Some(glance) = self.snapshot.as_ref().and_then(|it| it.recording(id)) else {
             return;
@@ -509,7 +509,7 @@ impl Studio {
         }
     }
 
-    /// Shows made movement in a loop; a newer one of the same length goes on where the last was.
+    /// Shows generated movement in a loop. New movement of the same length keeps the playhead of the old.
     fn show_made(&mut self, made: Option<Arc<Made>>) {
         let before = self.shown.made.take();
         let Some(made) = made else { return };
@@ -564,7 +564,8 @@ impl Studio {
         }
     }
 
-    /// Saves the view of the corpus; the view of recordings only with `windows`, as it changes all the time.
+    /// Stores the view of the corpus in the settings; stores the views of recordings only with `windows`, as they
+    /// change all the time.
     pub(crate) fn keep_view(&mut self, windows: bool) {
         let Some(view) = &self.view else { return };
         if !self.settings.views.contains_key(view) {
@@ -582,7 +583,7 @@ impl Studio {
         }
     }
 
-    /// Closes the corpus; one that was made only to take files in, and took none, does not stay.
+    /// Closes the corpus. Deletes the file of a corpus that was created for an import, if it received nothing.
     pub(crate) fn leave(&mut self) {
         let untouched = |it: &Snapshot| it.overview.operations.is_empty();
         let unused = self.snapshot.as_ref().is_some_and(untouched);
@@ -590,7 +591,7 @@ impl Studio {
         self.desk = None;
         if let Some(path) = made.filter(|path| holds_nothing(path)) {
             self.settings.recent.retain(|it| *it != path);
-            // Where it cannot go, an empty corpus stays.
+            // If the file cannot be deleted, an empty corpus remains.
             drop(std::fs::remove_file(path));
         }
     }
@@ -612,7 +613,7 @@ impl Studio {
         self.out = Outbox::after(&self.out);
     }
 
-    /// Takes a newer snapshot in; things that are gone leave the selection.
+    /// Installs a newer snapshot, and removes missing things from the selection.
     pub(crate) fn take_snapshot(&mut self, snapshot: Snapshot, own: bool) {
         let older = |it: &&Snapshot| it.overview.generation != snapshot.overview.generation;
         if let Some(before) = self.snapshot.as_ref().filter(older) {
@@ -683,7 +684,7 @@ impl Studio {
     }
 }
 
-/// Returns whether the corpus in a file has no operation at all, as the file itself says.
+/// Returns whether the corpus file itself has no operation in its history.
 fn holds_nothing(path: &std::path::Path) -> bool {
     let overview = chereme_corpus::Corpus::open(path, "reader").and_then(|it| it.overview(1));
     overview.is_ok_and(|it| it.operations.is_empty() && it.recordings.is_empty())

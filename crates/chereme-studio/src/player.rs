@@ -3,25 +3,25 @@
 use chereme_motion::{Instant, Rate, Span};
 use serde::{Deserialize, Serialize};
 
-/// Speeds that slower and faster step through.
+/// Playback speeds that the actions "slower" and "faster" step through.
 pub(crate) const SPEEDS: [f64; 11] = [0.1, 0.2, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
 
-/// Where the playhead is, and how it moves.
+/// The playhead, and how it moves.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Player {
     /// The playhead, in microseconds with fractions, so that slow play does not stand still.
     at: f64,
-    /// The whole of what is played.
+    /// The whole span that can be played.
     pub(crate) whole: Span,
-    /// The part that is played and looped, where there is one.
+    /// The part that is played and looped, if any.
     pub(crate) part: Option<Span>,
-    /// 1 forwards, -1 backwards, more when shuttling; 0 still.
+    /// Direction and shuttle factor: 1 forwards, -1 backwards, more when shuttling, 0 paused.
     direction: f64,
-    /// How fast, 1 being the recorded speed.
+    /// Playback speed; 1 is the recorded speed.
     pub(crate) speed: f64,
-    /// Whether it begins again at the end.
+    /// Whether playback begins again at the end.
     pub(crate) looping: bool,
-    /// The steps of playback, if it steps.
+    /// State of step-and-repeat playback, if it is active.
     steps: Option<Steps>,
     /// The preview of a newly opened recording or sign, until somebody moves the playhead.
     preview: Option<Preview>,
@@ -31,21 +31,21 @@ pub(crate) struct Player {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Preview {
     pub(crate) span: Span,
-    /// It plays in a loop; else its stroke is shown.
+    /// Whether the span plays in a loop; otherwise the stage shows its stroke.
     pub(crate) loops: bool,
 }
 
-/// How step and repeat goes through something, in seconds.
+/// Settings of step-and-repeat playback; times in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Stepping {
-    /// How long a piece is, from 0.2 to 60.
+    /// Length of a piece, from 0.2 to 60.
     pub(crate) piece: f64,
-    /// How far the next lies on, from 0.1 to 60.
+    /// Distance from the start of one piece to the next, from 0.1 to 60.
     pub(crate) step: f64,
-    /// How often each is played, from 1 to 20.
+    /// How often each piece is played, from 1 to 20.
     pub(crate) times: u32,
-    /// The rest between, from 0 to 10.
+    /// Pause between pieces, from 0 to 10.
     pub(crate) rest: f64,
 }
 
@@ -61,7 +61,7 @@ impl Default for Stepping {
 }
 
 impl Stepping {
-    /// Returns it with what is out of range as near as can be.
+    /// Returns the settings with every value clamped to its range.
     pub(crate) fn checked(self) -> Self {
         let within = |value: f64, least: f64, most: f64| {
             if value.is_finite() {
@@ -79,21 +79,21 @@ impl Stepping {
     }
 }
 
-/// Returns seconds in microseconds.
+/// Converts seconds to microseconds.
 fn micros(seconds: f64) -> i64 {
     (seconds * 1e6) as i64
 }
 
-/// Short pieces played one after the other, each several times.
+/// State of step-and-repeat playback: short pieces, one after the other, each several times.
 #[derive(Debug, Clone, PartialEq)]
 struct Steps {
-    /// The span of the pieces.
+    /// The span that is divided into pieces.
     of: Span,
-    /// How far the next lies on, in microseconds.
+    /// Distance from the start of one piece to the next, in microseconds.
     by: i64,
-    /// How often the piece was played.
+    /// How often the present piece has been played.
     played: u32,
-    /// How long it still rests, in seconds.
+    /// Remaining pause, in seconds.
     rest: f64,
     how: Stepping,
 }
@@ -114,7 +114,7 @@ impl Default for Player {
 }
 
 impl Player {
-    /// Turns to another recording, from its start.
+    /// Starts with another recording, at its beginning.
     pub(crate) fn load(&mut self, whole: Span) {
         self.at = whole.start().micros() as f64;
         self.whole = whole;
@@ -127,12 +127,12 @@ impl Player {
         self.preview = Some(preview);
     }
 
-    /// Returns what is previewed, if nobody has moved the playhead since it was opened.
+    /// Returns the preview, if nobody has moved the playhead since it was set.
     pub(crate) fn previewed(&self) -> Option<Preview> {
         self.preview.filter(|_| !self.is_playing())
     }
 
-    /// Goes on with what became longer or shorter.
+    /// Continues with a span that became longer or shorter.
     pub(crate) fn fit(&mut self, whole: Span) {
         if whole != self.whole {
             self.whole = whole;
@@ -141,7 +141,7 @@ impl Player {
         }
     }
 
-    /// Returns where the playhead is.
+    /// Returns the playhead.
     pub(crate) fn playhead(&self) -> Instant {
         Instant::from_micros(self.at as i64)
     }
@@ -150,18 +150,18 @@ impl Player {
         self.direction != 0.0
     }
 
-    /// Returns which way it plays: negative backwards, 0 still.
+    /// Returns the direction of playback: negative backwards, 0 paused.
     pub(crate) fn direction(&self) -> f64 {
         self.direction
     }
 
-    /// Puts the playhead there, within the recording.
+    /// Moves the playhead, within the recording.
     pub(crate) fn seek(&mut self, at: Instant) {
         self.preview = None;
         self.at = self.clamped(at.micros() as f64);
     }
 
-    /// Plays on, or pauses; at the end it begins again.
+    /// Plays, or pauses; at the end, plays from the beginning.
     pub(crate) fn toggle(&mut self) {
         self.preview = None;
         if self.is_playing() {
@@ -185,8 +185,8 @@ impl Player {
         }
     }
 
-    /// Plays short pieces of `part`, or of all from the playhead on, each again and overlapping the one before;
-    /// stops if it does so already.
+    /// Plays overlapping short pieces of `part`, or of everything after the playhead, each several times; stops if that
+    /// is running already.
     pub(crate) fn step_and_repeat(&mut self, part: Option<Span>, how: Stepping) {
         if self.is_playing() && self.steps.is_some() {
             self.stop();
@@ -209,7 +209,7 @@ impl Player {
         });
     }
 
-    /// Goes on to the same piece again, or to the next; stops after the last.
+    /// Continues with the same piece again, or with the next; stops after the last.
     fn next_piece(&mut self) {
         let (Some(steps), Some(part)) = (&mut self.steps, self.part) else {
             return;
@@ -241,7 +241,7 @@ impl Player {
         self.steps = None;
     }
 
-    /// Shuttles: pressed again the same way it doubles, up to eight times.
+    /// Shuttles: repeated presses in the same direction double the speed, up to 8.
     pub(crate) fn shuttle(&mut self, sign: f64) {
         self.preview = None;
         (self.part, self.steps) = (None, None);
@@ -252,7 +252,7 @@ impl Player {
         };
     }
 
-    /// Takes the next slower or faster of [`SPEEDS`].
+    /// Changes to the next slower or faster of [`SPEEDS`].
     pub(crate) fn step_speed(&mut self, faster: bool) {
         let mut near = SPEEDS.iter().copied();
         let next = if faster {
@@ -263,7 +263,7 @@ impl Player {
         self.speed = next.unwrap_or(self.speed);
     }
 
-    /// Stops, and goes `frames` frames on to the start of a frame.
+    /// Stops, and moves the playhead by `frames` frames to the start of a frame.
     pub(crate) fn step(&mut self, frames: i64, rate: Rate) {
         self.stop();
         let now = rate.frame_at(self.playhead()) as i64;
@@ -271,7 +271,7 @@ impl Player {
         self.seek(rate.instant(next));
     }
 
-    /// Moves with the clock by `seconds`.
+    /// Advances the playhead by `seconds` of the clock.
     pub(crate) fn advance(&mut self, seconds: f64) {
         if !self.is_playing() || self.whole.is_empty() {
             return;

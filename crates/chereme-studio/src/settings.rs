@@ -1,4 +1,4 @@
-//! The window's memory between sittings: a JSON file in the platform's folder for settings.
+//! The settings that the window keeps between sessions: a JSON file in the platform's settings folder.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -16,10 +16,10 @@ use crate::panes::timeline::data::Window;
 use crate::player::Stepping;
 use crate::words::Language;
 
-/// How many corpora are remembered.
+/// How many recently opened corpora are kept.
 const RECENT: usize = 12;
 
-/// Light, dark, or as the system has it.
+/// Light, dark, or the system's choice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum ThemeChoice {
@@ -29,67 +29,67 @@ pub(crate) enum ThemeChoice {
     Dark,
 }
 
-/// What is remembered.
+/// The stored settings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Settings {
     pub(crate) language: Language,
     pub(crate) theme: ThemeChoice,
-    /// How large the interface is, 1 being usual.
+    /// Scale of the interface; 1 is normal.
     pub(crate) scale: f32,
     pub(crate) keymap: Keymap,
-    /// Keys of the user's own, by action id.
+    /// The user's own keys, by action id.
     pub(crate) keys: Rebound,
-    /// Corpora opened before, the newest first.
+    /// Recently opened corpora, the newest first.
     pub(crate) recent: Vec<PathBuf>,
-    /// Where files were written last.
+    /// The folder of the last export.
     pub(crate) export_folder: Option<PathBuf>,
-    /// Queries that are kept, and those that were asked.
+    /// Saved searches and recent queries.
     pub(crate) searches: Searches,
-    /// The task of the current layout.
+    /// The user's task, which decides the usual layout.
     pub(crate) busy: crate::layout::Busy,
-    /// The layout of the panes; the usual one by default.
+    /// The layout of the panes; the usual one if `None`.
     pub(crate) layout: Option<Tree<PaneKind>>,
-    /// The same of a small window.
+    /// The layout in small windows; the usual one if `None`.
     pub(crate) small_layout: Option<Tree<PaneKind>>,
-    /// How the timeline works and what it shows.
+    /// Settings and visible parts of the timeline.
     pub(crate) timeline: Ways,
-    /// How pieces are played again and again.
+    /// Settings of step-and-repeat playback.
     pub(crate) stepping: Stepping,
-    /// How the stage is looked at.
+    /// Settings of the stage.
     pub(crate) stage: StageWays,
-    /// Whether the library is a list, and not a wall of figures.
+    /// Whether the library is a list instead of a wall of figures.
     pub(crate) library_list: bool,
-    /// How corpora are looked at, by their paths; of those opened before.
+    /// The views of recent corpora, by path.
     pub(crate) views: BTreeMap<String, View>,
 }
 
-/// How one corpus is looked at.
+/// The view of one corpus.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct View {
-    /// Names of tiers whose children are folded away.
+    /// Names of tiers whose children are folded.
     pub(crate) folded: BTreeSet<String>,
-    /// Names of tiers that are not shown.
+    /// Names of hidden tiers.
     pub(crate) hidden: BTreeSet<String>,
-    /// The view of each recording, by its row.
+    /// The view of each recording, by row id.
     pub(crate) windows: BTreeMap<i64, Window>,
 }
 
-/// How many queries are remembered.
+/// How many recent queries are kept.
 const QUERIES: usize = 20;
 
-/// Queries that are kept, and those that were asked.
+/// Saved searches and recent queries.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Searches {
-    /// Those that were kept here before corpora kept them, to be taken over.
+    /// Saved searches from before corpora stored them; the open corpus takes them over.
     pub(crate) saved: Vec<SavedSearch>,
-    /// The newest first.
+    /// Recent queries, the newest first.
     pub(crate) recent: Vec<String>,
 }
 
-/// A query with a name.
+/// A saved query with its name.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct SavedSearch {
     pub(crate) name: String,
@@ -97,7 +97,7 @@ pub(crate) struct SavedSearch {
 }
 
 impl Searches {
-    /// Puts a query at the head of those that were asked; returns whether that changes anything.
+    /// Moves a query to the front of the recent ones; returns whether that changes anything.
     pub(crate) fn asked(&mut self, query: &str) -> bool {
         let query = query.trim();
         if query.is_empty() || self.recent.first().is_some_and(|first| first == query) {
@@ -134,7 +134,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Reads the file; missing and unreadable settings are the usual ones.
+    /// Reads the file, without entries that are unreadable; `None` if the file is missing or not JSON.
     pub(crate) fn read(path: &Path) -> Option<Self> {
         let text = fs::read_to_string(path).ok()?;
         let mut value: serde_json::Value = serde_json::from_str(&text).ok()?;
@@ -146,12 +146,12 @@ impl Settings {
         }
     }
 
-    /// Writes the file, whole or not at all.
+    /// Writes the file, completely or not at all.
     pub(crate) fn write(&self, path: &Path) -> io::Result<()> {
         write_whole(path, self)
     }
 
-    /// Puts a corpus at the head of those opened before.
+    /// Moves a corpus to the front of the recently opened ones.
     pub(crate) fn opened(&mut self, path: &Path) {
         self.recent.retain(|known| known != path);
         self.recent.insert(0, path.to_owned());
@@ -171,12 +171,12 @@ impl Settings {
     }
 }
 
-/// Returns the name under which the view of a corpus is remembered.
+/// Returns the key under which the view of a corpus is stored.
 pub(crate) fn view_of(path: &Path) -> String {
     path.to_string_lossy().into_owned()
 }
 
-/// Writes a JSON file, whole or not at all.
+/// Writes a JSON file, completely or not at all.
 pub(crate) fn write_whole(path: &Path, it: &impl Serialize) -> io::Result<()> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;
@@ -187,7 +187,7 @@ pub(crate) fn write_whole(path: &Path, it: &impl Serialize) -> io::Result<()> {
     fs::rename(&beside, path)
 }
 
-/// Takes the first entry away that cannot be read by itself; nothing where none is left to take.
+/// Removes the first entry that cannot be read by itself; returns `None` if there is no such entry.
 fn forget_what_is_wrong(value: &mut serde_json::Value) -> Option<()> {
     let map = value.as_object_mut()?;
     let wrong = map.iter().find_map(|(key, entry)| {
@@ -200,12 +200,12 @@ fn forget_what_is_wrong(value: &mut serde_json::Value) -> Option<()> {
     Some(())
 }
 
-/// The folders where the window keeps what is its own.
+/// The folders for the window's own files.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Folders {
-    /// Of the settings file; nothing is remembered without.
+    /// Folder of the settings file; without it nothing is stored.
     pub config: Option<PathBuf>,
-    /// Of the starter corpus.
+    /// Folder of the starter corpus.
     pub data: Option<PathBuf>,
 }
 

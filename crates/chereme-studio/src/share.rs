@@ -1,4 +1,5 @@
-//! One press shares what is on the stage: as a film, an animation, a picture or a body, in a file next to the corpus.
+//! Sharing the contents of the stage with one click: as a film, an animation, a picture or a body, in a file next to
+//! the corpus.
 
 use std::path::{Path, PathBuf};
 
@@ -13,11 +14,11 @@ use crate::panes::recombine::selected_token;
 use crate::words::stage as words;
 use crate::work::{Shared, Work};
 
-/// How high a shared film is, in pixels.
+/// Height of a shared film, in pixels.
 const HEIGHT: usize = 720;
 
 impl Studio {
-    /// Writes what is on the stage: made movement, the selected sign, or else the recording.
+    /// Writes the contents of the stage: generated movement, else the selected sign, else the recording.
     pub(crate) fn share(&mut self, action: Action, ctx: &Context) {
         match self.shared(action, ctx) {
             Ok(work) => {
@@ -82,7 +83,7 @@ impl Studio {
     }
 }
 
-/// Returns the place of a file next to the corpus that is not taken: `BOL.mp4`, else `BOL 2.mp4` and so on.
+/// Returns a path next to the corpus that no file has yet: `BOL.mp4`, else `BOL 2.mp4` and so on.
 fn free(corpus: &Path, name: &str) -> PathBuf {
     let folder = corpus.parent().unwrap_or(Path::new(""));
     let first = folder.join(name);

@@ -1,6 +1,6 @@
 //! Colours, fonts and spacing.
 //!
-//! Hues are those of Okabe and Ito, which people with any colour vision can tell apart.
+//! The hues are those of Okabe and Ito, which people with any colour vision can distinguish.
 
 use chereme_corpus::TierRole;
 use eframe::egui::{
@@ -10,25 +10,25 @@ use eframe::egui::{
 
 use crate::settings::{Settings, ThemeChoice};
 
-/// Colours with a meaning of their own.
+/// Colours with a fixed meaning.
 #[derive(Debug)]
 pub(crate) struct Colours {
-    /// Selected things, and requests to the user.
+    /// Selected things, and prompts to the user.
     pub(crate) accent: Color32,
     /// The selected time.
     pub(crate) selection: Color32,
     pub(crate) playhead: Color32,
-    /// Annotations by the role of their tier.
+    /// Annotations, by the role of their tier.
     pub(crate) gloss: Color32,
     pub(crate) component: Color32,
     pub(crate) words: Color32,
     pub(crate) free: Color32,
     /// Text on annotations.
     pub(crate) on_annotation: Color32,
-    /// Annotations that are selected, whatever their tier, and text on them.
+    /// Selected annotations, whatever their tier, and the text on them.
     pub(crate) chosen: Color32,
     pub(crate) on_chosen: Color32,
-    /// Lines between tiers, and every other tier.
+    /// Lines between tiers, and the background of every other tier.
     pub(crate) rule: Color32,
     pub(crate) stripe: Color32,
     pub(crate) trouble: Color32,
@@ -89,8 +89,7 @@ impl Colours {
     }
 }
 
-/// Returns the colours of the right hand and of the left as the figure has them, strong enough for lines and
-/// words.
+/// Returns the colours of the right and the left hand, like those of the figure, strong enough for lines and text.
 pub(crate) fn hands(dark: bool) -> [Color32; 2] {
     let palette = chereme_figure::Palette::default().with_hands_apart();
     [palette.right, palette.left].map(|hand| {
@@ -102,7 +101,7 @@ pub(crate) fn hands(dark: bool) -> [Color32; 2] {
     })
 }
 
-/// Gives a context our fonts and spacing, and shapes that are cheap to draw, once.
+/// Sets up a context once: our fonts and spacing, and shapes that are cheap to draw.
 pub(crate) fn install(ctx: &Context) {
     ctx.set_fonts(fonts());
     crate::script::install(ctx);
@@ -123,7 +122,8 @@ pub(crate) fn apply(ctx: &Context, settings: &Settings) {
     }
 }
 
-/// Noto Sans, which knows phonetic letters, before the usual fonts, which have the signs that it lacks.
+/// Returns the fonts: Noto Sans, which has phonetic letters, before egui's fonts, which have signs that Noto Sans
+/// lacks.
 fn fonts() -> FontDefinitions {
     const NOTO: &str = "Noto Sans";
     let mut fonts = FontDefinitions::default();
@@ -153,7 +153,7 @@ fn refine(style: &mut Style, dark: bool) {
     style.spacing.item_spacing = Vec2::new(8.0, 6.0);
     style.spacing.button_padding = Vec2::new(8.0, 4.0);
     style.spacing.interact_size.y = 24.0;
-    // Lists show their last entry, and what can be scrolled says so.
+    // Long drop-down lists, and visible scroll bars.
     style.spacing.combo_height = 420.0;
     style.spacing.scroll.dormant_handle_opacity = 0.45;
     style.spacing.scroll.dormant_background_opacity = 0.15;
@@ -210,7 +210,7 @@ fn refine(style: &mut Style, dark: bool) {
     visuals.widgets.active.fg_stroke.color = text;
 }
 
-/// Returns whether the context is dark now.
+/// Returns whether the context uses the dark theme.
 pub(crate) fn is_dark(ctx: &Context) -> bool {
     ctx.theme() == Theme::Dark
 }
@@ -220,7 +220,7 @@ mod tests {
     use super::*;
     use eframe::egui::{FontId, RawInput};
 
-    /// Returns how many times lighter one colour is than the other, as WCAG counts it.
+    /// Returns the contrast ratio of two colours, as defined by WCAG.
     fn contrast(a: Color32, b: Color32) -> f32 {
         let light = |it: Color32| {
             let it = eframe::egui::Rgba::from(it);

@@ -1,9 +1,9 @@
-//! Films of the recording that is shown, in step with its playhead; the stage and the film pane show the same.
+//! Films of the displayed recording, in step with its playhead; the stage and the film pane show the same films.
 //!
 //! | module | holds |
 //! |---|---|
 //! | `projector` | the thread of a film, which finds, opens and decodes it |
-//! | `screen` | a film on the screen: which frame it shows, and where it lies on the clock |
+//! | `screen` | a film on the screen: its current frame, and its place on the recording's clock |
 //! | `ui` | the widgets |
 
 mod projector;
@@ -21,7 +21,7 @@ use crate::context::{Outbox, Seen};
 use crate::model::Snapshot;
 use screen::Screen;
 
-/// The films that are shown.
+/// The films of the displayed recording.
 #[derive(Default)]
 pub(crate) struct Films {
     corpus: PathBuf,
@@ -29,7 +29,7 @@ pub(crate) struct Films {
 }
 
 impl Films {
-    /// Returns none, of the corpus in that file.
+    /// Returns an empty set of films for the corpus in that file.
     pub(crate) fn of(corpus: &Path) -> Self {
         Self {
             corpus: corpus.to_owned(),
@@ -37,7 +37,7 @@ impl Films {
         }
     }
 
-    /// Turns to the films of a recording; those that are shown already stay.
+    /// Switches to the films of a recording; films that are shown already stay.
     pub(crate) fn follow(&self, snapshot: &Snapshot, recording: Option<i64>, ctx: &Context) {
         let contents = recording.and_then(|id| snapshot.contents(id));
         let media = contents.map_or(&[][..], |it| &it.media);
@@ -46,7 +46,7 @@ impl Films {
         let same = screens.len() == wanted.len()
             && screens.iter().zip(&wanted).all(|(a, b)| a.track == **b);
         if contents.is_none() && recording.is_some() || same {
-            // The recording is still being read.
+            // Nothing changed, or the recording is still being read.
             return;
         }
         let mut before = std::mem::take(&mut *screens);
@@ -66,41 +66,41 @@ impl Films {
             .collect();
     }
 
-    /// Returns whether there are any.
+    /// Returns whether there are any films.
     pub(crate) fn are_there(&self) -> bool {
         !self.screens.borrow().is_empty()
     }
 
-    /// Returns where the last of them ends on the clock of the recording, as far as that is known.
+    /// Returns the end of the last film on the recording's clock, as far as it is known.
     pub(crate) fn end(&self) -> Instant {
         let screens = self.screens.borrow();
         let ends = screens.iter().filter_map(Screen::end);
         Instant::from_micros(ends.max().unwrap_or_default())
     }
 
-    /// Returns where the frame lies that is `frames` frames of the first film on.
+    /// Returns the start of the frame that lies `frames` frames after the one at `at`, in the first opened film.
     pub(crate) fn step(&self, at: Instant, frames: i64) -> Option<Instant> {
         let screens = self.screens.borrow();
         screens.iter().find_map(|it| it.step(at, frames))
     }
 
-    /// Returns whether every film shows the very picture of the playhead, or has none there.
+    /// Returns whether every film shows exactly the picture of the playhead, or has none there.
     pub(crate) fn are_pictured(&self) -> bool {
         self.screens.borrow().iter().all(Screen::is_pictured)
     }
 
-    /// Shows them next to each other.
+    /// Shows the films next to each other.
     pub(crate) fn show(&self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, rect: Rect) {
         ui::show(&mut self.screens.borrow_mut(), ui, seen, out, rect);
     }
 
-    /// Says that the pane of films is in sight, so that the stage leaves them to it.
+    /// Notes that the film pane is in sight, so that the stage does not show the films too.
     pub(crate) fn pane_is_seen(ctx: &Context) {
         let pass = ctx.cumulative_pass_nr();
         ctx.data_mut(|data| data.insert_temp(Id::unique(PANE), pass));
     }
 
-    /// Returns whether the pane of films is in sight.
+    /// Returns whether the film pane is in sight.
     pub(crate) fn is_pane_seen(ctx: &Context) -> bool {
         let pass = ctx.cumulative_pass_nr();
         let last: Option<u64> = ctx.data(|data| data.get_temp(Id::unique(PANE)));

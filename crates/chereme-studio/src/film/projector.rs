@@ -1,6 +1,7 @@
-//! The thread of a film, which finds, opens and decodes it: the window never waits for a picture.
+//! The thread of a film, which finds, opens and decodes it, so that the window never waits for a picture.
 //!
-//! The newest wish counts. If the picture is far to decode, the nearest that is quickly there is shown first.
+//! Only the newest request counts. If its picture takes long to decode, a quickly decoded picture nearby is shown
+//! first.
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -9,22 +10,22 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use chereme_corpus::{Film, FilmFacts, FilmTimes, MediaTrackRow, find_media};
 use eframe::egui::{Color32, ColorImage};
 
-/// Pictures that are kept, so that a frame seen before comes back at once.
+/// How many pictures are kept, so that a frame seen before is shown at once.
 const KEPT: usize = 48;
-/// How many pictures are decoded ahead while it plays.
+/// How many pictures are decoded ahead during playback.
 const AHEAD: usize = 3;
-/// A frame that is farther from where decoding begins than so many has a quick picture before it.
+/// A frame farther than this from the start of decoding, in frames, gets a quick picture of an earlier frame first.
 const FAR: usize = 10;
-/// Frames that are rather decoded on the way than left for a newer wish.
+/// A newer request for a frame within this many frames ahead does not stop the present decoding.
 const NEAR: usize = 60;
-/// The stack of the thread; decoders take more than other work.
+/// Stack size of the thread in bytes; decoders need more than other work.
 const STACK: usize = 16 << 20;
 
-/// A picture that is wished for.
+/// A request for a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Wish {
     pub(super) frame: usize,
-    /// The room for it, in pixels.
+    /// The largest size of the picture, in pixels.
     pub(super) within: [usize; 2],
     /// Whether the film plays forwards.
     pub(super) playing: bool,
@@ -33,32 +34,32 @@ pub(super) struct Wish {
 /// The state of the file.
 #[derive(Debug, Clone, Default)]
 pub(super) enum Known {
-    /// It is being looked for and opened.
+    /// The file is being searched and opened.
     #[default]
     Coming,
-    /// It plays.
+    /// The film is open.
     Open(Arc<FilmFacts>, Arc<FilmTimes>),
-    /// No file is there; the first place that was tried.
+    /// The file is missing; the first path that was tried.
     Gone(Option<PathBuf>),
-    /// It cannot be played: why, and what helps.
+    /// The film cannot be played: the reason, and a remedy.
     Refused(String, Option<String>),
 }
 
-/// A picture that is there.
+/// A decoded picture.
 #[derive(Clone)]
 pub(super) struct Shot {
     pub(super) frame: usize,
     pub(super) image: Arc<ColorImage>,
-    /// Counted up from picture to picture.
+    /// Serial number, counting up from picture to picture.
     pub(super) number: u64,
 }
 
-/// The newest of a film.
+/// The latest state of a film.
 #[derive(Clone, Default)]
 pub(super) struct News {
     pub(super) known: Known,
     pub(super) shot: Option<Shot>,
-    /// The frame that could not be decoded, and why.
+    /// The latest frame that could not be decoded, and the reason.
     pub(super) damaged: Option<(usize, String)>,
 }
 
@@ -75,13 +76,13 @@ struct Shared {
     news: Mutex<News>,
 }
 
-/// A film at work.
+/// The handle of a film's thread.
 pub(super) struct Projector {
     shared: Arc<Shared>,
 }
 
 impl Projector {
-    /// Begins with the film of a track; `wake` is called when there is something new.
+    /// Starts the thread for the film of a track; the thread calls `wake` when there is something new.
     pub(super) fn new(
         track: MediaTrackRow,
         corpus: &Path,
@@ -104,13 +105,13 @@ impl Projector {
         Self { shared }
     }
 
-    /// Wishes for a picture; one that was wished for before and is not begun is forgotten.
+    /// Requests a picture; an earlier request that has not been started is dropped.
     pub(super) fn wish(&self, wish: Wish) {
         held(&self.shared.wish).next = Some(wish);
         self.shared.wished.notify_one();
     }
 
-    /// Returns the newest.
+    /// Returns the latest state of the film.
     pub(super) fn news(&self) -> News {
         held(&self.shared.news).clone()
     }
@@ -118,7 +119,7 @@ impl Projector {
 
 impl Drop for Projector {
     fn drop(&mut self) {
-        // The thread ends by itself after the picture that it decodes; nobody waits for that.
+        // The thread ends after the picture that it is decoding; the window does not wait for that.
         held(&self.shared.wish).over = true;
         self.shared.wished.notify_one();
     }
@@ -144,7 +145,7 @@ fn open(shared: &Shared, track: MediaTrackRow, corpus: &Path) -> Option<Film> {
     }
 }
 
-/// Pictures of a film that were made lately.
+/// Recently decoded pictures of a film.
 #[derive(Default)]
 struct Album(VecDeque<(Wish, Arc<ColorImage>)>);
 
@@ -155,7 +156,7 @@ impl Album {
         found.map(|(_, image)| image.clone())
     }
 
-    /// Returns the picture of a wish, made if need be; nothing if `stop` says so in between.
+    /// Returns the requested picture, decoding it if necessary; `None` if `stop` interrupts the decoding.
     fn picture(
         &mut self,
         film: &mut Film,

@@ -1,4 +1,4 @@
-//! A film on the screen: which frame it shows, and where it lies on the clock of its recording.
+//! A film on the screen: its current frame, and its place on the recording's clock.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -9,18 +9,18 @@ use eframe::egui::{Context, TextureHandle, TextureOptions};
 
 use super::projector::{Known, News, Projector, Wish};
 
-/// A film and its picture.
+/// A film with its current picture.
 pub(super) struct Screen {
     pub(super) track: MediaTrackRow,
     projector: Projector,
     pub(super) news: News,
     pub(super) texture: Option<TextureHandle>,
-    /// The number of the picture that the texture holds.
+    /// The serial number of the picture in the texture.
     held: u64,
     wished: Option<Wish>,
-    /// The frame that is held while the recording goes on, so that both can be laid upon each other.
+    /// The frame that stays while the recording moves, so that the film can be aligned with the recording.
     pub(super) loose: Option<usize>,
-    /// Where its start is being dragged to, in microseconds.
+    /// The start of the film while the user drags it, in microseconds on the recording's clock.
     pub(super) dragged: Option<i64>,
 }
 
@@ -39,7 +39,7 @@ impl Screen {
         }
     }
 
-    /// Returns it with what the corpus says of it now.
+    /// Returns the screen with the track's newest entry in the corpus.
     pub(super) fn moved(self, track: &MediaTrackRow) -> Self {
         Self {
             track: track.clone(),
@@ -48,7 +48,7 @@ impl Screen {
         }
     }
 
-    /// Returns when its frames are shown, once that is known.
+    /// Returns the times of the frames, once the film is open.
     pub(super) fn times(&self) -> Option<&Arc<FilmTimes>> {
         match &self.news.known {
             Known::Open(_, times) => Some(times),
@@ -56,17 +56,17 @@ impl Screen {
         }
     }
 
-    /// Returns where its own time 0 lies on the recording's clock, in microseconds.
+    /// Returns the place of the film's time 0 on the recording's clock, in microseconds.
     pub(super) fn offset(&self) -> i64 {
         self.dragged.unwrap_or(self.track.offset_us)
     }
 
-    /// Returns where it ends on the recording's clock.
+    /// Returns the end of the film on the recording's clock, in microseconds.
     pub(super) fn end(&self) -> Option<i64> {
         Some(self.times()?.end() + self.track.offset_us)
     }
 
-    /// Returns the frame of a moment of the recording.
+    /// Returns the frame at a moment of the recording.
     pub(super) fn frame_at(&self, at: Instant) -> Option<usize> {
         match self.loose {
             Some(frame) => Some(frame),
@@ -74,7 +74,8 @@ impl Screen {
         }
     }
 
-    /// Returns where the frame begins that is `frames` on from that of a moment; before the first it is the first.
+    /// Returns the start of the frame that lies `frames` frames after the one at `at`. Outside of the film, the first
+    /// or the last frame counts.
     pub(super) fn step(&self, at: Instant, frames: i64) -> Option<Instant> {
         let times = self.times()?;
         let own = at.micros() - self.offset();
@@ -87,12 +88,12 @@ impl Screen {
         Some(Instant::from_micros(times.start(next) + self.offset()))
     }
 
-    /// Returns the start that it has if a frame of it is that moment of the recording.
+    /// Returns the offset at which `frame` begins at the moment `at` of the recording, in microseconds.
     pub(super) fn laid(&self, frame: usize, at: Instant) -> Option<i64> {
         Some(at.micros() - self.times()?.start(frame))
     }
 
-    /// Takes what the projector has, and wishes for the picture of a frame.
+    /// Fetches the latest picture from the projector, and requests the picture of a frame.
     pub(super) fn follow(
         &mut self,
         frame: Option<usize>,
@@ -125,7 +126,7 @@ impl Screen {
         }
     }
 
-    /// Returns whether the picture is the last one wished for.
+    /// Returns whether the picture is the latest requested one, or that one cannot be decoded.
     pub(super) fn is_pictured(&self) -> bool {
         let Some(wish) = self.wished else {
             return !matches!(self.news.known, Known::Coming);

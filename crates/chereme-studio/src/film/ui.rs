@@ -1,4 +1,4 @@
-//! The widgets of films: the pictures, and what moves them on the clock.
+//! The widgets of films: their pictures, and the controls that place them on the recording's clock.
 
 use chereme_corpus::{Name, TrackChange};
 use chereme_motion::Instant;
@@ -16,14 +16,14 @@ use crate::panes::inspector::Thing;
 use crate::words::{fill, film as words};
 use crate::work::Work;
 
-/// The height of the line below a film.
+/// The height of the line of controls below a film, in points.
 const LINE: f32 = 26.0;
-/// The gap between films.
+/// The gap between films, in points.
 const GAP: f32 = 6.0;
-/// The most pixels of a picture; larger rooms show theirs scaled.
+/// The largest size of a picture in pixels; larger areas show it scaled.
 const MOST: [usize; 2] = [1280, 1280];
 
-/// Shows films next to each other, or above each other where that makes them larger.
+/// Shows films next to each other, or above each other if that makes them larger.
 pub(super) fn show(
     screens: &mut [Screen],
     ui: &mut Ui,
@@ -49,7 +49,7 @@ pub(super) fn show(
     }
 }
 
-/// Returns how many films stand beside each other so that wide ones are largest.
+/// Returns how many columns make wide films largest.
 fn columns(count: usize, room: egui::Vec2) -> usize {
     let width = |columns: usize| {
         let rows = count.div_ceil(columns) as f32;
@@ -115,7 +115,7 @@ fn one(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, cell
     });
 }
 
-/// Shows the picture, or what keeps it from being shown.
+/// Shows the picture, or the reason for its absence.
 fn picture(screen: &Screen, ui: &Ui, seen: &Seen<'_>, room: Rect, frame: usize) {
     if let Some(texture) = &screen.texture {
         let size = texture.size_vec2();
@@ -136,7 +136,7 @@ fn picture(screen: &Screen, ui: &Ui, seen: &Seen<'_>, room: Rect, frame: usize) 
     }
 }
 
-/// Writes into the dark.
+/// Writes a text on the dark background.
 fn told(ui: &Ui, room: Rect, text: &str) {
     let painter = ui.painter().with_clip_rect(room.intersect(ui.clip_rect()));
     let font = TextStyle::Body.resolve(ui.style());
@@ -153,7 +153,7 @@ fn told(ui: &Ui, room: Rect, text: &str) {
     painter.galley(place.min, galley, white);
 }
 
-/// Offers what helps where there is no film to be seen.
+/// Offers remedies for a film that cannot be found.
 fn missing(screen: &Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     if ui.small_button(seen.say(words::FIND)).clicked() {
         let (recording, track) = (screen.track.recording_id, screen.track.id);
@@ -166,7 +166,8 @@ fn missing(screen: &Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     }
 }
 
-/// Shows what moves the film: its frames, holding it, laying a frame upon a moment, its start.
+/// Shows the controls of the film: step by frames, hold a frame, align the held frame with the playhead, and the film's
+/// start.
 fn controls(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, at: Instant) {
     let Some(times) = screen.times().cloned() else {
         return;
@@ -222,7 +223,8 @@ fn controls(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox,
     }
 }
 
-/// Shows where the film starts on the clock, to be dragged or typed; letting go makes one change of the corpus.
+/// Shows the start of the film on the recording's clock, to be dragged or typed; the corpus is changed once, on
+/// release.
 fn offset(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     let mut seconds = screen.offset() as f64 / 1e6;
     let field = DragValue::new(&mut seconds)
@@ -246,13 +248,13 @@ fn offset(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     response.on_hover_text(seen.say(words::OFFSET_HINT));
 }
 
-/// Has the film start there.
+/// Sets the start of the film, in microseconds on the recording's clock.
 fn lay(screen: &mut Screen, out: &mut Outbox, offset: i64) {
     if offset == screen.track.offset_us {
         screen.dragged = None;
         return;
     }
-    // It stays there until the corpus says so too.
+    // The film stays there until the corpus has been changed.
     screen.dragged = Some(offset);
     let recording = Name::Number(screen.track.recording_id);
     let track = screen.track.name.clone();

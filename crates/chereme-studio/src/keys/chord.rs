@@ -16,7 +16,7 @@ pub(crate) struct Chord {
     pub(crate) key: Key,
 }
 
-/// A text that is no [`Chord`].
+/// The error for a text that is not a [`Chord`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is no key: write one like Ctrl+Shift+Space")]
 pub(crate) struct NoChord(String);
@@ -26,13 +26,13 @@ impl Chord {
         Self {
             ctrl: modifiers.command || modifiers.ctrl,
             alt: modifiers.alt,
-            // Most keyboards have the plus behind Shift, others have a key of its own for it.
+            // Most keyboards have the plus behind Shift; others have a separate key for it.
             shift: modifiers.shift && key != Key::Plus,
             key,
         }
     }
 
-    /// Returns whether a text field does something with it.
+    /// Returns whether a text field uses the chord itself.
     pub(crate) fn is_for_text(self) -> bool {
         const EDITING: [Key; 15] = [
             Key::A,
@@ -58,14 +58,14 @@ impl Chord {
         !function && !self.alt
     }
 
-    /// Returns the chord as people read it: with the sign on the key, if it has one.
+    /// Returns the chord as people read it, with the printed sign of the key if it has one.
     pub(crate) fn label(self) -> String {
         let name = self.key.name();
         let sign = match self.key {
             Key::Plus => "+",
             key => key.symbol_or_name(),
         };
-        // Arrows and the like are read more easily as words.
+        // Arrows and the like are easier to read as words.
         if sign.is_ascii() && sign != name {
             let text = self.to_string();
             format!("{}{sign}", text.strip_suffix(name).unwrap_or_default())
@@ -74,13 +74,13 @@ impl Chord {
         }
     }
 
-    /// Returns whether a handle on the stage that has the focus does something with it.
+    /// Returns whether a focused handle on the stage uses the chord itself.
     pub(crate) fn is_for_handles(self) -> bool {
         const MOVING: [Key; 3] = [Key::PageUp, Key::PageDown, Key::Escape];
         !self.ctrl && !self.alt && MOVING.contains(&self.key)
     }
 
-    /// Returns whether a button, a list or a slider that has the focus does something with it.
+    /// Returns whether a focused button, list or slider uses the chord itself.
     pub(crate) fn is_for_widgets(self) -> bool {
         const MOVING: [Key; 11] = [
             Key::Space,

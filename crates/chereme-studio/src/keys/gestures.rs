@@ -1,9 +1,9 @@
-//! The gestures of the mouse, as one table: the help shows it next to the keys.
+//! The table of mouse gestures, which the help shows next to the keys.
 
 use crate::action::Menu;
 use crate::words::{Language, Text, gestures as words};
 
-/// A key that is held meanwhile.
+/// A key that is held during the gesture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Held {
     Ctrl,
@@ -11,14 +11,14 @@ pub(crate) enum Held {
     Alt,
 }
 
-/// What the hand does.
+/// The action of the mouse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Act {
     Click,
     DoubleClick,
     RightClick,
     Drag,
-    /// With the other button, or the one in the middle.
+    /// Drag with the right or the middle button.
     OtherDrag,
     Wheel,
 }
@@ -26,11 +26,11 @@ pub(crate) enum Act {
 /// A row of the table.
 #[derive(Debug)]
 pub(crate) struct Gesture {
-    /// The group of keys that lists it.
+    /// The group of keys in the help that lists the gesture.
     pub(crate) menu: Menu,
     pub(crate) held: Option<Held>,
     pub(crate) act: Act,
-    /// On what.
+    /// The object of the gesture.
     pub(crate) on: Text,
     pub(crate) does: Text,
 }

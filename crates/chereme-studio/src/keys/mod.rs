@@ -1,4 +1,4 @@
-//! Which keys mean which action: default keymaps as a table, changes of the user's, and matching.
+//! Keys and their actions: default keymaps as a table, the user's changes, and matching.
 
 pub(crate) mod chord;
 pub(crate) mod gestures;
@@ -21,7 +21,7 @@ pub(crate) enum Keymap {
     /// Those of ELAN.
     #[default]
     Elan,
-    /// Those of Praat, if it has any.
+    /// Those of Praat, as far as it has any.
     Praat,
     /// Those of video editors: J, K, L.
     Editor,
@@ -35,37 +35,37 @@ impl Keymap {
     ];
 }
 
-/// The keys of every action: a keymap with the user's own changes, by action id.
+/// The keys of every action: a keymap with the user's own changes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Keys {
     bound: BTreeMap<Action, Vec<Chord>>,
 }
 
-/// Keys that the user gave to actions, by action id; an empty list takes all keys away.
+/// Keys that the user gave to actions, by action id; an empty list removes all keys of the action.
 pub(crate) type Rebound = BTreeMap<String, Vec<Chord>>;
 
-/// Where a key is pressed.
+/// The state of the window when a key is pressed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place {
     /// Whether a corpus is open.
     pub(crate) corpus: bool,
     /// The pane that was used last.
     pub(crate) pane: Option<PaneKind>,
-    /// Whether a text field takes what is typed.
+    /// Whether a text field has the keyboard focus.
     pub(crate) typing: bool,
-    /// Whether some other widget has the focus of the keyboard.
+    /// Whether another widget has the keyboard focus.
     pub(crate) focused: bool,
-    /// Whether that widget is a handle on the stage, which goes to and from the eye too.
+    /// Whether that widget is a handle on the stage, which uses more keys to move in depth.
     pub(crate) held: bool,
-    /// Whether text of a label is marked, which is what is copied then.
+    /// Whether text of a label is selected, so that Copy and Cut apply to that text.
     pub(crate) marked: bool,
-    /// Whether a menu or a list to choose from is open.
+    /// Whether a menu or a drop-down list is open.
     pub(crate) menu: bool,
 }
 
 impl Keys {
-    /// Returns the keys of a keymap with the user's changes; a key the user gave to one action is
-    /// taken from the others of the same context.
+    /// Returns the keys of a keymap with the user's changes; a key that the user gave to one action is taken from the
+    /// other actions of the same context.
     pub(crate) fn new(keymap: Keymap, rebound: &Rebound) -> Self {
         let mut bound = BTreeMap::new();
         for row in ACTIONS {
@@ -104,8 +104,8 @@ impl Keys {
         all.join(", ")
     }
 
-    /// Returns a text with the first keys of the actions whose ids stand in it between braces; the name of
-    /// one that has none.
+    /// Replaces each action id between braces in a text with the first keys of that action; with its name if it has no
+    /// keys.
     pub(crate) fn named(&self, text: &str) -> String {
         let mut told = text.to_owned();
         for row in ACTIONS {
@@ -118,7 +118,7 @@ impl Keys {
         told
     }
 
-    /// Returns the action that `chord` means at `place`: the pane's own before the others.
+    /// Returns the action of `chord` in the state `place`: an action of the pane takes precedence.
     pub(crate) fn action(&self, chord: Chord, place: Place) -> Option<Action> {
         let taken = (place.typing && chord.is_for_text())
             || (place.menu && !chord.ctrl && !chord.alt)
@@ -142,16 +142,16 @@ impl Keys {
             .map(|row| row.action)
     }
 
-    /// Takes the first pressed key that means an action out of the input, and returns the action, with the
-    /// text where it came with one to paste.
+    /// Removes the first pressed key that has an action from the input, and returns the action; for a paste, also the
+    /// pasted text.
     ///
-    /// One at a time, since what it does decides where those after it go: into a field, perhaps.
+    /// Takes one key at a time, since its action decides where later keys go, for example into a field.
     pub(crate) fn take(
         &self,
         input: &mut InputState,
         place: Place,
     ) -> Option<(Action, Option<String>)> {
-        // The system reports these keys as their action.
+        // egui reports these keys as copy, cut and paste events.
         let clipboard = |key| self.action(Chord::new(key, Modifiers::COMMAND), place);
         loop {
             let pressed = |event: &Event| match event {
@@ -208,7 +208,7 @@ mod tests {
                         .of(row.action)
                         .iter()
                         .find(|it| keys.of(other.action).contains(it));
-                    // A pane's own keys go before those that count everywhere.
+                    // Keys of a pane take precedence over those of the whole window.
                     let pane = |context| match context {
                         Context::Pane(pane) => Some(pane),
                         _ => None,

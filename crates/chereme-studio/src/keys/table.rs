@@ -1,12 +1,12 @@
 //! The default keys: for each action those of ELAN 6.9, of Praat, and of video editors.
 //!
-//! Several keys are parted by blanks; `none` is none; `=` is the same as ELAN's.
+//! Several keys are separated by blanks; `none` is no key; `=` means the same keys as ELAN.
 
 use super::Keymap;
 use crate::action::Action;
 use crate::keys::chord::Chord;
 
-/// Rows of action, ELAN, Praat, video editor.
+/// Rows of action and its keys in ELAN, in Praat, and in video editors.
 pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::Open, ["Ctrl+O", "=", "="]),
     (Action::Import, ["Ctrl+Shift+I", "=", "Ctrl+I"]),
@@ -203,7 +203,7 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::FirstSteps, ["F12", "=", "="]),
 ];
 
-/// Returns the keys that a keymap gives an action.
+/// Returns the keys of an action in a keymap.
 pub(crate) fn defaults(keymap: Keymap, action: Action) -> Vec<Chord> {
     let Some((_, keys)) = DEFAULTS.iter().find(|(of, _)| *of == action) else {
         return Vec::new();

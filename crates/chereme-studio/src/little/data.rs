@@ -1,12 +1,12 @@
-//! Little figures without a window: the moments to draw, their order, and the pictures to keep.
+//! Rules for little figures, without widgets: the moments to draw, their order, and the pictures to keep.
 
 use chereme_motion::{Instant, Span};
 
-/// Pictures a second where there are not too many.
+/// Pictures per second, if that does not make too many.
 const RATE: f64 = 25.0;
-/// The number of pictures at that rate; longer movement gets fewer a second.
+/// The most pictures at that rate; longer movement gets fewer per second.
 const USUAL: usize = 64;
-/// The most pictures of a loop, and the least a second.
+/// The most pictures of a loop, and the fewest per second.
 const MOST: usize = 96;
 const LEAST_RATE: f64 = 10.0;
 
@@ -17,27 +17,27 @@ pub(crate) fn shown(span: Span) -> Span {
     Span::between(span.start(), end)
 }
 
-/// Returns how many pictures a loop over `seconds` has, at least one.
+/// Returns how many pictures a loop over `seconds` has; at least one.
 pub(crate) fn count(seconds: f64) -> usize {
     let usual = (seconds * RATE).round() as usize;
     let fewest = (seconds * LEAST_RATE).ceil() as usize;
     usual.clamp(1, USUAL.max(fewest.min(MOST)))
 }
 
-/// Returns the moment in `span` that picture `index` of `count` shows: the middle of its share.
+/// Returns the moment in `span` that picture `index` of `count` shows: the middle of its part of the span.
 pub(crate) fn moment(span: Span, index: usize, count: usize) -> Instant {
     let share = (index as f64 + 0.5) / count as f64;
     span.start().shifted((span.micros() as f64 * share) as i64)
 }
 
-/// Returns the picture at `clock` seconds of a loop of `count` over `seconds`.
+/// Returns the index of the picture at `clock` seconds in a loop of `count` pictures over `seconds`.
 pub(crate) fn index(clock: f64, seconds: f64, count: usize) -> usize {
     let share = (clock / seconds.max(1e-6)).rem_euclid(1.0);
     ((share * count as f64) as usize).min(count - 1)
 }
 
-/// Returns the order in which pictures of a loop are drawn: first the middle, which stands for all,
-/// then ever finer steps, so that a loop moves long before it is whole.
+/// Returns the order in which pictures of a loop are drawn: first the middle one, which represents the sign, then ever
+/// finer steps, so that a loop moves long before it is complete.
 pub(crate) fn order(count: usize) -> Vec<usize> {
     let mut order = vec![count / 2];
     let mut taken = vec![false; count];
@@ -54,8 +54,8 @@ pub(crate) fn order(count: usize) -> Vec<usize> {
     order
 }
 
-/// Returns the picture that is shown where `wanted` is: itself, or the last one before it around
-/// the loop that is drawn.
+/// Returns the picture to show in place of `wanted`: itself if it is drawn, else the last drawn one before it in the
+/// loop.
 pub(crate) fn nearest(drawn: impl Fn(usize) -> bool, wanted: usize, count: usize) -> Option<usize> {
     (0..count)
         .map(|back| (wanted + count - back) % count)
@@ -67,14 +67,14 @@ const LARGEST: f32 = 288.0;
 /// Sizes are rounded to this, so that a cell that grows a little needs no new pictures.
 const STEP: f32 = 8.0;
 
-/// Returns columns and rows of a picture for a cell of that many pixels.
+/// Returns columns and rows of a picture for a cell of that size in pixels.
 pub(crate) fn pixels(cell: [f32; 2]) -> [u16; 2] {
     let shrink = (LARGEST / cell[0].max(cell[1]).max(1.0)).min(1.0);
     cell.map(|side| ((side * shrink / STEP).round().max(2.0) * STEP) as u16)
 }
 
-/// Returns which of `kept` go so that no more than `limit` bytes stay: those wanted longest ago
-/// first, none that was wanted at `now`. Each has a key, bytes, and when it was wanted.
+/// Returns the keys of `kept` to remove so that at most `limit` bytes stay: those wanted longest ago first, none that
+/// was wanted at `now` or later. Each entry has a key, its bytes, and the frame when it was last wanted.
 pub(crate) fn leaving<K: Clone + Ord>(
     kept: impl Iterator<Item = (K, usize, u64)>,
     now: u64,

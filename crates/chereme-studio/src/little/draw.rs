@@ -1,4 +1,4 @@
-//! The thread that draws little figures, and the board on which window and thread meet.
+//! The thread that draws little figures, and the state that it shares with the window.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -15,15 +15,15 @@ use super::data;
 use super::{Focus, Key, Source};
 use crate::model::made::Made;
 
-/// Frames of the window after which what was not wanted again is not drawn any more.
+/// Frames of the window after which a figure that was not requested again is no longer drawn.
 const PATIENCE: u64 = 20;
-/// How many bytes of pictures and of postures are kept.
+/// How many bytes of pictures are kept, and how many of postures.
 const PICTURES: usize = 160 << 20;
 const POSTURES: usize = 64 << 20;
-/// How many bodies are kept; signers of one corpus share few skeletons.
+/// How many body meshes are kept; signers of one corpus share few skeletons.
 const BODIES: usize = 8;
 
-/// The data that window and thread share.
+/// The state shared by window and thread.
 #[derive(Default)]
 pub(super) struct Board {
     state: Mutex<State>,
@@ -34,25 +34,25 @@ pub(super) struct Board {
 pub(super) struct State {
     pub(super) films: BTreeMap<Source, Film>,
     pub(super) strips: BTreeMap<Key, Strip>,
-    /// The window's frame.
+    /// The number of the window's current frame.
     pub(super) now: u64,
     pub(super) window: Option<Context>,
     pub(super) over: bool,
 }
 
-/// Movement on its way to be drawn.
+/// Movement in preparation for drawing.
 pub(super) enum Film {
-    /// It was asked for.
+    /// The movement is requested from the corpus.
     Loading,
-    /// It is here.
+    /// The movement is loaded.
     Loaded(Movement),
-    /// Its postures are chosen; when they were last needed.
+    /// The postures are chosen; the frame in which they were last needed.
     Ready(Arc<Ready>, u64),
-    /// There is none.
+    /// There is no movement.
     Nothing,
 }
 
-/// Movement as it comes.
+/// Movement from the corpus or from a recipe.
 #[derive(Clone)]
 pub(super) enum Movement {
     Recorded(Arc<Moving>),
@@ -62,7 +62,7 @@ pub(super) enum Movement {
 /// Movement that can be drawn.
 pub(super) struct Ready {
     poses: Vec<ModelPose>,
-    /// As many, or none where the face is at rest throughout.
+    /// One face per posture; empty if the face is at rest throughout.
     faces: Vec<Face>,
     pub(super) seconds: f64,
     body: Arc<Body>,
@@ -70,10 +70,10 @@ pub(super) struct Ready {
     framing: Framing,
 }
 
-/// The pictures of one film from one place in one size.
+/// The pictures of one movement, with one framing and one size.
 #[derive(Default)]
 pub(super) struct Strip {
-    /// Empty until it is known how many there will be.
+    /// Empty until the number of pictures is known.
     pub(super) pictures: Vec<Option<Arc<ColorImage>>>,
     order: Vec<usize>,
     drawn: usize,
@@ -92,7 +92,7 @@ impl Strip {
         self.drawn = 0;
     }
 
-    /// Returns the share that is drawn, where something is left to draw.
+    /// Returns the share of pictures that is drawn; `None` if all are drawn.
     fn share(&self) -> Option<f32> {
         (self.pictures.is_empty() || self.drawn < self.order.len())
             .then(|| self.drawn as f32 / self.order.len().max(1) as f32)
@@ -106,24 +106,24 @@ impl Ready {
     }
 }
 
-/// Something to be done.
+/// A task of the drawing thread.
 enum Task {
     Prepare(Source, Movement),
     Draw(Key, usize, Option<Arc<Ready>>),
 }
 
 impl Board {
-    /// What both see; also where a thread died with it.
+    /// Locks the shared state, even if a thread panicked with the lock.
     pub(super) fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Wakes the thread, as there may be work.
+    /// Wakes the drawing thread after a change.
     pub(super) fn tell(&self) {
         self.changed.notify_all();
     }
 
-    /// Draws until all is over.
+    /// Draws until the window ends the thread.
     pub(super) fn work(&self) {
         let mut hand = Hand::default();
         while let Some(task) = self.next() {
@@ -161,7 +161,7 @@ impl Board {
 }
 
 impl State {
-    /// Returns the most urgent task: the visible loop with the fewest pictures.
+    /// Returns the most urgent task: the visible loop with the smallest share of drawn pictures.
     fn task(&mut self) -> Option<Task> {
         let since = self.now.saturating_sub(PATIENCE);
         let mut next: Option<(f32, &Key, &mut Strip, Option<Arc<Ready>>)> = None;
@@ -205,7 +205,7 @@ impl State {
         }
     }
 
-    /// Lets pictures and postures go that were wanted longest ago, where there are too many.
+    /// Removes the pictures and postures that were wanted longest ago if there are too many.
     fn let_go(&mut self) {
         let since = self.now.saturating_sub(PATIENCE);
         let strips = self.strips.iter();
@@ -223,7 +223,7 @@ impl State {
     }
 }
 
-/// The thread's memory from picture to picture.
+/// The state that the thread keeps between pictures.
 #[derive(Default)]
 struct Hand {
     raster: Raster,

@@ -8,9 +8,9 @@
 //! if seen.little.show(ui, seen, out, &cell, "BOL").clicked() { … }
 //! ```
 //!
-//! Movement is loaded on a lane of its own and drawn by a thread of its own, the middle picture first, then ever
-//! finer steps; pictures are kept until there are too many of them. The window only shows finished pictures.
-//! [`Figures::hand`] shows a posture of one hand alone, the picture of a handshape.
+//! Movement is loaded on its own lane and drawn by its own thread, the middle picture first, then ever finer steps;
+//! pictures are kept until there are too many of them. The window only shows finished pictures. [`Figures::hand`] shows
+//! a posture of one hand alone, the picture of a handshape.
 
 mod data;
 mod draw;
@@ -36,7 +36,7 @@ use draw::{Board, Film, Movement};
 pub(crate) enum Motion {
     /// A span of a recording; a very short one is a single posture.
     Span(i64, Span),
-    /// Movement that lies in no recording.
+    /// Generated movement outside of recordings.
     #[allow(dead_code, reason = "for cards of recipes")]
     Made(Arc<Made>),
 }
@@ -47,25 +47,25 @@ pub(crate) enum Focus {
     /// Head, shoulders, and the hands wherever they go.
     #[default]
     Signing,
-    /// A hand from near, followed.
+    /// A close view of one hand that follows it.
     #[allow(dead_code, reason = "for results found by their handshape")]
     Hand(Side),
-    /// The face from near, followed.
+    /// A close view of the face that follows it.
     Face,
 }
 
-/// A place for a little figure.
+/// The contents and the size of one little figure.
 #[derive(Debug, Clone)]
 pub(crate) struct Cell {
     pub(crate) motion: Motion,
     pub(crate) focus: Focus,
     pub(crate) size: Vec2,
-    /// Seconds of a clock that all that plays shares; nothing where the figure stands still.
+    /// Time in seconds of the clock shared by all playing figures; `None` if the figure stands still.
     pub(crate) clock: Option<f64>,
 }
 
 impl Cell {
-    /// Returns a figure that stands still in the middle of its movement.
+    /// Returns a cell with a still figure, in the middle of its movement.
     pub(crate) fn new(motion: Motion, size: Vec2) -> Self {
         Self {
             motion,
@@ -75,7 +75,7 @@ impl Cell {
         }
     }
 
-    /// Returns it looping by that [`clock`].
+    /// Returns the cell with a looping figure, played by that [`clock`].
     pub(crate) fn playing(self, clock: f64) -> Self {
         Self {
             clock: Some(clock),
@@ -83,26 +83,26 @@ impl Cell {
         }
     }
 
-    /// Returns it looking at something else.
+    /// Returns the cell with another focus.
     #[allow(dead_code, reason = "for results found by their handshape")]
     pub(crate) fn focused(self, focus: Focus) -> Self {
         Self { focus, ..self }
     }
 }
 
-/// Returns the clock by which little figures loop together.
+/// Returns the shared clock of looping figures, in seconds.
 pub(crate) fn clock(ui: &Ui) -> f64 {
     ui.input(|input| input.time)
 }
 
-/// Where movement comes from, as a key.
+/// The source of a movement, as a map key.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Source {
-    /// A recording, and the first and the end microsecond of a span.
+    /// The row id of a recording, and the first and the end microsecond of a span.
     Span(i64, i64, i64),
-    /// Where the made movement lies in memory; its film keeps it there.
+    /// The address of generated movement in memory, which stays allocated as long as its entry exists.
     Made(usize),
-    /// Whether it is the left hand, and the bits of its angles.
+    /// Whether it is the left hand, and the bit patterns of its angles.
     Hand(bool, [u64; HandAngles::LEN]),
 }
 
@@ -117,7 +117,7 @@ impl Source {
     }
 }
 
-/// A strip of pictures, as a key.
+/// The identity of a strip of pictures, as a map key.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     source: Source,
@@ -126,22 +126,22 @@ struct Key {
     dark: bool,
 }
 
-/// All little figures of an open corpus.
+/// All little figures of the open corpus.
 #[derive(Default)]
 pub(crate) struct Figures {
     board: Arc<Board>,
     own: RefCell<Own>,
 }
 
-/// The data of the window's thread alone.
+/// State of the window's thread alone.
 #[derive(Default)]
 struct Own {
     thread: Option<JoinHandle<()>>,
     asked: BTreeMap<WorkId, Source>,
     textures: BTreeMap<Key, Texture>,
-    /// Made movement that is kept where it lies as long as its pictures are.
+    /// Generated movement that is kept in memory as long as its pictures are, so that its address stays unique.
     made: BTreeMap<Source, Arc<Made>>,
-    /// The window's frame in which textures were last looked through.
+    /// The frame in which unused textures were last removed.
     swept: u64,
 }
 
@@ -152,7 +152,7 @@ struct Texture {
 }
 
 impl Figures {
-    /// Hears what came of work; returns whether it was asked for here.
+    /// Handles the result of work; returns whether this module requested it.
     pub(crate) fn hear(&self, id: WorkId, ended: &Ended) -> bool {
         let Some(source) = self.own.borrow_mut().asked.remove(&id) else {
             return false;
@@ -166,7 +166,7 @@ impl Figures {
         true
     }
 
-    /// Forgets recordings that are not what they were.
+    /// Forgets pictures of recordings whose movement changed.
     pub(crate) fn follow(&self, before: &Overview, now: &Overview) {
         let kept = |recording: i64| {
             let find = |all: &Overview| {

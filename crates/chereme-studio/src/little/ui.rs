@@ -1,4 +1,4 @@
-//! Little figures on the window: shows finished pictures, and requests the others.
+//! Widgets of little figures: show finished pictures, and request the others.
 
 use std::sync::Arc;
 
@@ -17,15 +17,15 @@ use crate::model::made::Made;
 use crate::words::{Language, stage as words};
 use crate::work::Work;
 
-/// The most movement requested at once: a figure that scrolls out of sight need not wait.
+/// The most movements requested at once, so that figures that scroll out of sight leave no long queue.
 const ASKED: usize = 4;
-/// Frames of the window after which a texture that was not shown is let go.
+/// Frames after which an unused texture is removed.
 const SWEEP: u64 = 60;
-/// How often a loop is looked at, in seconds.
+/// Interval between repaints of a playing loop, in seconds.
 const BEAT: f64 = 1.0 / 30.0;
 const RADIUS: f32 = 6.0;
 
-/// The thing to see.
+/// The visible content of a cell.
 enum Sight {
     Picture(usize, std::sync::Arc<eframe::egui::ColorImage>),
     Preparing,
@@ -34,7 +34,7 @@ enum Sight {
 
 impl Figures {
     #[allow(dead_code, reason = "for results and cards")]
-    /// Shows a little figure in a place of its own, which can be clicked and is called `name`.
+    /// Shows a little figure as a clickable widget with the accessible name `name`.
     pub(crate) fn show(
         &self,
         ui: &mut Ui,
@@ -50,7 +50,7 @@ impl Figures {
         response
     }
 
-    /// Paints a little figure over `rect`; the caller answers to clicks.
+    /// Paints a little figure over `rect`; the caller handles clicks.
     pub(crate) fn paint(
         &self,
         ui: &Ui,
@@ -76,7 +76,7 @@ impl Figures {
         self.put(ui, seen.language, &key, sight, rect);
     }
 
-    /// Paints movement that lies in no corpus over `rect`, as on the page without one.
+    /// Paints movement outside of any corpus over `rect`, for the start page.
     pub(crate) fn paint_made(
         &self,
         ui: &Ui,
@@ -101,7 +101,7 @@ impl Figures {
         self.put(ui, language, &key, sight, rect);
     }
 
-    /// Shows a posture of one hand alone, called `name`: the picture of a handshape.
+    /// Shows a posture of one hand, with the accessible name `name`: the picture of a handshape.
     #[allow(dead_code, reason = "for pickers")]
     pub(crate) fn hand(
         &self,
@@ -118,7 +118,7 @@ impl Figures {
         response
     }
 
-    /// Paints a posture of one hand alone over `rect`.
+    /// Paints a posture of one hand over `rect`.
     pub(crate) fn paint_hand(
         &self,
         ui: &Ui,
@@ -139,7 +139,7 @@ impl Figures {
         self.put(ui, language, &key, sight, rect);
     }
 
-    /// Begins the thread, and gives it the number of the window's frame.
+    /// Starts the thread if necessary, and gives it the number of the window's frame.
     fn begin(&self, ui: &Ui) {
         let now = ui.ctx().cumulative_pass_nr();
         let mut own = self.own.borrow_mut();
@@ -232,7 +232,7 @@ fn key(ui: &Ui, source: Source, focus: Focus, size: Vec2) -> Key {
     }
 }
 
-/// Returns what there is to be seen of a strip at that time, and marks it wanted.
+/// Returns the visible content of a strip at time `clock`, and marks the strip as wanted.
 fn look(state: &mut State, key: &Key, clock: Option<f64>) -> Sight {
     let now = state.now;
     let seconds = match state.films.get_mut(&key.source) {
@@ -258,7 +258,7 @@ fn look(state: &mut State, key: &Key, clock: Option<f64>) -> Sight {
     }
 }
 
-/// The edge of a cell that can be clicked: under the pointer, and with the focus.
+/// Paints the edge of a clickable cell under the pointer or with the focus.
 fn edge(ui: &Ui, response: &Response, rect: Rect) {
     let stroke = if response.has_focus() {
         Stroke::new(2.0, ui.visuals().hyperlink_color)
@@ -271,7 +271,7 @@ fn edge(ui: &Ui, response: &Response, rect: Rect) {
         .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
 }
 
-/// The stand-in for a missing picture: head and shoulders, faintly.
+/// Paints the placeholder of a missing picture: head and shoulders, faintly.
 fn stand_in(ui: &Ui, language: Language, rect: Rect, coming: bool) {
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     painter.rect_filled(rect, RADIUS, ui.visuals().extreme_bg_color);
@@ -286,14 +286,14 @@ fn stand_in(ui: &Ui, language: Language, rect: Rect, coming: bool) {
     }
 }
 
-/// Paints the place of something that has no movement.
+/// Paints the placeholder of something without movement.
 pub(crate) fn still(ui: &Ui, language: Language, rect: Rect) {
     if ui.is_rect_visible(rect) {
         stand_in(ui, language, rect, false);
     }
 }
 
-/// Paints an empty place of any size, with what is to be said about it.
+/// Paints a placeholder of any size with a text.
 pub(crate) fn empty(ui: &Ui, rect: Rect, text: &str) {
     let unit = (rect.size().min_elem() * 0.5).min(220.0);
     let figure = Rect::from_center_size(rect.center() - vec2(0.0, unit * 0.2), Vec2::splat(unit));
@@ -331,7 +331,7 @@ fn below(ui: &Ui, rect: Rect, text: &str, style: TextStyle) {
         .galley(at, words, ui.visuals().weak_text_color());
 }
 
-/// Lays faint text out in centred lines; it is painted at the middle of its upper edge.
+/// Lays out faint text in centred lines; its origin is the middle of its upper edge.
 fn centred(ui: &Ui, text: &str, style: TextStyle, width: f32) -> Arc<Galley> {
     let font = style.resolve(ui.style());
     let colour = ui.visuals().weak_text_color();

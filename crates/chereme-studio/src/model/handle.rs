@@ -5,7 +5,7 @@ use chereme_motion::glam::DVec3;
 
 use crate::panes::recombine::{offset_legs, points_of};
 
-/// A placement, as its card has it.
+/// A placement in the recipe, as its card holds it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Handle {
     /// The number of the card.
@@ -13,7 +13,7 @@ pub(crate) struct Handle {
     /// The hands that are placed.
     pub(crate) hand: Hands,
     pub(crate) to: Goal,
-    /// The way by which the hands were moved: metres to the left, up and forward.
+    /// The distance by which the hands were moved so far: metres to the left, up and forward.
     pub(crate) moved: Option<[f64; 3]>,
 }
 
@@ -22,18 +22,18 @@ pub(crate) struct Handle {
 pub(crate) struct Course {
     /// The number of the card.
     pub(crate) card: u64,
-    /// The path, as its card has it.
+    /// The path, as its card holds it.
     pub(crate) travel: Travel,
 }
 
 impl Course {
-    /// Returns the points that the path goes through, in metres to the left, up and forward of where the hand would be;
-    /// `arm` is the length of the arm.
+    /// Returns the points on the path, in metres to the left, up and forward of the place where the hand would be
+    /// without the path; `arm` is the length of the arm in metres.
     pub(crate) fn points(&self, arm: f64) -> Vec<DVec3> {
         points_of(&self.travel, arm)
     }
 
-    /// Returns the places along the path.
+    /// Returns a dense sequence of positions along the path, in the same space as [`points`](Self::points).
     pub(crate) fn places(&self, arm: f64) -> Vec<DVec3> {
         let points = self.points(arm);
         if self.travel.through.is_empty() {
@@ -45,13 +45,13 @@ impl Course {
 }
 
 impl Handle {
-    /// Returns whether it is a point of body space, and no way from where the hands were.
+    /// Returns whether the goal is a point in body space rather than an offset of the hands.
     pub(crate) fn is_point(&self) -> bool {
         matches!(self.to, Goal::AtPoint(_))
     }
 
     /// Returns the value that a drag changes, in metres to the left, up and forward: the offset, the offset from
-    /// another sign, or the point; for a named place the offset to it, if it is known.
+    /// another sign, or the point. For a named place, returns the distance moved so far, if it is known.
     pub(crate) fn value(&self, arm: f64) -> Option<[f64; 3]> {
         let sum = |legs: &[chereme_corpus::recipe::Leg]| {
             let way = legs
@@ -67,7 +67,7 @@ impl Handle {
         }
     }
 
-    /// Returns the goal with another value; a named place that is dragged becomes a way.
+    /// Returns the goal with another value; a named place becomes an offset.
     pub(crate) fn goal(&self, value: [f64; 3]) -> Goal {
         match &self.to {
             Goal::By(_) | Goal::At(_) | Goal::Best(_) => Goal::By(offset_legs(value)),

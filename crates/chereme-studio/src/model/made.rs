@@ -6,25 +6,25 @@ use chereme_corpus::{MadePart, Recombination};
 use chereme_motion::{Anatomy, Clip, Face};
 use chereme_sign::Handedness;
 
-/// A made clip, with its name and what it was made from.
+/// A generated clip, with its name and its source.
 #[derive(Debug, Clone)]
 pub(crate) struct Made {
-    /// What it is called: the gloss or the recipe.
+    /// Name for display: the gloss or the recipe.
     pub(crate) name: String,
     /// The token whose notation it was generated from, if that is its only source.
     pub(crate) token: Option<i64>,
     pub(crate) clip: Clip,
-    /// The face in each frame; empty if it is at rest throughout.
+    /// The face in each frame; empty if the face is at rest throughout.
     pub(crate) faces: Vec<Face>,
     pub(crate) anatomy: Arc<Anatomy>,
-    /// Which hand the signer signs with.
+    /// The dominant hand of the signer.
     pub(crate) handedness: Handedness,
     /// The pieces it was built from, with the time of each.
     pub(crate) parts: Vec<MadePart>,
 }
 
 impl Made {
-    /// Returns what the notation of a token gave, called as its sign is.
+    /// Returns the movement generated from the notation of a token, named after its sign.
     pub(crate) fn notated(made: &Recombination, token: i64) -> Self {
         Self {
             token: Some(token),
@@ -32,11 +32,11 @@ impl Made {
         }
     }
 
-    /// Returns what a recipe gave.
+    /// Returns the movement generated from a recipe.
     pub(crate) fn of(made: &Recombination) -> Self {
         let name = match made.parts.as_slice() {
             _ if !made.gloss.is_empty() => &made.gloss,
-            // A sign by itself is called by its gloss, whatever its address.
+            // A sign without changes is named by its gloss, whatever its address.
             [part] if !part.gloss.is_empty() && !made.recipe.contains(" | ") => &part.gloss,
             _ => &made.recipe,
         };

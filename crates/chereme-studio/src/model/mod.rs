@@ -1,4 +1,4 @@
-//! The window's knowledge of the corpus: an immutable snapshot, and the movement on the stage.
+//! The window's data about the corpus: an immutable snapshot, and the movement on the stage.
 
 pub(crate) mod handle;
 pub(crate) mod made;
@@ -10,18 +10,18 @@ use std::sync::Arc;
 use chereme_corpus::{Contents, Overview, RecordingGlance, TierContents};
 use chereme_motion::{Instant, Span};
 
-/// The corpus at one moment, and the annotations of the open recording.
+/// The corpus at one moment, with the annotations of the open recording.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Snapshot {
     pub(crate) overview: Arc<Overview>,
     pub(crate) open: Option<Arc<Opened>>,
 }
 
-/// The annotations of a recording, and the place of each in it.
+/// The annotations of a recording, with an index.
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub(crate) contents: Contents,
-    /// The tier and the place in its columns of every annotation.
+    /// For every annotation id, the index of its tier and its index in the tier's columns.
     places: HashMap<i64, (usize, usize)>,
 }
 
@@ -40,30 +40,30 @@ impl Opened {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Found<'a> {
     pub(crate) tier: &'a TierContents,
-    /// Its place in the tier's columns.
+    /// Index in the tier's columns.
     pub(crate) at: usize,
 }
 
-/// A sign by one of its tokens.
+/// The sign of a token.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Known {
     pub(crate) gloss: String,
-    /// The recording in which it moves, and where.
+    /// The recording with its movement, and the span there.
     pub(crate) place: Option<(i64, Span)>,
 }
 
 impl Snapshot {
-    /// Returns whether the corpus may only be read here.
+    /// Returns whether the corpus is read-only.
     pub(crate) fn is_read_only(&self) -> bool {
         self.overview.read_only
     }
 
-    /// Returns the recording of that row at a glance.
+    /// Returns the recording with that row id.
     pub(crate) fn recording(&self, id: i64) -> Option<&RecordingGlance> {
         self.overview.recordings.iter().find(|it| it.row.id == id)
     }
 
-    /// Returns the recording of that name at a glance.
+    /// Returns the recording of that name.
     pub(crate) fn recording_named(&self, name: &str) -> Option<&RecordingGlance> {
         self.overview
             .recordings
@@ -71,7 +71,7 @@ impl Snapshot {
             .find(|it| it.row.name == name)
     }
 
-    /// Returns the sign of a token: a citation form, or one of the open recording.
+    /// Returns the sign of a token, if the token is a citation form or in the open recording.
     pub(crate) fn token(&self, id: i64) -> Option<Known> {
         let signs = self.overview.signs.iter();
         if let Some(sign) = signs.into_iter().find(|it| it.citation == Some(id)) {
@@ -90,7 +90,7 @@ impl Snapshot {
         })
     }
 
-    /// Returns a text in which tokens that are known stand by their glosses instead of their numbers.
+    /// Returns a text with the glosses of known tokens in place of their numbers.
     pub(crate) fn named(&self, text: &str) -> String {
         const TOKEN: &str = "token:";
         let mut named = String::with_capacity(text.len());
@@ -108,26 +108,26 @@ impl Snapshot {
         named + rest
     }
 
-    /// Returns the recipe of a recording that was made of one, with the recording's name.
+    /// Returns the recipe and the name of a recording that was made from a recipe.
     pub(crate) fn recipe_of(&self, recording: i64) -> Option<(String, String)> {
         let it = self.recording(recording)?;
         Some((it.recipe.clone()?, it.row.name.clone()))
     }
 
-    /// Returns whether the sign of that gloss is notated.
+    /// Returns whether the sign of that gloss has a notation.
     pub(crate) fn is_notated(&self, gloss: &str) -> bool {
         let signs = &self.overview.signs;
         let at = signs.binary_search_by(|it| it.gloss.as_str().cmp(gloss));
         at.is_ok_and(|at| signs[at].notated)
     }
 
-    /// Returns the annotations of that recording, if it is the one that was read.
+    /// Returns the annotations of a recording, if it is the open one.
     pub(crate) fn contents(&self, recording: i64) -> Option<&Contents> {
         let contents = &self.open.as_deref()?.contents;
         (contents.recording.id == recording).then_some(contents)
     }
 
-    /// Returns the annotation of that row, if it is in the recording that was read.
+    /// Returns the annotation with that row id, if it is in the open recording.
     pub(crate) fn annotation(&self, id: i64) -> Option<Found<'_>> {
         let open = self.open.as_deref()?;
         let (tier, at) = *open.places.get(&id)?;

@@ -1,4 +1,4 @@
-//! Movement of the recording that is shown, loaded in pieces around the playhead.
+//! Movement of the displayed recording, loaded in pieces around the playhead.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use chereme_corpus::{Moving, RecordingGlance};
 use chereme_motion::{Face, Instant, Pose, Rate, Span};
 
-/// Frames of a piece.
+/// Frames per piece.
 const PIECE: usize = 1200;
 /// How many pieces are kept.
 const KEPT: usize = 12;
@@ -14,9 +14,9 @@ const KEPT: usize = 12;
 /// The movement of one recording, as far as it is loaded.
 #[derive(Debug, Default)]
 pub(crate) struct Reel {
-    /// The recording's row, its frames, their rate, where the first lies on its clock, its recipe.
+    /// The recording's row id, number of frames, frame rate, offset on the clock, and recipe.
     source: Option<Source>,
-    /// The piece loaded first, whose skeleton and anatomy are those of all.
+    /// The piece that was loaded first; all pieces have the same skeleton and anatomy.
     first: Option<Arc<Moving>>,
     pieces: BTreeMap<usize, Arc<Moving>>,
     asked: BTreeSet<usize>,
@@ -32,7 +32,7 @@ struct Source {
 }
 
 impl Reel {
-    /// Turns to a recording; loaded pieces stay if the movement is the same.
+    /// Switches to a recording; loaded pieces stay if the movement is the same.
     pub(crate) fn load(&mut self, recording: Option<&RecordingGlance>) {
         let source = recording.and_then(|it| {
             Some(Source {
@@ -53,17 +53,17 @@ impl Reel {
         }
     }
 
-    /// Returns whether the recording holds movement at all.
+    /// Returns whether the recording has movement.
     pub(crate) fn has_movement(&self) -> bool {
         self.source.is_some()
     }
 
-    /// Returns how many frames of movement there are.
+    /// Returns the number of frames.
     pub(crate) fn frames(&self) -> usize {
         self.source.as_ref().map_or(0, |source| source.frames)
     }
 
-    /// Returns the rate of its frames.
+    /// Returns the frame rate.
     pub(crate) fn rate(&self) -> Option<Rate> {
         self.source.as_ref().map(|source| source.rate)
     }
@@ -73,7 +73,7 @@ impl Reel {
         self.first.as_ref()
     }
 
-    /// Returns the posture at that moment of the recording, where its piece is loaded.
+    /// Returns the posture at a moment of the recording, if its piece is loaded.
     pub(crate) fn pose(&self, at: Instant) -> Option<Pose> {
         let (moving, inside) = self.piece(at)?;
         Some(moving.clip.sample(inside))
@@ -85,7 +85,7 @@ impl Reel {
         Face::at(&moving.faces, moving.clip.rate(), inside)
     }
 
-    /// Returns the piece of a moment, if it is loaded, and the moment in it.
+    /// Returns the loaded piece at a moment, and the moment relative to the piece's start.
     fn piece(&self, at: Instant) -> Option<(&Moving, Instant)> {
         let source = self.source.as_ref()?;
         let frame = source.frame(at);
@@ -95,7 +95,8 @@ impl Reel {
         Some((moving, Instant::from_micros(inside.max(0))))
     }
 
-    /// Returns the next piece to load for a playhead there that moves that way, and marks it asked.
+    /// Returns the next piece to load (recording, piece number, span) for a playhead at `at` that moves in `direction`,
+    /// and marks the piece as requested.
     pub(crate) fn wanted(&mut self, at: Instant, direction: f64) -> Option<(i64, usize, Span)> {
         let source = self.source.as_ref()?;
         let here = source.frame(at) / PIECE;
@@ -119,7 +120,7 @@ impl Reel {
         ))
     }
 
-    /// Takes a piece in, and lets those go that are farthest from it.
+    /// Stores a loaded piece; if there are too many, removes those farthest from it.
     pub(crate) fn put(&mut self, recording: i64, piece: usize, moving: Arc<Moving>) {
         if self
             .source
