@@ -1,4 +1,4 @@
-//! Export: writes the selection or the results of a search, in a suitable format, to a place that is remembered.
+//! The export window: writes the selection or the results of a search in a suitable format; the folder is remembered.
 
 use std::path::{Path, PathBuf};
 
@@ -15,18 +15,18 @@ use crate::settings::Settings;
 use crate::words::{Text, export as words, fill, shell};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// The things that can be exported.
+/// The object of an export.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum What {
     Token(i64, String),
     Tier(i64, String),
     Recording(i64, String),
-    /// The results of a query, and their number.
+    /// The results of a query, and how many there are.
     Found(String, usize),
     All,
 }
 
-/// A format, by the ending of its files; nothing is a folder.
+/// A format, by the extension of its files, and its name; no extension means a folder.
 type Format = (Option<&'static str>, Text);
 
 const TABLES: [Format; 2] = [(Some("csv"), words::CSV), (Some("tsv"), words::TSV)];
@@ -37,7 +37,7 @@ const NOTATION: [Format; 3] = [
 ];
 const MOTION: [Format; 2] = [(Some("bvh"), words::BVH), (Some("eaf"), words::EAF)];
 
-/// Returns the formats that can hold it, the likeliest first.
+/// Returns the formats that can hold the object, the likeliest first.
 pub(crate) fn formats(what: &What) -> Vec<Format> {
     let mut all = Vec::new();
     match what {
@@ -60,7 +60,7 @@ pub(crate) fn formats(what: &What) -> Vec<Format> {
     all
 }
 
-/// Returns a file name for it, without its folder.
+/// Returns a suggested file name without folder.
 pub(crate) fn file_name(what: &What, corpus: &Path, format: Option<&str>) -> String {
     let stem = corpus.file_stem().unwrap_or_default().to_string_lossy();
     let base = match what {
@@ -90,11 +90,11 @@ pub(crate) struct Export {
     what: Option<What>,
     format: Option<&'static str>,
     to: String,
-    /// Whether the place was typed, so that it is not changed by itself.
+    /// Whether the user typed the path, so that it is not changed automatically.
     typed: bool,
     replace: bool,
     paths: Paths,
-    /// The query that was answered last, and how many tokens it found.
+    /// The query of the latest complete answer, and how many tokens it found.
     found: Option<(String, usize)>,
     asked: Option<WorkId>,
     wrong: Option<String>,
@@ -110,7 +110,7 @@ impl Export {
 
     pub(crate) fn hear(&mut self, id: WorkId, ended: &Ended) {
         self.paths.hear(id, ended);
-        // Without facets it was only counted, or is a later page.
+        // An answer without facets is only a count or a later page.
         if let Ok(Outcome::Found(answer)) = ended
             && !answer.facets.is_empty()
         {
@@ -131,7 +131,7 @@ impl Export {
         }
     }
 
-    /// Returns what can be exported now, what is selected first.
+    /// Returns what can be exported now, the selection first.
     fn choices(&self, seen: &Seen<'_>) -> Vec<What> {
         let mut all = Vec::new();
         let selected = seen.shown.annotation().is_some() || seen.shown.span.is_some();
@@ -341,7 +341,7 @@ impl Export {
     }
 }
 
-/// Returns the words for what was written.
+/// Returns the text that reports the written files.
 pub(crate) fn written_text(report: &ExportReport) -> Text {
     match report.files.len() {
         1 => words::WRITTEN_ONE,

@@ -1,4 +1,4 @@
-//! The keys: which keymap, every action with its keys, and changing them.
+//! The window of keys: the keymap, every action with its keys, and changes to them.
 
 use chereme_sign::text::fold;
 use eframe::egui::{
@@ -20,7 +20,7 @@ use crate::words::{Language, Text, fill, gestures, shell as words};
 #[derive(Debug, Default)]
 pub(crate) struct KeysHelp {
     open: bool,
-    /// The text to look for, and whether its field takes the keyboard.
+    /// The text to search for, and whether its field takes the keyboard.
     text: String,
     fresh: bool,
     /// The action that waits for its new key.
@@ -87,7 +87,7 @@ impl KeysHelp {
         }
     }
 
-    /// Returns whether an action has every word that is looked for in its name, or in its keys.
+    /// Returns whether the name or the keys of an action contain every searched word.
     fn fits(&self, row: &ActionRow, keys: &Keys, language: Language) -> bool {
         let said = fold(&format!(
             "{} {}",
@@ -133,7 +133,7 @@ impl KeysHelp {
             });
     }
 
-    /// Takes the next key for the action that waits: Escape leaves it, Backspace takes its keys away.
+    /// Assigns the next pressed key to the waiting action: Escape cancels, Backspace removes the action's keys.
     fn listen(&mut self, ctx: &Context, settings: &Settings, out: &mut Outbox) {
         let Some(action) = self.listening else { return };
         let pressed = ctx.input_mut(|input| {
@@ -159,7 +159,7 @@ impl KeysHelp {
     }
 }
 
-/// Returns the menus in the order of the help: those first whose keys are pressed all day.
+/// Returns the menus in the order of the help; those with the most used keys come first.
 fn order() -> Vec<(Menu, Text)> {
     const FIRST: [Menu; 5] = [
         Menu::Play,
@@ -175,7 +175,7 @@ fn order() -> Vec<(Menu, Text)> {
     all
 }
 
-/// Returns how wide each of two columns is that fill the window together.
+/// Returns the width of each of two columns that fill the window together, in points.
 fn half(ui: &Ui) -> f32 {
     ((ui.available_width() - ui.spacing().item_spacing.x) / 2.0).max(200.0)
 }
@@ -184,7 +184,7 @@ fn rows_of(menu: Menu) -> impl Iterator<Item = &'static ActionRow> {
     ACTIONS.iter().filter(move |row| row.menu == menu)
 }
 
-/// Shows what the mouse does, below the keys of a menu.
+/// Shows the mouse gestures below the keys of a menu.
 fn mouse(ui: &mut Ui, menu: Menu, language: Language) {
     if !GESTURES.iter().any(|row| row.menu == menu) {
         return;

@@ -1,4 +1,4 @@
-//! The layers above the panes: notices, the command palette, the keys, the settings.
+//! The windows above the panes: notices, the command palette, the keys, the settings.
 
 pub(crate) mod export;
 pub(crate) mod keys;
@@ -13,7 +13,7 @@ use eframe::egui::{Context, Key, Modifiers};
 
 use crate::app::Studio;
 
-/// All of them.
+/// All windows above the panes.
 #[derive(Default)]
 pub(crate) struct Overlays {
     pub(crate) notices: notices::Notices,
@@ -25,7 +25,7 @@ pub(crate) struct Overlays {
 }
 
 impl Overlays {
-    /// Returns whether one of them takes every key now.
+    /// Returns whether one of them takes all keys now.
     pub(crate) fn takes_keys(&self) -> bool {
         self.palette.is_open() || self.keys.is_listening()
     }
@@ -41,7 +41,7 @@ impl Studio {
         (self.overlays.export, self.out) = (export, out);
     }
 
-    /// Draws those that are open.
+    /// Draws the open ones.
     pub(crate) fn overlays(&mut self, ctx: &Context) {
         let place = self.snapshot.is_some();
         let Self {
@@ -63,7 +63,7 @@ impl Studio {
     }
 }
 
-/// Returns whether Escape was pressed, and takes it.
+/// Returns whether Escape was pressed, and removes it from the input.
 fn escaped(ctx: &Context) -> bool {
     ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape))
 }

@@ -1,4 +1,4 @@
-//! Notices: what happened, and what went wrong with what helps; they never stand in the way.
+//! Notices: reports of actions, and failures with remedies; they never block the user.
 
 use std::fmt::Display;
 
@@ -17,19 +17,19 @@ use crate::theme::Colours;
 use crate::words::{Language, Text, fill, history, shell as words};
 use crate::work::Outcome;
 
-/// How long good news is shown, in seconds.
+/// How long a hint is shown, in seconds.
 const SHORT: f64 = 5.0;
-/// How many are shown at once.
+/// How many notices are shown at once.
 const MOST: usize = 4;
 
-/// Of what kind a notice is: each has a colour, and a shape that is known without it.
+/// The kind of a notice: each has a colour, and a shape that can be recognised without colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// It was done.
+    /// Something was done.
     Done,
     /// A warning: an impossible action, or a change by others.
     Warning,
-    /// It failed.
+    /// Something failed.
     Error,
 }
 
@@ -58,36 +58,36 @@ pub(crate) struct Notice {
     pub(crate) kind: Kind,
     /// Whether it appears in the status line only, as it reports the user's own action.
     quiet: bool,
-    /// The remedies.
+    /// Commands that the notice offers as remedies, with their labels.
     offers: Vec<(Text, Command)>,
     pub(crate) text: String,
     pub(crate) remedy: Option<String>,
-    /// The corpus's own message.
+    /// The original message of the corpus.
     detail: Option<String>,
-    /// Whether it stays until it is put away.
+    /// Whether it stays until it is dismissed.
     pub(crate) stays: bool,
-    /// Whether it is over as soon as something could be written: a full disk, another's lock.
+    /// Whether it disappears as soon as something could be written, as for a full disk or a lock of another program.
     passes: bool,
     /// When it was first seen, on the window's clock.
     since: Option<f64>,
 }
 
-/// The notices that are shown.
+/// The notices on display.
 #[derive(Debug, Default)]
 pub(crate) struct Notices {
-    /// The one that stands in the status line, where it covers nothing.
+    /// The id of the notice in the status line, where it covers nothing.
     in_line: Option<u64>,
     pub(crate) all: Vec<Notice>,
     next: u64,
 }
 
 impl Notices {
-    /// Says what was done; it goes away by itself.
+    /// Reports something done; the notice disappears by itself.
     pub(crate) fn hint(&mut self, text: impl Into<String>) {
         self.add(Kind::Done, text.into(), None, false);
     }
 
-    /// Says what a person did, at the end of the status line only.
+    /// Reports the user's own action, at the end of the status line only.
     pub(crate) fn did(&mut self, text: impl Into<String>) {
         self.hint(text);
         if let Some(notice) = self.all.last_mut() {
@@ -95,18 +95,18 @@ impl Notices {
         }
     }
 
-    /// Says what is to be noted, such as why something cannot be done; it goes away by itself.
+    /// Shows a warning, such as why something cannot be done; it disappears by itself.
     pub(crate) fn warn(&mut self, text: impl Into<String>) {
         self.add(Kind::Warning, text.into(), None, false);
     }
 
-    /// Says something that stays.
+    /// Shows a notice that stays.
     pub(crate) fn say(&mut self, text: &str, remedy: Option<&str>) {
         let remedy = remedy.map(str::to_owned);
         self.add(Kind::Warning, text.to_owned(), remedy, true);
     }
 
-    /// Says what went wrong and stays, with what can be done about it at once.
+    /// Shows a failure that stays, with commands that can help at once.
     pub(crate) fn offer(&mut self, text: String, remedy: &str, offers: Vec<(Text, Command)>) {
         self.add(Kind::Error, text, Some(remedy.to_owned()), true);
         if let Some(notice) = self.all.last_mut() {
@@ -114,7 +114,7 @@ impl Notices {
         }
     }
 
-    /// Puts away what offers something.
+    /// Removes the notices that offer commands.
     pub(crate) fn withdraw(&mut self) {
         self.all.retain(|notice| notice.offers.is_empty());
     }
@@ -145,7 +145,7 @@ impl Notices {
         );
     }
 
-    /// Reports the outcome of work, if it deserves a word.
+    /// Reports the outcome of work, if it is worth a notice.
     pub(crate) fn of(&mut self, outcome: &Outcome, language: Language) {
         let written = matches!(
             outcome,
@@ -330,12 +330,12 @@ impl Notices {
     }
 }
 
-/// How wide a notice is at most.
+/// The largest width of a notice, in points.
 const WIDEST: f32 = 420.0;
-/// How large the mark of a notice is.
+/// The side of a notice's mark, in points.
 const MARK: f32 = 14.0;
 
-/// Paints of what kind a notice is: a tick in a disc, an exclamation mark in a triangle, or a cross in a square.
+/// Paints the mark of a notice's kind: a tick in a disc, an exclamation mark in a triangle, or a cross in a square.
 fn mark(ui: &mut Ui, kind: Kind, language: Language) {
     let colours = Colours::of(theme::is_dark(ui.ctx()));
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(MARK), Sense::hover());
@@ -366,7 +366,7 @@ fn mark(ui: &mut Ui, kind: Kind, language: Language) {
     response.on_hover_text(name);
 }
 
-/// Lays a text out with what stands between backticks as code, without them.
+/// Lays out a text; parts between backticks are shown as code, without the backticks.
 fn with_code(style: &Style, text: &str, weak: bool) -> LayoutJob {
     let mut job = LayoutJob::default();
     let visuals = &style.visuals;

@@ -20,8 +20,8 @@ pub(crate) struct Palette {
     chosen: usize,
 }
 
-/// Returns the actions whose name holds every word of `text`, whatever its case and accents, those
-/// that begin with it first.
+/// Returns the actions whose name contains every word of `text`, ignoring case and accents; those that begin with it
+/// come first.
 pub(crate) fn rows(text: &str, language: Language, corpus: bool) -> Vec<&'static ActionRow> {
     let wanted = fold(text.trim());
     let fits = |row: &&ActionRow| {
@@ -98,7 +98,7 @@ impl Palette {
             if rows.is_empty() {
                 ui.weak(words::PALETTE_NONE.of(language));
             }
-            // No higher than what it found.
+            // The list is no higher than its contents.
             let area = ScrollArea::vertical().auto_shrink([false, true]);
             area.max_height(320.0).show(ui, |ui| {
                 for (at, row) in rows.iter().enumerate() {

@@ -1,8 +1,8 @@
-//! Remedies in words of the window, as the corpus names options of the command line.
+//! Remedies in terms of the window, as those of the corpus name options of the command line.
 
 use crate::words::{Language, Text, import as words, shell, spoken};
 
-/// Words of remedies for the command line, each with the remedy in the window.
+/// Parts of command line remedies, each with the corresponding remedy in the window.
 const HERE: [(&str, Text); 13] = [
     ("--roles", words::HELP_ROLES),
     ("roles file", words::HELP_ROLES),
@@ -19,7 +19,7 @@ const HERE: [(&str, Text); 13] = [
     ("animate", shell::HELP_NOTATION),
 ];
 
-/// Returns what helps in the window; nothing where only the command line could do it.
+/// Returns the remedy in the window; `None` if only the command line offers one.
 pub(crate) fn here(remedy: &str, language: Language) -> Option<String> {
     let known = HERE.iter().find(|(part, _)| remedy.contains(part));
     if let Some((_, text)) = known {
@@ -28,7 +28,7 @@ pub(crate) fn here(remedy: &str, language: Language) -> Option<String> {
     is_of_the_window(remedy).then(|| spoken(remedy, language))
 }
 
-/// Returns whether a remedy of the corpus speaks of nothing that only the command line has.
+/// Returns whether a remedy of the corpus names no command or option of the command line.
 pub(crate) fn is_of_the_window(remedy: &str) -> bool {
     !remedy.contains("`chereme ") && !remedy.contains("--")
 }

@@ -87,7 +87,7 @@ impl SettingsWindow {
     }
 }
 
-/// Shows how pieces are played again and again.
+/// Shows the settings of step-and-repeat playback.
 fn stepping(ui: &mut Ui, language: Language, how: &mut Stepping) {
     let values = [
         (words::STEP_PIECE, &mut how.piece, 0.2..=60.0),

@@ -1,4 +1,4 @@
-//! The first steps: five short loops, with a sentence each.
+//! The first steps: five short loops, with a sentence for each.
 
 use std::sync::Arc;
 
@@ -25,13 +25,13 @@ enum Loop {
     Annotation,
     /// A hand takes one shape after the other.
     Hand,
-    /// A sign, and the same with another hand.
+    /// A sign, and the same sign with the other hand.
     Two,
     /// A sign plays forwards and back.
     Back,
 }
 
-/// The subject of a step, the instructions with keys named between braces, and its loop.
+/// For each step its subject, the instructions with action ids between braces in place of keys, and its loop.
 const STEPS: [(Text, Text, Loop); 5] = [
     (words::LOOK, words::LOOK_HOW, Loop::Sign),
     (words::ANNOTATE, words::ANNOTATE_HOW, Loop::Annotation),
@@ -40,7 +40,7 @@ const STEPS: [(Text, Text, Loop); 5] = [
     (words::BACK, words::BACK_HOW, Loop::Back),
 ];
 
-/// The side of a loop, and how long one lasts, in seconds.
+/// The side of a loop in points, and its duration in seconds.
 const SIDE: f32 = 104.0;
 const LASTS: f64 = 4.0;
 
@@ -98,7 +98,7 @@ impl FirstSteps {
 }
 
 impl Loop {
-    /// Paints the loop at this moment.
+    /// Paints the loop at the present time.
     fn paint(
         self,
         ui: &Ui,
@@ -161,7 +161,7 @@ impl Loop {
     }
 }
 
-/// Returns a hand with that many of its fingers straight, beginning with the index.
+/// Returns a hand with the given number of straight fingers, beginning with the index finger.
 fn bent(straight: usize) -> HandAngles {
     let mut angles = HandAngles::default();
     for finger in angles.fingers.iter_mut().skip(straight + 1) {

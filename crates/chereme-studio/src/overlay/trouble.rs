@@ -1,4 +1,4 @@
-//! Failures as people read them: a sentence and a remedy in their language, and the corpus's own message.
+//! Failures for people: a sentence and a remedy in their language, and the original message of the corpus.
 
 use std::io::ErrorKind;
 
@@ -13,7 +13,7 @@ use crate::words::{Language, Text, fill, trouble as words};
 pub(crate) struct Told {
     pub(crate) text: String,
     pub(crate) remedy: Option<String>,
-    /// The corpus's message, if its language is not that of the sentence.
+    /// The original message of the corpus, if the sentence does not contain all of it.
     pub(crate) detail: Option<String>,
 }
 
@@ -38,7 +38,7 @@ pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Tol
         None => error.to_string(),
     };
     let (text, remedy) = sentence(error, task, language);
-    // Of a file everything is said by then, and of what has its own words.
+    // The sentence is complete for a file error with a remedy, and for a translated message.
     let translated = message(&error.to_string(), language).is_some_and(|it| it == text);
     let whole = matches!(error, Error::File { .. }) && remedy.is_some() || translated;
     let remedy = remedy.map(|it| it.of(language).to_owned());
@@ -49,7 +49,7 @@ pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Tol
     }
 }
 
-/// Returns what helps in the window, where the corpus names commands that are not known here.
+/// Returns the remedy in the window for errors whose own remedies name unknown commands.
 fn remedy_here(error: &Error) -> Option<Text> {
     match error {
         Error::NotACorpus { remedy, .. } if remedy.contains("`chereme ") => {
@@ -60,7 +60,7 @@ fn remedy_here(error: &Error) -> Option<Text> {
     }
 }
 
-/// Returns what failed in one sentence, and what helps.
+/// Returns one sentence about the failure, and a remedy.
 fn sentence(error: &Error, task: Option<Text>, language: Language) -> (String, Option<Text>) {
     let say = |text: Text| text.of(language).to_owned();
     match error {
@@ -99,7 +99,7 @@ fn sentence(error: &Error, task: Option<Text>, language: Language) -> (String, O
     }
 }
 
-/// Returns that something failed, where its message has no words in the language.
+/// Returns a general sentence about a failure whose message has no translation.
 fn failed(task: Option<Text>, language: Language) -> (String, Option<Text>) {
     let say = |text: Text| text.of(language).to_owned();
     match task {

@@ -1,6 +1,6 @@
-//! Areas on a picture of the body: every place fills all that is nearer to it than to others, and lights up as a whole.
+//! Areas on a picture of the body: each consists of the points that are nearest to one place, and lights up as a whole.
 //!
-//! They are found on a thread of their own, once for a picture and the places in it.
+//! They are computed on a separate thread, once per picture and set of places.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -15,29 +15,29 @@ use eframe::egui::{
 use super::paint;
 use super::places::{self, Panel, Zone};
 
-/// The least distance between the middles of two areas, halved, in points.
+/// Half of the least distance between the middles of two areas, in points.
 const RADIUS: f32 = 9.0;
-/// How far an area reaches on the body, and beside it, beside the height of the picture.
+/// How far an area extends on the body, and off it, as a share of the picture's height.
 const REACH: f32 = 0.2;
 const OFF: f32 = 0.05;
-/// The same in space, where there is no body to fill.
+/// The same in the picture of the space, which has no body to fill.
 const IN_SPACE: f32 = 0.1;
-/// Areas are found on a grid of this many points to a side of a pixel.
+/// Width of a pixel of the area grid, in points.
 const GRAIN: f32 = 1.5;
 
 /// The areas of a picture.
 #[derive(Debug)]
 pub(super) struct Areas {
-    /// The places, in their order in `ids`.
+    /// The places; number `n` in `ids` is the place at index `n - 1`.
     pub(super) zones: Vec<Zone>,
     size: [usize; 2],
-    /// For each pixel the number of its area, 0 for none.
+    /// For each pixel, the number of its area; 0 for none.
     ids: Vec<u8>,
-    /// The pixels that each area lies in: columns and rows.
+    /// For each area, the bounds of its pixels: first column, first row, last column, last row.
     bounds: Vec<[usize; 4]>,
 }
 
-/// The picture, what it is of, and its places.
+/// The request for areas: the panel and its direction of view, the places, and the size in points.
 #[derive(Debug, Clone)]
 pub(super) struct Wanted {
     pub(super) view: (Panel, bool),
@@ -46,7 +46,7 @@ pub(super) struct Wanted {
 }
 
 impl Areas {
-    /// Finds the areas; not for the window's thread. `None` if there is no picture.
+    /// Computes the areas; too slow for the window's thread. `None` if there is no picture.
     fn find(inventory: &Inventory, wanted: &Wanted) -> Option<Self> {
         let scene = places::scene()?;
         let rect = Rect::from_min_size(Pos2::ZERO, wanted.size);
@@ -59,7 +59,7 @@ impl Areas {
         Some(Self::of(zones, &body, size, wanted))
     }
 
-    /// Returns the areas around the middles of `zones`, where `body` says which pixels show the body.
+    /// Returns the areas around the middles of `zones`; `body` marks the pixels that show the body.
     fn of(mut zones: Vec<Zone>, body: &[bool], size: [usize; 2], wanted: &Wanted) -> Self {
         zones.truncate(usize::from(u8::MAX));
         let high = wanted.size.y;
@@ -100,7 +100,7 @@ impl Areas {
         }
     }
 
-    /// Returns the place at a point of the picture, which fills `rect`, by its number among the zones.
+    /// Returns the index of the zone at a point of the picture, which fills `rect`.
     pub(super) fn at(&self, rect: Rect, point: Pos2) -> Option<usize> {
         let share = (point - rect.min) / rect.size();
         let column = (share.x * self.size[0] as f32).floor();
@@ -113,7 +113,7 @@ impl Areas {
         usize::from(self.ids[row * self.size[0] + column]).checked_sub(1)
     }
 
-    /// Returns a picture of all areas: faint fillings, and the lines between them.
+    /// Returns a picture of all areas: faint fillings, and lines between them.
     fn all(&self, colour: Color32) -> ColorImage {
         let [wide, high] = self.size;
         let id = |column: usize, row: usize| self.ids[row * wide + column];
@@ -132,7 +132,7 @@ impl Areas {
         ColorImage::new(self.size, (0..wide * high).map(pixel).collect())
     }
 
-    /// Returns a picture of one area, and the share of the whole that it lies in.
+    /// Returns a picture of one area, and its rectangle as shares of the whole picture.
     fn one(&self, zone: usize, colour: Color32) -> Option<(ColorImage, Rect)> {
         let [left, top, right, bottom] = *self.bounds.get(zone)?;
         if left > right || top > bottom {
@@ -158,15 +158,15 @@ impl Areas {
     }
 }
 
-/// The areas that were found, and their pictures.
+/// The computed areas, and their pictures.
 #[derive(Default)]
 struct Atlas {
-    /// Nothing as long as they are looked for.
+    /// `None` while the areas are being computed.
     areas: BTreeMap<u64, Option<Arc<Areas>>>,
     textures: BTreeMap<(u64, usize, Rgba), (TextureHandle, Rect)>,
 }
 
-/// A colour as a key: red, green, blue and how much it hides.
+/// A colour as a map key: red, green, blue and opacity.
 type Rgba = [u8; 4];
 
 fn atlas(ctx: &Context) -> Arc<Mutex<Atlas>> {
@@ -179,7 +179,7 @@ fn atlas(ctx: &Context) -> Arc<Mutex<Atlas>> {
     })
 }
 
-/// Returns the areas of that key if they were found; the first call has them found.
+/// Returns the areas of that key once they are computed; the first call starts the computation.
 pub(super) fn find(
     ctx: &Context,
     key: u64,
@@ -205,7 +205,7 @@ pub(super) fn find(
     None
 }
 
-/// Paints all areas over the picture in `rect`, or one of them.
+/// Paints all areas, or one of them, over the picture in `rect`.
 pub(super) fn paint(
     painter: &Painter,
     (key, areas): (u64, &Areas),

@@ -1,4 +1,4 @@
-//! HamNoSys written by picking its symbols from a board of all of them.
+//! The board of all HamNoSys symbols, to write a notation by picking.
 
 use chereme_sign::hamnosys::{Class, Symbol};
 use eframe::egui::{
@@ -10,11 +10,11 @@ use super::hamnosys::{drawings, paint, short, told};
 use crate::context::Seen;
 use crate::words::{Language, hamnosys as words};
 
-/// The side of a symbol's cell, and how high the symbol is in it.
+/// The side of a symbol's cell, and the height of the symbol in it, in points.
 const CELL: f32 = 36.0;
 const EM: f32 = 24.0;
 
-/// Draws the button that opens the board; returns whether a symbol was added to `text` or taken from it.
+/// Draws the button that opens the board; returns whether a symbol was added to `text` or removed from it.
 pub(crate) fn button(ui: &mut Ui, seen: &Seen<'_>, text: &mut String) -> bool {
     let response = ui.button(seen.say(words::BOARD));
     let screen = ui.ctx().content_rect().size();
@@ -109,7 +109,7 @@ fn cell(ui: &mut Ui, seen: &Seen<'_>, symbol: Symbol) -> bool {
     response.on_hover_ui(|ui| told(ui, seen, symbol)).clicked()
 }
 
-/// Returns the symbols whose name or meaning holds what was typed, those whose name begins so first.
+/// Returns the symbols whose name or meaning contains the typed text; names that begin with it come first.
 fn fitting(typed: &str, language: Language) -> Vec<Symbol> {
     let typed = typed.trim().to_lowercase();
     let typed = typed.strip_prefix("ham").unwrap_or(&typed);
@@ -134,7 +134,7 @@ fn fitting(typed: &str, language: Language) -> Vec<Symbol> {
     all.into_iter().map(|(_, symbol)| symbol).collect()
 }
 
-/// Adds a symbol at the end, as a character where there are characters, else by its name.
+/// Appends a symbol: as a character if the text contains symbol characters, else by its name.
 fn add(text: &mut String, symbol: Symbol) {
     if text.chars().any(is_symbol) {
         text.push(symbol.char());
@@ -146,7 +146,7 @@ fn add(text: &mut String, symbol: Symbol) {
     text.push_str(symbol.name());
 }
 
-/// Takes the last symbol away; returns whether there was one.
+/// Removes the last symbol; returns whether there was one.
 fn take_back(text: &mut String) -> bool {
     let kept = text.trim_end();
     let end = match kept.chars().next_back() {

@@ -1,5 +1,5 @@
-//! Places picked on a body: areas on large pictures of the head, the body and the weak hand, or in the
-//! space before the signer, that light up, with the list of all places beside.
+//! Places picked on a body: areas that light up on large pictures of the head, the body, the weak hand, or the space
+//! before the signer, next to a list of all places.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -15,16 +15,16 @@ use super::{Picker, gallery, paint};
 use crate::context::Seen;
 use crate::words::{Text, pickers as words};
 
-/// The side of the point in the middle of an area that keys and screen readers find.
+/// The side of the focusable point in the middle of an area, for keyboard and screen readers, in points.
 const POINT: f32 = 8.0;
-/// Height of a row of the list.
+/// Height of a row of the list, in points.
 const ROW: f32 = 24.0;
-/// Pictures are drawn larger than shown, for screens with small pixels.
+/// Pictures are drawn larger than shown by this factor, for screens with small pixels.
 const FINER: f32 = 1.5;
-/// The height of the line with the name of the place that is lit.
+/// Height of the line with the name of the highlighted place, in points.
 const NAME: f32 = 26.0;
 
-/// The places that are shown.
+/// The groups of places to choose from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Tab {
     /// Those on head and body.
@@ -81,7 +81,7 @@ pub(super) fn show(
     picked
 }
 
-/// Turns to the pictures on which the value is that the keys are at.
+/// Switches to the pictures that show the value at the keyboard cursor.
 fn follow(picker: &mut Picker, cells: &Cells<'_>) {
     let walked = cells.pressed.way.is_some();
     if walked || !picker.filter.is_empty() || std::mem::take(&mut picker.turns) {
@@ -126,7 +126,7 @@ fn tabs(ui: &mut Ui, picker: &mut Picker, seen: &Seen<'_>) {
     });
 }
 
-/// Writes the name of the place that is lit, always in the same line.
+/// Writes the name of the highlighted place, always in the same line.
 fn lit(ui: &mut Ui, picker: &Picker, cells: &Cells<'_>) {
     let size = vec2(ui.available_width(), NAME);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -313,7 +313,7 @@ fn panel_zones(
     picked
 }
 
-/// Returns whether a place has a circle in a panel.
+/// Returns whether a panel shows a place.
 fn belongs(
     value: &InventoryValue,
     inventory: &chereme_sign::Inventory,
@@ -330,13 +330,13 @@ fn belongs(
         return true;
     }
     if turned {
-        // From the side the middle column stands for all three.
+        // From the side, the middle column represents all three.
         return landmark.offset[0].abs() < 0.05;
     }
     depth_of(value) == depth
 }
 
-/// Returns how far off a place in space is: near, as far as usual, or far.
+/// Returns the depth of a place in space: 0 near, 1 at the usual distance, 2 far.
 fn depth_of(value: &InventoryValue) -> usize {
     match value.landmark.as_ref().map_or(0.0, |it| it.offset[2]) {
         forward if forward < -0.05 => 0,
@@ -345,7 +345,7 @@ fn depth_of(value: &InventoryValue) -> usize {
     }
 }
 
-/// Paints a small picture of where a place is; returns whether it is anywhere.
+/// Paints a small picture of a place's position; returns whether the place has one.
 pub(super) fn icon(ui: &Ui, rect: Rect, seen: &Seen<'_>, value: &InventoryValue) -> bool {
     let Some(landmark) = &value.landmark else {
         return false;
@@ -378,7 +378,7 @@ pub(super) fn icon(ui: &Ui, rect: Rect, seen: &Seen<'_>, value: &InventoryValue)
     true
 }
 
-/// Returns the picture of a panel if it is drawn.
+/// Returns the picture of a panel once it is drawn.
 fn picture(ui: &Ui, panel: Panel, turned: bool, dark: bool) -> Option<TextureId> {
     gallery::picture(ui.ctx(), key((panel, turned, dark)), move || {
         let height = 300.0 * FINER;

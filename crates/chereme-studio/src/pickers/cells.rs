@@ -1,4 +1,4 @@
-//! Cells that can be walked through and picked, wherever a picker puts them.
+//! Cells to walk through and to pick, at the rectangles that a picker gives them.
 
 use chereme_sign::Inventory;
 use chereme_sign::inventory::InventoryValue;
@@ -12,24 +12,24 @@ use crate::words::{fill, pickers as words};
 /// A value and its rectangle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
-    /// Its place in the inventory.
+    /// Index of the value in the inventory.
     pub(super) value: usize,
     pub(super) rect: Rect,
 }
 
-/// How a cell is.
+/// The state of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct State {
-    /// Its place among the cells.
+    /// Index of the cell among the cells.
     pub(super) number: usize,
-    /// It is the value there is.
+    /// Whether its value is the current one.
     pub(super) chosen: bool,
-    /// The keys are at it.
+    /// Whether the keyboard cursor is at it.
     pub(super) at: bool,
     pub(super) hovered: bool,
 }
 
-/// The settings that all cells of a picker share.
+/// The input that all cells of a picker share.
 pub(super) struct Cells<'a> {
     pub(super) seen: &'a Seen<'a>,
     pub(super) inventory: &'a Inventory,
@@ -37,7 +37,7 @@ pub(super) struct Cells<'a> {
     pub(super) pressed: Pressed,
 }
 
-/// Returns whether a cell of the picker has the focus of the keyboard.
+/// Returns whether a cell of the picker has the keyboard focus.
 pub(super) fn focused(ui: &Ui, picker: &Picker) -> bool {
     picker
         .focus
@@ -116,7 +116,7 @@ impl Cells<'_> {
         Some(id_of(picked).to_owned())
     }
 
-    /// Lets a circle on a picture be picked.
+    /// Makes a circle on a picture clickable.
     pub(super) fn zone(&self, ui: &Ui, rect: Rect, key: Id, value: &InventoryValue) -> Response {
         let response = ui.interact(rect, key, Sense::click());
         let label = data::label(value, self.seen.language);
@@ -132,7 +132,7 @@ impl Cells<'_> {
         let label = data::label(&self.inventory.values[cell.value], self.seen.language);
         let chosen = self.chosen == Some(id);
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
-        // Hands and places say their names in a place of their own, where they cover no neighbour.
+        // Hands and places show their names at a separate place, so that they cover no neighbour.
         if matches!(data::kind(self.inventory), Kind::Hands | Kind::Body) {
             return response;
         }

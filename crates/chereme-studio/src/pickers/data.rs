@@ -1,4 +1,4 @@
-//! Which values a picker shows, in which order, and how.
+//! Rules for the contents of a picker: which values it shows, in which order, and in which form.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -11,14 +11,14 @@ use eframe::egui::{Rect, Vec2, vec2};
 
 use crate::words::Language;
 
-/// How the values of an inventory are shown.
+/// The form in which the values of an inventory are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Pictures of hands.
     Hands,
     /// Places on a body.
     Body,
-    /// Arrows around a middle.
+    /// Arrows around a centre.
     Rose,
     /// Drawn movements.
     Glyphs,
@@ -26,7 +26,7 @@ pub(crate) enum Kind {
     Names,
 }
 
-/// Returns how the values of an inventory are shown.
+/// Returns the form in which the values of an inventory are shown.
 pub(crate) fn kind(inventory: &Inventory) -> Kind {
     let any = |test: fn(&InventoryValue) -> bool| inventory.values.iter().any(test);
     let directed = |value: &InventoryValue| value.direction.is_some() || value.roll.is_some();
@@ -41,8 +41,8 @@ pub(crate) fn kind(inventory: &Inventory) -> Kind {
     }
 }
 
-/// Returns the shape of the hand that a value stands for: its own, or that of the handshape of the
-/// house that it names or is called like.
+/// Returns the hand posture of a value: its own, or that of the built-in handshape that it names or shares its name
+/// with.
 pub(crate) fn hand(value: &InventoryValue) -> Option<HandAngles> {
     static HOUSE: LazyLock<BTreeMap<String, HandAngles>> = LazyLock::new(|| {
         let values = builtin_by_id("configurations").map(|it| it.values.iter());
@@ -70,8 +70,8 @@ pub(crate) fn label(value: &InventoryValue, language: Language) -> String {
     }
 }
 
-/// Returns what a value says where there is room for one word: its id, and in other languages than English its name
-/// where the id is an English word, such as `hand-back`, and not a letter or a sign.
+/// Returns a short text for a value: its id. In languages other than English, returns its name instead if the id is an
+/// English word, such as `hand-back`, and not a letter or a sign.
 pub(crate) fn said(value: &InventoryValue, language: Language) -> &str {
     let english = fold(value.name(Language::English.code()));
     let mut words = value.id.split(['-', '_', ' ']);
@@ -83,7 +83,7 @@ pub(crate) fn said(value: &InventoryValue, language: Language) -> &str {
     }
 }
 
-/// Returns the places of the values that `filter` fits, those that are called so first.
+/// Returns the indices of the values that match `filter`; those whose name begins with it come first.
 pub(crate) fn fitting(inventory: &Inventory, filter: &str) -> Vec<usize> {
     let wanted = fold(filter.trim());
     let rank = |value: &InventoryValue| {
@@ -112,14 +112,13 @@ pub(crate) fn fitting(inventory: &Inventory, filter: &str) -> Vec<usize> {
     found.into_iter().map(|(_, at)| at).collect()
 }
 
-/// Returns whether a value of the inventory is called by a name that begins with a digit, so that
-/// digits must be typed.
+/// Returns whether a name in the inventory begins with a digit, so that digits must be usable as text.
 pub(crate) fn has_numbers(inventory: &Inventory) -> bool {
     let digit = |text: &str| text.starts_with(|c: char| c.is_ascii_digit());
     inventory.values.iter().any(|it| it.spellings().any(digit))
 }
 
-/// Returns the size of a cell, at least.
+/// Returns the least size of a cell, in points.
 pub(crate) fn cell(kind: Kind) -> Vec2 {
     match kind {
         Kind::Hands => vec2(84.0, 98.0),
@@ -128,7 +127,7 @@ pub(crate) fn cell(kind: Kind) -> Vec2 {
     }
 }
 
-/// Returns the width that a picker is good at.
+/// Returns the preferred width of a picker, in points.
 pub(crate) fn width(kind: Kind) -> f32 {
     match kind {
         Kind::Body => 780.0,
@@ -138,7 +137,7 @@ pub(crate) fn width(kind: Kind) -> f32 {
     }
 }
 
-/// Returns the height that a picker is good at.
+/// Returns the preferred height of a picker, in points.
 pub(crate) fn height(kind: Kind) -> f32 {
     match kind {
         Kind::Body => 560.0,
@@ -146,7 +145,7 @@ pub(crate) fn height(kind: Kind) -> f32 {
     }
 }
 
-/// A way to walk.
+/// A direction for walking through cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Way {
     Left,
@@ -155,8 +154,8 @@ pub(crate) enum Way {
     Down,
 }
 
-/// Returns the cell that is next from `at` in that direction: the nearest of those that lie more in that direction
-/// than aside; without one, left and right continue in the order of the cells.
+/// Returns the next cell from `at` in a direction: the nearest of those that lie more in that direction than to its
+/// side. Without such a cell, left and right continue in the order of the cells.
 pub(crate) fn walk(rects: &[Rect], at: usize, way: Way) -> usize {
     let Some(here) = rects.get(at).map(Rect::center) else {
         return 0;

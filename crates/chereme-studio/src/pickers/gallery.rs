@@ -1,4 +1,4 @@
-//! Pictures that are drawn once, on a thread of their own, and kept.
+//! Pictures that are drawn once, on a separate thread, and kept.
 
 use std::collections::BTreeMap;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -6,13 +6,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use eframe::egui::{ColorImage, Context, Id, TextureHandle, TextureId, TextureOptions};
 
-/// What is drawn; nothing where it cannot be.
+/// Draws a picture; returns `None` if it cannot be drawn.
 type Drawing = Box<dyn FnOnce() -> Option<ColorImage> + Send>;
 
 struct Wish {
     key: u64,
     draw: Drawing,
-    /// Who is woken when it is drawn.
+    /// The context to repaint when the picture is drawn.
     ctx: Context,
 }
 
@@ -20,7 +20,7 @@ struct Wish {
 struct Gallery {
     wishes: Sender<Wish>,
     drawn: Receiver<(u64, Option<ColorImage>)>,
-    /// What was wished for; nothing as long as it is not drawn.
+    /// The requested pictures; `None` until drawn.
     textures: BTreeMap<u64, Option<TextureHandle>>,
 }
 
@@ -28,7 +28,7 @@ impl Gallery {
     fn new() -> Self {
         let (wishes, orders) = channel::<Wish>();
         let (tell, drawn) = channel();
-        // It ends with the window, which holds the other end.
+        // The thread ends with the window, which holds the sender.
         std::thread::spawn(move || {
             while let Ok(Wish { key, draw, ctx }) = orders.recv() {
                 if tell.send((key, draw())).is_err() {
@@ -53,7 +53,7 @@ impl Gallery {
     }
 }
 
-/// Returns the picture of that key if it is drawn; the first call has it drawn.
+/// Returns the picture of that key once it is drawn; the first call starts the drawing.
 pub(super) fn picture(
     ctx: &Context,
     key: u64,
@@ -76,7 +76,7 @@ pub(super) fn picture(
         draw: Box::new(draw),
         ctx: ctx.clone(),
     };
-    // A thread that died draws nothing more, and the name stands for the picture.
+    // If the thread has panicked, no further pictures are drawn, and names are shown instead.
     let _ = gallery.wishes.send(wish);
     None
 }

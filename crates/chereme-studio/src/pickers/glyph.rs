@@ -1,16 +1,16 @@
-//! Movements as drawn glyphs.
+//! Glyphs of movements.
 
 use std::f32::consts::{PI, TAU};
 
 use eframe::egui::{Color32, Painter, Pos2, Rect, Stroke, Vec2, vec2};
 
-/// A line of a glyph in a square from -1 to 1, down being positive.
+/// A line of a glyph, in a square from -1 to 1 with y down.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Line {
     pub(crate) points: Vec<Vec2>,
-    /// Whether an arrow head stands at its end.
+    /// Whether the line ends with an arrow head.
     pub(crate) arrow: bool,
-    /// How heavy it is beside the usual.
+    /// Line width relative to the usual.
     pub(crate) weight: f32,
 }
 
@@ -36,14 +36,14 @@ fn light(line: Line) -> Line {
     }
 }
 
-/// Returns the points of a curve at 0 to 1.
+/// Returns `steps + 1` points of a curve, evaluated from 0 to 1.
 fn along(steps: usize, at: impl Fn(f32) -> (f32, f32)) -> Vec<(f32, f32)> {
     (0..=steps)
         .map(|step| at(step as f32 / steps as f32))
         .collect()
 }
 
-/// Returns part of a circle, from and to in turns, clockwise from the right.
+/// Returns part of a circle; `from` and `to` are in turns, clockwise from the right.
 fn turn(centre: (f32, f32), radius: f32, from: f32, to: f32) -> Vec<(f32, f32)> {
     along(28, |t| {
         let angle = (from + (to - from) * t) * TAU;
@@ -54,7 +54,7 @@ fn turn(centre: (f32, f32), radius: f32, from: f32, to: f32) -> Vec<(f32, f32)> 
     })
 }
 
-/// Returns the lines of a movement of the house; nothing for another.
+/// Returns the lines of a built-in movement; `None` for others.
 pub(crate) fn of(movement: &str) -> Option<Vec<Line>> {
     let hand = || {
         light(line([
@@ -158,7 +158,7 @@ pub(crate) fn of(movement: &str) -> Option<Vec<Line>> {
     })
 }
 
-/// Returns four fingers that end higher or lower.
+/// Returns the lines of four fingers, whose ends are set by `end`.
 fn fingers(end: impl Fn(usize) -> f32) -> Vec<Line> {
     let finger = |number: usize| {
         let x = -0.51 + 0.34 * number as f32;

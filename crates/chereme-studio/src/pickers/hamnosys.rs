@@ -1,4 +1,4 @@
-//! HamNoSys as linguists read it: drawn, with what each symbol means where the pointer is.
+//! Drawn HamNoSys, with the meaning of each symbol on hover.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -12,22 +12,22 @@ use eframe::egui::{
 use crate::context::Seen;
 use crate::words::{fill, hamnosys as words};
 
-/// How high a symbol is drawn where nothing else is asked for, in points.
+/// Usual height of a drawn symbol, in points.
 pub(crate) const EM: f32 = 28.0;
 
-/// Every symbol as it is drawn.
+/// Returns the drawings of all symbols.
 pub(super) fn drawings() -> &'static BTreeMap<Symbol, Drawing> {
     static DRAWINGS: OnceLock<BTreeMap<Symbol, Drawing>> = OnceLock::new();
     DRAWINGS.get_or_init(|| Symbol::all().map(|it| (it, drawing(it))).collect())
 }
 
-/// Symbols, each with its place, and the room that all take.
+/// Laid-out symbols with their rectangles, and the total size.
 struct Laid {
     symbols: Vec<(Symbol, Rect)>,
     size: Vec2,
 }
 
-/// Lays symbols of `em` points in lines that are no wider than asked for.
+/// Lays out symbols of `em` points in lines of at most `width` points.
 fn laid(symbols: &[Symbol], em: f32, width: f32) -> Laid {
     let (gap, high) = (GAP * em, em * (1.0 + 2.0 * GAP));
     let mut at = Pos2::ZERO;
@@ -49,15 +49,14 @@ fn laid(symbols: &[Symbol], em: f32, width: f32) -> Laid {
     }
 }
 
-/// Shows typed text as a notation, in symbols or in their names, drawn; nothing for other text.
+/// Shows text that is a notation, in symbols or in their names, as a drawing; returns `None` for other text.
 pub(crate) fn of_text(ui: &mut Ui, seen: &Seen<'_>, text: &str, em: f32) -> Option<Response> {
     let names = to_names(text).ok()?;
     let symbols: Vec<Symbol> = names.into_iter().filter_map(Symbol::from_name).collect();
     (!symbols.is_empty()).then(|| strip(ui, seen, &symbols, em))
 }
 
-/// Shows symbols of `em` points. The pointer has each one told; a click takes the focus, and copying copies
-/// all of them.
+/// Shows symbols of `em` points. Hovering explains a symbol; a click takes the focus, and Copy copies all of them.
 pub(crate) fn strip(ui: &mut Ui, seen: &Seen<'_>, symbols: &[Symbol], em: f32) -> Response {
     let laid = laid(symbols, em, ui.available_width().max(em));
     let (rect, response) = ui.allocate_exact_size(laid.size, Sense::click());
@@ -114,7 +113,7 @@ pub(crate) fn strip(ui: &mut Ui, seen: &Seen<'_>, symbols: &[Symbol], em: f32) -
     }
 }
 
-/// Tells a symbol: large, by its name, and what it means.
+/// Explains a symbol: a large drawing, its name, and its meaning.
 pub(super) fn told(ui: &mut Ui, seen: &Seen<'_>, symbol: Symbol) {
     const LARGE: f32 = 48.0;
     ui.horizontal(|ui| {

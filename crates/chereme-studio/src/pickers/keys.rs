@@ -1,4 +1,4 @@
-//! The keys of a picker.
+//! Keyboard input of a picker.
 
 use eframe::egui::{Event, Key, Modifiers, Ui};
 
@@ -9,7 +9,7 @@ use super::data::Way;
 pub(super) struct Pressed {
     pub(super) way: Option<Way>,
     pub(super) enter: bool,
-    /// The cell of that number, counted from 0.
+    /// The index of the cell picked by a digit key.
     pub(super) digit: Option<usize>,
 }
 
@@ -25,7 +25,7 @@ const DIGITS: [Key; 9] = [
     Key::Num9,
 ];
 
-/// Takes the picker's keys out of the input; `digits` says whether they count without Ctrl.
+/// Removes the picker's keys from the input; `digits` says whether digits work without Ctrl.
 pub(super) fn take(ui: &Ui, digits: bool) -> Pressed {
     ui.input_mut(|input| {
         let mut pressed = |key| input.consume_key(Modifiers::NONE, key);

@@ -1,13 +1,13 @@
-//! Values picked by looking: handshapes from pictures, placements on a body, movements from glyphs,
-//! orientations from a rose of directions; any other inventory from its names.
+//! Pickers that show values: handshapes as pictures, placements on a body, movements as glyphs, orientations around a
+//! rose of directions; any other inventory as names.
 //!
-//! [`pick`] draws the picker that fits an inventory and returns the id of the value that was picked;
-//! [`button`] is the same behind a button that shows the value there is; [`picture`] draws one value,
-//! wherever it stands. A picker's state is a [`Picker`], one for each place that picks.
+//! [`pick`] draws the picker that fits an inventory and returns the id of the picked value; [`button`] opens the same
+//! picker from a button that shows the current value; [`picture`] draws one value anywhere. Every place that picks has
+//! its own [`Picker`], which holds the state.
 //!
-//! In every picker one types to filter, walks with the arrow keys, and picks with Enter, with the
-//! mouse, or with Ctrl and the digit on the cell; the digit alone is enough where no value is called
-//! by a number. Every cell is labelled as [`data::label`] says.
+//! In every picker one types to filter, walks with the arrow keys, and picks with Enter, with the mouse, or with Ctrl
+//! and the digit on the cell; the digit alone is enough if no name of a value begins with a digit. Every cell is
+//! labelled by [`data::label`].
 
 pub(crate) mod data;
 pub(crate) mod hamnosys;
@@ -40,42 +40,42 @@ use cells::{Cell, Cells};
 use data::Kind;
 use keys::Pressed;
 
-/// A pane narrower than this, in points, has no room for a picker of its own.
+/// A pane narrower than this, in points, has no room for an embedded picker.
 const LEAST: f32 = 240.0;
 
 /// The state of a picker.
 #[derive(Debug, Default)]
 pub(crate) struct Picker {
     filter: String,
-    /// The value that the keys are at, by its id.
+    /// The id of the value at the keyboard cursor.
     at: Option<String>,
-    /// The cell that has the focus.
+    /// The cell that has the keyboard focus.
     focus: Option<Id>,
-    /// It was just opened: typed text goes to it.
+    /// Whether the picker was just opened, so that it takes the keyboard.
     fresh: bool,
-    /// Its button opens it as soon as it is drawn.
+    /// Whether its button opens the picker as soon as it is drawn.
     opens: bool,
-    /// The values of the digits from 1 on; the first ones by default.
+    /// The ids of the values that the digits pick, from 1 on; the first values by default.
     pub(crate) digits: Vec<String>,
-    /// The inventory and the value whose details are requested.
+    /// The inventory and the value whose details were requested.
     asked: Option<(String, String)>,
-    /// The places that are shown: on head and body, on the weak hand, or in space.
+    /// The group of places that is shown: on head and body, on the weak hand, or in space.
     tab: body::Tab,
-    /// It turns to the pictures with the value that it is at.
+    /// Whether to switch to the pictures that show the value at the keyboard cursor.
     turns: bool,
     turned: bool,
     depth: usize,
 }
 
 impl Picker {
-    /// Shows the value in the inspector that was asked about with Ctrl and a click, or the other button.
+    /// Shows a value in the inspector if its details were requested with Ctrl and a click, or the other mouse button.
     pub(crate) fn inspect(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
         if let Some(thing) = self.asked(seen) {
             out.send(Command::Inspect(thing));
         }
     }
 
-    /// Returns that value, once.
+    /// Returns that value, and clears the request.
     pub(crate) fn asked(&mut self, seen: &Seen<'_>) -> Option<Thing> {
         let (inventory, value) = self.asked.take()?;
         let mut all = seen.snapshot.overview.inventories.iter();
@@ -83,7 +83,7 @@ impl Picker {
         Some(Thing::Value(stored.id, value))
     }
 
-    /// Returns one that its button opens as soon as it is drawn.
+    /// Returns a picker that its button opens as soon as it is drawn.
     pub(crate) fn opening() -> Self {
         Self {
             opens: true,
@@ -91,7 +91,7 @@ impl Picker {
         }
     }
 
-    /// Returns one that takes the keyboard when it is drawn first.
+    /// Returns a picker that takes the keyboard when it is first drawn.
     pub(crate) fn fresh() -> Self {
         Self {
             fresh: true,
@@ -104,7 +104,7 @@ impl Picker {
 
 /// Draws the picker of an inventory, and returns the id of the value that was picked.
 ///
-/// `chosen` is the value there is; the picker takes the width that there is, and the height it needs.
+/// `chosen` is the current value; the picker takes the available width, and the height it needs.
 pub(crate) fn pick(
     ui: &mut Ui,
     picker: &mut Picker,
@@ -145,8 +145,8 @@ pub(crate) fn pick(
     .inner
 }
 
-/// Draws a button with the value there is; pressed, the picker opens below it. Returns the id of the
-/// value that was picked. `name` says what the value is of, for those who do not see it.
+/// Draws a button with the current value; a click opens the picker below it. Returns the id of the picked value. `name`
+/// is the accessible name of the button.
 pub(crate) fn button(
     ui: &mut Ui,
     picker: &mut Picker,
@@ -159,8 +159,8 @@ pub(crate) fn button(
     below(ui, &response, picker, seen, (inventory, chosen, name))
 }
 
-/// Opens the picker of an inventory below something that was clicked, and returns the id of the value that was picked;
-/// `chosen` and `name` are those of [`button`].
+/// Opens the picker of an inventory below a clicked widget, and returns the id of the picked value; `chosen` and `name`
+/// are those of [`button`].
 pub(crate) fn below(
     ui: &mut Ui,
     response: &Response,
@@ -175,7 +175,7 @@ pub(crate) fn below(
     let popup = Popup::from_toggle_button_response(response)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .accessible_name(name);
-    // It stays within its pane, so that the stage with the picked value stays free.
+    // The picker stays within its pane, so that it does not cover the stage with the picked value.
     let pane = ui.clip_rect();
     let wide = data::width(data::kind(inventory)).min(screen.x - 48.0);
     let room = pane.width() - 24.0;
@@ -202,8 +202,8 @@ pub(crate) fn below(
     picked
 }
 
-/// Paints the picture of a value if it has one: a hand, a place on the body, a glyph, an arrow. Returns whether it
-/// has.
+/// Paints the picture of a value if it has one: a hand, a place on the body, a glyph, an arrow. Returns whether there
+/// is one.
 #[allow(dead_code, reason = "for whoever shows values")]
 pub(crate) fn picture(
     ui: &Ui,
@@ -250,11 +250,11 @@ fn filter(ui: &mut Ui, picker: &mut Picker, seen: &Seen<'_>, inventory: &Invento
     pressed
 }
 
-/// The room for the hand that wears a handshape, and the least width for the pictures beside it.
+/// The width of the preview hand, and the least width of the pictures beside it, in points.
 const WORN: f32 = 176.0;
 const BESIDE: f32 = 250.0;
 
-/// Draws pictures of hands, and beside them a hand that wears the handshape that the pointer or the keys are at.
+/// Draws pictures of hands, and beside them a preview hand in the handshape under the pointer or the keyboard cursor.
 fn hands(ui: &mut Ui, picker: &mut Picker, cells: &Cells<'_>, shown: &[usize]) -> Option<String> {
     let room = ui.available_width();
     if room < WORN + BESIDE {

@@ -1,4 +1,4 @@
-//! How a value is painted: a hand, a place, a glyph, an arrow, or its name.
+//! Painting of a value: a hand, a place, a glyph, an arrow, or its name.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -117,7 +117,7 @@ pub(super) fn frame(
     painter.rect_stroke(rect, 5.0, stroke, StrokeKind::Inside);
 }
 
-/// Returns as much of a text as fits into `width`.
+/// Returns a text, shortened if necessary to fit into `width` points.
 pub(super) fn fitted(ui: &Ui, text: String, font: &FontId, width: f32) -> String {
     let wide = |text: &str| {
         ui.painter()
@@ -139,7 +139,7 @@ pub(super) fn fitted(ui: &Ui, text: String, font: &FontId, width: f32) -> String
     text
 }
 
-/// Returns the colour of the paper on which hands and bodies are drawn.
+/// Returns the background colour of pictures of hands and bodies.
 pub(super) fn paper(dark: bool) -> Color32 {
     let [r, g, b] = theme(dark).background().0;
     Color32::from_rgb(r, g, b)
@@ -171,7 +171,7 @@ fn hand(ui: &Ui, rect: Rect, dark: bool, angles: &HandAngles) {
     }
 }
 
-/// Returns a picture as the window wants it.
+/// Converts a picture to egui's type.
 pub(super) fn colour_image(image: &Image) -> ColorImage {
     let pixels = image
         .pixels()

@@ -1,7 +1,7 @@
-//! Where the places of an inventory are on the body that comes with the program.
+//! The positions of an inventory's places on the built-in body.
 //!
-//! Plain geometry: a [`Scene`] is the body at rest, a [`Panel`] one look at it, and [`zones`] says where
-//! each place is in it.
+//! Plain geometry: a [`Scene`] is the body at rest, a [`Panel`] is one view of it, and [`zones`] returns the position
+//! of each place in that view.
 
 use std::sync::OnceLock;
 
@@ -17,12 +17,12 @@ use eframe::egui::{Pos2, Rect, Vec2, vec2};
 
 use super::paint;
 
-/// One look at the body.
+/// A view of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Panel {
     /// Shoulders to hips, with both arms.
     Trunk,
-    /// The head from near.
+    /// A close view of the head.
     Head,
     /// The weak hand alone.
     Hand,
@@ -31,7 +31,7 @@ pub(crate) enum Panel {
 }
 
 impl Panel {
-    /// Returns how wide it is beside its height.
+    /// Returns the ratio of width to height.
     pub(crate) fn aspect(self) -> f32 {
         match self {
             Self::Trunk => 0.74,
@@ -49,21 +49,21 @@ pub(crate) struct Scene {
     model: ModelPose,
 }
 
-/// The dominant hand for which places of the own and the other side are shown.
+/// The dominant hand, which decides the own and the other side in places.
 const ACTING: Side = Side::Right;
-/// A place farther than this behind the axis of its part of the body is not seen, in metres.
+/// A place farther than this behind the axis of its part of the body is hidden, in metres.
 const BEHIND: f32 = 0.045;
-/// The eye's distance beside half the height of what it sees: a long lens.
+/// Distance of the camera as a multiple of half the visible height: a long lens.
 const DISTANCE: f32 = 9.0;
 
 static SCENE: OnceLock<Option<Scene>> = OnceLock::new();
 
-/// Returns the body if it was read already.
+/// Returns the body if it has been read already.
 pub(crate) fn ready() -> Option<&'static Scene> {
     SCENE.get()?.as_ref()
 }
 
-/// Reads the body; not for the window's thread.
+/// Returns the body, reading it if necessary; too slow for the window's thread.
 pub(crate) fn scene() -> Option<&'static Scene> {
     let read = || {
         let (clip, anatomy) = built_in_body().ok()?;
@@ -78,7 +78,7 @@ pub(crate) fn scene() -> Option<&'static Scene> {
 }
 
 impl Scene {
-    /// Returns where a place is, in model space.
+    /// Returns the position of a place, in model space.
     pub(crate) fn at(&self, landmark: &Landmark) -> Option<Vec3> {
         let (name, [left, up, forward]) = landmark.resolve(ACTING);
         let skeleton = self.clip.skeleton();
@@ -88,7 +88,7 @@ impl Scene {
         Some((at + offset).as_vec3())
     }
 
-    /// Returns those of the places `values` that a look at a panel shows: the others lie behind the body.
+    /// Returns those of `values` that a panel shows; the others lie behind the body.
     pub(crate) fn in_sight(
         &self,
         inventory: &Inventory,
@@ -113,7 +113,7 @@ impl Scene {
         };
         let towards = (camera.eye - camera.target).normalize_or(Vec3::Z);
         let seen = |at: Vec3| {
-            // How far it lies before the axis of this part of the body.
+            // The part of the offset that is perpendicular to the axis of this part of the body.
             let away = at - middle;
             (away - axis * away.dot(axis)).dot(towards) > -BEHIND
         };
@@ -131,8 +131,8 @@ impl Scene {
         Some(at.as_vec3())
     }
 
-    /// Returns the eye that looks at a panel, from the front or, `turned`, from the signer's right; at
-    /// the hand from the palm or from its back.
+    /// Returns the camera of a panel, from the front or, if `turned`, from the signer's right; for the hand, from the
+    /// side of the palm or of the back.
     pub(crate) fn camera(&self, panel: Panel, turned: bool) -> Option<Camera> {
         let frame = self.anatomy.body_frame(&self.model)?;
         let (left, forward) = (frame.left.as_vec3(), frame.forward.as_vec3());
@@ -214,7 +214,7 @@ impl Scene {
     }
 }
 
-/// Returns the panel that a place is shown in: by its landmark, or in space.
+/// Returns the panel that shows a place, by its landmark.
 pub(crate) fn panel(landmark: &Landmark) -> Panel {
     const HAND: [&str; 4] = ["palm", "hand-", "-tip", "knuckle"];
     const TRUNK: [&str; 15] = [
@@ -237,26 +237,24 @@ pub(crate) fn panel(landmark: &Landmark) -> Panel {
 /// A place in a panel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Zone {
-    /// Its place in the inventory.
+    /// Index of the value in the inventory.
     pub(crate) value: usize,
-    /// Where it really is.
+    /// The exact position of the place.
     pub(crate) at: Pos2,
-    /// Where its circle is, so that circles do not lie on each other.
+    /// The centre of its circle, moved so that circles do not overlap.
     pub(crate) centre: Pos2,
 }
 
-/// How many places a place must hold to be a part of the body rather than a place on it.
+/// A value that more than this many other values lie within is a part of the body rather than a place on it.
 const PART: usize = 5;
 
-/// Returns whether a value is a whole part of the body, such as the head, by the number of values that
-/// lie in it.
+/// Returns whether a value is a whole part of the body, such as the head, by the number of values that lie within it.
 pub(crate) fn is_part(inventory: &Inventory, id: &str) -> bool {
     let within = |value: &&InventoryValue| value.id != id && inventory.is_within(&value.id, id);
     inventory.values.iter().filter(within).count() > PART
 }
 
-/// Returns where the places `values` of an inventory are in a picture of a panel that fills `rect`,
-/// their circles of `radius`.
+/// Returns the positions of the places `values` in a picture of a panel that fills `rect`, with circles of `radius`.
 pub(crate) fn zones(
     scene: &Scene,
     inventory: &Inventory,
@@ -290,7 +288,7 @@ pub(crate) fn zones(
     found
 }
 
-/// Moves circles apart until none lies on another, or nearly so, as little as that needs.
+/// Moves circles apart, as little as necessary, until they hardly overlap.
 fn part(zones: &mut [Zone], room: Rect, distance: f32) {
     for round in 0..80 {
         let mut moved = false;
@@ -302,7 +300,7 @@ fn part(zones: &mut [Zone], room: Rect, distance: f32) {
                     continue;
                 }
                 let way = if between.length() < 0.01 {
-                    // Two at one place: each pair another way.
+                    // Both have the same position: each pair moves in another direction.
                     Vec2::angled((a * 7 + b * 3) as f32)
                 } else {
                     between.normalized()

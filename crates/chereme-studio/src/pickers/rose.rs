@@ -1,6 +1,6 @@
-//! Directions around a middle: where the palm looks, where fingers point, where a hand moves.
+//! Roses of directions: for palm and finger orientations, and for directions of movement.
 //!
-//! Drawn as the signer sees it, as HamNoSys does: the signer's right is on the right.
+//! Drawn from the signer's point of view, as in HamNoSys: the signer's right is on the right.
 
 use chereme_sign::inventory::InventoryValue;
 use eframe::egui::{Align2, Color32, Painter, Rect, RichText, Sense, TextStyle, Ui, Vec2, vec2};
@@ -10,8 +10,8 @@ use super::glyph::{self, Line};
 use super::{Picker, paint};
 use crate::words::pickers as words;
 
-/// Where a value is in the roses: which of the three (away from the signer, level, towards), and the
-/// column and row about its middle.
+/// Returns the place of a value in the roses: which of the three (away from the signer, level, towards), and the column
+/// and row relative to its centre.
 pub(crate) fn place(value: &InventoryValue) -> Option<(usize, [i32; 2])> {
     let sign = |part: f64| {
         if part.abs() < 0.2 {
@@ -24,7 +24,7 @@ pub(crate) fn place(value: &InventoryValue) -> Option<(usize, [i32; 2])> {
         let rose = (1 - sign(forward)) as usize;
         return Some((rose, [-sign(left), -sign(up)]));
     }
-    // The palm looks down at 0, then to the signer's right, up, and to the left.
+    // The palm faces down at 0, then to the signer's right, up, and to the left.
     let roll = value.roll?;
     Some((1, [sign(roll.sin()), sign(roll.cos())]))
 }
@@ -109,7 +109,7 @@ pub(super) fn arrow(
         };
         glyph::draw(painter, rect, &line, colour);
     }
-    // As engineers draw it: a point for an arrow that comes, feathers for one that goes.
+    // The convention of technical drawings: a point for an arrow towards the viewer, feathers for one that goes away.
     let half = rect.width().min(rect.height()) * 0.42;
     let end = rect.center() - to * (half * 0.7);
     let size = if x == 0 && y == 0 { 0.5 } else { 0.22 } * half;

@@ -1,4 +1,4 @@
-//! A hand that wears the handshape under the pointer, and turns from one to the next.
+//! The preview hand, which takes the handshape under the pointer and turns smoothly from one to the next.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -9,14 +9,14 @@ use eframe::egui::{Color32, Id, Pos2, Rect, TextureHandle, TextureOptions, Ui, p
 
 use super::paint;
 
-/// The share of the distance to a handshape that is left after a second.
+/// The share of the difference to a handshape that is left after a second.
 const LEFT: f64 = 1e-9;
-/// A hand nearer to its handshape than this in every angle wears it, in radians.
+/// Largest angle difference to the handshape at which the hand stops moving, in radians.
 const NEAR: f64 = 0.02;
-/// The greatest side of the picture, in pixels.
+/// The largest side of the picture, in pixels.
 const MOST: f32 = 220.0;
 
-/// The hand as it is drawn.
+/// The present state of the preview hand.
 #[derive(Default)]
 struct Worn {
     angles: Option<[f64; HandAngles::LEN]>,
@@ -24,7 +24,7 @@ struct Worn {
     texture: Option<TextureHandle>,
 }
 
-/// Shows the hand on its way to `target`.
+/// Shows the hand on its way to the posture `target`.
 pub(super) fn show(ui: &Ui, rect: Rect, dark: bool, target: &HandAngles) {
     let shared = ui.ctx().data_mut(|data| {
         data.get_temp_mut_or_insert_with(Id::unique("worn hand"), Arc::<Mutex<Worn>>::default)
@@ -69,7 +69,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, dark: bool, target: &HandAngles) {
     }
 }
 
-/// Returns the angles after `step` seconds on the way, and whether that is another posture than before.
+/// Returns the angles `step` seconds later, and whether they differ from those before.
 fn turned(
     now: Option<[f64; HandAngles::LEN]>,
     target: [f64; HandAngles::LEN],

@@ -20,12 +20,12 @@ use eframe::egui::{
 
 use surface::{Runs, Surface};
 
-/// How many triangles are drawn at once: of more only parts are looked at as rectangles.
+/// The most triangles of a batch: in larger batches, the software renderer checks only parts for rectangles.
 const AT_ONCE: usize = 340;
-/// How much rounder corners become than they are asked to be, in points, as egui has it.
+/// How much egui enlarges the radius of rounded corners, in points.
 const ROUNDER: f32 = 0.4;
 
-/// Makes plain what a frame paints, after all of it was painted.
+/// The plugin that simplifies the shapes of a frame after all of it was painted.
 pub(crate) struct Plain;
 
 impl Plugin for Plain {
@@ -39,7 +39,7 @@ impl Plugin for Plain {
     }
 }
 
-/// Returns the same picture in rectangles, as far as it consists of some; `scale` is the pixels of a point.
+/// Returns the same picture with rectangles in place of shapes, as far as possible; `scale` is in pixels per point.
 fn plain(shapes: Vec<ClippedShape>, scale: f32) -> Vec<ClippedShape> {
     let mut sheet = Sheet {
         scale,
@@ -65,13 +65,14 @@ fn plain(shapes: Vec<ClippedShape>, scale: f32) -> Vec<ClippedShape> {
 struct Sheet {
     scale: f32,
     done: Vec<ClippedShape>,
-    /// Rectangles that are not among those done yet.
+    /// Collected rectangles that are not yet in `done`.
     mesh: Mesh,
-    /// The clip of a batch, its texture, and its number of triangles.
+    /// The clip rectangle of a batch, its texture, and its number of triangles.
     clip: Rect,
     texture: TextureId,
     count: usize,
-    /// A batch with another clip is drawn by itself: every other time its clip is wider by nothing.
+    /// Whether the clip of this batch is widened by a thousandth of a point, since a batch with another clip is drawn
+    /// separately.
     aside: bool,
 }
 
@@ -118,14 +119,14 @@ impl Sheet {
         }
     }
 
-    /// Adds a shape as it is.
+    /// Adds a shape unchanged.
     fn keep(&mut self, clip: Rect, shape: Shape, count: usize) {
         self.turn_to(clip, shape.texture_id(), count);
         self.flush();
         self.done.push(ClippedShape::new(self.place(), shape));
     }
 
-    /// Adds a triangle of no size after an odd number of them, so that the two of a rectangle stay a pair.
+    /// Adds a triangle of no size after an odd number of triangles, so that the two of a rectangle stay a pair.
     fn pair(&mut self, clip: Rect, count: usize) {
         if count % 2 == 1 {
             let texture = self.texture;
@@ -136,7 +137,7 @@ impl Sheet {
         }
     }
 
-    /// Begins a batch, unless it can join the last one.
+    /// Starts a batch, unless the shape can join the last one.
     fn turn_to(&mut self, clip: Rect, texture: TextureId, count: usize) {
         let same = clip == self.clip && texture == self.texture;
         if !same || self.count + count > AT_ONCE {
@@ -163,7 +164,7 @@ impl Sheet {
         }
     }
 
-    /// Returns the rectangles to add to.
+    /// Returns the mesh that collects rectangles, with `count` triangles reserved in its batch.
     fn on(&mut self, clip: Rect, texture: TextureId, count: usize) -> &mut Mesh {
         self.turn_to(clip, texture, count);
         self.mesh.texture_id = texture;
@@ -172,7 +173,7 @@ impl Sheet {
 }
 
 impl Sheet {
-    /// Adds a line if it is level or upright; returns whether it is.
+    /// Adds a line if it is horizontal or vertical; returns whether it is.
     fn line(&mut self, clip: Rect, [from, to]: [Pos2; 2], stroke: Stroke) -> bool {
         let upright = from.x == to.x;
         let width = stroke.width * self.scale;
@@ -207,7 +208,7 @@ impl Sheet {
         true
     }
 
-    /// Adds a rectangle where its edges can lie between pixels; returns whether they can.
+    /// Adds a rectangle if its edges can lie between pixels; returns whether they can.
     fn rectangle(&mut self, clip: Rect, shape: &RectShape) -> bool {
         let (mut stroke, mut fill, mut rect) = (shape.stroke, shape.fill, shape.rect);
         if shape.angle != 0.0 || shape.blur_width > 0.0 || shape.round_to_pixels == Some(false) {
@@ -290,13 +291,13 @@ fn is_odd(pixels: f32) -> bool {
     pixels.round() as i64 % 2 == 1
 }
 
-/// Returns whether egui makes an odd number of triangles of a path: those of an inner surface with an odd number of
-/// corners; all others come in pairs.
+/// Returns whether egui makes an odd number of triangles of a path: it does for a filled surface with an odd number of
+/// corners; all other triangles come in pairs.
 fn odd(path: &PathShape) -> bool {
     path.fill != Color32::TRANSPARENT && path.points.len() % 2 == 1
 }
 
-/// Returns some triangles of a mesh as one of their own.
+/// Returns a separate mesh of some triangles of `mesh`.
 fn part(mesh: &Mesh, indices: &[u32]) -> Mesh {
     let first = indices.iter().copied().min().unwrap_or_default();
     let last = indices.iter().copied().max().unwrap_or_default();

@@ -1,23 +1,23 @@
-//! A rectangle as rectangles of one colour each, in whole pixels.
+//! Divides a rectangle into rectangles of one colour each, in whole pixels.
 
 use eframe::egui::{Color32, Pos2, Rect};
 
-/// The part of a pixel that is not worth a rectangle of its own.
+/// The share of a pixel that is too small for a separate rectangle.
 const SLIGHT: f32 = 0.15;
 
-/// A rectangle in pixels.
+/// A rectangle with its size in pixels.
 pub(super) struct Surface {
     pub(super) size: [f32; 2],
-    /// Of its corners: above on the left and on the right, below in the same way.
+    /// Radii of the corners: top left, top right, bottom left, bottom right.
     pub(super) radius: [f32; 4],
-    /// How wide its edge is.
+    /// The width of its edge.
     pub(super) width: f32,
     pub(super) fill: Color32,
     pub(super) edge: Color32,
 }
 
 impl Surface {
-    /// Returns the rectangles that it consists of, each of one colour.
+    /// Returns the rectangles that it consists of, each with its colour.
     pub(super) fn pieces(&self) -> Vec<(Rect, Color32)> {
         let [across, down] = self.size.map(|it| it as i32);
         let rounded = self.radius.iter().fold(0.0_f32, |most, it| most.max(*it));
@@ -68,7 +68,7 @@ impl Surface {
         Color32::from_rgba_premultiplied(part(0), part(1), part(2), part(3))
     }
 
-    /// Returns how far within the rectangle a place is.
+    /// Returns the distance of a point from the outline, in pixels; positive inside.
     fn inside(&self, at: [f32; 2]) -> f32 {
         let beyond = [0, 1].map(|axis| self.size[axis] - at[axis]);
         let (right, below) = (at[0] > beyond[0], at[1] > beyond[1]);
@@ -82,7 +82,7 @@ impl Surface {
     }
 }
 
-/// Returns a share of a pixel, rounded to all or nothing if it is near.
+/// Returns a share of a pixel, rounded to 0 or 1 if it is near.
 fn slightly(share: f32) -> f32 {
     match share {
         it if it < SLIGHT => 0.0,
@@ -91,7 +91,8 @@ fn slightly(share: f32) -> f32 {
     }
 }
 
-/// Returns the pixels of a side one by one, those farther than `rim` from its ends at once.
+/// Returns the pixels of a side as ranges: one by one near its ends, and all those farther than `rim` from the ends as
+/// one range.
 fn stretches(side: i32, rim: i32) -> impl Iterator<Item = [i32; 2]> {
     let (from, to) = if side > 2 * rim {
         (rim, side - rim)
@@ -103,7 +104,7 @@ fn stretches(side: i32, rim: i32) -> impl Iterator<Item = [i32; 2]> {
     ones(0..from).chain(middle).chain(ones(to..side))
 }
 
-/// Neighbours of one colour, from and to where, without those of none.
+/// Ranges of neighbours with the same colour, from and to, without transparent ones.
 #[derive(Default)]
 pub(super) struct Runs(pub(super) Vec<(i32, i32, Color32)>);
 

@@ -1,4 +1,4 @@
-//! Compares pictures: shapes as egui draws them, and the result here.
+//! Compares pictures: shapes as egui draws them, and the simplified ones.
 
 use eframe::egui::epaint::{ClippedPrimitive, Primitive, TessellationOptions, Tessellator, Vertex};
 use eframe::egui::{CornerRadius, vec2};
@@ -9,7 +9,7 @@ use super::*;
 const SIDE: usize = 80;
 const PAPER: f32 = 200.0;
 
-/// A picture of some shapes without text, pixel by pixel.
+/// Returns a picture of some shapes without text, pixel by pixel.
 fn picture(shapes: Vec<ClippedShape>, scale: f32) -> Vec<[f32; 4]> {
     let options = TessellationOptions::default();
     let primitives = Tessellator::new(scale, options, [1, 1], Vec::new()).tessellate_shapes(shapes);
@@ -26,8 +26,8 @@ fn picture(shapes: Vec<ClippedShape>, scale: f32) -> Vec<[f32; 4]> {
     pixels
 }
 
-/// Fills the pixels whose middle lies in a triangle, of those on an edge between two only once; corners are snapped
-/// to a 256th of a pixel, as what draws windows does.
+/// Fills the pixels whose middle lies in a triangle; those on an edge between two triangles only once. Corners are
+/// snapped to a 256th of a pixel, as software renderers do.
 fn fill(pixels: &mut [[f32; 4]], [a, mut b, mut c]: [Vertex; 3], scale: f32) {
     const UNIT: f32 = 256.0;
     let snapped = |it: Vertex| [it.pos.x, it.pos.y].map(|it| (it * scale * UNIT).round() as i64);
@@ -67,7 +67,7 @@ fn fill(pixels: &mut [[f32; 4]], [a, mut b, mut c]: [Vertex; 3], scale: f32) {
     }
 }
 
-/// Returns by how much the two pictures of a shape differ in any pixel, in 255ths; in `corners` and elsewhere.
+/// Returns by how much the two pictures of a shape differ in any pixel, in 255ths: in `corners`, and elsewhere.
 fn apart(shape: &Shape, scale: f32, corners: impl Fn(Pos2) -> bool) -> [f32; 2] {
     let all = || vec![ClippedShape::new(Rect::EVERYTHING, shape.clone())];
     let (usual, own) = (picture(all(), scale), picture(plain(all(), scale), scale));
@@ -111,7 +111,7 @@ proptest! {
         let corners = |at: Pos2| {
             !sharp && near(at.x, rect.left(), rect.right()) && near(at.y, rect.top(), rect.bottom())
         };
-        // Round corners are arcs here, of few corners there.
+        // Round corners are exact arcs here, and polygons in egui.
         let [round, straight] = apart(&shape, scale, corners);
         prop_assert!(straight < 3.0, "{straight}");
         prop_assert!(round < 90.0, "{round}");

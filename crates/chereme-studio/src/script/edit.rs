@@ -1,6 +1,6 @@
-//! Text that is read from the right while it is typed: it looks as in other places, and the cursor follows it.
+//! Editing of right-to-left text: it is displayed in its visual order, and the cursor follows it.
 //!
-//! The text itself stays in the order in which it is read, as everywhere.
+//! The text itself stays in reading order.
 
 use std::sync::Arc;
 
@@ -12,15 +12,15 @@ use eframe::egui::{Color32, FontId, Galley, Pos2, TextBuffer, TextEdit, TextStyl
 
 use super::visual::{self, Piece};
 
-/// Marks a text whose letters are in order already; it has no height of its own.
+/// A row height that marks a layout whose letters are in visual order already; it has no effect of its own.
 const IN_ORDER: f32 = f32::MIN_POSITIVE;
 
-/// Returns whether a text was laid out here.
+/// Returns whether a text was laid out by this module.
 pub(super) fn is_in_order(galley: &Galley) -> bool {
     galley.job.first_row_min_height == IN_ORDER
 }
 
-/// Draws a line that is edited; `more` says how it looks.
+/// Draws a single-line text field; `more` sets its appearance.
 pub(crate) fn line(
     ui: &mut Ui,
     text: &mut String,
@@ -36,7 +36,7 @@ pub(crate) fn line(
     edit
 }
 
-/// Draws text of several lines that is edited; `more` says how it looks.
+/// Draws a multi-line text field; `more` sets its appearance.
 pub(crate) fn block(
     ui: &mut Ui,
     text: &mut String,
@@ -57,7 +57,7 @@ fn usual(ui: &Ui) -> (FontId, Color32) {
     (font, ui.visuals().widgets.inactive.text_color())
 }
 
-/// Lays a text that is edited out, its letters where they stand and one for each character.
+/// Lays out edited text in visual order, with one glyph for each character.
 pub(crate) fn lay_out(ui: &Ui, job: LayoutJob) -> Arc<Galley> {
     let plain = ui.fonts_mut(|fonts| fonts.layout_job(job.clone()));
     if !any_from_right(&job.text) {
@@ -70,7 +70,7 @@ pub(crate) fn lay_out(ui: &Ui, job: LayoutJob) -> Arc<Galley> {
     let mut galley = Galley::clone(&drawn);
     let starts: Vec<usize> = lines.iter().skip(1).map(|it| it.start).collect();
     for (nth, (placed, range)) in galley.rows.iter_mut().zip(lines).enumerate() {
-        // Where a line is broken for want of room, no character stands for that.
+        // A line break for lack of room has no character.
         placed.ends_with_newline = starts.get(nth).is_some_and(|next| *next > range.end);
         let Some(line) = job.text.get(range) else {
             return plain;
@@ -86,7 +86,7 @@ pub(crate) fn lay_out(ui: &Ui, job: LayoutJob) -> Arc<Galley> {
     Arc::new(galley)
 }
 
-/// Gives a row a glyph for each character of its line, where the cursor stands before it.
+/// Gives a row one glyph for each character of its line, at the position of the cursor before that character.
 fn stand(ui: &Ui, job: &LayoutJob, line: &str, row: &mut Row) {
     let pieces = visual::pieces(line, &|_| usize::MAX);
     let (places, end) = places(ui, job, line, &pieces);
@@ -104,12 +104,12 @@ fn stand(ui: &Ui, job: &LayoutJob, line: &str, row: &mut Row) {
             glyph
         })
         .collect();
-    // The cursor after the last letter stands at the end of the row as egui knows it.
+    // egui places the cursor after the last letter at the end of the row.
     row.size.x = end;
 }
 
-/// Returns for each character the place of the cursor before it, and its width if it is read from the left; and the
-/// place of the cursor after all of them.
+/// Returns for each character the position of the cursor before it, and its width if it is read from the left (else 0);
+/// and the position of the cursor after all of them.
 fn places(ui: &Ui, job: &LayoutJob, line: &str, pieces: &[Piece]) -> (Vec<[f32; 2]>, f32) {
     let look = job
         .sections
@@ -129,7 +129,7 @@ fn places(ui: &Ui, job: &LayoutJob, line: &str, pieces: &[Piece]) -> (Vec<[f32; 
         for (at, letter) in part.char_indices() {
             let end = at + letter.len_utf8();
             let after = match piece.from_right && end < part.len() {
-                // A letter looks otherwise at the end than before another: this has it look as before one.
+                // A letter looks different at the end than before another: the joiner gives it the look before another.
                 true => wide(&format!("{}\u{200d}", &part[..end])),
                 false => wide(&part[..end]),
             };
@@ -154,7 +154,7 @@ fn places(ui: &Ui, job: &LayoutJob, line: &str, pieces: &[Piece]) -> (Vec<[f32; 
     (places.into_iter().map(|(_, place)| place).collect(), end.1)
 }
 
-/// Puts the cursor where a click or a drag points, where some of a line is read from the right.
+/// Puts the cursor where a click or a drag points, if some of a line is read from the right.
 pub(crate) fn settle(ui: &Ui, edit: &mut TextEditOutput) {
     let response = &edit.response.response;
     let (clicked, dragged) = (response.clicked(), response.dragged());
@@ -178,7 +178,7 @@ pub(crate) fn settle(ui: &Ui, edit: &mut TextEditOutput) {
     edit.state.clone().store(ui.ctx(), response.id);
 }
 
-/// Returns the character before which the cursor stands nearest to a point of a text.
+/// Returns the index of the character whose cursor position is nearest to a point of a text.
 fn nearest(galley: &Galley, point: Pos2) -> usize {
     let above = |placed: &&PlacedRow| placed.pos.y <= point.y;
     let at = galley.rows.iter().take_while(above).count();

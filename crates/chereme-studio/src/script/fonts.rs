@@ -1,4 +1,4 @@
-//! Fonts of the computer for letters that ours lack, and what stands for a letter that no font has.
+//! Fonts of the computer for letters that our fonts lack, and a placeholder for letters without any font.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use eframe::egui::{Color32, ColorImage, Context, FontData, vec2};
 
 use crate::words::{Language, Text, scripts as words};
 
-/// Gives a context the fonts of this computer, whose names are read meanwhile.
+/// Installs the fonts of this computer in a context; their names are read in the background.
 pub(super) fn install(ctx: &Context) {
     SystemFonts::prepare();
     ctx.add_font_provider(Arc::new(OfComputer));
@@ -38,11 +38,11 @@ impl FontProvider for OfComputer {
     }
 }
 
-/// Draws the number of a letter that no font has.
+/// Draws the code number of a letter that no font has.
 #[allow(clippy::unnecessary_wraps, reason = "it is what egui asks")]
 fn code(request: &GlyphRasterizerRequest<'_>) -> Option<RasterizedGlyph> {
     let letter = request.cluster.chars().next()?;
-    // Sharp at whole pixels only.
+    // The digits are sharp at whole pixels only.
     let scale = ((request.font_size_px / 14.0).round() as usize).clamp(1, 16);
     let (width, height) = (code_width(letter) * scale, CODE_HEIGHT * scale);
     let mut image = ColorImage::filled([width, height], Color32::TRANSPARENT);
@@ -64,7 +64,7 @@ fn code(request: &GlyphRasterizerRequest<'_>) -> Option<RasterizedGlyph> {
     })
 }
 
-/// Scripts by the first and last character of their blocks.
+/// Scripts, by the first and last character of their blocks.
 const SCRIPTS: [(char, char, Text); 17] = [
     ('\u{370}', '\u{3ff}', words::GREEK),
     ('\u{400}', '\u{52f}', words::CYRILLIC),
@@ -85,14 +85,14 @@ const SCRIPTS: [(char, char, Text); 17] = [
     ('\u{fb50}', '\u{fefc}', words::ARABIC),
 ];
 
-/// Scripts that no font of this computer has, each told once.
+/// The scripts without a font that have been reported, each once.
 #[derive(Debug, Default)]
 pub(crate) struct Untold {
     told: BTreeSet<String>,
 }
 
 impl Untold {
-    /// Returns the notice about letters that were shown since the last call and have no font, and what helps.
+    /// Returns a notice and a remedy for letters without a font that were shown since the last call.
     pub(crate) fn news(&mut self, language: Language) -> Option<(String, &'static str)> {
         let missing = SystemFonts::ready()?.take_missing();
         self.of(&missing, language)

@@ -1,10 +1,10 @@
-//! Text in the scripts of the world: fonts of the computer where ours lack letters, and text that is read from the right.
+//! Text in the scripts of the world: fonts of the computer for letters that ours lack, and right-to-left text.
 //!
 //! | module | holds |
 //! |---|---|
-//! | `fonts` | fonts for letters that ours lack, what stands for a letter without a font, and the notice of it |
-//! | `visual` | lines as they stand where some of them is read from the right |
-//! | `edit` | the same while it is typed: where the cursor is |
+//! | `fonts` | fonts for letters that ours lack, a placeholder for letters without a font, and a notice about them |
+//! | `visual` | visual order of lines with right-to-left text |
+//! | `edit` | the same while the text is edited: the place of the cursor |
 
 pub(crate) mod edit;
 pub(crate) mod fonts;
@@ -16,14 +16,14 @@ use chereme_figure::letters::any_from_right;
 use eframe::egui::layers::ShapeIdx;
 use eframe::egui::{Context, Galley, LayerId, Plugin, Shape, Ui};
 
-/// Gives a context fonts for all scripts, and draws text in the order in which it stands.
+/// Gives a context fonts for all scripts, and makes it draw text in visual order.
 pub(crate) fn install(ctx: &Context) {
     fonts::install(ctx);
     ctx.add_plugin(InOrder);
 }
 
-/// Puts what is read from the right in order, after all of a frame was painted: whatever painted it, labels, buttons
-/// and what is painted by hand go through here.
+/// Plugin that puts right-to-left text in visual order after all of a frame was painted, so that it applies to labels,
+/// buttons and text painted by hand alike.
 struct InOrder;
 
 impl Plugin for InOrder {
@@ -65,7 +65,7 @@ impl Plugin for InOrder {
     }
 }
 
-/// Returns whether a text has to be put in order.
+/// Returns whether a text must be put in visual order.
 fn is_turned(galley: &Galley) -> bool {
     any_from_right(&galley.job.text) && !edit::is_in_order(galley)
 }

@@ -1,7 +1,7 @@
-//! Lines as they stand where some of them is read from the right.
+//! Visual order of lines with right-to-left text.
 //!
-//! egui shapes each word in its own script, and puts one word after the other from the left. So a text is given to it
-//! in the order in which it stands, each word that is read from the right as a piece of its own.
+//! egui shapes each word in its own script, and places one word after the other from the left. So it is given the text
+//! in visual order, each right-to-left word as a separate section.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use chereme_figure::letters::{hangs_on, mirrored, reads_from_right, runs};
 use eframe::egui::text::{ByteIndex, LayoutJob, LayoutSection, TextWrapping};
 use eframe::egui::{Context, Galley};
 
-/// A part of a line in the order in which it stands.
+/// A part of a line, in visual order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Piece {
     /// Its bytes in the text.
@@ -19,12 +19,12 @@ pub(super) struct Piece {
     pub(super) from_right: bool,
 }
 
-/// Returns the same text in the order in which it stands, with the same breaks of lines.
+/// Returns the layout of the same text in visual order, with the same line breaks.
 pub(super) fn in_order(ctx: &Context, galley: &Galley) -> Arc<Galley> {
     in_order_by_line(ctx, galley).0
 }
 
-/// Returns the same, and the bytes of the text that each line has.
+/// Returns the same, and the byte range of each line in the text.
 pub(super) fn in_order_by_line(ctx: &Context, galley: &Galley) -> (Arc<Galley>, Vec<Range<usize>>) {
     let words = in_words(&galley.job);
     ctx.fonts_mut(|fonts| {
@@ -34,7 +34,7 @@ pub(super) fn in_order_by_line(ctx: &Context, galley: &Galley) -> (Arc<Galley>, 
     })
 }
 
-/// Returns the job with a section for each word that is read from the right, so that lines are broken between them.
+/// Returns the job with a section for each right-to-left word, so that lines are broken between them.
 fn in_words(job: &LayoutJob) -> LayoutJob {
     let mut cut = job.clone();
     cut.sections.clear();
@@ -54,7 +54,7 @@ fn in_words(job: &LayoutJob) -> LayoutJob {
     cut
 }
 
-/// Cuts a text into words that are read from the right, and what stands between them; says which is which.
+/// Cuts a text into right-to-left words and the parts between them; the flag marks the words.
 fn words(text: &str) -> Vec<(Range<usize>, bool)> {
     let mut words: Vec<(Range<usize>, bool)> = Vec::new();
     for (at, letter) in text.char_indices() {
@@ -69,12 +69,12 @@ fn words(text: &str) -> Vec<(Range<usize>, bool)> {
     words
 }
 
-/// A line: its bytes in the text, and whether something is left out at its end.
+/// A line: its byte range in the text, and whether its end is elided.
 type Line = (Range<usize>, bool);
 
 /// Returns the lines of a text that was laid out word by word.
 ///
-/// Words that are read from the right do not have a glyph for each character there, but blanks do.
+/// The layout of a right-to-left word does not have a glyph for each character, but every blank has one.
 fn lines(galley: &Galley) -> Vec<Line> {
     let text = galley.job.text.as_str();
     let mut lines = Vec::new();
@@ -111,7 +111,7 @@ fn lines(galley: &Galley) -> Vec<Line> {
     lines
 }
 
-/// Returns how many bytes so many blanks, what is between them, and so many letters after them take.
+/// Returns the number of bytes up to the given number of blanks, plus that number of letters after the last of them.
 fn beginning(text: &str, blanks: usize, letters: usize) -> usize {
     let mut all = text
         .char_indices()
@@ -126,7 +126,7 @@ fn beginning(text: &str, blanks: usize, letters: usize) -> usize {
     seen.next().map_or(text.len(), |(at, _)| after + at)
 }
 
-/// Returns the job that draws lines in the order in which they stand.
+/// Returns the job that draws `lines` in visual order.
 fn turned(job: &LayoutJob, lines: &[Line]) -> LayoutJob {
     let mut turned = LayoutJob {
         text: String::with_capacity(job.text.len()),
@@ -165,7 +165,7 @@ fn turned(job: &LayoutJob, lines: &[Line]) -> LayoutJob {
     turned
 }
 
-/// Returns the section that a byte lies in, or the last one before it.
+/// Returns the section that contains a byte, or the last one before it.
 fn section_at(job: &LayoutJob, at: usize) -> Option<&LayoutSection> {
     let after = job
         .sections
@@ -173,13 +173,13 @@ fn section_at(job: &LayoutJob, at: usize) -> Option<&LayoutSection> {
     job.sections.get(after.saturating_sub(1))
 }
 
-/// Returns the byte at which the section ends that a byte lies in.
+/// Returns the end of the section that contains a byte.
 fn boundary(job: &LayoutJob, at: usize) -> usize {
     section_at(job, at).map_or(usize::MAX, |it| it.byte_range.end.0)
 }
 
-/// Returns the pieces of a line from left to right as they stand; `end` gives how far the look of a byte goes, counted
-/// in bytes of the whole text from the line's beginning.
+/// Returns the pieces of a line in visual order, from left to right; `end` returns the byte at which the format of a
+/// byte ends. Bytes count from the beginning of the line.
 pub(super) fn pieces(line: &str, end: &dyn Fn(usize) -> usize) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for run in runs(line) {
@@ -213,7 +213,7 @@ pub(super) fn pieces(line: &str, end: &dyn Fn(usize) -> usize) -> Vec<Piece> {
     pieces
 }
 
-/// Cuts a range where the look changes.
+/// Cuts a range where the format changes.
 fn looks(line: &str, range: Range<usize>, end: &dyn Fn(usize) -> usize) -> Vec<Range<usize>> {
     let mut parts: Vec<Range<usize>> = Vec::new();
     let mut limit = 0;
@@ -253,7 +253,7 @@ mod tests {
             ("كتاب is notated.", "<كتاب> is notated."),
             ("كتاب كبير", "<كبير> <كتاب>"),
             ("(كتاب)", "(<كتاب>)"),
-            // A number after Arabic letters goes on with them.
+            // A number after Arabic letters belongs to them.
             ("see كتاب كبير (2)", "see (2) <كبير> <كتاب>"),
             ("שלום, עולם!", "!<עולם> ,<שלום>"),
         ] {

@@ -26,18 +26,18 @@ use crate::work::begin::Begin;
 #[derive(Debug, Default)]
 pub(crate) struct Start {
     path: String,
-    /// Whether the keyboard has been given to what one most likely wants.
+    /// Whether the likeliest button has been given the keyboard.
     come: bool,
 }
 
 impl Start {
-    /// Begins again when the page returns: the keyboard has a place, and the path was used.
+    /// Resets the state, for the next time that the page is shown.
     pub(crate) fn leave(&mut self) {
         *self = Self::default();
     }
 }
 
-/// Returns what a typed path can be used for: open it, make it, or import it.
+/// Returns the possible uses of a typed path: open it, create it, or import it.
 pub(crate) fn uses(path: &str, is_file: bool, is_folder: bool) -> [bool; 3] {
     let typed = !path.trim().is_empty();
     [
@@ -47,31 +47,31 @@ pub(crate) fn uses(path: &str, is_file: bool, is_folder: bool) -> [bool; 3] {
     ]
 }
 
-/// Its name, a hint, and its command.
+/// An offer on the page: its name, a hint, and its command.
 type Offer = (Text, Text, Command);
 
-/// Its name, and its action on a path.
+/// A button for the typed path: its name, and its use of the path.
 type Typed = (Text, fn(PathBuf) -> Begin);
 
-/// The keys that bring the keyboard to the page if nothing else has it.
+/// The keys that give the keyboard to the page if nothing has it.
 const KEYS: [Key; 4] = [Key::ArrowDown, Key::ArrowUp, Key::Enter, Key::Space];
 const WIDE: f32 = 620.0;
-/// The least width of the column beside the wall, and the room at its sides.
+/// The least width of the column beside the wall, and the margin at its sides, in points.
 const LEAST: f32 = 400.0;
 const EDGE: f32 = 20.0;
-/// A window narrower than this has the wall below the column, so high.
+/// A window narrower than this has the wall below the column; the height of that wall. Both in points.
 const WALLED: f32 = 860.0;
 const STRIP: f32 = 190.0;
-/// How many recent corpora are on the page; the others are in the menu.
+/// How many recent corpora the page shows; the menu lists all.
 const RECENT: usize = 4;
-/// The room beside a recent corpus for what forgets it.
+/// The width of the button that removes a recent corpus from the list, in points.
 const FORGET: f32 = 36.0;
-/// A window lower than this has no room to spare.
+/// A window lower than this has no room to spare, in points.
 const LOW: f32 = 680.0;
 
 impl Studio {
     pub(crate) fn start_page(&mut self, ui: &mut Ui) {
-        // A key that would go nowhere goes to what one most likely wants.
+        // A key that would have no effect gives the keyboard to the likeliest button.
         let lost = ui.memory(|memory| memory.focused().is_none());
         if lost && ui.input(|input| KEYS.into_iter().any(|key| input.key_pressed(key))) {
             self.start.come = false;
@@ -89,7 +89,7 @@ impl Studio {
         ui.scope_builder(builder, |ui| self.start_column(ui, walled));
     }
 
-    /// Shows the wall; a sign that is clicked opens the starter corpus with it.
+    /// Shows the wall; a click on a sign opens the starter corpus with that sign.
     fn wall(&mut self, ui: &mut Ui, room: Rect) {
         let language = self.settings.language;
         if let Some(gloss) = wall::show(ui, &self.little, language, room) {
@@ -140,7 +140,7 @@ impl Studio {
         });
     }
 
-    /// Returns where the sign lies that a new user is greeted with, once.
+    /// Returns the place of the sign to show first to a new user, once.
     pub(crate) fn greeting(&mut self) -> Option<(i64, Span)> {
         let gloss = self.greets.take()?;
         let signs = &self.snapshot.as_ref()?.overview.signs;
@@ -278,7 +278,7 @@ impl Studio {
     }
 }
 
-/// Shows something that can be begun with, with a frame that says so.
+/// Shows an offer in a frame.
 fn offer(ui: &mut Ui, height: f32, name: &str, about: &str) -> Response {
     let frame = ui.painter().add(Shape::Noop);
     let row = list_row(ui, height, false, name, about);
@@ -290,7 +290,7 @@ fn offer(ui: &mut Ui, height: f32, name: &str, about: &str) -> Response {
     row
 }
 
-/// Returns a file's name without its ending, and the folder it is in.
+/// Returns the name of a file without its extension, and its folder.
 fn parts(path: &Path) -> (String, String) {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     (

@@ -20,10 +20,10 @@ const GAP: f32 = 10.0;
 /// The room for a gloss below its picture.
 const FOOT: f32 = 22.0;
 
-/// The signs that were read so far, in order; a thread reads them once.
+/// The signs that have been read so far, in order; a thread reads them once.
 static SIGNS: OnceLock<Mutex<Vec<Arc<Made>>>> = OnceLock::new();
 
-/// Returns the signs of the starter corpus that were read so far; the first call has them read.
+/// Returns the signs of the starter corpus that have been read so far; the first call starts the reading.
 pub(crate) fn signs(ctx: &Context) -> Vec<Arc<Made>> {
     let mut fresh = false;
     let signs = SIGNS.get_or_init(|| {
@@ -57,14 +57,14 @@ fn made(sign: StarterSign) -> Made {
     }
 }
 
-/// Returns columns, rows and the side of a picture for `count` signs in `room`; `None` if not even one fits.
+/// Returns columns, rows and the side of a picture in points for `count` signs in `room`; `None` if not even one fits.
 pub(super) fn grid(room: Vec2, count: usize) -> Option<([usize; 2], f32)> {
     let fit = |side: f32, foot: f32| ((side + GAP) / (LEAST + foot + GAP)).floor() as usize;
     let most = [fit(room.x, 0.0), fit(room.y, FOOT)];
     if most.contains(&0) || count == 0 {
         return None;
     }
-    // As few columns as show all that there is room for, and the pictures as large as that lets them.
+    // The fewest columns that show as many signs as there is room for, with the largest pictures.
     let shown = count.min(most[0] * most[1]);
     let side = |columns: usize| {
         let rows = shown.div_ceil(columns);

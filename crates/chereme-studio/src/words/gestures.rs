@@ -1,4 +1,4 @@
-//! What the mouse does.
+//! The gestures of the mouse.
 
 texts! {
     TITLE: "Mouse", "Souris";

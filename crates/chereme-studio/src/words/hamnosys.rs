@@ -55,7 +55,7 @@ pub(crate) const CLASSES: [(Class, Text); 16] = [
     (Class::Bracket, BRACKETS),
 ];
 
-/// Ways by their letters.
+/// Directions, by their letters in symbol names.
 const WAYS: [(char, Text); 6] = [
     ('u', text("up", "vers le haut")),
     ('d', text("down", "vers le bas")),
@@ -69,7 +69,7 @@ const fn text(en: &'static str, fr: &'static str) -> Text {
     Text { en, fr }
 }
 
-/// Returns what a symbol means, by its name without `ham`.
+/// Returns the meaning of a symbol, given its name without `ham`.
 pub(crate) fn meaning(name: &str, language: Language) -> Option<String> {
     if let Some((_, text)) = MEANINGS.iter().find(|(known, _)| *known == name) {
         return Some(text.of(language).to_owned());

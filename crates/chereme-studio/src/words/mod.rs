@@ -1,4 +1,4 @@
-//! Every word the window says, in English and French; one file for each part of it.
+//! Every text of the window, in English and French; one file for each part of it.
 //!
 //! Texts that the command line uses too are in [`chereme_corpus::words`]. A text is a constant of its table;
 //! [`fill`] fills `{name}` in it. To add one, write a line into the table of its part; to add a table, name it in
@@ -7,7 +7,7 @@
 pub use chereme_corpus::words::Language;
 pub(crate) use chereme_corpus::words::{Text, fill, history, merge, trouble};
 
-/// Returns a message of the library in a language; as it is if it has no other words.
+/// Returns a message of the library in a language; unchanged if there is no translation.
 pub(crate) fn spoken(text: &str, language: Language) -> String {
     chereme_corpus::words::message(text, language).unwrap_or_else(|| text.to_owned())
 }

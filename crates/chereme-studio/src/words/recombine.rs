@@ -185,7 +185,7 @@ texts! {
     NEEDS_CARD: "Choose a card of the recipe first.", "Choisissez d’abord une carte de la recette.";
 }
 
-/// The title of each operator and what it does, by the operator's name.
+/// The title and the description of each operator, by its name.
 pub(crate) const OPERATORS: [(&str, super::Text, super::Text); 14] = [
     ("configure", CONFIGURE, CONFIGURE_HINT),
     ("place", PLACE, PLACE_DOES),
