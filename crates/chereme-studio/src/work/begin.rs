@@ -1,4 +1,4 @@
-//! Opening: the corpus for the window, created first if it does not exist.
+//! Opening a corpus, which is created first if necessary.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -11,30 +11,30 @@ use chereme_corpus::{Corpus, Error, ImportOptions, Progress, Result, Step, unpac
 use super::Far;
 use super::desk::Wake;
 
-/// A corpus to be opened.
+/// The corpus to open.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Begin {
-    /// One that is there.
+    /// An existing corpus.
     Open(PathBuf),
     /// A new, empty one.
     New(PathBuf),
     /// The starter corpus, built in this folder unless it exists.
     Starter(PathBuf),
-    /// The one beside this folder, created empty if missing, to take in the files of the folder once the user has
-    /// looked at them.
+    /// The corpus beside this folder, created empty if missing. The files of the folder are shown in the import pane
+    /// first, and imported when the user agrees.
     Folder(PathBuf),
     /// The same for files, in the folder of the first.
     Files(Vec<PathBuf>),
 }
 
-/// An opening that has not ended.
+/// An opening in progress.
 pub(crate) struct Beginning {
     news: Receiver<Telling>,
     pub(crate) far: Far,
     stop: Arc<AtomicBool>,
-    /// The files to look at in the import then.
+    /// The files to show in the import pane after the opening.
     pub(crate) look: Vec<PathBuf>,
-    /// The corpus that is made only to take it in.
+    /// The corpus, if it is created only to receive those files.
     pub(crate) made: Option<PathBuf>,
 }
 
@@ -44,7 +44,7 @@ enum Telling {
 }
 
 impl Beginning {
-    /// Begins on a thread of its own.
+    /// Starts the opening on a separate thread.
     pub(crate) fn start(begin: Begin, author: &str, wake: &Wake) -> Self {
         let (look, made) = begin.look();
         let (tell, news) = channel();
@@ -78,7 +78,7 @@ impl Beginning {
         self.stop.store(true, Ordering::Relaxed);
     }
 
-    /// Returns the path of the corpus, or the reason for its lack, when it has ended.
+    /// Returns the path of the corpus or the error, once the opening has ended.
     pub(crate) fn ended(&mut self) -> Option<Result<PathBuf>> {
         while let Ok(step) = self.news.try_recv() {
             match step {
@@ -114,7 +114,7 @@ impl Begin {
         }
     }
 
-    /// Returns what is to be looked at when it is open, and the corpus that is made only for it.
+    /// Returns the files to show in the import pane, and the path of the corpus if it is created only for them.
     fn look(&self) -> (Vec<PathBuf>, Option<PathBuf>) {
         let look = match self {
             Self::Folder(folder) => vec![folder.clone()],
@@ -126,7 +126,7 @@ impl Begin {
         (look, made)
     }
 
-    /// Returns the corpus for files that are to be taken in.
+    /// Returns the path of the corpus for the files.
     fn target(&self) -> PathBuf {
         let path = match self {
             Self::Folder(folder) => folder.clone(),
@@ -153,7 +153,7 @@ fn starter(folder: &Path, author: &str, progress: &mut Progress<'_>) -> Result<P
     Ok(path)
 }
 
-/// Makes a corpus with all that is in `folder`; one that could not be filled does not stay.
+/// Creates a corpus and imports all files of `folder`; deletes the corpus again if the import fails.
 fn filled(path: &Path, folder: &Path, author: &str, progress: &mut Progress<'_>) -> Result<()> {
     if !folder.is_dir() {
         return Err(Error::file(folder, std::io::ErrorKind::NotFound.into()));
@@ -162,13 +162,13 @@ fn filled(path: &Path, folder: &Path, author: &str, progress: &mut Progress<'_>)
     let done = corpus.import(&[folder.to_owned()], &ImportOptions::default(), progress);
     drop(corpus);
     if done.is_err() {
-        // The rest is an empty corpus that nobody has seen.
+        // The failed import leaves an empty corpus that nobody has seen.
         let _ = std::fs::remove_file(path);
     }
     done.map(|_| ())
 }
 
-/// Returns the path with the ending of a corpus.
+/// Returns the path with the extension of a corpus.
 pub(crate) fn with_extension(path: PathBuf) -> PathBuf {
     if path
         .extension()
@@ -227,7 +227,7 @@ mod tests {
             let corpus = Corpus::open(&want, "A").expect("opened");
             let overview = corpus.overview(10).expect("read");
             assert!(overview.recordings.is_empty() && overview.operations.is_empty());
-            // Work continues on an existing one.
+            // The opened corpus exists, so it is not created only for the files.
             assert_eq!(what.look().1, None);
             assert_eq!(begin(what).expect("opened"), want);
         }

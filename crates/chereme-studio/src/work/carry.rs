@@ -12,7 +12,7 @@ use chereme_corpus::{
 use super::{Outcome, Shared, Work};
 use crate::panes::inspector::Thing;
 
-/// Does it.
+/// Carries out a piece of work.
 pub(super) fn carry(
     corpus: &mut Corpus,
     work: Work,
@@ -200,7 +200,7 @@ pub(super) fn carry(
     })
 }
 
-/// Undoes operations one after the other, or redoes them; finished ones stay if it is stopped.
+/// Undoes or redoes operations one after the other; if it is stopped, the finished ones stay.
 fn walk(
     corpus: &mut Corpus,
     back: bool,
@@ -223,10 +223,10 @@ fn walk(
     Ok(Outcome::Walked { back, steps })
 }
 
-/// How many different originals are loaded.
+/// How many different originals are loaded at most.
 const ORIGINALS: usize = 24;
 
-/// Loads the original of each piece, of equal ones once; a missing one is not an error.
+/// Loads the original of each piece; equal originals are loaded once, and a missing one is not an error.
 fn originals(corpus: &Corpus, parts: Vec<MadePart>) -> Outcome {
     let mut known: BTreeMap<String, Option<Arc<Moving>>> = BTreeMap::new();
     let loaded = parts.into_iter().map(|part| {

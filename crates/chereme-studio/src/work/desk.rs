@@ -1,4 +1,4 @@
-//! The threads of an open corpus: one for each lane of work, and one that reads what there is.
+//! The threads of an open corpus: one for each lane of work, and one that reads snapshots.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -16,7 +16,7 @@ use super::{Ended, Far, Lane, Work, WorkId};
 use crate::model::{Opened, Snapshot};
 use crate::words::Text;
 
-/// How often another program's changes are looked for.
+/// Interval between checks for changes by other programs.
 const LOOK: Duration = Duration::from_millis(300);
 /// How many operations the history shows.
 const OPERATIONS: usize = 2000;
@@ -27,21 +27,21 @@ pub(crate) type Wake = Arc<dyn Fn() + Send + Sync>;
 /// The threads' messages to the window.
 #[derive(Debug)]
 pub(crate) enum News {
-    /// The corpus as it is now, and whether this window's own work changed it.
+    /// A new snapshot, and whether this window's own work changed the corpus.
     Read(Snapshot, bool),
-    /// It could not be read.
+    /// The corpus could not be read.
     Unread(Error),
-    /// Its file is gone from its place, or there again.
+    /// Whether the corpus file is in its place; sent when that changes.
     Stands(bool),
-    /// A copy of it was saved there, or why not.
+    /// The path of the saved copy, or the error.
     Copied(Result<PathBuf, Error>),
-    /// A piece of work is that far.
+    /// The progress of a piece of work.
     Far(WorkId, Far),
-    /// A piece of work ended.
+    /// The result of a piece of work.
     Ended(WorkId, Ended, About),
 }
 
-/// The subject of a piece of work.
+/// The title of a piece of work, and the treatment of its errors.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct About {
     pub(crate) task: Text,
@@ -49,7 +49,7 @@ pub(crate) struct About {
     pub(crate) quiet: bool,
 }
 
-/// Work that was given out and has not ended.
+/// Work that has been started and has not ended.
 #[derive(Debug)]
 pub(crate) struct Running {
     pub(crate) task: Text,
@@ -68,13 +68,13 @@ struct Order {
 enum Wish {
     /// Read again, after work of this window.
     Again,
-    /// Read this recording too.
+    /// Include the tiers of this recording in the snapshots.
     Recording(Option<i64>),
     /// Save a copy there.
     Copy(PathBuf),
 }
 
-/// An open corpus with its threads; dropping it waits for what was typed to be stored.
+/// An open corpus with its threads; dropping it waits until the user's edits are stored.
 pub(crate) struct Desk {
     pub(crate) path: PathBuf,
     lanes: BTreeMap<Lane, Sender<Box<Order>>>,
@@ -118,7 +118,7 @@ impl Desk {
         }
     }
 
-    /// Gives work out.
+    /// Starts work on its lane.
     pub(crate) fn give(&mut self, id: WorkId, work: Work) {
         let lane = work.lane();
         let stop = Arc::new(AtomicBool::new(false));
@@ -136,30 +136,30 @@ impl Desk {
         }
     }
 
-    /// Stops a piece of work, begun or not.
+    /// Stops a piece of work, whether it has begun or not.
     pub(crate) fn stop(&self, id: WorkId) {
         if let Some(running) = self.running.get(&id) {
             running.stop.store(true, Ordering::Relaxed);
         }
     }
 
-    /// Has the snapshots hold that recording's tiers too.
+    /// Makes the snapshots include the tiers of that recording.
     pub(crate) fn watch(&self, recording: Option<i64>) {
         if let Some(reader) = &self.reader {
-            // A reader that is gone has said why.
+            // A reader thread that has ended has reported the reason.
             let _ = reader.send(Wish::Recording(recording));
         }
     }
 
-    /// Has a copy of the corpus saved, also where its file is gone.
+    /// Saves a copy of the corpus, even if its file is missing.
     pub(crate) fn save_copy(&self, to: PathBuf) {
         if let Some(reader) = &self.reader {
-            // A reader that is gone has said why.
+            // A reader thread that has ended has reported the reason.
             let _ = reader.send(Wish::Copy(to));
         }
     }
 
-    /// Returns what came in since it was last asked.
+    /// Returns the messages since the last call.
     pub(crate) fn news(&mut self) -> Vec<News> {
         let mut all = Vec::new();
         while let Ok(news) = self.news.try_recv() {
@@ -194,22 +194,22 @@ impl Drop for Desk {
     }
 }
 
-/// What a thread needs.
+/// The shared data of the threads.
 #[derive(Clone)]
 struct Station {
     path: PathBuf,
     author: String,
     tell: Sender<News>,
     wake: Wake,
-    /// The corpus file as it was opened.
+    /// The identity of the corpus file when it was opened.
     place: Place,
-    /// How often this window began and ended to change the corpus: odd while it does.
+    /// How often work of this window began or ended to change the corpus; odd while such work runs.
     edits: Arc<AtomicU64>,
 }
 
 impl Station {
     fn say(&self, news: News) {
-        // Nobody listens any more when the window is closing.
+        // The window does not listen any more when it is closing.
         let _ = self.tell.send(news);
         (self.wake)();
     }
@@ -220,7 +220,7 @@ impl Station {
             let Order { id, work, stop } = *order;
             let (task, quiet) = (work.task(), work.is_quiet());
             let edits = lane == Lane::Edit;
-            // One lane edits, so that this counts begins and ends in turn.
+            // Only one lane edits, so begins and ends alternate.
             if edits {
                 self.edits.fetch_add(1, Ordering::SeqCst);
             }
@@ -291,7 +291,7 @@ impl Station {
                 Ok(false) => {}
                 Err(error) => self.say(News::Unread(error)),
             }
-            // Running work is not over yet.
+            // Work that is running has not ended: count it again at the next reading.
             before = begun & !1;
             let mut next = wishes.recv_timeout(LOOK);
             while let Ok(wish) = next {
@@ -316,7 +316,7 @@ impl Station {
 }
 
 /// Returns whether a change between two readings may be this window's own work: some work began, ended or ran
-/// meanwhile, as the counts of begins and ends show.
+/// meanwhile. `before` and `now` count begins and ends.
 fn is_own(before: u64, now: u64) -> bool {
     now != before || now % 2 == 1
 }
@@ -324,7 +324,7 @@ fn is_own(before: u64, now: u64) -> bool {
 /// The data of the reading thread.
 struct Reading {
     corpus: Corpus,
-    /// The recording whose tiers are wanted.
+    /// The recording whose tiers the snapshots include.
     recording: Option<i64>,
     /// The generation and recording of the last snapshot.
     seen: Option<(i64, Option<i64>)>,
@@ -332,7 +332,7 @@ struct Reading {
 }
 
 impl Reading {
-    /// Reads what changed; whether anything did.
+    /// Reads what changed since the last snapshot; returns whether anything did.
     fn again(&mut self) -> Result<bool, Error> {
         let now = (self.corpus.generation()?, self.recording);
         if self.seen == Some(now) {

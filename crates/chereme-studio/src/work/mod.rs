@@ -1,8 +1,7 @@
-//! Work beside the window: each use case of the corpus is a value that a thread carries out.
+//! Work on other threads: each use case of the corpus is a value that a thread carries out.
 //!
-//! [`Work`] says what to do, [`Outcome`] what came of it. To add a use case, add a variant to both
-//! (or to `Work` alone where an outcome fits), its lane in [`Work::lane`], and an arm in
-//! [`carry`](carry::carry).
+//! [`Work`] is the request, [`Outcome`] the result. To add a use case, add a variant to both (or to `Work` alone if an
+//! existing outcome fits), its lane in [`Work::lane`], and an arm in [`carry`](carry::carry).
 
 pub(crate) mod begin;
 mod carry;
@@ -27,11 +26,11 @@ use crate::model::made::Made;
 use crate::panes::inspector::Thing;
 use crate::words::{Text, shell};
 
-/// The number of a piece of work, counted up.
+/// Serial number of a piece of work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct WorkId(pub(crate) u64);
 
-/// A use case of the corpus with all it needs.
+/// A use case of the corpus with its arguments.
 #[derive(Debug, Clone)]
 #[allow(dead_code, reason = "every use case, asked for or not")]
 pub(crate) enum Work {
@@ -49,42 +48,42 @@ pub(crate) enum Work {
     OrderTiers(Name, Vec<i64>),
     /// Removes a tier.
     RemoveTier(TierName),
-    /// Makes a sign by a recipe and stores it.
+    /// Generates a sign from a recipe and stores it.
     Recombine {
         /// The recipe.
         recipe: String,
         /// The gloss of the new sign.
         gloss: String,
     },
-    /// Makes a sign by a recipe and stores it in the place of one that was made before.
+    /// Generates a sign from a recipe and stores it in place of an earlier one.
     RecombineAgain {
         /// The recipe.
         recipe: String,
-        /// The recording of the former sign.
+        /// The recording of the earlier sign.
         recording: i64,
     },
     /// Decides a conflict of a merge.
     Decide(usize, Decision),
     /// Merges another corpus into this one.
     Merge(PathBuf),
-    /// Takes files in.
+    /// Imports files, or only reports what an import would do.
     Import(Vec<PathBuf>, Box<ImportOptions>),
-    /// Takes the newest operation back.
+    /// Undoes the newest operation.
     Undo,
-    /// Does it again.
+    /// Redoes the last undone operation.
     Redo,
-    /// Takes several operations back, or does them again.
+    /// Undoes or redoes several operations.
     Walk {
-        /// Whether back.
+        /// Whether to undo.
         back: bool,
-        /// How many.
+        /// The number of operations.
         steps: usize,
     },
     /// Changes a recording.
     ChangeRecording(Name, Box<RecordingChange>),
-    /// Changes which media go with a recording.
+    /// Changes the media files of a recording.
     ChangeMedia(Name, MediaChange),
-    /// Changes a track of a recording, such as where it lies on the clock.
+    /// Changes a track of a recording, for example its place on the clock.
     ChangeTrack(Name, String, TrackChange),
     /// Changes a signer.
     ChangeSigner(Name, Box<SignerChange>),
@@ -92,34 +91,34 @@ pub(crate) enum Work {
     ChangeSign(Name, Box<SignChange>),
     /// Makes a token the citation form of its sign.
     SetCitation(Address),
-    /// Keeps searches under their names.
+    /// Saves searches under their names.
     KeepSearches(Vec<KeptSearch>),
-    /// Gives a kept search another name.
+    /// Renames a saved search.
     RenameSearch(String, String),
-    /// Keeps a search no longer.
+    /// Deletes a saved search.
     ForgetSearch(String),
-    /// Checks the whole corpus; wrong derived rows are built again on request.
+    /// Checks the whole corpus; rebuilds wrong derived rows on request.
     Check {
-        /// Whether it is.
+        /// Whether to rebuild them.
         mend: bool,
     },
-    /// Reads a component that is not coded from movement.
+    /// Infers a component that is not coded from movement, and stores proposals.
     Propose(Component),
-    /// Propose values for a sign, a span or a recording.
+    /// Proposes values for a sign, a span or a recording.
     ProposeIn(ProposeOptions),
-    /// Accept these proposals.
+    /// Accepts these proposals.
     Accept(Vec<i64>),
-    /// Says all that is known of something.
+    /// Returns all details of something.
     Look(Thing),
     /// Finds tokens.
     Search(String, SearchOptions),
-    /// Says what stands before and after tokens, so many annotations to each side.
+    /// Returns the annotations before and after tokens, up to that number on each side.
     Around(Vec<i64>, usize),
-    /// Places the signs on a map by these components.
+    /// Places the signs on a map by the similarity of these components.
     Map(Vec<Component>),
-    /// Compares the keys of a recording with those that its phones predict by the code of that name.
+    /// Compares the keys of a recording with those that its phones predict in the named code.
     CueSlips(i64, String),
-    /// Finds the expressions of faces, with their milestones.
+    /// Finds the expressions of faces with their milestones.
     Expressions,
     /// Writes the milestones of every expression of a function onto tiers.
     Milestones(Function),
@@ -132,32 +131,32 @@ pub(crate) enum Work {
         /// How they are compared.
         options: Box<ChooseOptions>,
     },
-    /// Measures when non-manuals begin and end, of a function or of all.
+    /// Measures when non-manuals begin and end, for one function or for all.
     Onsets(Option<Function>),
-    /// Writes what the face of a recording seems to do onto tiers of proposals.
+    /// Writes the inferred facial movements of a recording onto tiers of proposals.
     ProposeNonmanuals(Address),
-    /// Makes the movement of a recipe and stores nothing.
+    /// Generates the movement of a recipe and stores nothing.
     Preview(String),
-    /// Makes the movement of the recipe that is worked on, of what changed in it.
+    /// Generates the movement of the open recipe, using stored results for unchanged parts.
     Draft {
         /// The recipe.
         recipe: String,
-        /// Whether everything is looked up again.
+        /// Whether to look everything up again.
         anew: bool,
     },
-    /// Says what could be made from a token.
+    /// Suggests recipes for a token.
     Suggest(Address),
-    /// Says what a typed path may become.
+    /// Completes a typed path.
     Paths(String),
-    /// Writes the tokens that a query finds.
+    /// Writes the tokens that a query finds to files.
     ExportFound(String, PathBuf, ExportOptions),
-    /// Writes files.
+    /// Writes something stored in the corpus to files.
     Export(ExportWhat, PathBuf, ExportOptions),
-    /// Draws what is on the stage to a film, an animation or a picture.
+    /// Draws the contents of the stage to a film, an animation or a picture.
     Share(Shared, PathBuf, PictureOptions),
     /// Loads a piece of movement of a recording.
     Movement {
-        /// The recording's row.
+        /// The recording's row id.
         recording: i64,
         /// The piece's number.
         piece: usize,
@@ -166,15 +165,15 @@ pub(crate) enum Work {
     },
     /// Loads the points of a span of a recording, such as optical markers.
     Points(i64, Span),
-    /// Loads a span of a recording's movement by itself; none is no error.
+    /// Loads the movement of a span of a recording; missing movement is not an error.
     Stretch(i64, Span),
-    /// Loads the originals of what a sign is made of.
+    /// Loads the original movement of the pieces of a generated sign.
     Originals(Vec<MadePart>),
-    /// Loads the originals of what a stored sign was made of.
+    /// Loads the original movement of the pieces of a stored generated sign.
     OriginalsOf(i64),
-    /// Measures a piece of movement of a recording.
+    /// Measures a piece of movement of a recording, for the curves.
     Measure {
-        /// The recording's row.
+        /// The recording's row id.
         recording: i64,
         /// The piece's number.
         piece: usize,
@@ -191,34 +190,34 @@ pub(crate) enum Outcome {
     Annotated(AnnotateReport),
     /// Something was changed that the next snapshot shows.
     Changed,
-    /// A sign was made and stored.
+    /// A sign was generated and stored.
     Recombined(Box<Recombination>),
-    /// Files were taken in, or looked at.
+    /// Files were imported, or examined for an import.
     Imported(ImportReport),
     /// Another corpus was merged in.
     Merged(MergeReport),
-    /// An operation was taken back.
+    /// An operation was undone.
     Undone(OperationRow),
-    /// An operation was done again.
+    /// An operation was redone.
     Redone(OperationRow),
-    /// That many operations were taken back, or done again.
+    /// Several operations were undone or redone.
     Walked {
-        /// Whether back.
+        /// Whether they were undone.
         back: bool,
-        /// How many.
+        /// Their number.
         steps: usize,
     },
-    /// The corpus was looked through.
+    /// The corpus was checked.
     Checked(CheckReport),
-    /// A component was read from movement.
+    /// Values of a component were proposed from movement.
     Proposed(Proposed),
-    /// All that is known of something.
+    /// All details of something.
     Looked(Details),
     /// Tokens were found.
     Found(Answer),
     /// The annotations around tokens.
     Around(Vec<Around>),
-    /// The signs have places on a map.
+    /// The map of signs.
     Mapped(Arc<SignMap>),
     /// The slips of a take.
     CueSlips(Box<CueSlips>),
@@ -226,13 +225,13 @@ pub(crate) enum Outcome {
     Expressions(Arc<Expressions>),
     /// Performances were ranked.
     Chosen(Arc<Choice>),
-    /// Begin and end of non-manuals were measured.
+    /// The begin and end of non-manuals were measured.
     Onsets(Arc<Onsets>),
-    /// Movement was made.
+    /// Movement was generated.
     Previewed(Arc<Recombination>),
-    /// What could be made.
+    /// Suggested recipes.
     Suggested(Suggestions),
-    /// The completions of a typed path.
+    /// The completions of a typed path: the path, and its completions.
     Paths(String, Vec<String>),
     /// Files were written.
     Exported(ExportReport),
@@ -240,7 +239,7 @@ pub(crate) enum Outcome {
     Shared(Picture),
     /// A piece of movement.
     Moved {
-        /// The recording's row.
+        /// The recording's row id.
         recording: i64,
         /// The piece's number.
         piece: usize,
@@ -249,13 +248,13 @@ pub(crate) enum Outcome {
     },
     /// The points of a span of a recording.
     Points(Vec<PointsPiece>),
-    /// The movement of a span, where there is some.
+    /// The movement of a span, if there is any.
     Stretch(Option<Arc<Moving>>),
     /// Pieces of a generated sign, each with its original if it has one.
     Originals(Vec<(MadePart, Option<Arc<Moving>>)>),
     /// A piece of movement was measured.
     Measured {
-        /// The recording's row.
+        /// The recording's row id.
         recording: i64,
         /// The piece's number.
         piece: usize,
@@ -264,7 +263,7 @@ pub(crate) enum Outcome {
     },
 }
 
-/// The thing that is shared.
+/// The object that is shared.
 #[derive(Debug, Clone)]
 pub(crate) enum Shared {
     /// Something stored in the corpus.
@@ -273,24 +272,24 @@ pub(crate) enum Shared {
     Made(Arc<Made>),
 }
 
-/// A thread with a connection of its own; work in one lane is done in order.
+/// A thread with its own connection to the corpus; the work of one lane is done in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Lane {
     /// Changes of the corpus.
     Edit,
-    /// Questions that people wait for.
+    /// Queries that the user waits for.
     Ask,
-    /// Movement made of notation, one sign after the other; it never waits for a search.
+    /// Movement generated from notation, one sign after the other; it never waits for a search.
     Make,
-    /// The recipe that is worked on; nothing else is in its way.
+    /// The open recipe; no other work shares this lane.
     Draft,
-    /// Movement to look at.
+    /// Movement for the stage.
     Movement,
-    /// Movement of little figures, which the stage does not wait for.
+    /// Movement of little figures; the stage does not wait for it.
     Little,
-    /// Movement to measure.
+    /// Movement for measurement.
     Measure,
-    /// Files written.
+    /// Writing of files.
     Export,
 }
 
@@ -361,7 +360,7 @@ impl Work {
         }
     }
 
-    /// Returns what it is called while it runs.
+    /// Returns the title of the work while it runs.
     pub(crate) fn task(&self) -> Text {
         match self {
             Self::Import(_, options) if options.dry_run => shell::TASK_LOOKING,
@@ -419,7 +418,7 @@ impl Work {
         )
     }
 
-    /// Returns whether it may be stopped when the window closes: text that a person typed must be stored.
+    /// Returns whether the work may be stopped when the window closes; edits must be stored.
     pub(crate) fn may_stop(&self) -> bool {
         self.lane() != Lane::Edit
             || matches!(
@@ -433,7 +432,7 @@ impl Work {
     }
 }
 
-/// How far a piece of work is.
+/// The progress of a piece of work.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Far {
     /// The current task, such as a file's name.
@@ -452,12 +451,12 @@ impl Far {
         }
     }
 
-    /// Returns the share that is done, where the whole is known.
+    /// Returns the share that is done, if the total is known.
     pub(crate) fn share(&self) -> Option<f32> {
         let total = self.total.filter(|total| *total > 0)?;
         Some((self.done as f64 / total as f64).min(1.0) as f32)
     }
 }
 
-/// The end of a piece of work.
+/// The result of a piece of work.
 pub(crate) type Ended = Result<Outcome, Error>;
