@@ -1,4 +1,4 @@
-//! A sign without movement: the actions it allows.
+//! The panel about a sign without movement, with the possible actions.
 
 use eframe::egui::{Frame, Label, Margin, Panel, RichText, Ui};
 
@@ -7,7 +7,7 @@ use crate::context::{Outbox, Seen};
 use crate::panes::recombine::recipe_of;
 use crate::words::{fill, library as words};
 
-/// Why there is nothing to see of a sign.
+/// The reason why a sign has no recorded movement.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Bare {
     /// It is coded, or only named.
@@ -20,10 +20,10 @@ pub(crate) enum Bare {
     Animated,
 }
 
-/// A list lower than this keeps its room: then the text is one line.
+/// In a list lower than this, in points, the panel has only one line.
 const LOW: f32 = 300.0;
 
-/// Says what there is of a sign, and offers what can be done.
+/// Shows the state of a sign's movement, and the possible actions.
 pub(crate) fn show(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -31,7 +31,7 @@ pub(crate) fn show(
     (token, gloss): (i64, &str),
     bare: &Bare,
 ) {
-    // Below the list, which keeps its place.
+    // The panel is below the list, so that the list does not move.
     let frame = Frame::new().inner_margin(Margin::symmetric(0, 6));
     let id = ui.scope_id().with("bare");
     let low = ui.available_height() < LOW;
@@ -64,7 +64,7 @@ pub(crate) fn show(
     });
 }
 
-/// Offers what can be done.
+/// Shows the possible actions.
 fn offers(
     ui: &mut Ui,
     seen: &Seen<'_>,

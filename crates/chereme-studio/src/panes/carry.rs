@@ -13,7 +13,7 @@ use crate::context::{Outbox, Seen};
 use crate::little::{self, Cell, Motion};
 use crate::words::{library as words, search};
 
-/// How large the figure under the pointer is.
+/// Side of the figure under the pointer, in points.
 const FIGURE: f32 = 96.0;
 
 /// The picture that follows the pointer while a sign is carried.
@@ -27,7 +27,7 @@ fn picture_id() -> Id {
     Id::unique("carried")
 }
 
-/// Lets a row or figure of a list, which senses drags, be carried.
+/// Makes a row or figure of a list draggable; it must sense drags.
 pub(crate) fn drag(response: &Response, carried: Carried, motion: Option<Motion>) {
     if !response.drag_started() {
         return;
@@ -44,7 +44,7 @@ pub(crate) fn is_carrying(ctx: &Context) -> bool {
     DragAndDrop::has_payload_of_type::<Carried>(ctx)
 }
 
-/// Returns the sign that is let go over `rect`, where nothing in it took it; marks the place meanwhile.
+/// Returns the sign that is dropped over `rect`, if no widget there took it; marks the area meanwhile.
 pub(crate) fn let_go(ui: &Ui, seen: &Seen<'_>, rect: Rect) -> Option<Carried> {
     let ctx = ui.ctx();
     let over = ctx.pointer_latest_pos().is_some_and(|at| rect.contains(at));
@@ -60,7 +60,7 @@ pub(crate) fn let_go(ui: &Ui, seen: &Seen<'_>, rect: Rect) -> Option<Carried> {
     DragAndDrop::take_payload::<Carried>(ctx).map(|it| (*it).clone())
 }
 
-/// Draws what is carried under the pointer; the panes are drawn already.
+/// Draws the dragged sign under the pointer, above the panes.
 pub(crate) fn show(ctx: &Context, seen: &Seen<'_>, out: &mut Outbox) {
     if !is_carrying(ctx) {
         return;
@@ -91,15 +91,15 @@ pub(crate) fn show(ctx: &Context, seen: &Seen<'_>, out: &mut Outbox) {
     ctx.move_to_top(layer);
 }
 
-/// Tabs that open when something is held over them for a while.
+/// Opens a tab when something is held over it for a while.
 #[derive(Debug, Default)]
 pub(crate) struct Sprung(Option<(PaneKind, f64)>);
 
 impl Sprung {
-    /// How long it is held, in seconds.
+    /// How long it must be held, in seconds.
     const HELD: f64 = 0.35;
 
-    /// Returns the pane that comes to the front now.
+    /// Returns the pane whose tab opens now.
     pub(crate) fn follow(&mut self, under: Option<PaneKind>, now: f64) -> Option<PaneKind> {
         let since = match (self.0, under) {
             (Some((before, since)), Some(under)) if before == under => since,
@@ -112,7 +112,8 @@ impl Sprung {
 
 /// Draws the menu of a sign in a list.
 ///
-/// `recording` is that in which it lies: one that was made of a recipe has it opened again.
+/// `recording` is the recording that contains the sign; if it was made from a recipe, the menu can open that recipe
+/// again.
 pub(crate) fn menu(
     ui: &mut Ui,
     seen: &Seen<'_>,

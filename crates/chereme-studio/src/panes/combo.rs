@@ -1,9 +1,9 @@
-//! Lists to choose from, by keys as elsewhere: without opening one, arrows go through it and a letter goes to
-//! the next that begins with it.
+//! Keyboard use of drop-down lists without opening them: arrows go through the list, and a letter goes to the next
+//! entry that begins with it.
 
 use eframe::egui::{Event, EventFilter, InnerResponse, Key, Modifiers, Ui};
 
-/// Returns the place in `names` that keys chose while the list has the focus and is not open.
+/// Returns the index in `names` that a key chose, if the list has the focus and is closed.
 pub(crate) fn step<R>(
     ui: &Ui,
     list: &InnerResponse<Option<R>>,
@@ -47,7 +47,7 @@ pub(crate) fn step<R>(
     (Some(at) != now).then_some(at)
 }
 
-/// Returns the next after `now`, going round, whose name begins with a letter.
+/// Returns the index of the next name after `now`, cyclically, that begins with a letter.
 fn next_with(names: &[&str], now: Option<usize>, letter: char) -> Option<usize> {
     let first = |name: &str| {
         name.chars()

@@ -1,4 +1,4 @@
-//! A line of text with what it could be: typed letters narrow a list, arrows choose, Enter takes.
+//! A line of text with completion: typed letters narrow a list, arrows choose, Enter takes the chosen candidate.
 
 use crate::script::edit;
 use chereme_sign::text::fold;
@@ -10,20 +10,20 @@ use eframe::egui::{
 /// How many candidates are offered at once.
 pub(crate) const OFFERED: usize = 40;
 
-/// The least width of a list that shows more than names.
+/// The least width of a list that shows remarks, in points.
 const TOLD: f32 = 320.0;
 
 /// The remark on a candidate, if it has one.
 type About<'a> = dyn Fn(&str) -> Option<String> + 'a;
 
-/// How a line of text with completion looks.
+/// Settings of a line of text with completion.
 #[derive(Clone, Copy)]
 pub(crate) struct Line<'a> {
-    /// Its name for people who do not see it; blank where a label beside it says so.
+    /// Accessible name; empty if a label beside the line names it.
     pub(crate) name: &'a str,
     pub(crate) hint: &'a str,
     pub(crate) width: f32,
-    /// Whether Enter takes a candidate that is the only one and begins with what is typed.
+    /// Whether Enter takes the only candidate if it begins with the typed text.
     pub(crate) takes_only: bool,
     /// The remark on each candidate.
     pub(crate) about: Option<&'a About<'a>>,
@@ -45,25 +45,25 @@ impl Default for Line<'_> {
 pub(crate) struct Typed {
     #[allow(dead_code, reason = "what else lies on the line")]
     pub(crate) response: Response,
-    /// Whether the text is another than before.
+    /// Whether the text has changed.
     pub(crate) changed: bool,
     /// Whether a candidate was taken, or Enter pressed.
     #[allow(dead_code, reason = "not every line does something at once")]
     pub(crate) entered: bool,
 }
 
-/// The memory of a list of candidates between frames.
+/// The state of a list of candidates between frames.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Listed {
     /// The candidate that Enter takes.
     chosen: Option<usize>,
-    /// Whether Escape put the list away.
+    /// Whether Escape closed the list.
     away: bool,
-    /// Where the list was.
+    /// The rectangle of the list in the last frame.
     rect: Option<Rect>,
 }
 
-/// Returns those of `all` that begin with `typed`, then those that hold it, whatever case and accents.
+/// Returns the entries of `all` that begin with `typed`, then those that contain it, ignoring case and accents.
 pub(crate) fn fitting<'a>(all: impl Iterator<Item = &'a str>, typed: &str) -> Vec<String> {
     let wanted = fold(typed.trim());
     let (mut first, mut second) = (Vec::new(), Vec::new());
@@ -83,7 +83,7 @@ pub(crate) fn fitting<'a>(all: impl Iterator<Item = &'a str>, typed: &str) -> Ve
     first
 }
 
-/// Returns whether there is one candidate, and it begins with what is typed.
+/// Returns whether there is exactly one candidate, and it begins with the typed text.
 fn is_only(offered: &[String], typed: &str) -> bool {
     let typed = fold(typed.trim());
     match offered {
@@ -92,7 +92,7 @@ fn is_only(offered: &[String], typed: &str) -> bool {
     }
 }
 
-/// Shows the line; `candidates` is only asked while it has the focus.
+/// Shows the line; `candidates` is only called while the line has the focus.
 pub(crate) fn complete(
     ui: &mut Ui,
     id: Id,

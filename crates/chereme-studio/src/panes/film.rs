@@ -1,4 +1,4 @@
-//! The pane of films: those of the recording that is shown, which the stage leaves to it while it is in sight.
+//! The pane of films of the displayed recording; while it is in sight, the stage does not show films.
 
 use eframe::egui::{Button, Rect, Sense, Ui, vec2};
 
@@ -42,7 +42,7 @@ impl Pane for FilmPane {
     }
 }
 
-/// Says that there is no film, and offers to link one.
+/// Shows that there is no film, and offers to link one.
 fn none(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, whole: Rect) {
     let above = whole.with_max_y(whole.bottom() - 44.0);
     little::empty(ui, above, seen.say(words::NO_FILM));

@@ -1,14 +1,14 @@
-//! The name that was meant by a slip, read from a message: `…"ESC"; did you mean "ESCARGOT"?`.
+//! The intended name in a message about an unknown name: `…"ESC"; did you mean "ESCARGOT"?`.
 
-/// A name that is not known, and the one that was most likely meant.
+/// An unknown name, and the likeliest intended one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Meant {
-    /// The name as it was written, where the message repeats it.
+    /// The name as it was written, if the message repeats it.
     pub(crate) wrong: Option<String>,
     pub(crate) right: String,
 }
 
-/// Returns what a message says was meant.
+/// Returns the suggestion in a message.
 pub(crate) fn meant(message: &str) -> Option<Meant> {
     const ASKED: &str = "did you mean ";
     let (before, after) = message.rsplit_once(ASKED)?;
@@ -30,7 +30,7 @@ pub(crate) fn meant(message: &str) -> Option<Meant> {
     Some(Meant { wrong, right })
 }
 
-/// Returns a quoted name up to its end, and what comes after it.
+/// Returns a quoted name up to its closing quote, and the rest of the text.
 fn quoted_end(text: &str) -> Option<(String, &str)> {
     let mut name = String::new();
     let mut letters = text.char_indices();

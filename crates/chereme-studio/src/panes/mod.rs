@@ -1,7 +1,7 @@
 //! The panes: each a module with rows computed by plain functions (`data`) and widgets (`ui`).
 //!
-//! To add one: a variant of [`PaneKind`] with its title, a field of [`Panes`] with its arms, a place
-//! in [`layout::usual`](crate::layout::usual), and an action that shows it.
+//! To add one: a variant of [`PaneKind`] with its title, a field of [`Panes`] with its arms, a place in
+//! [`layout::of`](crate::layout::of), and an action that shows it.
 
 pub(crate) mod bare;
 pub(crate) mod carry;
@@ -33,7 +33,7 @@ use crate::context::{Outbox, Seen};
 use crate::words::{self, Text};
 use crate::work::{Ended, WorkId};
 
-/// One of the panes; its name stands in remembered layouts.
+/// One of the panes; its name is part of stored layouts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum PaneKind {
@@ -95,31 +95,31 @@ pub(crate) struct Carried {
 /// The outcome of an action that was offered to a pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Acted {
-    /// It is not this pane's.
+    /// The action does not belong to this pane.
     No,
-    /// It was done.
+    /// The action was carried out.
     Yes,
-    /// It cannot be done now, and this is why.
+    /// The action is not possible now, for this reason.
     Cannot(Text),
 }
 
-/// The duties of every pane.
+/// The interface of every pane.
 pub(crate) trait Pane {
-    /// Draws it, and asks for what a person does in it.
+    /// Draws the pane, and sends requests for the user's input in it.
     fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox);
 
-    /// Does an action that is this pane's.
+    /// Carries out an action of this pane.
     fn act(&mut self, _action: Action, _seen: &Seen<'_>, _out: &mut Outbox) -> Acted {
         Acted::No
     }
 
-    /// Hears what came of work, its own or that of others.
+    /// Handles the result of work, whether this pane or another requested it.
     fn hear(&mut self, _id: WorkId, _ended: &Ended) {}
 
-    /// An action brought it to the front: typed text goes to it.
+    /// Called when an action brings the pane to the front: it should take the keyboard.
     fn come(&mut self) {}
 
-    /// An action brought another pane to the front: typed text no longer goes to this one.
+    /// Called when an action brings another pane to the front: this one should release the keyboard.
     fn leave(&mut self) {}
 }
 
@@ -182,14 +182,13 @@ impl Panes {
     }
 }
 
-/// Returns how wide the longest word of texts is: a column that holds them is never narrower, so that they break
-/// between words.
+/// Returns the width of the longest word in `texts`; a column of that width breaks lines only between words.
 pub(crate) fn longest_word<'a>(ui: &Ui, texts: impl Iterator<Item = &'a str>) -> f32 {
     let words = texts.flat_map(str::split_whitespace);
     words.map(|it| wide(ui, it)).fold(0.0, f32::max).ceil()
 }
 
-/// Returns how wide a button of that text is.
+/// Returns the width of a button with that text.
 pub(crate) fn button_width(ui: &Ui, text: &str) -> f32 {
     wide(ui, text) + 2.0 * ui.spacing().button_padding.x + 2.0
 }
@@ -202,14 +201,14 @@ fn wide(ui: &Ui, text: &str) -> f32 {
     galley.size().x
 }
 
-/// Returns how far a list of rows of one height is scrolled so that the row `at` is in sight.
+/// Returns the scroll offset of a list with rows of one height that brings the row `at` into sight.
 pub(crate) fn scrolled_to(at: usize, height: f32, now: f32, room: f32) -> f32 {
     let top = at as f32 * height;
     let least = (top + height - room).max(0.0);
     now.clamp(least.min(top), top)
 }
 
-/// Shows a row of a list: a name, with something about it below; clicked, or Enter when it has the focus.
+/// Shows a row of a list: a name, with a text below; it reacts to a click, or to Enter with the focus.
 pub(crate) fn list_row(
     ui: &mut Ui,
     height: f32,
@@ -220,7 +219,7 @@ pub(crate) fn list_row(
     list_row_after(ui, (height, 0.0), chosen, name, about)
 }
 
-/// Shows a row of a list with `lead` free at its start, for a picture.
+/// Shows a row of a list with a width of `lead` left free at its start, for a picture.
 pub(crate) fn list_row_after(
     ui: &mut Ui,
     (height, lead): (f32, f32),
@@ -232,7 +231,7 @@ pub(crate) fn list_row_after(
     list_row_at(ui, id, (height, lead), chosen, (name, about))
 }
 
-/// Shows the same under an id of the caller's; it can be dragged.
+/// Shows the same row under the caller's id; it can be dragged.
 pub(crate) fn list_row_at(
     ui: &mut Ui,
     id: Id,

@@ -1,4 +1,4 @@
-//! Signs that are only notated, made one at a time so that they can be looked at.
+//! Signs that have only a notation, animated one at a time for display.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -11,26 +11,26 @@ use crate::context::Outbox;
 use crate::model::made::Made;
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// How many made signs are kept.
+/// How many animated signs are kept.
 const KEPT: usize = 80;
 
-/// Signs made of their notation.
+/// Signs animated from their notation.
 #[derive(Debug, Default)]
 pub(crate) struct Notated {
-    /// The movement in the making: its token, and its name.
+    /// The animation in progress: its work, its token, and its gloss.
     making: Option<(WorkId, i64, String)>,
-    /// By token; why not where it could not be made.
+    /// By token: the animated sign, or the reason why the animation failed.
     made: BTreeMap<i64, Result<Arc<Made>, String>>,
-    /// The tokens in the order in which they were made.
+    /// The tokens in the order of their animation.
     order: VecDeque<i64>,
-    /// The token that is to be shown on the stage as soon as it is there.
+    /// The token and gloss to show on the stage as soon as it is animated.
     wanted: Option<(i64, String)>,
-    /// The moment of the corpus that failures are of.
+    /// The corpus generation of the failures in `made`.
     generation: i64,
 }
 
 impl Notated {
-    /// Returns the movement of a token; missing movement is animated, one token at a time.
+    /// Returns the movement of a token; if it is missing, requests it, one token at a time.
     pub(crate) fn get(&mut self, token: i64, gloss: &str, out: &mut Outbox) -> Option<Arc<Made>> {
         if let Some(made) = self.made.get(&token) {
             return made.as_ref().ok().cloned();
@@ -44,13 +44,13 @@ impl Notated {
         None
     }
 
-    /// Has a token shown on the stage.
+    /// Opens a token, to be shown on the stage.
     pub(crate) fn open(&mut self, token: i64, gloss: &str, out: &mut Outbox) {
         self.wanted = Some((token, gloss.to_owned()));
         self.get(token, gloss, out);
     }
 
-    /// Shows on the stage what was opened, when it is made.
+    /// Shows the opened token on the stage once it is animated.
     pub(crate) fn show(&mut self, out: &mut Outbox) {
         if let Some(made) = self.wanted(out) {
             out.send(Command::Made(Some(made)));
@@ -58,7 +58,7 @@ impl Notated {
         }
     }
 
-    /// Returns what is to be shown on the stage now, once; asks for it where another was being made.
+    /// Returns the movement to show on the stage, once; requests it if another animation was in progress.
     fn wanted(&mut self, out: &mut Outbox) -> Option<Arc<Made>> {
         let (token, gloss) = self.wanted.clone()?;
         let known = self.made.contains_key(&token);
@@ -69,7 +69,7 @@ impl Notated {
         made
     }
 
-    /// Returns what there is to say of a token that was opened.
+    /// Returns the state of an opened token.
     pub(crate) fn bare(&self, token: i64) -> Option<Bare> {
         match self.made.get(&token) {
             Some(Ok(_)) => Some(Bare::Animated),
@@ -78,7 +78,7 @@ impl Notated {
         }
     }
 
-    /// Tries again what failed at another moment of the corpus.
+    /// Forgets the failures if the corpus changed, so that they are tried again.
     pub(crate) fn follow(&mut self, generation: i64) {
         if std::mem::replace(&mut self.generation, generation) != generation {
             self.made.retain(|_, made| made.is_ok());

@@ -9,16 +9,16 @@ use chereme_sign::cue::{Alphabet, Phone, Utterance, codes};
 
 use crate::words::{Language, Text, cue as words, fill};
 
-/// The longest text that is read while it is typed.
+/// The longest text, in bytes, that is analysed while it is typed.
 const MOST_BYTES: usize = 4000;
 
-/// How a text is cued.
+/// The settings for cueing a text.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Choices {
-    /// The code, by its place among those of the program.
+    /// Index of the code among the program's codes.
     pub(super) code: usize,
     pub(super) liaison: bool,
-    /// Whether every e at the end of a word is said.
+    /// Whether every e at the end of a word is pronounced.
     pub(super) schwa: bool,
     pub(super) rule: PhaseRule,
     pub(super) pace: f64,
@@ -39,7 +39,7 @@ impl Default for Choices {
 }
 
 impl Choices {
-    /// Returns whether the code has rules of spelling; others take phones.
+    /// Returns whether the code has spelling rules, so that text can be typed; other codes take phones.
     pub(super) fn spells(&self) -> bool {
         codes()
             .get(self.code)
@@ -57,7 +57,7 @@ impl Choices {
         }
     }
 
-    /// Returns how the library cues the input of a reading.
+    /// Returns the library's options for the input of a reading.
     pub(super) fn options(&self, reading: &Reading) -> CueOptions {
         let code = codes()
             .get(self.code)
@@ -82,35 +82,35 @@ impl Choices {
 pub(super) struct Word {
     pub(super) text: String,
     pub(super) phones: Vec<String>,
-    /// Whether a person changed its phones.
+    /// Whether the user changed its phones.
     pub(super) corrected: bool,
 }
 
-/// A key, and the phones that it stands for.
+/// A key, and the phones that it represents.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Key {
     pub(super) placement: String,
     pub(super) shape: u8,
     pub(super) phones: String,
-    /// Another vowel that speakers say here: the word, the place among its phones, the vowel and its placement.
+    /// Another common vowel at this place: the index of the word, the index of the phone, the vowel, and its placement.
     pub(super) other: Option<(usize, usize, String, String)>,
 }
 
-/// A text as it was understood.
+/// The analysis of a text.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Reading {
     pub(super) words: Vec<Word>,
     pub(super) keys: Vec<Key>,
     pub(super) findings: Vec<String>,
-    /// The text, or the phones where a person corrected some.
+    /// The text, or the phones if the user corrected some.
     pub(super) input: String,
     pub(super) as_phones: bool,
 }
 
-/// Phones that a person gave words, by the place of the word and its letters.
+/// The user's corrections of phones, by the index and the letters of the word.
 pub(super) type Corrections = BTreeMap<(usize, String), Vec<String>>;
 
-/// Reads a text with the corrections that still belong to its words.
+/// Analyses a text with the corrections that still match its words.
 pub(super) fn read(text: &str, choices: &Choices, corrections: &Corrections) -> Reading {
     let Some(code) = codes().get(choices.code) else {
         return Reading::default();
@@ -204,12 +204,12 @@ pub(super) fn placement(id: &str, language: Language) -> String {
     text.map_or_else(|| id.to_owned(), |text| text.of(language).to_owned())
 }
 
-/// Returns a key as people say it: its placement and the number of its shape.
+/// Returns the spoken name of a key: its placement and the number of its handshape.
 pub(super) fn key_name(placement_id: &str, shape: u8, language: Language) -> String {
     format!("{} {shape}", placement(placement_id, language))
 }
 
-/// A word to practise: its letters and what is cued.
+/// A word to practise: its letters, and the input to cue.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Item {
     pub(super) word: String,
@@ -254,7 +254,7 @@ pub(super) fn sets(choices: &Choices) -> Vec<Vec<Item>> {
     }
 }
 
-/// Returns a set of one's own words, separated by commas: two or more of them, at most twelve.
+/// Returns the user's own set of words, separated by commas: from two to twelve of them.
 pub(super) fn own_set(text: &str) -> Option<Vec<Item>> {
     let words = text
         .split([',', ';', '\n'])
@@ -270,17 +270,17 @@ pub(super) fn own_set(text: &str) -> Option<Vec<Item>> {
     (items.len() > 1).then_some(items)
 }
 
-/// An exercise: which word is cued, and how it went.
+/// An exercise: the words, the cued one, and the score.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Exercise {
     pub(super) items: Vec<Item>,
     pub(super) now: usize,
-    /// The answer that was given to this word.
+    /// The index of the answer to the present word, if given.
     pub(super) answered: Option<usize>,
     pub(super) revealed: bool,
     pub(super) right: u32,
     pub(super) all: u32,
-    /// A number that goes on from word to word.
+    /// State of the random numbers, which continues from word to word.
     seed: u64,
 }
 
@@ -307,7 +307,7 @@ impl Exercise {
         (self.answered, self.revealed) = (None, false);
     }
 
-    /// Takes an answer; only the first one to a word counts.
+    /// Records an answer; only the first one to a word counts.
     pub(super) fn answer(&mut self, item: usize) {
         if self.answered.is_some() || self.revealed {
             return;
@@ -317,13 +317,13 @@ impl Exercise {
         self.right += u32::from(item == self.now);
     }
 
-    /// Returns the word that is cued.
+    /// Returns the word that is being cued.
     pub(super) fn item(&self) -> Option<&Item> {
         self.items.get(self.now)
     }
 }
 
-/// Returns a slip in words, and its time in microseconds.
+/// Returns the description of a slip, and its time in microseconds.
 pub(super) fn slip(slip: &CueSlip, language: Language) -> (String, Option<i64>) {
     let time = slip
         .at_us

@@ -23,7 +23,7 @@ use crate::words::{Text, cue as words, fill};
 use crate::work::{Ended, Outcome, Work, WorkId};
 use data::{Choices, Corrections, Exercise, Reading, key_name};
 
-/// A text that was not changed for so long, in seconds, is shown on the stage.
+/// Time without changes, in seconds, after which a text is shown on the stage.
 const SETTLES: f64 = 0.5;
 
 /// The pane.
@@ -32,20 +32,20 @@ pub(crate) struct CuePane {
     text: String,
     choices: Choices,
     corrections: Corrections,
-    /// The text and the choices as they were read, and what they mean.
+    /// The last analysed text with its settings, and the analysis.
     read: Option<(String, Choices, Corrections, Arc<Reading>)>,
-    /// When they changed last, in seconds of the window's clock.
+    /// The time of the last change, in seconds of the window's clock.
     changed: f64,
-    /// Whether the stage shall show the text by itself when it has settled.
+    /// Whether to show a settled text on the stage automatically.
     shows: bool,
     making: Option<WorkId>,
-    /// The recipe of the movement that is shown or made.
+    /// The recipe of the movement that is shown or being generated.
     of: String,
     made: Option<Arc<Recombination>>,
-    /// The movement as the stage has it.
+    /// The movement as it was given to the stage.
     given: Option<Arc<Made>>,
     wrong: Option<String>,
-    /// The word whose phones are being changed, and what was typed.
+    /// The index of the word whose phones are being changed, and the typed phones.
     editing: Option<(usize, String)>,
     gloss: String,
     storing: Option<WorkId>,
@@ -81,7 +81,7 @@ impl CuePane {
             .map_or_else(Arc::default, |it| Arc::clone(&it.3))
     }
 
-    /// Requests the movement of an input, unless it is the one that is shown.
+    /// Requests the movement of a reading, unless it is the one that is shown.
     fn show(&mut self, reading: &Reading, out: &mut Outbox) {
         if reading.keys.is_empty() {
             return;
@@ -154,7 +154,7 @@ impl CuePane {
         }
     }
 
-    /// The words with their phones; a click opens the phones of one.
+    /// Shows the words with their phones; a click lets the user change the phones of one.
     fn words_of(&mut self, ui: &mut Ui, seen: &Seen<'_>, reading: &Reading) {
         ui.label(RichText::new(seen.say(words::WORDS)).small());
         let mut changed = None;
@@ -204,7 +204,8 @@ impl CuePane {
         }
     }
 
-    /// The keys; the one that the cuer shows is marked, and a click takes another pronunciation of an uncertain vowel.
+    /// Shows the keys, with a mark on the key at the playhead; a click on one with an uncertain vowel switches the
+    /// vowel.
     fn keys(&mut self, ui: &mut Ui, seen: &Seen<'_>, reading: &Reading) {
         ui.label(RichText::new(seen.say(words::KEYS)).small());
         let now = self.current(seen);
@@ -251,7 +252,7 @@ impl CuePane {
         }
     }
 
-    /// Returns the spans of keys in the movement that was made.
+    /// Returns the spans of the keys in the generated movement.
     fn spans(&self) -> impl Iterator<Item = (i64, i64)> {
         let notes = self.made.iter().flat_map(|made| made.notes.iter());
         let keys = notes.filter(|note| note.feature.as_deref() == Some("Keys"));
@@ -464,17 +465,17 @@ impl CuePane {
     }
 }
 
-/// Gives a button that shows several lines one name for assistive technology and tests.
+/// Gives a button with several lines one name for assistive technology and tests.
 fn named(button: &Response, name: &str) {
     button.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
 }
 
-/// The place at which a clicked key waits until the frame is over.
+/// Returns the key under which the time of a clicked key waits for the end of the frame.
 fn seek_id() -> eframe::egui::Id {
     eframe::egui::Id::unique("cue-seek")
 }
 
-/// Shows a part of the pane that can be folded away.
+/// Shows a foldable part of the pane.
 fn part(ui: &mut Ui, seen: &Seen<'_>, title: Text, show: impl FnOnce(&mut Ui)) {
     CollapsingHeader::new(seen.say(title))
         .id_salt(title.en)
@@ -505,7 +506,7 @@ impl Pane for CuePane {
             self.cuer(ui, seen, &reading, out);
             part(ui, seen, words::PRACTISE, |ui| self.practise(ui, seen, out));
             part(ui, seen, words::SLIPS, |ui| self.slips(ui, seen, out));
-            // The newest text is shown when it has rested.
+            // The newest text is shown once it has settled.
             let reading = self.reading(now);
             let rest = self.changed + SETTLES - now;
             if self.shows && rest > 0.0 {

@@ -1,4 +1,4 @@
-//! The candidates side by side, why they stand where they stand, and the face that is put on the sentence.
+//! The ranked candidates side by side, the reasons for their ranks, and the storing of the sentence with a chosen face.
 
 use std::sync::Arc;
 
@@ -15,14 +15,14 @@ use crate::little::{self, Cell, Focus, Motion};
 use crate::words::{Text, faces as words, fill};
 use crate::work::Work;
 
-/// How wide a figure is at least, and the room below it for its name.
+/// The least width of a figure, and the height of its name below it, in points.
 const FIGURE: f32 = 150.0;
 const FOOT: f32 = 36.0;
-/// So many sentences are animated at once.
+/// How many sentences are animated at the same time.
 const AT_ONCE: usize = 2;
 
 impl Faces {
-    /// The sentence's own face and the candidates, side by side.
+    /// Shows the sentence's own face and the candidates, side by side.
     pub(super) fn candidates(
         &mut self,
         ui: &mut Ui,
@@ -68,7 +68,7 @@ impl Faces {
         }
     }
 
-    /// Returns an expression as it was recorded, at the moment that goes with the sentence's.
+    /// Returns a recorded expression, and the time in it that corresponds to `moment` of the sentence, in seconds.
     fn recorded(
         &self,
         recording: i64,
@@ -80,7 +80,7 @@ impl Faces {
         Some((Motion::Span(recording, data::seen_span(own)), into))
     }
 
-    /// Returns the sentence with the face of a performance; it is animated in a moment.
+    /// Returns the sentence with the face of a performance, and the time in it; requests the animation if necessary.
     fn on_sentence(
         &mut self,
         seen: &Seen<'_>,
@@ -91,7 +91,7 @@ impl Faces {
     ) -> Option<(Motion, f64)> {
         if let Some(made) = self.made.get(&it.recipe) {
             let made = made.clone()?;
-            // The recipe's milestones count from the first frame of the movement.
+            // The generated movement begins at the start of the sentence's recording.
             let start = data::seen_span(&choice.milestones).start().seconds();
             let lasts = made.clip.span().seconds();
             let into = moment.max(start).min(lasts - 1e-6).max(0.0);
@@ -161,7 +161,7 @@ impl Faces {
         response.on_hover_text(label).clicked()
     }
 
-    /// The counts of the comparison.
+    /// Shows how many performances were compared and skipped.
     pub(super) fn told(&self, ui: &mut Ui, seen: &Seen<'_>, choice: &Choice) {
         let skipped = choice.skipped.len() as u64;
         let lines = [
@@ -177,7 +177,7 @@ impl Faces {
         ui.weak(lines.join(" · "));
     }
 
-    /// The table of phases and channels of the chosen performance.
+    /// Shows the table of phases and channels for the chosen performance.
     pub(super) fn reasons(&self, ui: &mut Ui, seen: &Seen<'_>, choice: &Choice) {
         let Some(chosen) = self.chosen(choice) else {
             return;
@@ -208,7 +208,7 @@ impl Faces {
             .on_hover_text(seen.say(words::WHY_TIP));
     }
 
-    /// The gloss of the new sign, and the button that stores it.
+    /// Shows the gloss of the new sign, and the button that stores it.
     pub(super) fn putting(
         &mut self,
         ui: &mut Ui,

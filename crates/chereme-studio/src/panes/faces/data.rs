@@ -9,17 +9,17 @@ use chereme_motion::{Instant, Span};
 /// The pause between two loops of an expression, in seconds.
 pub(super) const PAUSE: f64 = 0.4;
 
-/// Which channels of the face are compared, as names or beginnings of names.
+/// The channels of the face to compare, as names or beginnings of names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Compared {
-    /// Head and brows, as the founding paper has it.
+    /// Head and brows, as in the founding paper.
     #[default]
     Usual,
     /// The head alone.
     Head,
     /// The brows alone.
     Brows,
-    /// Head, trunk and every number of the face.
+    /// Head, trunk and every channel of the face.
     All,
 }
 
@@ -39,7 +39,7 @@ impl Compared {
     }
 }
 
-/// Returns the options of a choice with so many candidates.
+/// Returns the options of a choice among at most `most` candidates.
 pub(super) fn options(rank: Rank, compared: Compared, stretch: bool, most: usize) -> ChooseOptions {
     ChooseOptions {
         rank,
@@ -50,7 +50,7 @@ pub(super) fn options(rank: Rank, compared: Compared, stretch: bool, most: usize
     }
 }
 
-/// Returns the part of a recording in which an expression is seen: from M1 to M5, no earlier than the recording.
+/// Returns the part of a recording that shows an expression: from M1 to M5, but not before the recording's start.
 pub(super) fn seen_span(milestones: &Milestones) -> Span {
     let span = milestones.span();
     Span::between(
@@ -59,7 +59,7 @@ pub(super) fn seen_span(milestones: &Milestones) -> Span {
     )
 }
 
-/// Returns the second of a loop over the target's expression at `clock`; it holds its end for a pause.
+/// Returns the time in a loop over the target's expression at `clock`, in seconds; the loop holds its end for a pause.
 pub(super) fn loop_moment(target: &Milestones, clock: f64) -> f64 {
     let span = target.span();
     let lasts = span.seconds();
@@ -67,8 +67,8 @@ pub(super) fn loop_moment(target: &Milestones, clock: f64) -> f64 {
     span.start().seconds() + into
 }
 
-/// Returns how far into [`seen_span`] of a performance it is when the target is at `moment` seconds: each phase goes with
-/// the target's own, or at its own tempo.
+/// Returns the time within [`seen_span`] of a performance, in seconds, when the target is at `moment` seconds. With
+/// `in_step` each phase is aligned with the target's phase; otherwise the performance keeps its own tempo.
 pub(super) fn into_span(own: &Milestones, target: &Milestones, moment: f64, in_step: bool) -> f64 {
     let shown = match in_step {
         true => own.moment_for(target, moment),
@@ -77,11 +77,11 @@ pub(super) fn into_span(own: &Milestones, target: &Milestones, moment: f64, in_s
     let span = seen_span(own);
     let shown = shown.unwrap_or(span.start().seconds());
     let lasts = span.seconds();
-    // A loop would begin again at its very end.
+    // At its very end a loop would show its beginning.
     (shown - span.start().seconds()).clamp(0.0, (lasts - 1e-6).max(0.0))
 }
 
-/// Returns the text that names a sentence.
+/// Returns the name of a sentence.
 pub(super) fn named(it: &FoundExpression) -> String {
     match it.signs.is_empty() {
         true => it.recording.clone(),
@@ -89,7 +89,8 @@ pub(super) fn named(it: &FoundExpression) -> String {
     }
 }
 
-/// Returns the rows that explain a score: for each phase its cost and the difference of each channel, then all phases.
+/// Returns the rows that explain a score: for each phase its cost and the difference of each channel; the last row is
+/// for all phases together.
 pub(super) fn reasons(score: &FaceScore, channels: usize) -> Vec<(ExpressionPhase, Vec<String>)> {
     let number = |value: Option<f64>| value.map_or("–".to_owned(), |it| format!("{it:.2}"));
     let row = |phase: &chereme_corpus::PhaseScore| {
@@ -100,14 +101,14 @@ pub(super) fn reasons(score: &FaceScore, channels: usize) -> Vec<(ExpressionPhas
     score.phases.iter().map(row).collect()
 }
 
-/// Returns the gloss that a sentence with the face of another is proposed to have.
+/// Returns the proposed gloss for a sentence with the face of another performance.
 pub(super) fn proposed_gloss(choice: &Choice, sentence: &str, performer: &str) -> String {
     format!("{sentence}-{}-{performer}", choice.function)
         .to_uppercase()
         .replace(char::is_whitespace, "-")
 }
 
-/// The ends of a plot of onsets, in seconds.
+/// The range of a plot of onsets, in seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Extent {
     pub(super) low: f64,
@@ -115,7 +116,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Returns the ends that hold every box, and 0.
+    /// Returns the range that contains every box, and 0.
     pub(super) fn of(onsets: &Onsets, of: fn(&OnsetRow) -> Quartiles) -> Self {
         let ends = onsets.rows.iter().flat_map(|row| [of(row).q1, of(row).q3]);
         let (low, high) = ends.fold((-0.1_f64, 0.1_f64), |(low, high), end| {
@@ -124,7 +125,7 @@ impl Extent {
         Self { low, high }
     }
 
-    /// Returns where a number lies between the ends, from 0 to 1.
+    /// Returns the position of a number in the range, from 0 to 1.
     pub(super) fn share(self, seconds: f64) -> f32 {
         ((seconds - self.low) / (self.high - self.low)) as f32
     }

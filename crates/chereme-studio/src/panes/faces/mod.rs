@@ -20,10 +20,10 @@ use crate::model::made::Made;
 use crate::words::{Text, faces as words, fill};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// So many candidates are shown.
+/// How many candidates are shown.
 const CANDIDATES: usize = 12;
 
-/// The question whose answer is shown.
+/// The inputs of the displayed answer.
 #[derive(Debug, Clone, PartialEq)]
 struct Asked {
     generation: i64,
@@ -37,7 +37,7 @@ struct Asked {
 /// The pane.
 #[derive(Default)]
 pub(crate) struct Faces {
-    /// The generation of the corpus for which expressions were asked for.
+    /// The corpus generation of the last request for expressions.
     of: Option<i64>,
     finding: Option<WorkId>,
     found: Option<Arc<Expressions>>,
@@ -54,14 +54,14 @@ pub(crate) struct Faces {
     choosing: Option<WorkId>,
     choice: Option<Arc<Choice>>,
     wrong: Option<String>,
-    /// The performance that is chosen.
+    /// The token of the chosen performance.
     chosen: Option<String>,
     gloss: String,
-    /// The gloss that was proposed, which a typed one replaces.
+    /// The last proposed gloss; it is replaced by new proposals until the user types one.
     proposed: String,
     storing: Option<WorkId>,
     stored: Option<(String, i64)>,
-    /// The sentence with the face of each performance, by its recipe.
+    /// The recipes whose movement is being generated: the sentence with the face of a performance.
     carrying: BTreeMap<WorkId, String>,
     made: BTreeMap<String, Option<Arc<Made>>>,
     measuring: Option<WorkId>,
@@ -70,7 +70,7 @@ pub(crate) struct Faces {
 }
 
 impl Faces {
-    /// Asks for the expressions and for the choice if anything that they depend on changed.
+    /// Requests the expressions, or the ranking, if their inputs changed.
     fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
         if !std::mem::replace(&mut self.begun, true) {
             (self.lengths, self.in_step) = (true, true);
@@ -112,7 +112,7 @@ impl Faces {
         self.found.as_ref().map_or(&[], |it| &it.expressions)
     }
 
-    /// The sentences that can get a face: those with an expression of the function.
+    /// Returns the sentences that can get a face: those with an expression of the function.
     fn sentences(&self) -> impl Iterator<Item = &FoundExpression> {
         let of = self.function.as_ref();
         self.expressions()
@@ -120,7 +120,7 @@ impl Faces {
             .filter(move |it| Some(&it.function) == of)
     }
 
-    /// Keeps function and sentence as long as they exist, else takes the shown recording's, else the first.
+    /// Keeps function and sentence as long as they exist; otherwise chooses the displayed recording's, else the first.
     fn settle(&mut self, seen: &Seen<'_>) {
         let there = |it: &FoundExpression| Some(&it.function) == self.function.as_ref();
         if !self.expressions().iter().any(there) {
@@ -189,7 +189,7 @@ impl Faces {
         });
     }
 
-    /// The milestones of the sentence, and what writes them onto a tier.
+    /// Shows the milestones of the sentence, and the button that writes them onto a tier.
     fn milestones(&self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let sentence = self.sentence.as_deref();
         let found = self
@@ -281,7 +281,7 @@ fn name(compared: Compared) -> Text {
     }
 }
 
-/// Shows a list to choose from, with its name before it.
+/// Shows a drop-down list with its name before it.
 fn pick<T: PartialEq + Clone>(ui: &mut Ui, name: &str, value: &mut T, all: &[(T, String)]) {
     ui.horizontal(|ui| {
         ui.weak(name);
@@ -376,7 +376,7 @@ impl Pane for Faces {
     }
 }
 
-/// Returns a line that counts, if there is anything to count.
+/// Returns a text with a count, or `None` if the count is 0.
 fn counted(seen: &Seen<'_>, text: Text, n: u64) -> Option<String> {
     (n > 0).then(|| fill(seen.say(text), &[("n", &n)]))
 }

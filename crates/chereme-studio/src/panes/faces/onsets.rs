@@ -1,4 +1,4 @@
-//! When non-manuals begin and end against the signs, as a table and a plot.
+//! Begin and end of non-manuals relative to the signs, as a table and a plot.
 
 use chereme_corpus::{OnsetRow, Onsets, Quartiles};
 use eframe::egui::{
@@ -12,13 +12,13 @@ use crate::context::{Outbox, Seen};
 use crate::words::{Text, faces as words, fill};
 use crate::work::Work;
 
-/// The height of a row of the plot, and the room for names beside it.
+/// The height of a row of the plot, and the width of the names beside it, in points.
 const ROW: f32 = 18.0;
 const NAMES: f32 = 190.0;
 const GAP: f32 = 16.0;
 
 impl Faces {
-    /// Begin and end of every channel in the expressions of the function.
+    /// Shows begin and end of every channel in the expressions of the function.
     pub(super) fn timing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let header = CollapsingHeader::new(seen.say(words::ONSETS))
             .id_salt("onsets")
@@ -69,10 +69,10 @@ fn table(ui: &mut Ui, seen: &Seen<'_>, onsets: &Onsets) {
     });
 }
 
-/// Begin or end of a row.
+/// Selects the begin or the end of a row.
 type Which = fn(&OnsetRow) -> Quartiles;
 
-/// Paints a box for each channel, begin on the left and end on the right.
+/// Paints a box for each channel: the begin on the left and the end on the right.
 fn plot(ui: &mut Ui, seen: &Seen<'_>, onsets: &Onsets) {
     let height = ROW * (onsets.rows.len() as f32 + 2.0);
     let (rect, response) =

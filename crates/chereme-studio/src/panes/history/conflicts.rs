@@ -9,10 +9,10 @@ use crate::context::{Outbox, Seen};
 use crate::words::merge as words;
 use crate::work::Work;
 
-/// The most height of the list, as a share of the pane's.
+/// The greatest height of the list, as a share of the pane's height.
 const SHARE: f32 = 0.6;
 
-/// Shows the conflicts that wait, if there are any.
+/// Shows the open conflicts, if there are any.
 pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     let all = &seen.snapshot.overview.conflicts;
     if all.is_empty() {
@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     });
 }
 
-/// Shows the recording, at the annotation if it is about one.
+/// Shows the recording of a conflict, at the annotation if the conflict is about one.
 fn show_there(out: &mut Outbox, recording: i64, conflict: &CorpusConflict) {
     let sides = [&conflict.mine, &conflict.theirs].into_iter().flatten();
     let mut spans = sides.filter_map(|it| it.start_us.zip(it.end_us));

@@ -8,29 +8,29 @@ use chereme_sign::text::fold;
 use crate::words::history::{self as words, sentence};
 use crate::words::{Language, fill};
 
-/// Whether an operation stands, and how it is reached.
+/// Whether an operation is in effect, and how many steps lead to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Standing {
-    /// It stands; that many steps back and it is the newest that does.
+    /// It is in effect; after that many undos it is the newest operation in effect.
     Stands(usize),
-    /// It was taken back; that many steps forward and it stands again.
+    /// It was undone; after that many redos it is in effect again.
     Undone(usize),
-    /// It was taken back, and something else was done since.
+    /// It was undone, and newer work makes a redo impossible.
     Gone,
 }
 
-/// An operation as the list shows it.
+/// An operation as a row of the list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Row {
     pub(crate) id: i64,
     pub(crate) what: String,
-    /// When and who.
+    /// Time and author.
     pub(crate) about: String,
     pub(crate) standing: Standing,
 }
 
-/// Returns the operations that are work of their own, the newest first; `operations` has the newest
-/// first too, with those that took others back.
+/// Returns the operations other than undo and redo, the newest first. `operations` contains all of them, the newest
+/// first.
 pub(crate) fn rows(operations: &[OperationRow], language: Language, filter: &str) -> Vec<Row> {
     let standings = standings(operations);
     let wanted = fold(filter.trim());
@@ -51,8 +51,8 @@ pub(crate) fn rows(operations: &[OperationRow], language: Language, filter: &str
     own.map(row).filter(fits).collect()
 }
 
-/// Returns where each operation stands: undo and redo walk along two stacks, and new work forgets
-/// what could have been done again.
+/// Returns the standing of each operation: undo and redo walk along two stacks, and new work empties the stack of
+/// undone operations.
 fn standings(operations: &[OperationRow]) -> BTreeMap<i64, Standing> {
     let (mut done, mut undone): (Vec<i64>, Vec<i64>) = (Vec::new(), Vec::new());
     for it in operations.iter().rev() {
@@ -79,7 +79,7 @@ fn standings(operations: &[OperationRow]) -> BTreeMap<i64, Standing> {
         .collect()
 }
 
-/// Returns what would be taken back next, or done again next, as a sentence.
+/// Returns a sentence about the operation that would be undone or redone next.
 pub(crate) fn next(operations: &[OperationRow], back: bool, language: Language) -> Option<String> {
     let wanted = if back {
         Standing::Stands(0)
@@ -93,8 +93,8 @@ pub(crate) fn next(operations: &[OperationRow], back: bool, language: Language) 
     Some(sentence(found, language))
 }
 
-/// Returns the operations since `before`, as a sentence. The sentence names other people; the user's own work is
-/// left out if another notice reports it.
+/// Returns a sentence about the operations since `before`, with the names of other people. The user's own work is left
+/// out if another notice reports it.
 pub(crate) fn news(
     [before, now]: [&[OperationRow]; 2],
     own: bool,
@@ -116,7 +116,7 @@ pub(crate) fn news(
     Some(fill(words::BY_OTHERS.of(language), &values))
 }
 
-/// Returns how many operations stand.
+/// Returns how many operations are in effect.
 pub(crate) fn standing(operations: &[OperationRow]) -> usize {
     let all = standings(operations);
     all.values()

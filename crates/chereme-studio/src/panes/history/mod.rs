@@ -19,10 +19,10 @@ use crate::words::{Language, fill, history as words};
 use crate::work::Work;
 use data::{Row, Standing};
 
-/// A walk along the history that waits to be confirmed.
+/// Several undos or redos, which wait to be confirmed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Walk {
-    /// The operation that was clicked; nothing for before all of them.
+    /// The operation that was clicked; `None` for the state before all of them.
     to: Option<i64>,
     back: bool,
     steps: usize,
@@ -33,7 +33,7 @@ struct Walk {
 pub(crate) struct History {
     filter: String,
     walk: Option<Walk>,
-    /// The rows, with what they are of.
+    /// The rows, and the inputs that they were computed from.
     rows: Vec<Row>,
     of: Option<(Arc<Overview>, Language, String)>,
 }
@@ -68,7 +68,7 @@ impl History {
             for action in [Action::Undo, Action::Redo] {
                 let button = ui.button(seen.say(action.row().name));
                 if button.on_hover_text(seen.keys.text(action)).clicked() {
-                    // Of the corpus, whatever was done to a recipe since.
+                    // This undoes changes of the corpus, even if the recipe changed since.
                     let back = action == Action::Undo;
                     out.work(if back { Work::Undo } else { Work::Redo });
                 }
@@ -86,7 +86,7 @@ impl History {
         });
     }
 
-    /// Asks before more than one step is walked.
+    /// Asks for confirmation of a walk of several steps.
     fn confirmation(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let Some(walk) = self.walk else { return };
         let text = if walk.back {
@@ -130,7 +130,7 @@ impl History {
         }
     }
 
-    /// Returns whether the walk that waits would take that operation back or do it again.
+    /// Returns whether the waiting walk would undo or redo that operation.
     fn is_on_the_way(&self, row: &Row) -> bool {
         match (self.walk, row.standing) {
             (Some(walk), Standing::Stands(steps)) => walk.back && steps < walk.steps,
@@ -160,7 +160,7 @@ impl Pane for History {
             ui.weak(seen.say(words::NONE_FIT));
         }
         let height = ui.spacing().interact_size.y * 1.9;
-        // Before all of them is a row too, where the first is among them.
+        // The state before all operations is a row too, if the first operation is in the list.
         let whole = operations.last().is_some_and(|it| it.id == 1) && self.filter.trim().is_empty();
         let count = self.rows.len() + usize::from(whole);
         ScrollArea::vertical()
@@ -190,7 +190,7 @@ impl History {
         }
     }
 
-    /// Shows an operation; whether it was clicked.
+    /// Shows an operation; returns whether it was clicked.
     fn row(&self, ui: &mut Ui, seen: &Seen<'_>, height: f32, row: &Row) -> bool {
         let size = vec2(ui.available_width(), height);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());

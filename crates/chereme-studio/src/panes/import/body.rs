@@ -1,4 +1,4 @@
-//! A small body that shows which of its parts a file's joints are.
+//! A small body that shows which of its parts were found in a file.
 
 use std::collections::BTreeMap;
 
@@ -8,8 +8,8 @@ use super::people;
 use crate::context::Seen;
 use crate::words::{fill, import as words};
 
-/// Where parts are on a body as high as 1, from its middle line and its head; the signer's left is to
-/// the right, as seen from the front.
+/// Vertical positions of parts on the middle line of a body with height 1, from the top of the head. The signer's left
+/// is to the right, as seen from the front.
 const MIDDLE: [(&str, f32); 6] = [
     ("head", 0.08),
     ("jaw", 0.13),
@@ -31,13 +31,13 @@ const SIDES: [(&str, [f32; 2]); 9] = [
 ];
 const FINGERS: [&str; 5] = ["thumb", "index", "middle", "ring", "little"];
 
-/// A part as the map shows it.
+/// A part on the map.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Mark {
     pub(super) part: String,
-    /// In shares of the height, from the middle line and the top.
+    /// Position in shares of the height, from the middle line and the top of the head.
     pub(super) at: Vec2,
-    /// Whether any joint is it.
+    /// Whether a joint of the file is this part.
     pub(super) found: bool,
     pub(super) large: bool,
 }
@@ -73,7 +73,7 @@ pub(super) fn marks(found: &BTreeMap<String, String>) -> Vec<Mark> {
     all
 }
 
-/// Shows the map; returns the part that was clicked, where its joint can be said.
+/// Shows the map. If `points`, returns the part that was clicked, so that its joint can be named.
 pub(super) fn show(
     ui: &mut Ui,
     seen: &Seen<'_>,

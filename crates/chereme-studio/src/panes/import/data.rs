@@ -1,4 +1,4 @@
-//! The interpretation of files, as lines, rows and marks, without a window.
+//! The interpretation of files as lines, rows and marks, without widgets.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use super::people;
 use crate::panes::inspector;
 use crate::words::{Language, Text, fill, import as words};
 
-/// Returns what became of a file, in words.
+/// Returns the text about the status of a file.
 pub(crate) fn status_text(status: FileStatus) -> Text {
     match status {
         FileStatus::Imported => words::IMPORTED,
@@ -22,7 +22,7 @@ pub(crate) fn status_text(status: FileStatus) -> Text {
     }
 }
 
-/// Returns how a file's movement was understood, in people's words: unit, axes, rate, joints; nothing of other files.
+/// Returns the interpretation of a file's movement for people: unit, axes, rate, joints; empty for other files.
 pub(crate) fn movement(file: &FileReport, language: Language) -> Vec<(Text, String)> {
     let said = |key: &str| file.understood.get(key).map(chereme_corpus::cell_text);
     let unit = said("unit").map(|unit| {
@@ -56,7 +56,7 @@ pub(crate) fn movement(file: &FileReport, language: Language) -> Vec<(Text, Stri
     .collect()
 }
 
-/// Returns why the unit and the axes are taken for what they are.
+/// Returns the reasons for the inferred unit and axes.
 pub(crate) fn reasons(file: &FileReport) -> Vec<String> {
     let all = file.understood.get("reasons").and_then(Value::as_array);
     all.into_iter()
@@ -65,8 +65,7 @@ pub(crate) fn reasons(file: &FileReport) -> Vec<String> {
         .collect()
 }
 
-/// Returns the parts of the body that were found, with the joint that each is; nothing where the file
-/// has no body.
+/// Returns the parts of the body that were found, each with its joint; `None` for a file without a body.
 pub(crate) fn parts(file: &FileReport) -> Option<BTreeMap<String, String>> {
     let all = file.understood.get("roles")?.as_array()?;
     let pair = |it: &Value| {
@@ -78,17 +77,17 @@ pub(crate) fn parts(file: &FileReport) -> Option<BTreeMap<String, String>> {
     Some(all.iter().filter_map(pair).collect())
 }
 
-/// A tier or column, and what it is taken for.
+/// A tier or column, and its inferred role.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Guess {
     pub(crate) name: String,
-    /// In the spelling of mappings, such as `right.configuration`; blank if unknown.
+    /// The role in the spelling of mappings, such as `right.configuration`; empty if unknown.
     pub(crate) role: String,
     pub(crate) sure: f64,
     pub(crate) why: String,
 }
 
-/// Returns what the tiers or columns of a file are taken for.
+/// Returns the inferred roles of a file's tiers or columns.
 pub(crate) fn guesses(file: &FileReport, key: &str) -> Vec<Guess> {
     let all = file.understood.get(key).and_then(Value::as_array);
     let text = |value: Option<&Value>| value.and_then(Value::as_str).unwrap_or_default().to_owned();
@@ -135,7 +134,7 @@ fn role(value: &Value) -> String {
     }
 }
 
-/// The roles that a person can give to tiers.
+/// The roles that the user can give to tiers.
 pub(crate) const ROLES: [&str; 25] = [
     "gloss",
     "right.gloss",
@@ -164,13 +163,13 @@ pub(crate) const ROLES: [&str; 25] = [
     "nonmanual.body",
 ];
 
-/// Returns the mapping that says what a person chose.
+/// Returns the mapping of the user's choices.
 pub(crate) fn mapping(chosen: &BTreeMap<String, String>) -> Mapping {
     let document = serde_json::json!({ "tiers": chosen });
     Mapping::from_json(&document.to_string()).unwrap_or_default()
 }
 
-/// Returns the user's roles of joints; `None` if the user gave none.
+/// Returns the user's roles of joints; `None` if the user chose none.
 pub(crate) fn roles(chosen: &BTreeMap<String, String>) -> Option<Roles> {
     let trimmed = |(part, joint): (&String, &String)| (part.clone(), joint.trim().to_owned());
     let all: BTreeMap<String, String> = chosen.iter().map(trimmed).collect();
@@ -180,8 +179,8 @@ pub(crate) fn roles(chosen: &BTreeMap<String, String>) -> Option<Roles> {
     document.parse().ok()
 }
 
-/// Returns each part of the body with the joint that it is, in the order of their names; blank where
-/// none was found, and no rows for a file without a body.
+/// Returns each part of the body with its joint, ordered by name; the joint is empty if it was not found. There are no
+/// rows for a file without a body.
 pub(crate) fn joint_rows(file: &FileReport) -> Vec<(String, String)> {
     let Some(mut all) = parts(file) else {
         return Vec::new();
@@ -202,7 +201,7 @@ pub(crate) fn joint_names(file: &FileReport) -> Vec<&str> {
         .collect()
 }
 
-/// Returns every way in which axes can lie, those up along Y and Z first.
+/// Returns every possible choice of axes; those with Y or Z up come first.
 pub(crate) fn all_axes() -> impl Iterator<Item = Axes> {
     let up = ["+Y", "+Z", "+X", "-Y", "-Z", "-X"];
     let left = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"];
@@ -219,7 +218,7 @@ pub(crate) fn axes_parts(axes: Axes) -> [String; 2] {
     [up.to_owned(), left.to_owned()]
 }
 
-/// Returns how many findings of each kind a file has: errors, warnings, notes.
+/// Returns the number of errors, warnings and notes of a file.
 pub(crate) fn counts(file: &FileReport) -> [usize; 3] {
     ["error", "warning", "note"].map(|kind| {
         let of = |it: &&chereme_corpus::ReportFinding| it.severity == kind;
@@ -227,7 +226,7 @@ pub(crate) fn counts(file: &FileReport) -> [usize; 3] {
     })
 }
 
-/// Returns the files, those that want a look first: refused, understood, there already, left alone.
+/// Returns the files, those that need attention first: refused, understood, already imported, ignored.
 pub(crate) fn in_order(report: &ImportReport) -> Vec<&FileReport> {
     let mut all: Vec<&FileReport> = report.files.iter().collect();
     all.sort_by_key(|file| match file.status {
@@ -239,7 +238,7 @@ pub(crate) fn in_order(report: &ImportReport) -> Vec<&FileReport> {
     all
 }
 
-/// Returns how many rows of each kind an import makes, those that people look for first.
+/// Returns how many rows of each kind an import creates, the most interesting kinds first.
 pub(crate) fn created(report: &ImportReport) -> Vec<(Text, u64)> {
     [
         ("recordings", words::RECORDINGS),

@@ -14,7 +14,7 @@ use crate::panes::complete::{Line, complete, fitting};
 use crate::panes::timeline::tier_box;
 use crate::words::{fill, import as words, shell};
 
-/// Shows what was understood of a file.
+/// Shows the interpretation of a file.
 pub(super) fn show(
     said: &mut Said,
     ui: &mut Ui,
@@ -120,7 +120,7 @@ fn understood(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport, 
     }
 }
 
-/// The role of a tier, which can be changed.
+/// Shows the role of a tier, which can be changed.
 fn tier(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, guess: &data::Guess) {
     let chosen = said.tiers.get(&guess.name).cloned();
     let now = chosen.clone().unwrap_or_else(|| guess.role.clone());
@@ -152,12 +152,12 @@ fn tier(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, guess: &data::Guess) {
         .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
 }
 
-/// Returns under what it is remembered which part of a file's body was clicked.
+/// Returns the key under which the clicked part of a file's body is remembered.
 fn pointed(file: &FileReport) -> Id {
     Id::unique(("pointed", &file.path))
 }
 
-/// Which joint each part of the body is, to be changed; the part that was clicked on the body is turned to.
+/// Shows the joint of each part of the body, which can be changed; goes to the part that was clicked on the body.
 fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
     let rows = data::joint_rows(file);
     if rows.is_empty() {
@@ -195,7 +195,7 @@ fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
                     };
                     let id = Id::unique(("joint", &file.path, part));
                     let typed = complete(ui, id, line, &mut text, &candidates);
-                    // It is there to be focused once its heading is open.
+                    // The field can take the focus once its heading is open.
                     if wanted == Some(at) && ui.is_visible() {
                         typed.response.request_focus();
                         typed.response.scroll_to_me(Some(Align::Center));
@@ -214,7 +214,7 @@ fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
     });
 }
 
-/// The findings about a file, with their lines and remedies.
+/// Shows the findings about a file, with their lines and remedies.
 fn findings(ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
     for finding in &file.findings {
         let colour = match finding.severity {

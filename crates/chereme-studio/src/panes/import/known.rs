@@ -15,17 +15,17 @@ use crate::words::{Text, fill, import as words};
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Said {
     signer: String,
-    /// `right`, `left`, or nothing.
+    /// `right`, `left`, or `None`.
     hand: Option<&'static str>,
     metres_per_unit: Option<f64>,
     licence: String,
     mend_root: bool,
-    /// The rule for the user's own edits if a file changed.
+    /// Whether the user's own edits are kept if a file changed.
     own_edits: OwnEdits,
     axes: Option<Axes>,
     /// The roles of tiers, by name.
     pub(super) tiers: BTreeMap<String, String>,
-    /// The joint of each part of the body, blank if it has none.
+    /// The joint of each part of the body; empty if the part has none.
     pub(super) joints: BTreeMap<String, String>,
 }
 
@@ -115,7 +115,8 @@ pub(super) fn show(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
     joints(said, ui, seen);
 }
 
-/// The joints that were said, which can be forgotten again also where the files are refused for them.
+/// Shows the joints that the user named, each with a button that forgets it, even if the files were refused because of
+/// them.
 fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
     let mut forgotten = None;
     for (part, joint) in &said.joints {
@@ -140,7 +141,7 @@ fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
     }
 }
 
-/// Shows which axis is up and which is the signer's left.
+/// Shows the axes that point up and to the signer's left, which can be changed.
 fn axes(ui: &mut Ui, seen: &Seen<'_>, value: &mut Option<Axes>) {
     ui.label(seen.say(words::AXES));
     let text = |axes: &Option<Axes>| match axes {

@@ -28,27 +28,27 @@ pub(crate) use paths::Paths;
 #[derive(Default)]
 pub(crate) struct Import {
     path: String,
-    /// Files that were dropped or chosen, if there are several.
+    /// The dropped or chosen files, if there are several.
     dropped: Vec<PathBuf>,
     paths: Paths,
     said: Said,
-    /// The corrections at the last look at the files.
+    /// The corrections at the last examination of the files.
     looked: Said,
     asked: Option<WorkId>,
     report: Option<ImportReport>,
     /// The outcome of a merge.
     merged: Option<MergeReport>,
-    /// Why nothing could be looked at.
+    /// Why nothing could be examined: a message and a remedy.
     wrong: Option<(String, Option<String>)>,
-    /// The work was stopped.
+    /// Whether the work was stopped.
     stopped: bool,
-    /// Files were just given: look at them.
+    /// Whether files were just given, which must be examined.
     fresh: bool,
     come: bool,
 }
 
 impl Import {
-    /// Takes paths to be looked at.
+    /// Sets the paths to examine.
     pub(crate) fn propose(&mut self, paths: &[PathBuf]) {
         self.path = match paths {
             [one] => one.display().to_string(),
@@ -66,7 +66,7 @@ impl Import {
         }
     }
 
-    /// Returns the corpus that is named in the place of files.
+    /// Returns the path if it names a corpus, which is merged rather than imported.
     fn other(&self) -> Option<PathBuf> {
         match self.files().as_slice() {
             [one] if together::is_corpus(one) => Some(one.clone()),
@@ -100,7 +100,7 @@ impl Import {
         if changed {
             (self.report, self.merged) = (None, None);
         }
-        // A folder that is taken from the list goes on to what is in it.
+        // After a folder is taken from the list, its contents are offered next.
         let whole = !changed || !self.path.ends_with('/');
         if entered && whole && !self.files().is_empty() && self.other().is_none() {
             self.ask(true, out);
@@ -127,7 +127,7 @@ impl Import {
     fn buttons(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let running = self.asked.and_then(|id| seen.running.get(&id));
         if let (Some(running), Some(id)) = (running, self.asked) {
-            // At the other end than what is pressed before and after it.
+            // At the other end from the buttons that are clicked before and after this one.
             ui.horizontal(|ui| {
                 match running.far.share() {
                     Some(share) => {
@@ -261,7 +261,7 @@ impl Pane for Import {
     }
 
     fn come(&mut self) {
-        // Given files are looked at; a list of paths would cover the next button.
+        // Given files are examined; the keyboard is not given to the path, whose list would cover the next button.
         self.come = self.files().is_empty();
     }
 }

@@ -1,4 +1,4 @@
-//! A line for a path, with what it may become.
+//! A field for a path, with completions.
 
 use eframe::egui::{Id, Ui};
 
@@ -6,7 +6,7 @@ use crate::context::Outbox;
 use crate::panes::complete::{Line, Typed, complete, fitting};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// The completions of a typed path, as far as they were requested.
+/// The requested completions of a typed path.
 #[derive(Default)]
 pub(crate) struct Paths {
     of: String,
@@ -15,7 +15,7 @@ pub(crate) struct Paths {
 }
 
 impl Paths {
-    /// Shows a path with what it may become.
+    /// Shows the field of a path with completions.
     pub(crate) fn show(
         &mut self,
         ui: &mut Ui,
@@ -36,7 +36,7 @@ impl Paths {
         }
         let candidates = |typed: &str| fitting(self.all.iter().map(String::as_str), typed);
         let line = Line {
-            // A folder is a path by itself.
+            // A folder is a valid path by itself.
             takes_only: false,
             ..line
         };

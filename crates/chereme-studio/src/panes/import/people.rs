@@ -1,4 +1,4 @@
-//! Parts of the body, axes, units and remarks as people say them.
+//! Names of body parts, axes and units for people, and remarks about files.
 
 use chereme_motion::Axes;
 
@@ -9,7 +9,7 @@ const fn text(en: &'static str, fr: &'static str) -> Text {
     Text { en, fr }
 }
 
-/// Parts that there is one of.
+/// Parts that occur once.
 const MIDDLE: [(&str, Text); 6] = [
     ("head", text("head", "tête")),
     ("jaw", text("jaw", "mâchoire")),
@@ -19,7 +19,7 @@ const MIDDLE: [(&str, Text); 6] = [
     ("hips", text("hips", "bassin")),
 ];
 
-/// Parts of either side: of the right, and of the left.
+/// Parts that occur on either side: of the right, and of the left.
 const SIDES: [(&str, [Text; 2]); 14] = [
     (
         "eye",
@@ -129,7 +129,7 @@ const JOINTS: [(&str, Text); 4] = [
     ("end", text("last joint", "dernière articulation")),
 ];
 
-/// Returns what a part of the body is called, such as `right middle middle`; any other text stays as it is.
+/// Returns the name of a part of the body, such as `right middle middle`; any other text is returned unchanged.
 pub(in crate::panes) fn part(name: &str, language: Language) -> String {
     let of = |all: &[(&str, Text)], name: &str| {
         let found = all.iter().find(|(it, _)| *it == name)?;
@@ -154,7 +154,7 @@ pub(in crate::panes) fn part(name: &str, language: Language) -> String {
     sided().unwrap_or_else(|| name.to_owned())
 }
 
-/// Returns which axes of a file point up and to the signer's left, as a sentence.
+/// Returns a sentence about the axes of a file that point up and to the signer's left.
 pub(in crate::panes) fn axes(axes: Axes, language: Language) -> String {
     let axis = |axis: &str| {
         let name = axis.trim_start_matches(['+', '-']);
@@ -187,8 +187,8 @@ pub(super) fn unit(name: &str, language: Language) -> Option<&'static str> {
     Some(text.of(language))
 }
 
-/// Returns a remark of the corpus about a file with people's words for parts of the body; the usual remarks on captured
-/// files are in the language of the window.
+/// Returns a remark of the corpus about a file, with names of body parts for people; the usual remarks about captured
+/// files are translated.
 pub(super) fn remark(message: &str, language: Language) -> String {
     if let Some(list) = message.strip_prefix("not found in the skeleton: ") {
         let (list, more) = match list.split_once(" and ") {

@@ -1,4 +1,4 @@
-//! Another corpus in the place of files: the work of somebody else in a copy, which is merged into the open corpus.
+//! Merging another corpus, such as a copy with somebody else's work, into the open corpus.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -17,7 +17,7 @@ pub(super) fn is_corpus(path: &Path) -> bool {
     path.extension().is_some_and(|it| it == "chereme")
 }
 
-/// Shows the offer to merge a corpus, how far that is, and its outcome; returns the work if it was begun.
+/// Shows the offer to merge a corpus, the progress, and the outcome; returns the work when it begins.
 pub(super) fn show(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -75,7 +75,7 @@ fn outcome(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, report: &MergeReport)
     });
 }
 
-/// Returns what came, changed and went, a line each.
+/// Returns a line for each kind of change in a merge.
 fn lines(report: &MergeReport, say: &dyn Fn(crate::words::Text) -> &'static str) -> Vec<String> {
     let kinds = [
         (merge::ADDED, &report.added),

@@ -147,7 +147,7 @@ pub(super) fn recording_more(
     });
 }
 
-/// Shows the tracks that hold numbers, if there are others than the body's movement.
+/// Shows the tracks of numbers, if there are any besides the body's movement.
 fn tracks(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails) {
     let moving = it.tracks.iter().filter(|it| it.kind != TrackKind::Media);
     let lines: Vec<(&str, String)> = moving
@@ -176,7 +176,7 @@ fn tracks(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails) {
     });
 }
 
-/// Shows the media files beside a recording: whether they are there, and how to link them.
+/// Shows the media files of a recording: whether they exist, and how to link them.
 fn media(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails, out: &mut Outbox) {
     let change = |out: &mut Outbox, change: MediaChange| {
         out.work(Work::ChangeMedia(Name::Number(it.id), change));

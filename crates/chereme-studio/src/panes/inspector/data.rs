@@ -1,4 +1,4 @@
-//! The content of the inspector, as lines and texts, without a window.
+//! The content of the inspector as lines and texts, without widgets.
 
 use chereme_corpus::{RecordingGlance, SignerDetails, TierContents, TrackRow};
 use chereme_motion::Instant;
@@ -10,7 +10,7 @@ use crate::words::{Text, fill, inspector as words};
 /// A line: its name and its text.
 pub(crate) type Line = (Text, String);
 
-/// Returns the details of a recording's movement, without missing ones.
+/// Returns lines about a recording's movement; missing details are left out.
 pub(crate) fn recording_lines(
     it: &RecordingGlance,
     origin: impl Fn(library::Source) -> String,
@@ -34,7 +34,7 @@ pub(crate) fn recording_lines(
     .collect()
 }
 
-/// Returns what a track is: its kind, rate, channels, length and start.
+/// Returns the description of a track: its kind, rate, channels, length and start.
 pub(crate) fn track(it: &TrackRow, say: impl Fn(Text) -> String) -> String {
     let kind = say(library::kind_text(it.kind));
     let rate = match it.rate {
@@ -53,7 +53,7 @@ pub(crate) fn track(it: &TrackRow, say: impl Fn(Text) -> String) -> String {
     fill(&say(words::TRACK), &with)
 }
 
-/// Returns how many annotations a tier has, and how many different values they say.
+/// Returns how many annotations a tier has, and how many different values.
 pub(crate) fn tier_counts(tier: &TierContents) -> (usize, usize) {
     let values: std::collections::BTreeSet<&str> = tier
         .annotations
@@ -103,7 +103,7 @@ pub(crate) fn field_words(field: &str) -> (Vec<Text>, Vec<&str>) {
             other => rest.push(other),
         }
     }
-    // The component first, then whose hand and when.
+    // The component comes first, then the hand and the time.
     texts.sort_by_key(|text| {
         let parts = [
             words::CONFIGURATION,
@@ -117,7 +117,7 @@ pub(crate) fn field_words(field: &str) -> (Vec<Text>, Vec<&str>) {
     (texts, rest)
 }
 
-/// Returns a length in metres as it is read, to four digits that count.
+/// Returns a length in metres as text with four significant digits.
 pub(crate) fn metres(length: f64) -> String {
     let before = length.abs().max(1e-9).log10().floor() + 1.0;
     let scale = 10f64.powf((4.0 - before).clamp(0.0, 12.0));

@@ -7,7 +7,7 @@ use crate::panes::complete::{Line, complete};
 use crate::script::edit;
 use crate::words::{Text, inspector as words};
 
-/// Shows what is called `text`, and what it says.
+/// Shows a name and a value.
 pub(super) fn said(ui: &mut Ui, seen: &Seen<'_>, text: Text, value: &str) {
     let name = RichText::new(seen.say(text)).weak();
     ui.add(eframe::egui::Label::new(name).extend());
@@ -24,7 +24,7 @@ pub(super) fn grid(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
         .show(ui, content);
 }
 
-/// Shows a line that can be changed; returns what it shall say now.
+/// Shows an editable line; returns the new text if it changed.
 pub(super) fn line(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -36,7 +36,7 @@ pub(super) fn line(
     offered(ui, seen, id, text, value, &none)
 }
 
-/// Shows a line that can be changed, with what it could be.
+/// Shows an editable line with completion.
 pub(super) fn offered(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -51,8 +51,7 @@ pub(super) fn offered(
     changed
 }
 
-/// Shows the field of a line that can be changed, called by a label beside it; returns what it shall
-/// say now.
+/// Shows the field of an editable line, named by a label beside it; returns the new text if it changed.
 pub(super) fn field(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -87,7 +86,7 @@ pub(super) fn field(
     None
 }
 
-/// Shows text of several lines that can be changed; returns what it shall say now.
+/// Shows an editable text of several lines; returns the new text if it changed.
 pub(super) fn notes(ui: &mut Ui, seen: &Seen<'_>, id: Id, value: &str) -> Option<String> {
     let label = ui.weak(seen.say(words::NOTES)).id;
     let kept: Option<String> = ui.data(|data| data.get_temp(id));

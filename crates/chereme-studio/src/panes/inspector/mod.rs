@@ -1,4 +1,4 @@
-//! The selection and its details: shown, and editable if undo can restore them.
+//! The inspector: details of the selection, which can be edited if undo can restore them.
 
 mod about;
 pub(crate) mod data;
@@ -18,34 +18,34 @@ use crate::context::{Outbox, Seen};
 use crate::words::inspector as words;
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// Something that can be looked at.
+/// Something that the inspector can show.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Thing {
     Token(i64),
     Sign(i64),
     Signer(i64),
     Recording(i64),
-    /// A value of the inventory of that row.
+    /// A value of the inventory with that row id.
     Value(i64, String),
 }
 
-/// What is selected: the recording, the tier, the annotation.
+/// Row ids of the selected recording, tier and annotation.
 type Selected = (Option<i64>, Option<i64>, Option<i64>);
 
 /// The pane.
 #[derive(Default)]
 pub(crate) struct Inspector {
-    /// The subject, until something else is selected.
+    /// The subject, if it is not the selection; cleared when the selection changes.
     turned: Option<Thing>,
     selected: Selected,
-    /// The corpus that `known` is of.
+    /// The corpus generation of `known`.
     generation: i64,
     known: BTreeMap<Thing, Result<Details, String>>,
     asked: BTreeMap<WorkId, Thing>,
 }
 
 impl Inspector {
-    /// Turns to something, until something else is selected.
+    /// Shows something until something else is selected.
     pub(crate) fn turn_to(&mut self, thing: Thing) {
         self.turned = Some(thing);
     }

@@ -1,10 +1,10 @@
-//! HamNoSys for people without its font: its symbols part by part.
+//! HamNoSys for people without its font: the symbols, part by part.
 
 use chereme_sign::hamnosys::{Class, Symbol, to_names};
 
 use crate::words::{Text, inspector as words};
 
-/// A part of a notation, in the order in which HamNoSys is written.
+/// A part of a notation, in the order of HamNoSys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
     Hands,
@@ -25,10 +25,10 @@ impl Part {
         }
     }
 
-    /// Returns the part that a symbol belongs to after one of `self`; nothing for brackets and signs
-    /// between, which go with what stands beside them.
+    /// Returns the part of a symbol that follows a symbol of the part `self`; `None` for brackets and connecting signs,
+    /// which belong to the same part as their neighbours.
     fn after(self, class: Class) -> Option<Self> {
-        // Symbols of the target of a movement, and of changes during it, belong to the movement.
+        // Symbols for the target of a movement, and for changes during it, belong to the movement.
         if self == Self::Movement {
             return Some(Self::Movement);
         }
@@ -87,7 +87,7 @@ pub(super) fn parts(text: &str) -> Vec<(Text, Vec<Symbol>)> {
         .collect()
 }
 
-/// Returns the names of symbols, short.
+/// Returns the short names of symbols.
 pub(super) fn names(symbols: &[Symbol]) -> String {
     let short = |symbol: &Symbol| {
         let name = symbol.name();

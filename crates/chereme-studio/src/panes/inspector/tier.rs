@@ -1,4 +1,4 @@
-//! The details of a tier, which can be changed.
+//! The editable details of a tier.
 
 use chereme_corpus::{Hands, Stereotype, StoredInventory, TierChange, TierName, TierRow, Values};
 use eframe::egui::{Id, Ui};
@@ -117,7 +117,7 @@ fn hands(seen: &Seen<'_>) -> Vec<(Option<Hands>, String)> {
     .into()
 }
 
-/// The inventories that a tier could take its values from.
+/// Returns the inventories that a tier could take its values from.
 fn inventories(seen: &Seen<'_>, row: &TierRow) -> Vec<(Option<i64>, String)> {
     let fits = |it: &&StoredInventory| {
         let own = (it.inventory.component, it.inventory.feature.as_deref());

@@ -1,4 +1,4 @@
-//! The details of a token, which can be changed.
+//! The editable details of a token.
 
 use chereme_corpus::{Address, TokenDetails};
 use chereme_motion::{Instant, Span};
@@ -102,7 +102,7 @@ pub(super) fn show(
     });
 }
 
-/// Shows a notation part by part: its symbols drawn, and their names.
+/// Shows a notation part by part: drawn symbols with their names.
 pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
     let parts = notation::parts(text);
     let title = RichText::new(seen.say(words::NOTATION));
@@ -128,8 +128,8 @@ pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
         });
 }
 
-/// Returns the name of a field of a token; the distinction between fields of one component stands before the name
-/// of the hand.
+/// Returns the name of a field of a token; the name of the field comes before that of the hand, if a component has
+/// several fields.
 fn field_name(seen: &Seen<'_>, field: &str) -> String {
     let (texts, rest) = data::field_words(field);
     let mut name: Vec<&str> = texts.iter().map(|text| seen.say(*text)).collect();
@@ -139,7 +139,7 @@ fn field_name(seen: &Seen<'_>, field: &str) -> String {
     name.join(" ")
 }
 
-/// The coding of a token; values of annotations can be changed.
+/// Shows the coding of a token; values that come from annotations can be changed.
 fn coding(
     it: &mut Inspector,
     ui: &mut Ui,

@@ -26,7 +26,7 @@ pub(super) fn lines(ui: &mut Ui, seen: &Seen<'_>, id: &str, lines: &[Line]) {
     });
 }
 
-/// Shows a part that can be folded away.
+/// Shows a foldable part.
 fn part(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -35,7 +35,7 @@ fn part(
     what: &str,
     content: impl FnOnce(&mut Ui),
 ) {
-    // A long name is cut, for a header takes all the width that its text wants.
+    // A long name is cut, as a header would take the full width of its text.
     let title = WidgetText::from(format!("{} · {what}", seen.say(text)));
     let room = ui.available_width() - 24.0;
     let title = title.into_galley(ui, Some(TextWrapMode::Truncate), room, TextStyle::Button);
@@ -52,7 +52,7 @@ pub(super) fn link(inspector: &mut Inspector, ui: &mut Ui, text: &str, to: Thing
     }
 }
 
-/// Shows what is selected: the annotation, its token, the tier, the recording, the signer.
+/// Shows the selection: the annotation, its token, the tier, the recording, the signer.
 pub(super) fn selected(it: &mut Inspector, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     let Some(recording) = seen
         .shown
@@ -117,7 +117,7 @@ pub(super) fn selected(it: &mut Inspector, ui: &mut Ui, seen: &Seen<'_>, out: &m
     }
 }
 
-/// Shows all that is known of something.
+/// Shows all details of something.
 pub(super) fn thing(
     it: &mut Inspector,
     ui: &mut Ui,
@@ -165,7 +165,7 @@ fn missing<'a>(seen: &Seen<'a>, state: ValueState) -> &'static str {
     }
 }
 
-/// Has an annotation changed.
+/// Changes an annotation's times or value.
 pub(super) fn set(out: &mut Outbox, id: i64, times: [Option<Instant>; 2], value: Option<String>) {
     let [start, end] = times.map(|at| at.map(Moment::Time));
     let action = AnnotationAction::Set {
@@ -178,7 +178,7 @@ pub(super) fn set(out: &mut Outbox, id: i64, times: [Option<Instant>; 2], value:
     out.work(Work::Annotate(changes, AnnotateOptions::default()));
 }
 
-/// Returns what a value of the inventory of that row could be.
+/// Returns the values of an inventory that match the typed text.
 pub(super) fn values_like(seen: &Seen<'_>, inventory: Option<i64>, typed: &str) -> Vec<String> {
     let all = &seen.snapshot.overview.inventories;
     let found = all.iter().find(|it| Some(it.id) == inventory);

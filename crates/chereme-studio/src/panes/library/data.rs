@@ -1,4 +1,4 @@
-//! The text of the lists of recordings and of signs, without a window.
+//! The texts of the lists of recordings and signs, without widgets.
 
 use std::collections::BTreeMap;
 
@@ -9,19 +9,19 @@ use chereme_sign::text::fold;
 use super::super::timeline::data::time_text;
 use crate::words::{Language, Text, library as words};
 
-/// A recording as the list shows it.
+/// A recording as a row of the list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Row {
     pub(crate) id: i64,
     pub(crate) name: String,
     /// Signer, origin and duration.
     pub(crate) about: String,
-    /// All of it, and whether there is movement in it.
+    /// Its whole span, and whether it has movement.
     pub(crate) whole: Span,
     pub(crate) moves: bool,
 }
 
-/// Returns the recordings whose name or signer holds `filter`, whatever its case and accents.
+/// Returns the recordings whose name or signer contains `filter`, ignoring case and accents.
 pub(crate) fn rows(
     recordings: &[RecordingGlance],
     filter: &str,
@@ -56,7 +56,7 @@ pub(crate) fn rows(
     recordings.iter().filter(fits).map(row).collect()
 }
 
-/// Returns what a kind of track is called.
+/// Returns the name of a kind of track.
 pub(crate) fn kind_text(kind: TrackKind) -> Text {
     match kind {
         TrackKind::Skeleton => words::SKELETON,
@@ -66,24 +66,24 @@ pub(crate) fn kind_text(kind: TrackKind) -> Text {
     }
 }
 
-/// Returns the kinds of tracks besides a skeleton's movement.
+/// Returns the names of the track kinds other than skeletal movement; `None` if there are none.
 fn others(glance: &RecordingGlance, kind: impl Fn(TrackKind) -> String) -> Option<String> {
     let own = glance.kinds.iter().filter(|it| **it != TrackKind::Skeleton);
     let names: Vec<String> = own.map(|it| kind(*it)).collect();
     (!names.is_empty()).then(|| names.join(", "))
 }
 
-/// How a recording came about, as the window shows it.
+/// The displayed origin of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Source {
-    /// As the corpus says.
+    /// The origin that the corpus stores.
     Stored(Origin),
-    /// It has no track of numbers: it was not captured, but annotated.
+    /// No captured data: the recording was only annotated.
     Annotated,
 }
 
 impl Source {
-    /// Returns what the window calls it.
+    /// Returns the name of the source.
     pub(crate) fn text(self) -> Text {
         match self {
             Self::Stored(origin) => origin_text(origin),
@@ -92,7 +92,7 @@ impl Source {
     }
 }
 
-/// Returns how a recording came about.
+/// Returns the displayed origin of a recording.
 pub(crate) fn source(it: &RecordingGlance) -> Source {
     let measured = it.frames > 0 || it.kinds.iter().any(|kind| *kind != TrackKind::Media);
     match it.row.origin {
@@ -101,7 +101,7 @@ pub(crate) fn source(it: &RecordingGlance) -> Source {
     }
 }
 
-/// Returns what an origin is called.
+/// Returns the name of an origin.
 pub(crate) fn origin_text(origin: Origin) -> Text {
     match origin {
         Origin::Captured => words::CAPTURED,
@@ -111,34 +111,34 @@ pub(crate) fn origin_text(origin: Origin) -> Text {
     }
 }
 
-/// Returns what the window calls the origin of this name, as queries write it.
+/// Returns the name of an origin, given its name in queries.
 pub(crate) fn origin_named(name: &str) -> Option<Text> {
     Origin::of_name(name).map(origin_text)
 }
 
-/// The visible form of a sign.
+/// The movement of a sign, if there is any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Moves {
-    /// Its citation form lies in a recording.
+    /// The citation form has movement, in that recording and span.
     Recorded(i64, Span),
-    /// It is notated, and can be animated.
+    /// The sign has a notation, and can be animated.
     Notated,
-    /// It is coded, or only named.
+    /// The sign is coded, or only named.
     Not,
 }
 
-/// A sign as the list shows it.
+/// A sign as a row of the list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct SignRow {
     pub(crate) gloss: String,
-    /// How many tokens it has, and where its citation form comes from.
+    /// The number of tokens, and the origin of the citation form.
     pub(crate) about: String,
-    /// Its citation form.
+    /// The token of its citation form.
     pub(crate) token: Option<i64>,
     pub(crate) moves: Moves,
 }
 
-/// Returns the signs whose gloss holds `filter`, whatever its case and accents.
+/// Returns the signs whose gloss contains `filter`, ignoring case and accents.
 pub(crate) fn signs(
     signs: &[SignGlance],
     recordings: &[RecordingGlance],
@@ -169,7 +169,7 @@ fn moves(sign: &SignGlance) -> Moves {
     }
 }
 
-/// Returns where a sign comes from, and how many tokens it has.
+/// Returns the text about a sign's origin and its number of tokens.
 pub(crate) fn about(sign: &SignGlance, origin: Option<Origin>, language: Language) -> String {
     let what = match moves(sign) {
         // A generated recording was not captured.

@@ -1,4 +1,4 @@
-//! The recordings and the signs of the corpus, to choose one.
+//! The library pane: lists of the recordings and the signs of the corpus.
 
 pub(crate) mod data;
 mod wall;
@@ -25,12 +25,12 @@ use crate::words::{Language, fill, library as words};
 use crate::work::{Ended, WorkId};
 use data::{Moves, Row, SignRow};
 
-/// How high a row is, in heights of a button.
+/// Height of a row, in heights of a button.
 const ROW: f32 = 2.1;
-/// How large a picture is beside the row that is pointed at.
+/// Side of the picture beside the row under the pointer, in points.
 const LARGE: f32 = 220.0;
 
-/// What is listed.
+/// The contents of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum List {
     Recordings,
@@ -44,17 +44,17 @@ pub(crate) struct Library {
     /// The chosen list; signs if there are no recordings.
     list: Option<List>,
     rows: Rows,
-    /// The row that keys are at, and the one that they go to.
+    /// The row at the keyboard cursor, and the row to give the focus next.
     at: usize,
     reach: Option<usize>,
-    /// How far the list is scrolled.
+    /// The scroll offset of the list, in points.
     scrolled: f32,
-    /// The sign that was chosen last.
+    /// The sign that was clicked last.
     chosen: Option<SignRow>,
     notated: Notated,
 }
 
-/// The rows, filtered again when their inputs change.
+/// The filtered rows, computed again when their inputs change.
 #[derive(Default)]
 struct Rows {
     of: Option<(usize, String, Language)>,
@@ -85,7 +85,7 @@ impl Rows {
 }
 
 impl Library {
-    /// Returns the sign that was chosen last, to be taken elsewhere.
+    /// Returns the last chosen sign, for use in another pane.
     pub(crate) fn carried(&self) -> Option<Carried> {
         carried(self.chosen.as_ref()?)
     }
@@ -109,7 +109,7 @@ impl Library {
         }
     }
 
-    /// Draws what is listed, and the filter.
+    /// Draws the choice of the list, and the filter.
     fn head(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) -> List {
         let list = self.listed(seen);
         let overview = &seen.snapshot.overview;
@@ -160,8 +160,8 @@ impl Library {
         self.listed(seen)
     }
 
-    /// Chooses a sign: shows it at its place, or animates its notation; for a bare sign the pane lists the possible
-    /// actions.
+    /// Chooses a sign: shows it in its recording, or animates its notation. For a sign without either, the pane lists
+    /// the possible actions.
     fn choose(&mut self, row: &SignRow, out: &mut Outbox) {
         self.chosen = Some(row.clone());
         let Some(token) = row.token else { return };
@@ -182,7 +182,7 @@ impl Library {
         }
     }
 
-    /// Shows on the stage what was chosen and is made now, also where another pane is before this one.
+    /// Shows the chosen notated sign on the stage once it is animated, even if another pane covers this one.
     pub(crate) fn show_made(&mut self, out: &mut Outbox) {
         self.notated.show(out);
     }
@@ -210,7 +210,7 @@ impl Library {
         area.vertical_scroll_offset(offset)
     }
 
-    /// Takes the arrow keys where a row of the list has the focus.
+    /// Takes the arrow keys if a row of the list has the focus.
     fn keys(&mut self, ui: &Ui, total: usize) {
         if total == 0 || ui.memory(|memory| memory.focused()) != Some(row_id(self.at)) {
             return;
@@ -235,7 +235,7 @@ impl Library {
         }
     }
 
-    /// Gives a row the focus that the keys went to, and keeps the keys there.
+    /// Gives the focus to the row that the keys moved to, and keeps the arrow keys in the list.
     fn focus(&mut self, ui: &Ui, response: &Response, at: usize) {
         if self.reach == Some(at) {
             self.reach = None;
@@ -275,7 +275,7 @@ impl Library {
         self.rows.recordings = rows;
     }
 
-    /// Answers to clicks on a recording.
+    /// Handles clicks on a recording.
     fn on_recording(&self, seen: &Seen<'_>, out: &mut Outbox, row: &Row, response: &Response) {
         if response.clicked() {
             out.send(Command::Recording(row.id));
@@ -336,7 +336,7 @@ impl Library {
         self.on_sign(seen, out, (row, motion), &response);
     }
 
-    /// Answers to clicks on a sign, and to drags.
+    /// Handles clicks on a sign, and drags.
     fn on_sign(
         &mut self,
         seen: &Seen<'_>,
@@ -362,12 +362,12 @@ impl Library {
     }
 }
 
-/// The row at a place of the list, whatever stands there.
+/// Returns the widget id of the row at an index, whatever its contents.
 fn row_id(at: usize) -> Id {
     Id::unique("library").with(at)
 }
 
-/// The recording in which a sign lies.
+/// Returns the recording that contains a sign's citation form.
 fn recording_of(row: &SignRow) -> Option<i64> {
     match row.moves {
         Moves::Recorded(recording, _) => Some(recording),
@@ -375,7 +375,7 @@ fn recording_of(row: &SignRow) -> Option<i64> {
     }
 }
 
-/// Opens the recipe of a recording that was made of one.
+/// Opens the recipe of a recording that was made from one.
 fn open_recipe(seen: &Seen<'_>, recording: Option<i64>, out: &mut Outbox) {
     if let Some((recipe, name)) = recording.and_then(|it| seen.snapshot.recipe_of(it)) {
         out.send(Command::Recipe(recipe, Some(name)));

@@ -1,4 +1,4 @@
-//! The library as a living wall: every recording or sign as a figure that loops, those in sight alone.
+//! The library as a wall: every recording or sign as a looping figure; only visible figures are drawn.
 
 use std::collections::BTreeMap;
 
@@ -15,14 +15,14 @@ use crate::context::{Outbox, Seen};
 use crate::little::{self, Cell, Motion};
 use crate::panes::search::walked;
 
-/// The least width of a figure, the gap between two, and the room for words below one, in points.
+/// The least width of a figure, the gap between two, and the height of the text below one, in points.
 const LEAST: f32 = 124.0;
 const GAP: f32 = 6.0;
 const FOOT: f32 = 36.0;
-/// The greatest height of a figure.
+/// The greatest height of a figure, in points.
 const HIGHEST: f32 = 200.0;
 
-/// Returns the span of the first sign in each recording: its figure shows that rather than its rest.
+/// Returns the span of the first sign in each recording, which is a better figure than the recording's rest pose.
 pub(super) fn first_signs(signs: &[SignGlance]) -> BTreeMap<i64, Span> {
     let mut first: BTreeMap<i64, Span> = BTreeMap::new();
     for (recording, span) in signs.iter().filter_map(|sign| sign.place) {
@@ -34,7 +34,7 @@ pub(super) fn first_signs(signs: &[SignGlance]) -> BTreeMap<i64, Span> {
     first
 }
 
-/// Returns how many figures stand in a line, and the size of each with its words.
+/// Returns the number of figures in a row, and the size of each with its text.
 fn cells(room: f32) -> (usize, Vec2) {
     let columns = ((room + GAP) / (LEAST + GAP)).floor().max(1.0);
     let width = (room + GAP) / columns - GAP;
@@ -117,7 +117,7 @@ impl Library {
         }
     }
 
-    /// Takes the arrow keys where a figure has the focus.
+    /// Takes the arrow keys if a figure has the focus.
     fn wall_keys(&mut self, ui: &Ui, columns: usize, total: usize) {
         if total == 0 || ui.memory(|memory| memory.focused()) != Some(row_id(self.at)) {
             return;
@@ -150,7 +150,7 @@ impl Library {
     }
 }
 
-/// Shows the ground, the words and the state of a figure; the picture is painted over it.
+/// Draws the background, the text and the state of a figure; the picture is painted over it.
 fn frame(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -197,7 +197,7 @@ fn frame(
     response
 }
 
-/// Shows what moves, in a loop.
+/// Shows movement in a loop.
 fn film(ui: &Ui, seen: &Seen<'_>, out: &mut Outbox, motion: Option<Motion>, rect: Rect) {
     let rect = rect.shrink(1.5);
     match motion {

@@ -1,4 +1,4 @@
-//! The view of the map, its labels and its selections, without a window.
+//! The view of the map, its labels and its selections, without widgets.
 
 use std::collections::BTreeSet;
 
@@ -8,9 +8,9 @@ use eframe::egui::{Pos2, Rect, Vec2, pos2};
 /// The part of the map in sight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct View {
-    /// The place of the map in the middle.
+    /// The map position at the centre of the view.
     centre: Pos2,
-    /// Magnification: at 1 all of the map is in sight.
+    /// Magnification: at 1 the whole map is in sight.
     zoom: f32,
 }
 
@@ -25,7 +25,7 @@ impl Default for View {
 
 /// The margin around the whole map, as a share of its side.
 const MARGIN: f32 = 0.06;
-/// The share of a flight that is left after a second.
+/// The share of the remaining distance of a flight that is left after a second.
 const LEFT: f32 = 1e-4;
 /// The greatest magnification.
 const NEAREST: f32 = 400.0;
@@ -35,18 +35,18 @@ impl View {
         rect.size().min_elem() * (1.0 - 2.0 * MARGIN) * self.zoom
     }
 
-    /// Returns the point of the window for a place of the map.
+    /// Returns the point in the window for a position on the map.
     pub(super) fn shown(&self, rect: Rect, place: Pos2) -> Pos2 {
         rect.center() + (place - self.centre) * self.scale(rect)
     }
 
-    /// Returns the place of the map at a point of the window.
+    /// Returns the position on the map for a point in the window.
     pub(super) fn place(&self, rect: Rect, point: Pos2) -> Pos2 {
         self.centre + (point - rect.center()) / self.scale(rect)
     }
 
-    /// Returns the view with a place in the middle and at most so many of all `places` in sight, no farther off than this
-    /// one.
+    /// Returns a view with `place` in the centre and at most `most` of `places` in sight, magnified at least as much as
+    /// the present one.
     pub(super) fn near(
         &self,
         rect: Rect,
@@ -59,7 +59,7 @@ impl View {
             zoom: 1.0,
         }
         .scale(rect);
-        // How far the map must be magnified for each place to leave the window.
+        // The magnification at which a position leaves the window.
         let leaves = |at: Pos2| {
             let away = (at - place).abs() * unit;
             let half = rect.size() / 2.0;
@@ -74,7 +74,7 @@ impl View {
         }
     }
 
-    /// Flies towards another view for so many seconds; returns whether it has arrived.
+    /// Moves towards another view for `seconds`; returns whether it has arrived.
     pub(super) fn towards(&mut self, to: Self, seconds: f32) -> bool {
         let share = 1.0 - LEFT.powf(seconds);
         self.centre += (to.centre - self.centre) * share;
@@ -87,12 +87,12 @@ impl View {
         near
     }
 
-    /// Moves the map along with the pointer; its middle stays on the map.
+    /// Moves the map by `by` points; its centre stays on the map.
     pub(super) fn moved(&mut self, rect: Rect, by: Vec2) {
         self.centre = (self.centre - by / self.scale(rect)).clamp(Pos2::ZERO, pos2(1.0, 1.0));
     }
 
-    /// Magnifies by a factor; the place under the pointer stays there.
+    /// Magnifies by a factor, keeping the position under the pointer.
     pub(super) fn zoomed(&mut self, rect: Rect, pointer: Pos2, factor: f32) {
         let held = self.place(rect, pointer);
         self.zoom = (self.zoom * factor).clamp(0.5, NEAREST);
@@ -101,15 +101,15 @@ impl View {
     }
 }
 
-/// The room that labels have taken.
+/// The area that labels occupy, as squares of a grid.
 #[derive(Debug, Default)]
 pub(super) struct Labels(BTreeSet<(i32, i32)>);
 
-/// The side of a square of the grid that labels take room from, in points.
+/// The side of a grid square, in points.
 const SQUARE: f32 = 8.0;
 
 impl Labels {
-    /// Takes a rectangle, unless a part of it is taken; returns whether it was free.
+    /// Occupies a rectangle if it is free; returns whether it was.
     pub(super) fn take(&mut self, room: Rect) -> bool {
         let square = |at: Pos2| {
             (
@@ -141,7 +141,7 @@ pub(super) fn is_inside(line: &[Pos2], point: Pos2) -> bool {
     inside
 }
 
-/// Returns the signs most like one, by their index.
+/// Returns the indices of the signs that are most similar to one.
 pub(super) fn near(map: &SignMap, at: usize) -> Vec<usize> {
     let index = |token: &i64| map.signs.binary_search_by_key(token, |it| it.token).ok();
     map.signs
@@ -149,7 +149,7 @@ pub(super) fn near(map: &SignMap, at: usize) -> Vec<usize> {
         .map_or(Vec::new(), |it| it.near.iter().filter_map(index).collect())
 }
 
-/// Returns the query for signs of these glosses; `None` if there is no gloss.
+/// Returns the query for signs with these glosses; `None` if there is no gloss.
 pub(super) fn query<'a>(glosses: impl Iterator<Item = &'a str>) -> Option<String> {
     let glosses: BTreeSet<&str> = glosses.collect();
     let terms: Vec<String> = glosses
@@ -207,7 +207,7 @@ mod tests {
             let shown = places.iter().map(|at| view.shown(rect(), *at));
             shown.filter(|at| rect().contains(*at)).count()
         };
-        // Places of a grid come and go in groups.
+        // Positions on a grid come into sight in groups.
         assert!((2..=30).contains(&seen(&to)), "{}", seen(&to));
         let mut view = View::default();
         let mut frames = 1;

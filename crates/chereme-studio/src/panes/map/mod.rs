@@ -1,4 +1,4 @@
-//! The map: every coded sign at a place in a plane, those that are alike near each other.
+//! The map: every coded sign as a point in a plane, with similar signs near each other.
 
 mod data;
 
@@ -22,7 +22,7 @@ use crate::words::{fill, inspector, map as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
 use data::{Labels, View};
 
-/// The components that can place the signs, with their words.
+/// The components that can place the signs, with their names.
 const COMPONENTS: [(Component, crate::words::Text); 4] = [
     (Component::Configuration, inspector::CONFIGURATION),
     (Component::Placement, inspector::PLACEMENT),
@@ -33,12 +33,12 @@ const COMPONENTS: [(Component, crate::words::Text); 4] = [
 /// The side of a little figure, in points, and the most of them at once.
 const FIGURE: f32 = 84.0;
 const MOST_FIGURES: usize = 40;
-/// The distance in points at which the pointer reaches a sign.
+/// The distance in points within which the pointer selects a sign.
 const REACH: f32 = 14.0;
 
 /// The pane.
 pub(crate) struct Map {
-    /// Which components count.
+    /// Which of [`COMPONENTS`] are used.
     by: [bool; 4],
     asked: Option<WorkId>,
     map: Option<Arc<SignMap>>,
@@ -46,14 +46,14 @@ pub(crate) struct Map {
     /// The generation of the corpus and the components of the newest request.
     of: Option<(i64, [bool; 4])>,
     view: View,
-    /// The view that it flies to.
+    /// The view at the end of a flight.
     towards: Option<View>,
     chosen: Option<usize>,
-    /// The line that a selection by dragging has drawn so far.
+    /// The outline of a selection by dragging, drawn so far.
     lasso: Vec<Pos2>,
-    /// Where the citation forms move, by their tokens, and the overview that says so.
+    /// Recordings and spans of the citation forms, by token, and the address of the overview that they come from.
     moving: (usize, BTreeMap<i64, (i64, Span)>),
-    /// Maps of this corpus by their components, as it was in the generation.
+    /// Computed maps by their components, each with its corpus generation.
     kept: BTreeMap<[bool; 4], (i64, Arc<SignMap>)>,
 }
 
@@ -228,7 +228,7 @@ impl Map {
         }
     }
 
-    /// Goes a part of the way to where it flies.
+    /// Moves a step along the flight.
     fn fly(&mut self, ui: &Ui) {
         let Some(to) = self.towards else { return };
         let passed = ui.input(|input| input.stable_dt).min(0.1);
@@ -238,7 +238,7 @@ impl Map {
         ui.ctx().request_repaint();
     }
 
-    /// Moves and zooms by drag, wheel and pinch; a drag with Shift selects what it goes around.
+    /// Moves and zooms by drag, wheel and pinch; a drag with Shift selects the signs that it encloses.
     fn look_around(&mut self, ui: &Ui, response: &Response, rect: Rect) {
         let pointer = response.interact_pointer_pos();
         if response.drag_started() && ui.input(|it| it.modifiers.shift) {
@@ -266,7 +266,7 @@ impl Map {
         }
     }
 
-    /// The chosen sign and those most like it, as buttons.
+    /// Shows the chosen sign and those most similar to it, as buttons.
     fn foot(&mut self, ui: &mut Ui, seen: &Seen<'_>, map: &SignMap, out: &mut Outbox) {
         let Some(chosen) = self.chosen.filter(|&at| at < map.signs.len()) else {
             ui.weak(seen.say(words::HINT));
@@ -303,7 +303,7 @@ fn open(seen: &Seen<'_>, token: i64, out: &mut Outbox) {
     }
 }
 
-/// Paints a gloss below a place if it covers no other, or in any case if `marked`.
+/// Paints a gloss below a point if it covers no other gloss, or in any case if `marked`.
 fn label(
     painter: &eframe::egui::Painter,
     labels: &mut Labels,
