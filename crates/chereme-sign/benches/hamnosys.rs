@@ -1,9 +1,9 @@
 //! Reading and writing HamNoSys, in signs per second.
 //!
-//! The signs are made here: they are as long as real ones (16 symbols on average) and as varied: one
-//! and two hands, splits, contacts, replacements, compounds; one in four is not spelled as the
-//! printer would, so that its reading goes twice. Beside them stands the split of the text into
-//! characters with a look-up of each, which is the least any reader does.
+//! The signs are generated here: they are as long as real ones (16 symbols on average) and as varied: one and two
+//! hands, splits, contacts, replacements, compounds; one in four is spelled differently from the printer's form, so
+//! that it is read twice. For comparison, the text is also split into characters with a look-up of each, which is the
+//! least that any reader does.
 
 use chereme_sign::hamnosys::{Symbol, from_names, parse, print, text_of};
 use divan::Bencher;

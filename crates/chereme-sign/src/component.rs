@@ -31,13 +31,13 @@ impl Component {
         Self::NonManual,
     ];
 
-    /// Returns the house name, as queries spell it.
+    /// Returns the canonical name, as queries spell it.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.names()[0]
     }
 
-    /// Returns every spelling that is understood, the house name first.
+    /// Returns every spelling that is understood, the canonical name first.
     #[must_use]
     pub fn names(self) -> &'static [&'static str] {
         match self {
@@ -77,7 +77,7 @@ impl FromStr for Component {
     }
 }
 
-/// Which hand a signer signs one-handed signs with.
+/// The hand with which a signer makes one-handed signs.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize,
 )]
@@ -119,13 +119,13 @@ impl HandRef {
     /// The four ways of naming a hand.
     pub const ALL: [Self; 4] = [Self::Right, Self::Left, Self::Dominant, Self::Weak];
 
-    /// Returns the house name.
+    /// Returns the canonical name.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.names()[0]
     }
 
-    /// Returns every spelling that is understood, the house name first.
+    /// Returns every spelling that is understood, the canonical name first.
     #[must_use]
     pub fn names(self) -> &'static [&'static str] {
         match self {
@@ -136,7 +136,7 @@ impl HandRef {
         }
     }
 
-    /// Returns the side of the body that is meant for a signer of this handedness.
+    /// Returns the side of the body of this hand, for a signer of this handedness.
     #[must_use]
     pub fn resolve(self, handedness: Handedness) -> Side {
         match self {
@@ -178,7 +178,7 @@ impl FromStr for HandRef {
     }
 }
 
-/// Which of several successive values inside one sign is meant.
+/// A position among several successive values of one sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Phase {
     /// The first of several values.
@@ -226,19 +226,19 @@ impl FromStr for Phase {
 
 /// A component of a token as a search names it: `final.right.placement`, `nonmanual.brows`.
 ///
-/// Parsing takes phase and hand in either order before the component, and any of the names and
-/// aliases; printing always gives `phase.hand.component.feature` with the house names. Without a
-/// hand either hand is meant; without a phase, any value of the sign.
+/// Parsing takes phase and hand in either order before the component, and any of the names and aliases; printing always
+/// gives `phase.hand.component.feature` with the canonical names. Without a hand either hand is meant; without a phase,
+/// any value of the sign.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Field {
-    /// The hand, or nothing for either.
+    /// The hand; `None` for either.
     pub hand: Option<HandRef>,
     /// The component.
     pub component: Component,
-    /// The part of the component in lower case, such as `brows` or `palm`, or nothing for the whole.
+    /// The part of the component in lower case, such as `brows` or `palm`; `None` for the whole.
     pub feature: Option<String>,
-    /// Which of several successive values, or nothing for any.
+    /// The position among several successive values; `None` for any.
     pub phase: Option<Phase>,
 }
 
@@ -392,7 +392,7 @@ pub enum FieldError {
         /// The second one.
         part: String,
     },
-    /// What follows the component is not one feature name.
+    /// The component is followed by something other than one feature name.
     #[error("{text:?}: after the component stands at most one feature, such as orientation.palm")]
     Feature {
         /// What was written.
@@ -453,7 +453,7 @@ pub enum Reading {
 }
 
 impl Reading {
-    /// Returns the value, where there is one.
+    /// Returns the value, if there is one.
     #[must_use]
     pub fn value(&self) -> Option<&str> {
         match self {

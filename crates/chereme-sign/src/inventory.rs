@@ -1,9 +1,8 @@
 //! Inventories: the values that a component may have, as data.
 //!
-//! An [`Inventory`] belongs to one component, or to one feature of it (the palm's direction, the
-//! brows). The house's own are in `schema/inventories`, described by
-//! `schema/inventory.schema.json`, and come with the program: [`builtin`]. Others are read with
-//! [`Inventory::from_json`], in the same form.
+//! An [`Inventory`] belongs to one component, or to one feature of it (the palm's direction, the brows). This project's
+//! own are in `schema/inventories`, described by `schema/inventory.schema.json`, and come with the program:
+//! [`builtin`]. Others are read with [`Inventory::from_json`], in the same form.
 //!
 //! Directions and offsets are `[left, up, forward]` as the signer sees them, the axes of model
 //! space; angles are radians here and degrees in the files.
@@ -27,11 +26,11 @@ pub struct Inventory {
     pub id: String,
     /// The component.
     pub component: Component,
-    /// The feature of the component, such as `palm`, or nothing for the whole.
+    /// The feature of the component, such as `palm`; `None` for the whole.
     pub feature: Option<String>,
     /// The version, raised whenever a value changes its meaning.
     pub version: u32,
-    /// The sign language it was made for, as people write it (`LSF`), or nothing for any.
+    /// The sign language that it was made for, as people write it (`LSF`); `None` for any.
     pub language: Option<String>,
     /// Its names, by the code of the spoken language (`en`, `fr`).
     pub names: BTreeMap<String, String>,
@@ -50,38 +49,38 @@ pub struct InventoryValue {
     pub names: BTreeMap<String, String>,
     /// Other spellings that mean the same.
     pub aliases: Vec<String>,
-    /// The id of a value that holds this one: `chin` is part of `head`.
+    /// The id of the broader value that includes this one: `chin` is part of `head`.
     pub broader: Option<String>,
     /// Its features, such as `index`, `spread` or `thumb-across`.
     pub features: BTreeSet<String>,
     /// The HamNoSys symbol names, in the order of the notation, separated by blanks.
     pub hamnosys: Option<String>,
-    /// The value of the inventory `configurations` that gives the hand its shape.
+    /// The value of the inventory `configurations` with the same handshape.
     pub configuration: Option<String>,
-    /// The shape of the hand itself.
+    /// The joint angles of the handshape.
     pub pose: Option<HandAngles>,
-    /// The letter that the value spells.
+    /// The letter of the alphabet that the value spells.
     pub letter: Option<String>,
-    /// Where palm and fingers point.
+    /// The directions of palm and fingers.
     pub orientation: Option<HandOrientation>,
     /// The strokes of the hand, one after another.
     pub strokes: Vec<Stroke>,
-    /// Where it is.
+    /// The place on the body or in space.
     pub landmark: Option<Landmark>,
     /// A direction as a unit vector.
     pub direction: Option<[f64; 3]>,
-    /// The turn of the palm about the hand's length in radians, as HamNoSys counts it: 0 is palm
-    /// down when the hand points out; growing, the palm turns to the right, up, and left.
+    /// The rotation of the palm about the hand's length in radians, as HamNoSys counts it: 0 is palm down when the hand
+    /// points out; with growing angles the palm faces right, up, and left.
     pub roll: Option<f64>,
-    /// How large, in shoulder widths.
+    /// The size in shoulder widths.
     pub size: Option<f64>,
-    /// How often.
+    /// The number of times.
     pub times: Option<u32>,
     /// Anything else worth knowing.
     pub notes: Option<String>,
 }
 
-/// Where palm and fingers point, as ids of the two orientation inventories.
+/// The directions of palm and fingers, as ids of the two orientation inventories.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct HandOrientation {
     /// A value of `orientation.palm`.
@@ -90,14 +89,14 @@ pub struct HandOrientation {
     pub fingers: String,
 }
 
-/// One stroke of a letter that moves.
+/// One stroke of a letter whose sign has movement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stroke {
-    /// A value of `movement.direction`; nothing for a stroke that stays in place.
+    /// A value of `movement.direction`; `None` for a stroke that stays in place.
     pub direction: Option<String>,
     /// The length in shoulder widths.
     pub size: f64,
-    /// The turn of the forearm meanwhile in radians, positive when the palm turns to face up.
+    /// The rotation of the forearm during the stroke in radians, positive when the palm turns to face up.
     pub turn: f64,
 }
 
@@ -107,8 +106,8 @@ pub struct Landmark {
     /// The landmark's name, such as `chin`; `ipsi-` and `contra-` at its start stand for the
     /// acting hand's own and other side.
     pub name: String,
-    /// The way from the landmark to the place in shoulder widths: left, up, forward; with `ipsi-`
-    /// and `contra-` names the first counts away from the body's middle.
+    /// The offset of the place from the landmark in shoulder widths: left, up, forward; with `ipsi-` and `contra-`
+    /// names the first counts away from the body's middle.
     pub offset: [f64; 3],
 }
 
@@ -160,8 +159,7 @@ impl Inventory {
         })
     }
 
-    /// Returns whether every text names a value, and no two texts name the same one unless they differ only in case
-    /// or accents.
+    /// Returns whether every text names a value, and texts that differ only in case or accents name different values.
     #[must_use]
     pub fn tells_apart<'t>(&self, texts: impl IntoIterator<Item = &'t str>) -> bool {
         let mut meant: BTreeMap<(String, &str), &str> = BTreeMap::new();
@@ -205,7 +203,7 @@ impl Inventory {
         self.chain(id).any(|value| value.id == broader)
     }
 
-    /// Returns the value `id` and the ones that hold it, the narrowest first.
+    /// Returns the value `id` and its broader values, the narrowest first.
     pub fn chain<'a>(&'a self, id: &str) -> impl Iterator<Item = &'a InventoryValue> {
         let up = |value: &&'a InventoryValue| {
             value
@@ -246,8 +244,8 @@ impl InventoryValue {
         named.map_or(&self.id, String::as_str)
     }
 
-    /// Returns the shape of the hand: the value's own, or the one of the value that it names in the
-    /// inventory of configurations given.
+    /// Returns the shape of the hand: the value's own, or that of the value that it names in the inventory
+    /// `configurations`.
     #[must_use]
     pub fn hand_pose(&self, configurations: &Inventory) -> Option<HandAngles> {
         let named = || configurations.get(self.configuration.as_deref()?)?.pose;

@@ -28,16 +28,16 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`component`] | components, hands, phases; fields as queries spell them; readings and how they are missing |
+//! | [`component`] | components, hands, phases; fields as queries spell them; readings and the kinds of missing ones |
 //! | [`tier`] | tiers, annotations, and the rules of ELAN's stereotypes for every change |
-//! | [`relation`] | how spans stand to each other in time |
+//! | [`relation`] | temporal relations between spans |
 //! | [`inventory`] | the values of components as data, and those that come with the program |
-//! | [`token`] | what the tiers around a gloss say about it |
-//! | [`milestones`] | where an expression of the face begins, changes and ends against the signs that it spans |
+//! | [`token`] | the component values of a gloss from the tiers around it |
+//! | [`milestones`] | the times at which an expression of the face begins, changes and ends, relative to its signs |
 //! | [`query`] | the query language |
 //! | [`hamnosys`] | signs as notation: the tree that HamNoSys and SiGML write down |
 //! | [`cue`] | cued speech: codes as data, phones to keys, French text to phones |
-//! | [`text`] | folding of case and accents, and what was probably meant |
+//! | [`text`] | folding of case and accents, and suggestions for misspelt words |
 
 pub mod component;
 pub mod cue;

@@ -1,8 +1,10 @@
-//! Milestones of an expression of the face: where it begins, changes and ends against the signs that it spans.
+//! Milestones of an expression of the face: the times at which it begins, changes and ends, relative to the signs that
+//! it spans.
 //!
-//! Five milestones cut an expression into four phases: its onset (M1 to M2), its body in two parts (M2 to M3, M3 to M4) and its
-//! offset (M4 to M5). Two performances of one function are compared, and one is carried over to the other's time, phase by
-//! phase. Source: the fourth founding paper (facial expressions for animations of American Sign Language), section 3.
+//! Five milestones cut an expression into four phases: its onset (M1 to M2), its body in two parts (M2 to M3, M3 to M4)
+//! and its offset (M4 to M5). Two performances of one function are compared, and one is mapped to the other's time,
+//! phase by phase. Source: the fourth founding paper (facial expressions for animations of American Sign Language),
+//! section 3.
 //!
 //! ```
 //! use chereme_motion::{Instant, Span};
@@ -34,13 +36,13 @@ pub struct Function(String);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Cut {
-    /// The second: NOT, or what negates, stands first.
+    /// The second sign: NOT or another negation comes first.
     Second,
-    /// The last: the question word, the doubled pronoun or the question mark stands last.
+    /// The last sign: the question word, the doubled pronoun or the question mark comes last.
     Last,
 }
 
-/// The functions that are known by several names, with their names in small letters and without signs between.
+/// The functions that have several names, with their names in lower case and without punctuation.
 const NAMES: [(&str, &[&str]); 6] = [
     (
         "negation",
@@ -115,8 +117,8 @@ const NAMES: [(&str, &[&str]); 6] = [
 ];
 
 impl Function {
-    /// Returns the function of that name: `negation`, `wh`, `yn`, `topic`, `conditional` and `rhetorical` are known by
-    /// several; any other name stands for itself, in small letters and without accents.
+    /// Returns the function with that name. `negation`, `wh`, `yn`, `topic`, `conditional` and `rhetorical` have
+    /// several names; any other name stands for itself, in lower case and without accents.
     #[must_use]
     pub fn of(name: &str) -> Self {
         let folded = fold(name.trim());
@@ -131,7 +133,8 @@ impl Function {
         &self.0
     }
 
-    /// Returns whether it is one of those whose rules the paper states or that are cut like them.
+    /// Returns whether it is one of the functions with several names; the paper states their rules, or they are cut
+    /// like those.
     #[must_use]
     pub fn is_known(&self) -> bool {
         NAMES.iter().any(|(id, _)| *id == self.0)
@@ -142,7 +145,7 @@ impl Function {
         NAMES.iter().map(|(id, _)| *id)
     }
 
-    /// Returns where its body is cut: negation at the second sign, all others at the last.
+    /// Returns the sign at which its body is cut: the second for negation, the last for all others.
     #[must_use]
     pub fn cut(&self) -> Cut {
         match &*self.0 {
@@ -162,19 +165,19 @@ impl fmt::Display for Function {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Milestones {
-    /// M1: the onset begins. It may lie before the recording, and after M2 if signs overlap.
+    /// M1: the start of the onset. It may lie before the recording, and after M2 if signs overlap.
     #[serde(rename = "m1_us")]
     pub m1: Instant,
-    /// M2: the first sign begins.
+    /// M2: the start of the first sign.
     #[serde(rename = "m2_us")]
     pub m2: Instant,
-    /// M3: the sign begins at which the body is cut; `None` if there is one sign, whose body is one phase.
+    /// M3: the start of the sign at which the body is cut; `None` if there is one sign, whose body is one phase.
     #[serde(rename = "m3_us")]
     pub m3: Option<Instant>,
-    /// M4: the last sign ends.
+    /// M4: the end of the last sign.
     #[serde(rename = "m4_us")]
     pub m4: Instant,
-    /// M5: the offset ends. It may lie before M4 if signs overlap.
+    /// M5: the end of the offset. It may lie before M4 if signs overlap.
     #[serde(rename = "m5_us")]
     pub m5: Instant,
 }
@@ -229,7 +232,7 @@ impl Phase {
 }
 
 impl Milestones {
-    /// Returns the milestones of five times that never decrease.
+    /// Returns the milestones at five times that never decrease.
     #[must_use]
     pub fn of_times([m1, m2, m3, m4, m5]: [Instant; 5]) -> Self {
         Self {
@@ -241,8 +244,8 @@ impl Milestones {
         }
     }
 
-    /// Returns five times that never decrease: an onset or offset that overlapping signs would give less than no time is
-    /// empty, and M3 is M2 if one sign is spanned.
+    /// Returns five times that never decrease: an onset or offset of negative length, which overlapping signs would
+    /// cause, becomes empty, and M3 is M2 if there is only one sign.
     #[must_use]
     pub fn times(&self) -> [Instant; 5] {
         let m3 = self.m3.unwrap_or(self.m2).max(self.m2);
@@ -257,14 +260,14 @@ impl Milestones {
         std::array::from_fn(|n| Span::between(times[n], times[n + 1]))
     }
 
-    /// Returns from M1 to M5.
+    /// Returns the span from M1 to M5.
     #[must_use]
     pub fn span(&self) -> Span {
         let phases = self.phases();
         Span::between(phases[0].start(), phases[3].end())
     }
 
-    /// Returns the signs that are spanned: from M2 to M4.
+    /// Returns the span of the signs, from M2 to M4.
     #[must_use]
     pub fn body(&self) -> Span {
         let times = self.times();
@@ -283,7 +286,7 @@ impl Milestones {
         }
     }
 
-    /// Returns what is odd about them, for people; empty if nothing is.
+    /// Returns the oddities of the milestones, as sentences for people.
     #[must_use]
     pub fn oddities(&self) -> Vec<String> {
         let mut odd = Vec::new();
@@ -302,10 +305,11 @@ impl Milestones {
         odd
     }
 
-    /// Returns the moment of this performance, in seconds, that is shown at a moment of a target with other milestones:
-    /// each phase is stretched evenly onto the target's; `None` before the target's M1 and after its M5.
+    /// Returns the time in this performance, in seconds, that corresponds to a time of a target with other milestones:
+    /// each phase is stretched evenly to the target's; `None` before the target's M1 and after its M5.
     ///
-    /// If the body of either is one phase, so is the other's. A phase that is empty in the target is passed over; one that is empty here shows its only moment.
+    /// If the body of either is one phase, the other's counts as one, too. A phase that is empty in the target is
+    /// skipped; one that is empty here gives its only time.
     #[must_use]
     pub fn moment_for(&self, target: &Self, seconds: f64) -> Option<f64> {
         let one = self.m3.is_none() || target.m3.is_none();
@@ -321,7 +325,7 @@ impl Milestones {
         Some(own[phase] + share * (own[phase + 1] - own[phase]))
     }
 
-    /// Returns M1 to M5 in seconds; M3 is M2 if the body is to be one phase.
+    /// Returns M1 to M5 in seconds; M3 is M2 if the body counts as one phase.
     fn ends(&self, one: bool) -> [f64; 5] {
         let mut times = self.times();
         if one {
@@ -331,10 +335,10 @@ impl Milestones {
     }
 }
 
-/// Returns the milestones of an expression over `of` of the signs of an utterance, which are in order of time.
+/// Returns the milestones of an expression over the signs `of` in an utterance, whose `signs` are in order of time.
 ///
 /// M1 is the end of the sign just before them, or `edge` microseconds before them if the utterance begins with them; M5
-/// the same after them. `None` if `of` holds no sign.
+/// is found in the same way after them. `None` if `of` holds no sign.
 #[must_use]
 pub fn milestones(
     signs: &[Span],
@@ -378,7 +382,7 @@ mod tests {
         milestones(&signs(times), of, &Function::of(function), EDGE).expect("signs")
     }
 
-    /// Millis of M1 to M5; no M3 as `i64::MIN`.
+    /// Returns M1 to M5 in milliseconds; a missing M3 as `i64::MIN`.
     fn millis(it: &Milestones) -> [i64; 5] {
         let m3 = it.m3.map_or(i64::MIN, Instant::millis);
         [

@@ -1,11 +1,11 @@
-//! How one span of time stands to another: ELAN's eleven relations and Allen's.
+//! Temporal relations between spans: ELAN's eleven and Allen's.
 
 use crate::text::{did_you_mean, fold, nearest};
 use chereme_motion::{Instant, Span};
 use std::fmt;
 use std::str::FromStr;
 
-/// How a span `a` stands to a span `b`; spans are half-open.
+/// The temporal relation of a span `a` to a span `b`; spans are half-open.
 ///
 /// The first eleven are those of ELAN's structured search. The others complete the thirteen of Allen (*Maintaining
 /// knowledge about temporal intervals*, 1983): ELAN's `OverlapsBegin` and `OverlapsEnd` are two of them, and
@@ -73,7 +73,7 @@ impl Relation {
         ("covers", Self::Covers),
     ];
 
-    /// Returns whether `a` stands to `b` in this relation.
+    /// Returns whether this is a relation of `a` to `b`.
     #[must_use]
     pub fn holds(self, a: Span, b: Span) -> bool {
         let (start, end) = (a.start().cmp(&b.start()), a.end().cmp(&b.end()));
@@ -100,7 +100,7 @@ impl Relation {
         }
     }
 
-    /// Returns the relation of `b` to `a` if `a` stands to `b` in this one, or `None` if it has no name.
+    /// Returns the relation of `b` to `a` if this one is that of `a` to `b`; `None` if it has no name.
     #[must_use]
     pub fn inverse(self) -> Option<Self> {
         Some(match self {
@@ -218,7 +218,7 @@ pub enum RelationError {
         /// The relation nearest to it.
         nearest: Option<String>,
     },
-    /// What follows `within` is no distance and place.
+    /// The text after `within` is not a distance and a place.
     #[error(
         "{text:?}: after \"within\" stand a time and a place, such as 0.2s around, 200ms of begin or 1s of end"
     )]

@@ -1,4 +1,4 @@
-//! Comparing words as people do: without regard to case and accents, and up to a slip of the pen.
+//! Compares words as people do: without regard to case and accents, and with tolerance for slips.
 
 use unicode_normalization::UnicodeNormalization;
 
@@ -59,7 +59,7 @@ fn plain(c: char) -> Option<&'static str> {
     })
 }
 
-/// Returns the number of slips between two words, or nothing where there are more than `most`.
+/// Returns the number of slips between two words, or `None` if there are more than `most`.
 ///
 /// A slip is one character added, left out, changed, or exchanged with its neighbour (optimal
 /// string alignment). The time taken grows with the longer word times `most`.
@@ -97,9 +97,8 @@ pub fn edit_distance(a: &str, b: &str, most: usize) -> Option<usize> {
 
 /// Returns the candidate that a person who wrote `word` most likely meant, if one is near enough.
 ///
-/// Both are folded. Near is one slip for words up to four characters, two up to eight, three
-/// beyond; a candidate that `word` (three characters or more) begins counts as one slip.
-/// Among equals the first wins.
+/// Both are folded. The limit is one slip for words of up to four characters, two up to eight, three beyond; a
+/// candidate that begins with `word` (three characters or more) counts as one slip away. Among equals the first wins.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = fold(word);
@@ -119,7 +118,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         } else {
             edit_distance(&word, &folded, near)
         };
-        // A word of one character and a slip of one have nothing in common.
+        // A word of one character has nothing in common with a word one slip away.
         let found = found.filter(|distance| length > 1 || *distance == 0);
         if let Some(distance) = found
             && best.is_none_or(|(least, _)| distance < least)

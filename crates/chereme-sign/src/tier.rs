@@ -1,10 +1,9 @@
 //! Tiers and annotations: the description of a recording, apart from its movement.
 //!
-//! A [`Tier`] is a list of annotations of one kind; a child tier hangs below a parent tier by one
-//! of ELAN's four [`Stereotype`]s. A [`TierSet`] holds the tiers of one recording, or only the
-//! neighbourhood of one change. Nothing edits a tier set directly: [`plan`] turns a [`Change`]
-//! into the [`Edit`]s that carry it out with all its consequences, or says which rule it would
-//! break; [`check`] lists what is broken in a set that came from elsewhere.
+//! A [`Tier`] is a list of annotations of one kind; a child tier hangs below a parent tier by one of ELAN's four
+//! [`Stereotype`]s. A [`TierSet`] holds the tiers of one recording, or only the neighbourhood of one change. Nothing
+//! edits a tier set directly: [`plan`] turns a [`Change`] into the [`Edit`]s that carry it out with all its
+//! consequences, or reports the rule that it would break; [`check`] lists the broken rules of a set from elsewhere.
 //!
 //! # Rules
 //!
@@ -17,7 +16,7 @@
 //! | Symbolic_Subdivision | the children of one parent are an ordered list; each has an equal share of its time |
 //! | Symbolic_Association | at most one child per parent, with its parent's time |
 //! | tree | no tier is its own ancestor; an alignable tier never sits below a symbolic one |
-//! | vocabulary | where the values of a tier's vocabulary are known, its annotations use no others |
+//! | vocabulary | if the values of a tier's vocabulary are known, its annotations use no others |
 
 mod check;
 mod error;
@@ -61,7 +60,7 @@ impl fmt::Display for AnnotationId {
     }
 }
 
-/// How the annotations of a child tier hang below those of its parent tier, as ELAN has it.
+/// The relation of a child tier's annotations to those of its parent tier, as in ELAN.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Stereotype {
     /// The children tile their parent without gaps.
@@ -134,9 +133,9 @@ pub struct Tier {
     pub name: String,
     /// The subject of the annotations.
     pub role: TierRole,
-    /// Whose hand they are about, if a hand's.
+    /// The hand that they describe, if they describe one.
     pub hand: Option<HandRef>,
-    /// The tier above and how this one hangs below it; nothing for a root tier.
+    /// The tier above, and the relation to it; `None` for a root tier.
     pub parent: Option<(TierId, Stereotype)>,
     /// The id of the inventory or controlled vocabulary that the values come from.
     pub vocabulary: Option<String>,
@@ -157,13 +156,13 @@ impl Tier {
         }
     }
 
-    /// Returns the stereotype, or nothing for a root tier.
+    /// Returns the stereotype; `None` for a root tier.
     #[must_use]
     pub fn stereotype(&self) -> Option<Stereotype> {
         self.parent.map(|(_, stereotype)| stereotype)
     }
 
-    /// Returns the handle of the tier above, or nothing for a root tier.
+    /// Returns the handle of the tier above; `None` for a root tier.
     #[must_use]
     pub fn parent_id(&self) -> Option<TierId> {
         self.parent.map(|(id, _)| id)
@@ -175,7 +174,7 @@ impl Tier {
         self.stereotype().is_none_or(Stereotype::is_alignable)
     }
 
-    /// Returns the field that the tier codes, or nothing for a tier that codes no component.
+    /// Returns the field that the tier codes; `None` for a tier that codes no component.
     #[must_use]
     pub fn field(&self) -> Option<Field> {
         match &self.role {
@@ -197,13 +196,13 @@ pub struct Annotation {
     pub id: AnnotationId,
     /// The tier it is on.
     pub tier: TierId,
-    /// The annotation above it on the parent tier; nothing on a root tier.
+    /// The annotation above it on the parent tier; `None` on a root tier.
     pub parent: Option<AnnotationId>,
     /// The place among its siblings in a Symbolic_Subdivision, counted from 0; 0 elsewhere.
     pub order: u32,
-    /// The time it holds: its own, or on a symbolic tier the one that follows from its parent.
+    /// Its time span: its own, or on a symbolic tier the one that follows from its parent.
     pub span: Span,
-    /// What it says.
+    /// Its value.
     pub value: Reading,
 }
 
@@ -233,7 +232,7 @@ pub enum Edit {
     Put(Annotation),
     /// Removes the annotation with this handle.
     Remove(AnnotationId),
-    /// Gives a tier another vocabulary, or none.
+    /// Gives a tier another vocabulary, or removes its vocabulary.
     Vocabulary {
         /// The tier.
         tier: TierId,
@@ -250,10 +249,10 @@ pub enum Change {
     Add {
         /// The tier.
         tier: TierId,
-        /// The time. On a Time_Subdivision it is a whole parent that has no child there yet, or
-        /// the head or tail of one sibling, which gives way.
+        /// The time. On a Time_Subdivision it is either a whole parent that has no child there yet, or the head or tail
+        /// of one sibling, which is shortened.
         span: Span,
-        /// What it says.
+        /// The value.
         value: Reading,
     },
     /// Adds an annotation below a parent on a symbolic tier.
@@ -262,16 +261,15 @@ pub enum Change {
         tier: TierId,
         /// The annotation above.
         parent: AnnotationId,
-        /// The place among the siblings from 0, later ones moving on; nothing for the end.
+        /// The position among the siblings from 0, later ones moving on; `None` for the end.
         order: Option<u32>,
-        /// What it says.
+        /// The value.
         value: Reading,
     },
     /// Gives an aligned annotation another time.
     ///
-    /// An annotation that keeps its length takes everything below it along; one that changes it
-    /// clips what is below, and removes what would have no time left. On a Time_Subdivision the
-    /// neighbours' shared boundaries follow.
+    /// If the length stays the same, everything below moves along; otherwise annotations below are clipped, and those
+    /// without any time left are removed. On a Time_Subdivision the neighbours' shared boundaries follow.
     Move {
         /// The annotation.
         annotation: AnnotationId,
@@ -295,18 +293,18 @@ pub enum Change {
         /// The cut, inside the annotation.
         at: chereme_motion::Instant,
     },
-    /// Makes one annotation of two neighbours on an alignable tier or in a Symbolic_Subdivision.
+    /// Merges two neighbours on an alignable tier or in a Symbolic_Subdivision into one annotation.
     ///
-    /// The first stays and takes the second's time and children; a gap between them is filled.
-    /// Symbolic lists are joined; of two equal Symbolic_Associations one stays.
+    /// The first stays and takes the second's time and children; a gap between them is filled. Symbolic lists are
+    /// joined; of two equal Symbolic_Associations one stays.
     Merge {
         /// The earlier annotation, which stays.
         first: AnnotationId,
-        /// The later annotation, which goes.
+        /// The later annotation, which is removed.
         second: AnnotationId,
         /// The value of the merged annotation; `None` if both have the same.
         value: Option<Reading>,
-        /// What happens to children that meet where the two met.
+        /// The treatment of children of equal value that meet at the seam.
         seam: Seam,
     },
     /// Removes an annotation and all below it.
@@ -316,14 +314,14 @@ pub enum Change {
         /// The annotation.
         annotation: AnnotationId,
     },
-    /// Changes what an annotation says.
+    /// Changes the value of an annotation.
     SetValue {
         /// The annotation.
         annotation: AnnotationId,
         /// The new value.
         value: Reading,
     },
-    /// Gives a tier another vocabulary, or none.
+    /// Gives a tier another vocabulary, or removes its vocabulary.
     SetVocabulary {
         /// The tier.
         tier: TierId,
@@ -339,12 +337,12 @@ pub enum Seam {
     /// They stay apart.
     #[default]
     Keep,
-    /// They become one, which undoes a split that cut them.
+    /// They become one, which undoes a split that cut their parents.
     Join,
 }
 
 impl TierSet {
-    /// Returns a set with these tiers and annotations, whatever they are worth; [`check`] tells.
+    /// Returns a set of these tiers and annotations without checking them; [`check`] lists the rules that they break.
     #[must_use]
     pub fn new(
         tiers: impl IntoIterator<Item = Tier>,
@@ -360,8 +358,8 @@ impl TierSet {
         set
     }
 
-    /// Returns this set knowing the values of the vocabulary `id`; values of vocabularies that a
-    /// set does not know are not checked.
+    /// Returns this set with the values of the vocabulary `id`; values of vocabularies that a set does not know are not
+    /// checked.
     #[must_use]
     pub fn with_vocabulary(
         mut self,
@@ -408,7 +406,7 @@ impl TierSet {
         self.annotations.get(&id)
     }
 
-    /// Returns the annotations of a tier in the order of time, and of their places below a parent.
+    /// Returns the annotations of a tier in the order of time, and of their positions below a parent.
     pub fn on(&self, tier: TierId) -> impl DoubleEndedIterator<Item = &Annotation> {
         let keys = self.by_time.get(&tier).into_iter().flatten();
         keys.filter_map(|(_, _, id)| self.annotations.get(id))
@@ -446,8 +444,8 @@ impl TierSet {
         found
     }
 
-    /// Returns this set with the places and times of all symbolic annotations as they follow from their parents:
-    /// places counted again from 0 in their order, times shared out.
+    /// Returns this set with the positions and times of all symbolic annotations recomputed from their parents:
+    /// positions counted from 0 in their order, times divided evenly.
     ///
     /// For sets from files, which give symbolic annotations no times.
     #[must_use]
@@ -552,7 +550,7 @@ impl TierSet {
     }
 }
 
-/// Returns the time of the child at `place` of `count` equal ones below a parent, as ELAN shows a
+/// Returns the time of the child at position `place` of `count` equal ones below a parent, as ELAN shows a
 /// Symbolic_Subdivision.
 ///
 /// The shares tile the parent; their lengths differ by a microsecond at most.

@@ -1,4 +1,4 @@
-//! From tiers to tokens: collects the values of component tiers for one realisation of a sign.
+//! From tiers to tokens: collects the values of component tiers for one token of a sign.
 
 use crate::component::{Component, Field, HandRef, Phase, Reading};
 use chereme_motion::Span;
@@ -12,15 +12,14 @@ pub struct ComponentSpan {
     pub field: Field,
     /// The time.
     pub span: Span,
-    /// The value, or how it is missing.
+    /// The value, or the reason for its absence.
     pub reading: Reading,
 }
 
-/// Returns the place in `tokens` of the gloss to which an annotation of a component tier belongs.
+/// Returns the index in `tokens` of the gloss to which an annotation of a component tier belongs.
 ///
-/// It belongs to the one with which it shares the most time, provided that this is at least half
-/// of the shorter of the two; of equals to the one that starts first. An annotation without length
-/// belongs to none.
+/// It belongs to the gloss with which it shares the most time, provided that this is at least half of the shorter of
+/// the two; among equals, to the one that starts first. An annotation without length belongs to none.
 #[must_use]
 pub fn owner(annotation: Span, tokens: &[Span]) -> Option<usize> {
     let shared = |token: &Span| token.intersection(annotation).map_or(0, Span::micros);
@@ -34,19 +33,19 @@ pub fn owner(annotation: Span, tokens: &[Span]) -> Option<usize> {
     (shared(token) > 0 && enough).then_some(place)
 }
 
-/// Returns what the component annotations around a gloss say about it: each field with the place in `around` of the
-/// annotation that says its value.
+/// Returns the component values of a gloss from the annotations around it: each field with the index in `around` of the
+/// annotation that gives its value.
 ///
-/// `token` is the gloss's span and `others` are the spans of the glosses around it, of the same
-/// hand or signer: an annotation belongs to one gloss only, see [`owner`]. `hand` is the gloss's
-/// own hand, if its tier has one: annotations about another hand are then left out, and those of
-/// hand tiers that name none are taken to be about this one; non-manual components belong to no
-/// hand and always count. Hands are compared as they are: resolve `dominant` and `weak` first.
+/// `token` is the gloss's span and `others` are the spans of the glosses around it, of the same hand or signer: an
+/// annotation belongs to one gloss only, see [`owner`]. `hand` is the gloss's own hand, if its tier has one:
+/// annotations about another hand are then left out, and annotations of hand tiers that name no hand count as about
+/// this one; non-manual components belong to no hand and always count. Hands are compared as they are: resolve
+/// `dominant` and `weak` first.
 ///
-/// Of one field, a single value has no phase. Of several, in the order of their starts, the first
-/// is [`Phase::Initial`], the last [`Phase::Final`], and those between are [`Phase::Middle`] from 1
-/// on (beyond 255 they are left out). Neighbours that say the same value are one. The order of the
-/// result is that of the fields without their phases, then that of time.
+/// Of one field, a single value has no phase. Of several, in the order of their starts, the first is
+/// [`Phase::Initial`], the last [`Phase::Final`], and those between are [`Phase::Middle`] from 1 on (beyond 255 they
+/// are left out). Neighbours with equal values count as one. The result is sorted by the fields without their phases,
+/// then by time.
 ///
 /// ```
 /// use chereme_motion::{Instant, Span};

@@ -1,4 +1,4 @@
-//! Transcriptions of other people, where they lie beside the repository.
+//! Transcriptions by other people, if they are stored next to the repository.
 
 use chereme_sign::hamnosys::{Symbol, parse, parse_lenient};
 

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-/// The code of one language: which shape and which placement stand for which sounds.
+/// The code of one language: the handshapes and placements that stand for its sounds.
 ///
 /// Sounds are written in SAMPA; [`Alphabet`] names the other alphabets that a code translates.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -35,16 +35,16 @@ pub struct CueCode {
     pub glides: BTreeMap<String, Vec<String>>,
     /// The labels that mean silence.
     pub pauses: Vec<String>,
-    /// For each alphabet, what its symbols are in SAMPA; one symbol may be several sounds.
+    /// For each alphabet its symbols with their SAMPA; one symbol may be several sounds.
     pub alphabets: BTreeMap<String, BTreeMap<String, String>>,
-    /// Vowels that go to another placement as the last sound before a pause; variants fill it.
+    /// Vowels that have another placement as the last sound before a pause; filled by variants.
     #[serde(default)]
     pub final_placements: BTreeMap<String, String>,
     /// Habits of some cuers that a caller may switch on.
     pub variants: Vec<CueVariant>,
     /// Pairs of vowels that speakers and dictionaries exchange.
     pub doubtful: Vec<[String; 2]>,
-    /// A part of the code that was not compared with its source; keys of the code are found with this caution.
+    /// The part of the code that was not compared with its source; a finding warns of it.
     #[serde(default)]
     pub unchecked: Option<String>,
     /// Usual durations in milliseconds, for text without a recording.
@@ -95,17 +95,17 @@ pub struct CueVariant {
     pub id: String,
     /// A description of the change, by language of the reader.
     pub names: BTreeMap<String, String>,
-    /// Vowels that go to another placement.
+    /// Vowels that have another placement.
     #[serde(default)]
     pub placements: BTreeMap<String, String>,
-    /// Vowels that go to another placement as the last sound before a pause.
+    /// Vowels that have another placement as the last sound before a pause.
     #[serde(default)]
     pub final_placements: BTreeMap<String, String>,
     /// Another shape for vowels without a consonant.
     pub vowel_alone: Option<u8>,
 }
 
-/// How the labels of phones are written.
+/// The alphabet in which the labels of phones are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Alphabet {
     /// SAMPA, with the spellings of SPPAS and MAUS.
@@ -243,7 +243,7 @@ impl CueCode {
         label.is_empty() || self.pauses.iter().any(|pause| pause == label)
     }
 
-    /// Returns a label's sounds in SAMPA, or nothing if the code does not know the label.
+    /// Returns a label's sounds in SAMPA; `None` if the code does not know the label.
     #[must_use]
     pub fn symbols(&self, label: &str, alphabet: Alphabet) -> Option<Vec<String>> {
         let label = label.trim();

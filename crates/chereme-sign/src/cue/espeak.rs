@@ -50,7 +50,7 @@ pub fn of_espeak(printed: &str, code: &CueCode) -> (String, Vec<char>) {
     (phones.join(" "), unknown)
 }
 
-/// Returns the letters of a line without marks and names of languages; blanks stay as borders of words.
+/// Returns the letters of a line without marks and names of languages; blanks stay as word boundaries.
 fn bare(line: &str, french: bool) -> Vec<char> {
     let mut inside = false;
     let mut letters = Vec::new();

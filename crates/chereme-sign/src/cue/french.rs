@@ -10,12 +10,12 @@ use serde::Deserialize;
 
 use super::CueFinding;
 
-/// How to pronounce what spelling leaves open.
+/// Choices of pronunciation that the spelling leaves open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
-    /// Whether a silent last consonant is said before a vowel, as in *les amis*.
+    /// Whether a silent last consonant is pronounced before a vowel, as in *les amis*.
     pub liaison: bool,
-    /// When an *e* at the end of a word is said.
+    /// The condition under which an *e* at the end of a word is pronounced.
     pub schwa: Schwa,
 }
 
@@ -28,7 +28,7 @@ impl Default for Options {
     }
 }
 
-/// When an *e* at the end of a word is said.
+/// The condition under which an *e* at the end of a word is pronounced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Schwa {
     /// Never.
@@ -50,14 +50,14 @@ pub struct Spoken {
     pub findings: Vec<CueFinding>,
 }
 
-/// A word and how it is said.
+/// A word and its pronunciation.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Word {
     /// The letters as written, in lower case; empty for a pause.
     pub text: String,
     /// The phones in SAMPA; `#` for a pause.
     pub phones: Vec<String>,
-    /// The positions of phones in `phones` that speakers say in two ways: mid vowels before the last syllable.
+    /// The positions in `phones` of phones that speakers pronounce in two ways: mid vowels before the last syllable.
     pub doubtful: Vec<usize>,
     /// Whether a hyphen joins it to the word before, as in *dit-elle*.
     pub hyphened: bool,
@@ -72,7 +72,7 @@ impl Spoken {
     }
 }
 
-/// Returns how French `text` is said.
+/// Returns the pronunciation of French `text`.
 #[must_use]
 pub fn phones(text: &str, options: Options) -> Spoken {
     let rules = &*RULES;
@@ -142,7 +142,7 @@ fn split(text: &str) -> Vec<Written> {
     parts
 }
 
-/// Returns the known word with an apostrophe inside that `begun` may become, such as *aujourd'hui*.
+/// Returns the known word with an apostrophe inside that `begun` may be the start of, such as *aujourd'hui*.
 fn whole_with(begun: &str, text: &str) -> String {
     let known = |word: &&String| {
         word.contains('\'')
@@ -187,13 +187,13 @@ struct Rules {
     elided: BTreeMap<String, String>,
     words: BTreeMap<String, String>,
     liaison: BTreeMap<String, String>,
-    /// Endings of verbs by the consonant that they link with.
+    /// Endings of verbs by the linking consonant that they have.
     linked_endings: BTreeMap<String, Vec<String>>,
-    /// Words with such an ending that are no verbs.
+    /// Words with such an ending that are not verbs.
     never_linked: BTreeSet<String>,
     loses_nasal: BTreeMap<String, String>,
     aspirated_h: BTreeSet<String>,
-    /// By their first letter, in the order of the file.
+    /// The rules by their first letter, in the order of the file.
     by_letter: BTreeMap<char, Vec<Rule>>,
 }
 
@@ -312,7 +312,7 @@ impl Rules {
         phones
     }
 
-    /// Adds to a word what the next one asks for: a linking consonant, or a schwa.
+    /// Adds to a word the sound that the next word requires: a linking consonant, or a schwa.
     fn join(&self, word: &mut Word, next: &Word, options: Options) {
         if next.text.is_empty() || word.text.is_empty() {
             return;
@@ -356,7 +356,7 @@ impl Rules {
         }
     }
 
-    /// Returns the consonant that links a word to the next, which begins with a vowel: that of the lists, that of a
+    /// Returns the consonant that links a word to the next, which begins with a vowel: from the lists, else that of a
     /// verb before its pronoun (*dit-elle*, *allez-y*), or that of a verb's ending (*tenait en*).
     fn linking(&self, word: &Word, next: &Word) -> Option<&str> {
         let text = word.text.as_str();

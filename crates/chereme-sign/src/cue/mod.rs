@@ -1,8 +1,7 @@
 //! Cued speech: the keys that a hand shows beside the face while a person speaks.
 //!
-//! A [`CueCode`] says which handshape stands for which consonants and which placement for which
-//! vowels. [`CueCode::keys`] turns phones into keys; [`french::phones`] turns French text into phones.
-//! Codes are data under `schema/cues`.
+//! A [`CueCode`] lists the consonants of each handshape and the vowels of each placement. [`CueCode::keys`] turns
+//! phones into keys; [`french::phones`] turns French text into phones. Codes are data under `schema/cues`.
 //!
 //! Keys follow Gibert et al. (2004): from the left, a consonant and the vowel after it share one key;
 //! a vowel without a consonant takes the shape of [`CueCode::vowel_alone`], a consonant without a
@@ -34,7 +33,7 @@ use chereme_motion::Span;
 pub struct Phone {
     /// The symbol, in the alphabet of the source.
     pub label: String,
-    /// When the phone sounds, if the source says so.
+    /// The time of the phone, if the source gives it.
     pub span: Option<Span>,
 }
 
@@ -60,15 +59,15 @@ pub struct Key {
     pub phones: Vec<String>,
     /// The positions of those phones in the input.
     pub from: Vec<usize>,
-    /// From the start of the first phone to the end of the last, if both are known.
+    /// The span from the start of the first phone to the end of the last, if both are known.
     pub span: Option<Span>,
-    /// When the vowel begins, for a key of a consonant and a vowel with times.
+    /// The span of the vowel, for a key of a consonant and a vowel with times.
     pub vowel: Option<Span>,
-    /// The placement that another pronunciation of an uncertain vowel would have.
+    /// The placement that the key would have with the other pronunciation of an uncertain vowel.
     pub or_at: Option<String>,
 }
 
-/// Something odd about phones that were read in spite of it.
+/// An oddity of phones that did not prevent reading them.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CueFinding {
     /// A symbol that the code does not know; it has no key.
@@ -103,7 +102,7 @@ pub enum CueFinding {
         /// The part and the remedy.
         caution: String,
     },
-    /// A number or another sign that text to phones does not read.
+    /// A number or another sign that the pronunciation rules cannot read.
     #[error("{text:?} was left out; write it in words")]
     NotAWord {
         /// The sign.
@@ -111,7 +110,7 @@ pub enum CueFinding {
     },
 }
 
-/// The role of a phone in a code.
+/// The role of a phone in a code: consonant, vowel or pause.
 enum Sound {
     Consonant(u8),
     /// The placements that a vowel passes; a diphthong has two.
@@ -119,7 +118,7 @@ enum Sound {
     Pause,
 }
 
-/// A phone in the code's own symbols, with where it came from.
+/// A phone in the code's own symbols, with its position in the input.
 struct Heard {
     symbol: String,
     at: usize,

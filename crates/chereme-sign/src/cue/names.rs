@@ -1,7 +1,7 @@
 //! The names of keys on tiers and in queries.
 //!
-//! A key is a gloss such as `cue:mouth-4`: the placement and the number of the shape. The founding paper
-//! writes the same key as two digits, the placement's number before the shape's: 24.
+//! A key is a gloss such as `cue:mouth-4`: the placement and the number of the shape. The founding paper writes the
+//! same key with two digits, the placement's number before the shape's: 24.
 
 /// The placements by the numbers of the paper, 0 is rest; then those that only English codes have.
 const NUMBERS: [&str; 8] = [
@@ -14,7 +14,7 @@ const NUMBERS: [&str; 8] = [
     "side-forward",
     "side-down",
 ];
-/// Stands before the gloss of every key.
+/// The prefix of the gloss of every key.
 const PREFIX: &str = "cue:";
 
 /// Returns the gloss of a key, such as `cue:mouth-4`.
@@ -23,7 +23,7 @@ pub fn gloss(placement: &str, shape: u8) -> String {
     format!("{PREFIX}{placement}-{shape}")
 }
 
-/// Returns the placement and the shape that a gloss names; nothing if it is the gloss of no key.
+/// Returns the placement and the shape that a gloss names; `None` if it is not the gloss of a key.
 ///
 /// ```
 /// use chereme_sign::cue::{gloss, of_gloss};
@@ -43,7 +43,7 @@ pub fn placement_of_number(number: usize) -> Option<&'static str> {
     NUMBERS.get(number).copied()
 }
 
-/// Returns the number that the paper gives a placement; 9 if it gives it none.
+/// Returns the number of a placement in the paper; 9 if the paper does not number it.
 #[must_use]
 pub fn placement_number(placement: &str) -> usize {
     NUMBERS

@@ -1,21 +1,21 @@
-//! An utterance that is to be cued: text or phones, with times and keys.
+//! Utterances to be cued: text or phones, with times and keys.
 
 use chereme_motion::{Instant, Span};
 
 use super::{Alphabet, CueCode, CueFinding, Key, Phone, code, codes, french};
 
-/// How to read an utterance, and which code cues it.
+/// The form of an utterance, and the code that cues it.
 #[derive(Debug, Clone)]
 pub struct Reading {
     /// The code's name or language, such as `french` or `en-US`.
     pub code: String,
-    /// The alphabet of the phones; nothing if the input is text.
+    /// The alphabet of the phones; `None` if the input is text.
     pub phones: Option<Alphabet>,
     /// Habits of some cuers, by the names that the code gives them.
     pub variants: Vec<String>,
-    /// How text is said where spelling leaves it open.
+    /// Pronunciation of French text if the spelling leaves it open.
     pub french: french::Options,
-    /// How many times longer than usual phones last; nothing leaves keys without times.
+    /// Factor on the usual durations of phones; `None` leaves keys without times.
     pub pace: Option<f64>,
 }
 
@@ -48,7 +48,7 @@ pub struct Utterance {
     pub findings: Vec<CueFinding>,
 }
 
-/// Why nothing can be cued.
+/// The reason why nothing can be cued.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum UtteranceError {
     /// No code has this name.
@@ -57,7 +57,7 @@ pub enum UtteranceError {
     /// The code has no such variant.
     #[error(transparent)]
     Variant(#[from] super::UnknownVariant),
-    /// The input is longer than an hour of speech by far.
+    /// The input is much longer than an hour of speech.
     #[error("the text has {0} bytes")]
     Long(usize),
     /// Text is given for a code that has no rules of spelling.
@@ -74,13 +74,13 @@ pub enum UtteranceError {
     Duration {
         /// The phone.
         label: String,
-        /// The text after the sign.
+        /// The text after the `=`.
         text: String,
     },
 }
 
 impl UtteranceError {
-    /// Returns what would work.
+    /// Returns a correction.
     #[must_use]
     pub fn remedy(&self) -> String {
         match self {
@@ -101,11 +101,11 @@ impl UtteranceError {
     }
 }
 
-/// Longer input is refused: an hour of speech has some 60,000 phones.
+/// The most bytes of input; an hour of speech has some 60,000 phones.
 const MOST_BYTES: usize = 1 << 20;
-/// The longest phone that is believed, in milliseconds.
+/// The longest plausible phone, in milliseconds.
 const LONGEST_MS: f64 = 60_000.0;
-/// How long a sound lasts that the table does not have, in milliseconds.
+/// The duration of a sound that the table lacks, in milliseconds.
 const USUAL_MS: f64 = 100.0;
 
 impl Utterance {
@@ -168,8 +168,8 @@ impl Utterance {
         }
     }
 
-    /// Returns the phones in SAMPA with their durations in milliseconds, as [`read`](Self::read) takes them;
-    /// gaps are pauses, and a phone that the code does not know is one, too.
+    /// Returns the phones in SAMPA with their durations in milliseconds, in the form that [`read`](Self::read) reads;
+    /// gaps and phones that the code does not know become pauses.
     #[must_use]
     pub fn written(&self) -> String {
         let mut out: Vec<String> = Vec::new();
@@ -220,7 +220,7 @@ fn with_duration(word: &str) -> Result<(String, Option<f64>), UtteranceError> {
     }
 }
 
-/// Gives phones times one after another: their own durations, else the usual ones of the code, `pace` times as long.
+/// Gives phones times one after another: their own durations, else the usual ones of the code multiplied by `pace`.
 fn timed(
     given: Vec<(String, Option<f64>)>,
     code: &CueCode,
@@ -260,7 +260,7 @@ fn timed(
     Ok(phones.collect())
 }
 
-/// Names the other placement of a key whose vowel is uncertain.
+/// Records the other placement of a key whose vowel is uncertain.
 fn mark_doubt(key: &mut Key, doubtful: &[usize], code: &CueCode) {
     let (Some(at), Some(vowel)) = (key.from.last(), key.phones.last()) else {
         return;

@@ -22,10 +22,9 @@ const OPEN: Units = [0.0, 0.25, 0.2];
 const SPREAD: [f64; 4] = [14.0, 3.0, -9.0, -20.0];
 /// The spread of two fingers apart.
 const SPREAD_TWO: [f64; 4] = [12.0, -9.0, 0.0, 0.0];
-/// How far the fingers of a flat hand lean from the hand's axis, in degrees towards the thumb: fingers
-/// taper.
+/// The lean of the fingers of a flat hand from the hand's axis, in degrees towards the thumb: fingers taper.
 const FLAT: [f64; 4] = [-1.5, 0.0, 1.5, 3.0];
-/// How far the fingers of a fist lean, in degrees towards the thumb: they point to the root of the thumb.
+/// The lean of the fingers of a fist, in degrees towards the thumb: they point to the root of the thumb.
 const FIST: [f64; 4] = [-4.0, 0.0, 5.0, 11.0];
 
 /// Returns the finger of a digit; `None` for the thumb.

@@ -124,7 +124,7 @@ impl Table {
     }
 }
 
-/// More signs of SAMPA than this are not mouthed.
+/// The most characters of SAMPA that are mouthed.
 const LONGEST: usize = 400;
 
 #[cfg(test)]

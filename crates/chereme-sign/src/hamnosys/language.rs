@@ -89,7 +89,7 @@ struct File {
 pub struct LanguageChanges {
     /// Numbers by the names of [`BodyLanguage::NAMES`].
     pub values: BTreeMap<String, f64>,
-    /// As [`BodyLanguage::places`].
+    /// New offsets of places, as in [`BodyLanguage::places`].
     pub places: BTreeMap<String, [f64; 3]>,
 }
 
@@ -282,8 +282,8 @@ impl BodyLanguage {
         })
     }
 
-    /// Returns this body language without sway, blinks and the help of head, eyes and shoulders: nothing
-    /// moves but what is written.
+    /// Returns this body language without sway, blinks and the help of head, eyes and shoulders, so that only notated
+    /// parts move.
     #[must_use]
     pub fn without_life(&self) -> Self {
         Self {

@@ -212,7 +212,7 @@ fn from_numbers(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Returns the symbol whose number begins a text, in four hexadecimal digits, and their length.
+/// Returns the symbol whose number, in four hexadecimal digits, begins a text, and the length of the number.
 fn number(text: &str) -> Option<(char, usize)> {
     let zeros = text.len() - text.trim_start_matches('0').len();
     let digits = text.get(zeros..zeros + 4)?;
@@ -225,7 +225,7 @@ fn number(text: &str) -> Option<(char, usize)> {
     (own && Symbol::from_char(symbol).is_some()).then_some((symbol, zeros + 4))
 }
 
-/// Returns the symbol that `&#57345` begins a text with, and the length of that.
+/// Returns the symbol for a number such as `&#57345` that begins a text, and its length.
 fn in_decimal(text: &str) -> Option<(char, usize)> {
     let digits = text.strip_prefix("&#")?.get(..5)?;
     let symbol = char::from_u32(digits.parse().ok()?)?;

@@ -158,7 +158,7 @@ impl Act {
     }
 }
 
-/// Acts are equal if part and code are, whatever words follow the code.
+/// Acts are equal if their parts and codes are equal; words after the code do not count.
 impl PartialEq for Act {
     fn eq(&self, other: &Self) -> bool {
         self.part == other.part && self.code() == other.code() && self.numbers() == other.numbers()

@@ -11,8 +11,8 @@
 /// A vector to the signer's left, up and away from the signer.
 type Vector = [f64; 3];
 
-/// Returns the unit vector of a palm's direction: `direction` is the unit vector of the hand's axis,
-/// `angle` that of [`Compass::angle`](super::Compass::angle).
+/// Returns the unit vector of a palm's direction: `direction` is the unit vector of the hand's axis, `angle` is as in
+/// [`Compass::angle`](super::Compass::angle).
 #[must_use]
 pub fn palm(direction: [f64; 3], angle: f64) -> [f64; 3] {
     about(direction, angle)

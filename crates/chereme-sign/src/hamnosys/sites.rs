@@ -45,7 +45,7 @@ pub struct BodySite {
 
 /// Distance from the middle of the `at` side of the trunk, in shoulder widths.
 const AT: f64 = 0.30;
-/// Distance from the middle of a hand before such a place, in shoulder widths.
+/// Distance from the middle of a hand before a place at the `at` side, in shoulder widths.
 const BEFORE: f64 = 0.45;
 /// Distance from the middle of a hand next to the body, in shoulder widths.
 const BESIDE: f64 = 0.80;

@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-/// Where in an inventory's file something is.
+/// A place in an inventory's file.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Place {
     /// The inventory's id, or `None` if it is not known yet.
@@ -52,7 +52,7 @@ pub enum InventoryError {
     /// Something has another type than it must have.
     #[error("{place}: {message}")]
     Type {
-        /// Where.
+        /// The place of the fault.
         place: Place,
         /// The fault, and the correct form.
         message: String,
@@ -60,7 +60,7 @@ pub enum InventoryError {
     /// A field is not known.
     #[error("{place}: there is no field {name:?}{}", did_you_mean(nearest.as_deref()))]
     UnknownField {
-        /// Where.
+        /// The place of the fault.
         place: Place,
         /// The field.
         name: String,
@@ -70,7 +70,7 @@ pub enum InventoryError {
     /// A field is missing.
     #[error("{place}: the field {name:?} is missing")]
     MissingField {
-        /// Where.
+        /// The place of the fault.
         place: Place,
         /// The field.
         name: &'static str,
@@ -90,17 +90,17 @@ pub enum InventoryError {
     /// A broader value does not exist.
     #[error("{place}: there is no value {id:?}{}", did_you_mean(nearest.as_deref()))]
     UnknownBroader {
-        /// Where.
+        /// The place of the fault.
         place: Place,
         /// The id.
         id: String,
         /// The id nearest to it.
         nearest: Option<String>,
     },
-    /// A value lies within itself.
+    /// A chain of broader values leads back to a value in it.
     #[error("{place}: the value lies within itself; give it a broader one that is not part of it")]
     BroaderCycle {
-        /// Where.
+        /// The place of the fault.
         place: Place,
     },
 }
@@ -143,7 +143,7 @@ impl Inventory {
     /// Reads one inventory from JSON, as `schema/inventory.schema.json` describes it.
     ///
     /// # Errors
-    /// [`InventoryError`], with the value and field where something is wrong.
+    /// [`InventoryError`] if the text is not an inventory; it names the value and field at fault.
     pub fn from_json(text: &str) -> Result<Self, InventoryError> {
         read_inventory(parse(text)?)
     }
@@ -151,7 +151,7 @@ impl Inventory {
     /// Reads one inventory, or a list of them, from JSON.
     ///
     /// # Errors
-    /// [`InventoryError`], with the value and field where something is wrong.
+    /// [`InventoryError`] if the text is not such JSON; it names the value and field at fault.
     pub fn all_from_json(text: &str) -> Result<Vec<Self>, InventoryError> {
         match parse(text)? {
             Value::Array(list) => list.into_iter().map(read_inventory).collect(),
@@ -178,8 +178,8 @@ impl Inventory {
         format!("{:#}\n", Value::Object(map))
     }
 
-    /// Checks what [`from_json`](Self::from_json) checks beyond the form: that spellings are
-    /// unique, but for ids that differ in case or accents only, and broader values exist.
+    /// Checks what [`from_json`](Self::from_json) checks beyond the JSON's structure: spellings are unique, except for
+    /// ids that differ only in case or accents, and broader values exist.
     ///
     /// # Errors
     /// The first [`InventoryError`] found.
@@ -387,7 +387,7 @@ fn read_pose(value: Value, place: Place) -> Result<HandAngles, InventoryError> {
     Ok(pose.map(f64::to_radians))
 }
 
-/// A JSON object with known fields, and where it stands.
+/// A JSON object with known fields, and its place in the file.
 struct Object {
     map: Map<String, Value>,
     place: Place,

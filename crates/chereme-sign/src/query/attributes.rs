@@ -1,5 +1,5 @@
-//! Comparisons of attributes, the numbers and texts that tables say of a sign: `frequency>0.4`,
-//! `attribute.class=Noun`, `attribute("Sign Frequency")=2..5`.
+//! Comparisons of attributes, the numbers and texts about a sign in tables: `frequency>0.4`, `attribute.class=Noun`,
+//! `attribute("Sign Frequency")=2..5`.
 
 use super::QueryError;
 use super::compare::{comparison_of_attribute, operator_place};
@@ -54,14 +54,14 @@ pub(super) fn opens_name(word: &str) -> bool {
     word == ATTRIBUTE || word == ATTRIBUT
 }
 
-/// Returns the name after `attribute.`, where a word is one.
+/// Returns the name after `attribute.`, if a word begins so.
 pub(super) fn prefixed(word: &str) -> Option<&str> {
     let (first, name) = word.split_once('.')?;
     Some(name).filter(|name| opens_name(&first.to_lowercase()) && !name.is_empty())
 }
 
-/// Returns whether a number of the name's own follows, as in `frequency>0.4` or `frequency=0.2..0.5`; the cursor
-/// stands before the operator.
+/// Returns whether the operator and the text after it compare a name with a number, as in `frequency>0.4` or
+/// `frequency=0.2..0.5`; the cursor is before the operator.
 pub(super) fn follows(cursor: &Cursor<'_>) -> bool {
     let mut ahead = cursor.clone();
     let at = operator_place(&mut ahead);
@@ -79,7 +79,7 @@ pub(super) fn follows(cursor: &Cursor<'_>) -> bool {
     }
 }
 
-/// Reads `("name")` and the comparison after the word `attribute`, which stands at `at`.
+/// Reads `("name")` and the comparison after the word `attribute`, which is at `at`.
 pub(super) fn in_parentheses(cursor: &mut Cursor<'_>, at: At) -> Result<Test, QueryError> {
     const REMEDY: &str = r#"write for example attribute("Sign Frequency")>2"#;
     cursor.skip_blanks();
@@ -118,7 +118,7 @@ pub(super) fn in_parentheses(cursor: &mut Cursor<'_>, at: At) -> Result<Test, Qu
     })
 }
 
-/// Reads the operator and what stands on its right.
+/// Reads the operator and its right side.
 pub(super) fn test(cursor: &mut Cursor<'_>, name: String) -> Result<What, QueryError> {
     let start = cursor.clone();
     let at = operator_place(cursor);

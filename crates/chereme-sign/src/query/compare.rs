@@ -34,8 +34,8 @@ pub(super) fn test(cursor: &mut Cursor<'_>) -> Result<Test, QueryError> {
     })
 }
 
-/// Reads the comparison of an attribute, where the name before it is one: it says so, or no field has it and a
-/// number follows.
+/// Reads the comparison of an attribute; `None` if the name before it is not one. A name is an attribute if it begins
+/// with `attribute.`, or if it is no field and a number follows.
 fn attribute(cursor: &mut Cursor<'_>, name: &str, at: At) -> Result<Option<What>, QueryError> {
     if let Some(name) = attributes::prefixed(name) {
         return attributes::test(cursor, name.to_owned()).map(Some);
@@ -46,7 +46,7 @@ fn attribute(cursor: &mut Cursor<'_>, name: &str, at: At) -> Result<Option<What>
     attributes::test(cursor, name.to_owned()).map(Some)
 }
 
-/// Reads `("name")` and the comparison after the word `tier`, which stands at `at`.
+/// Reads `("name")` and the comparison after the word `tier`, which is at `at`.
 pub(super) fn tier_test(cursor: &mut Cursor<'_>, at: At) -> Result<Test, QueryError> {
     const REMEDY: &str = r#"write for example tier("Mouthing")=ma* or tier("Mouthing")=*"#;
     cursor.skip_blanks();
@@ -97,7 +97,7 @@ pub(super) fn stray_operator(cursor: &Cursor<'_>) -> QueryError {
     )
 }
 
-/// Checks that a text to search for holds something that can be found.
+/// Checks that a text to search for has at least one letter, digit or non-ASCII character.
 pub(super) fn check_searchable(pattern: &Pattern, at: At) -> Result<(), QueryError> {
     let text: String = pattern.segments().concat();
     if pattern.expression().is_some() {
@@ -114,7 +114,7 @@ pub(super) fn check_searchable(pattern: &Pattern, at: At) -> Result<(), QueryErr
     ))
 }
 
-/// Checks that a free text can be searched for and is no joint of another language.
+/// Checks that a free text can be searched for and is not an operator of another query language, such as `&&`.
 pub(super) fn check_term(pattern: &Pattern, at: At) -> Result<(), QueryError> {
     let (remedy, suggestion) = match pattern.as_literal().unwrap_or_default() {
         "|" | "||" => ("one or the other is written with `or`", "or"),
@@ -306,7 +306,7 @@ fn operator(cursor: &mut Cursor<'_>, colon: Colon) -> Result<Operator, QueryErro
     })
 }
 
-/// Steps over the operator that is next and returns where it stands.
+/// Steps over the next operator and returns its place.
 pub(super) fn operator_place(cursor: &mut Cursor<'_>) -> At {
     cursor.skip_blanks();
     let count = cursor
@@ -344,7 +344,7 @@ fn no_features(at: At) -> QueryError {
     QueryError::new(at, "only components have features", "write a name here")
 }
 
-/// Turns a value of a property that has few into its house spelling.
+/// Replaces a value of a property with fixed values by its canonical spelling.
 fn fix(value: &mut Value, property: Property, fixed: &[&str]) -> Result<(), QueryError> {
     let Wanted::Named(pattern) = &value.wanted else {
         return Ok(());
@@ -411,7 +411,7 @@ fn text_test(cursor: &mut Cursor<'_>, field: TextField) -> Result<What, QueryErr
     }
 }
 
-/// Returns whether the value after the operator that is next is a regular expression.
+/// Returns whether the value after the next operator is a regular expression.
 fn expression_follows(cursor: &Cursor<'_>) -> bool {
     let mut ahead = cursor.clone();
     operator_place(&mut ahead);

@@ -9,17 +9,17 @@ use crate::relation::Relation;
 use crate::text::fold;
 use std::ops::Range;
 
-/// The kinds of text that may stand at a place of a query, and the characters that a completion replaces.
+/// The kind of text that may follow at a place of a query, and the characters that a completion replaces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Completion {
     /// The kind of thing that could stand here.
     pub expected: Expected,
-    /// Its part before the cursor, without an opening quote.
+    /// The part of the word before the cursor, without an opening quote.
     pub prefix: String,
     /// The characters (not bytes) that a completion replaces, quotes included; empty if nothing is written yet.
     pub replace: Range<usize>,
-    /// The words of the language itself that begin with the prefix, in the order to offer them.
-    /// Values of inventories, names of signers and the like are known to the caller only.
+    /// The words of the language itself that begin with the prefix, in the order of offering. Only the caller knows
+    /// values of inventories, names of signers and so on.
     pub words: Vec<&'static str>,
 }
 
@@ -60,11 +60,10 @@ pub enum Expected {
     Unknown,
 }
 
-/// Returns what could be written in `text` at the character `cursor`; beyond the end counts as
-/// the end.
+/// Returns the completions at the character `cursor` of `text`; a cursor beyond the end counts as the end.
 ///
-/// The text need not be a query yet. What follows the cursor only counts as the rest of a word
-/// that a completion would replace.
+/// The text need not be a valid query. Text after the cursor matters only as the rest of a word that a completion would
+/// replace.
 #[must_use]
 pub fn complete(text: &str, cursor: usize) -> Completion {
     let chars: Vec<char> = text.chars().take(MAX_CHARS).collect();
@@ -164,7 +163,7 @@ fn fixed_words(expected: &Expected, dotted: bool, prefix: &str) -> Vec<&'static 
         .collect()
 }
 
-/// A lenient reading of what stands before the cursor.
+/// A lenient reading of the text before the cursor.
 struct Scan<'a> {
     cursor: Cursor<'a>,
     len: usize,
@@ -193,7 +192,7 @@ impl Scan<'_> {
         self.cursor.pos >= self.len
     }
 
-    /// Reads one thing; the error is the answer.
+    /// Reads one element; returns as an error the result of the scan, if the cursor lies in the element.
     fn step(&mut self, expected: Expected) -> Result<Expected, Found> {
         match self.cursor.peek() {
             Some(c) if is_quote(c) => self
@@ -215,7 +214,7 @@ impl Scan<'_> {
         }
     }
 
-    /// Reads a word, which is the answer where the cursor stands at its end.
+    /// Reads a word; returns as an error the result of the scan, if the cursor is at its end.
     fn word(&mut self, expected: &Expected, place: Place) -> Result<(), Found> {
         let start = self.cursor.pos;
         let closed = self.cursor.word(place).is_ok();
@@ -240,7 +239,7 @@ impl Scan<'_> {
             .all(is_quote)
     }
 
-    /// Reads a word and what belongs to it.
+    /// Reads a word and the operator, values or parenthesis that belong to it.
     fn term(&mut self, expected: Expected) -> Result<Expected, Found> {
         let start = self.cursor.pos;
         self.word(&expected, Place::Term)?;

@@ -1,7 +1,7 @@
 //! Comparisons of keys of cued speech: `cue=24`, `cue.shape=5`, `cue.placement=throat`, `cue.phase>100`.
 //!
-//! A key is a token whose gloss names placement and shape, so that these are shorter words for a comparison of
-//! its gloss, and of the number of milliseconds by which the hand is late.
+//! A key is a token whose gloss names placement and shape, so that these comparisons are short forms of a comparison of
+//! its gloss, or of the attribute with the hand's delay in milliseconds.
 
 use super::compare::comparison_of_key;
 use super::lex::Cursor;
@@ -12,13 +12,13 @@ use crate::cue;
 /// The attribute of a key that holds its phase: milliseconds from the sound's start to the hand at its target.
 const PHASE: &str = "cue-phase";
 
-/// Returns whether a word names something of a key.
+/// Returns whether a word names a property of a key.
 pub(super) fn is_field(name: &str) -> bool {
     let lower = name.to_lowercase();
     matches!(&*lower, "cue" | "clé" | "cle") || lower.starts_with("cue.")
 }
 
-/// Reads the comparison after the field `name`, which stands at `at`.
+/// Reads the comparison after the field `name`, which is at `at`.
 pub(super) fn test(cursor: &mut Cursor<'_>, name: &str, at: At) -> Result<What, QueryError> {
     let part = name.split_once('.').map_or("", |(_, part)| part);
     let part = part.to_lowercase();
@@ -72,7 +72,7 @@ fn key(text: &str) -> Option<String> {
     cue::of_gloss(&whole).is_some().then_some(whole)
 }
 
-/// Returns the name of a placement that may be written as its number.
+/// Returns the name of a placement; a number of the founding paper is translated.
 fn place(text: &str) -> &str {
     let number = text.parse().ok().and_then(cue::placement_of_number);
     number.unwrap_or(text)

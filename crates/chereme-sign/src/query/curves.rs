@@ -4,7 +4,7 @@ use super::lex::{Cursor, Place};
 use super::tree::{CurveTest, What};
 use super::{QueryError, attributes, times};
 
-/// The words before the time that a condition lasts.
+/// The words before the minimum duration of a condition.
 const FOR: [&str; 2] = ["for", "pendant"];
 
 /// Returns the name of a curve after the word of the component.
@@ -17,12 +17,12 @@ fn name_of(word: &str) -> Option<String> {
     named.then(|| name.to_lowercase().replace('-', "_"))
 }
 
-/// Returns whether a word names a curve and a number follows; the cursor stands before the operator.
+/// Returns whether a word names a curve and a number follows; the cursor is before the operator.
 pub(super) fn opens(cursor: &Cursor<'_>, word: &str) -> bool {
     name_of(word).is_some() && attributes::follows(cursor)
 }
 
-/// Reads the operator, the number, and how long it lasts.
+/// Reads the operator, the number, and the minimum duration.
 pub(super) fn test(cursor: &mut Cursor<'_>, word: &str) -> Result<CurveTest, QueryError> {
     let name = name_of(word).unwrap_or_default();
     let What::Attribute(name, test) = attributes::test(cursor, name)? else {

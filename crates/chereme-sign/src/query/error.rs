@@ -6,19 +6,19 @@ use crate::text::nearest;
 use std::fmt;
 use std::ops::Range;
 
-/// How many characters of a long query are drawn before the place of the error.
+/// The most characters of a long query that are shown before the place of the error.
 const LEAD: usize = 50;
-/// How many characters of a query are drawn at most.
+/// The most characters of a query that are shown.
 const WIDTH: usize = 100;
 
-/// A query that cannot be understood or answered, with the place and what would be right.
+/// An error in a query that cannot be understood or answered, with its place and a correction.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub struct QueryError {
-    /// The characters (not bytes) of the query that are wrong; empty where something is missing.
+    /// The characters (not bytes) of the query that are wrong; empty if something is missing.
     pub at: Range<usize>,
     /// The error, in one sentence without a full stop.
     pub message: String,
-    /// What would be right; may be empty where the suggestion says it all.
+    /// A correction; may be empty if the suggestion is sufficient.
     pub remedy: String,
     /// The text to write in place of [`at`](Self::at), if one meaning is most likely.
     pub suggestion: Option<String>,
@@ -86,7 +86,7 @@ impl QueryError {
         text
     }
 
-    /// Returns the query with the suggestion in the place of what is wrong, where there is one.
+    /// Returns the query with the suggestion in place of the wrong characters; `None` without a suggestion.
     #[must_use]
     pub fn corrected(&self, query: &str) -> Option<String> {
         let suggestion = self.suggestion.as_deref()?;
@@ -109,10 +109,10 @@ impl fmt::Display for QueryError {
     }
 }
 
-/// Returns the error for a value that stands at `at` in a query and is in no inventory.
+/// Returns the error for a value at `at` in a query that is in no inventory.
 ///
-/// `candidates` are the names that would have been understood, in the order in which they are to
-/// be offered; the nearest becomes the suggestion and the first few are named.
+/// `candidates` are the valid names, in the order of offering; the nearest becomes the suggestion, and the message
+/// names the first few.
 #[must_use]
 pub fn unknown_value<'a>(
     at: At,
@@ -141,7 +141,7 @@ pub fn unknown_value<'a>(
     .suggest(near)
 }
 
-/// Returns a value as it is written in a query, in quotes where it needs them.
+/// Returns a value as a query spells it, in quotes if it needs them.
 fn written(value: &str) -> String {
     let mut text = String::new();
     match write_value(&mut text, &super::Pattern::literal(value)) {
@@ -150,7 +150,7 @@ fn written(value: &str) -> String {
     }
 }
 
-/// Returns how many columns of a terminal a character takes, well enough to place a caret.
+/// Returns the number of terminal columns of a character, exact enough to place a caret.
 fn columns_of(c: char) -> usize {
     match c {
         '\u{0300}'..='\u{036F}' | '\u{200B}'..='\u{200F}' | '\u{FE00}'..='\u{FE0F}' => 0,

@@ -5,14 +5,14 @@ use regex::{Regex, RegexBuilder};
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
 
-/// How many characters a regular expression may have.
+/// The most characters of a regular expression.
 const MAX_CHARS: usize = 1000;
-/// How many bytes a compiled expression may take.
+/// The most bytes of a compiled expression.
 const MAX_SIZE: usize = 1 << 20;
-/// How deep groups may stand inside each other.
+/// The deepest nesting of groups.
 const MAX_DEPTH: u32 = 50;
 
-/// A regular expression that is looked for anywhere in a text; `^` and `$` are its ends.
+/// A regular expression that may match anywhere in a text; `^` and `$` are the ends of the text.
 ///
 /// Matching takes time in proportion to the text, whatever the expression.
 #[derive(Debug, Clone)]
@@ -60,13 +60,13 @@ impl Expression {
         &self.source
     }
 
-    /// Returns whether it is found in a text, without regard to case, or in the text without accents.
+    /// Returns whether the expression matches in a text, or in the text without accents, both without regard to case.
     #[must_use]
     pub fn finds(&self, text: &str) -> bool {
         self.loose.is_match(text) || self.loose.is_match(&fold(text))
     }
 
-    /// Returns whether it is found in a text, letter by letter.
+    /// Returns whether the expression matches in a text, with regard to case and accents.
     #[must_use]
     pub fn finds_exactly(&self, text: &str) -> bool {
         self.exact.is_match(text)

@@ -3,14 +3,14 @@
 use super::tree::At;
 use super::{Expression, Pattern, QueryError, words};
 
-/// The place of a bare word, which decides the characters it may hold.
+/// The context of a bare word, which decides the characters that it may hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
-    /// Where a term begins: an operator ends the word.
+    /// At the start of a term: an operator ends the word.
     Term,
     /// On the right of an operator: only `=` ends it, besides blanks, commas and quotes.
     Value,
-    /// The same for a value that others may follow in time: `>` ends it, too.
+    /// The same for a value in a sequence: `>` ends it, too.
     Step,
 }
 
@@ -49,7 +49,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Steps over `c` if it is next, and returns whether it was.
+    /// Steps over `c` if it is next; returns whether it was.
     pub(super) fn eat(&mut self, c: char) -> bool {
         let found = self.peek() == Some(c);
         self.pos += usize::from(found);
@@ -75,12 +75,12 @@ impl<'a> Cursor<'a> {
         self.chars[at.start..at.end].iter().collect()
     }
 
-    /// Returns the operator that is next, without stepping over it.
+    /// Returns the next operator without stepping over it.
     pub(super) fn operator(&self) -> Option<&'static str> {
         operator_at(self.chars, self.pos)
     }
 
-    /// Steps over a bare word and returns where it stands; it may be empty.
+    /// Steps over a bare word and returns its place; it may be empty.
     pub(super) fn bare(&mut self, place: Place) -> At {
         let start = self.pos;
         self.pos = bare_end(self.chars, start, place);
@@ -102,7 +102,7 @@ impl<'a> Cursor<'a> {
     /// Reads a bare or quoted word with its wildcards.
     ///
     /// # Errors
-    /// Where a quote is not closed, or is closed in the middle of a word.
+    /// Fails if a quote is not closed, or is closed in the middle of a word.
     pub(super) fn word(&mut self, place: Place) -> Result<Word, QueryError> {
         if self.peek().is_some_and(is_quote) {
             return self.quoted();
@@ -215,7 +215,7 @@ impl<'a> Cursor<'a> {
     /// Checks that a quoted text or a bracket is not followed by more of a word.
     ///
     /// # Errors
-    /// Where it is.
+    /// Fails if more of a word follows.
     pub(super) fn boundary(&self) -> Result<(), QueryError> {
         match self.peek() {
             None | Some(')' | ',') => Ok(()),

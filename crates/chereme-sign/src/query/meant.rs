@@ -1,33 +1,32 @@
-//! The meaning of a query in everyday words: "handshape U", "main droite configuration plate", "chin".
+//! Translates everyday words into a query: "handshape U", "main droite configuration plate", "chin".
 
 use super::{Pattern, Query, words};
 use crate::component::{Component, HandRef};
 use crate::inventory::Inventory;
 use crate::text::fold;
 
-/// Signs of the language of queries: a text with one of them is written in it.
+/// Characters of the query language; a text with one of them is already a query.
 const WRITTEN: &[char] = &[
     '=', ':', '<', '>', '(', ')', '"', '[', ']', '~', ',', '!', '@', '*',
 ];
-/// Of how many words the name of a value consists at most.
+/// The most words of a value's name.
 const MOST: usize = 3;
-/// Words between a component and its value that add nothing.
+/// Words without meaning between a component and its value.
 const BETWEEN: [&str; 8] = ["is", "est", "at", "à", "of", "de", "la", "le"];
-/// Further words that add nothing beside values.
+/// Further words without meaning next to values.
 const BESIDE: [&str; 12] = [
     "a", "an", "the", "on", "in", "with", "un", "une", "au", "sur", "dans", "avec",
 ];
 
-/// Returns the query that is meant by words that name components before their values, of these inventories.
+/// Returns the query for everyday words in which components come before their values from these inventories.
 ///
-/// Words that name nothing stay as they are. Returns `None` if no word names anything, or if the text is a query
-/// already.
+/// Other words stay unchanged. Returns `None` if no word names a component, or if the text is already a query.
 #[must_use]
 pub fn meant(text: &str, inventories: &[&Inventory]) -> Option<String> {
     read(text, &[], |words| named(words, inventories))
 }
 
-/// Returns what [`meant`] does, where values stand without what they are values of, too.
+/// Does the same as [`meant`], but also accepts values without their components.
 #[must_use]
 pub fn guessed(text: &str, inventories: &[&Inventory]) -> Option<String> {
     let idle = [&BETWEEN[..], &BESIDE[..]].concat();
@@ -36,10 +35,10 @@ pub fn guessed(text: &str, inventories: &[&Inventory]) -> Option<String> {
     })
 }
 
-/// A field with a value, and how many words said so.
+/// A field, a value, and the number of words that name them.
 type Found = (String, String, usize);
 
-/// Reads a text word by word; those that are `idle` are left out where they name nothing.
+/// Reads a text word by word; `idle` words that name nothing are left out.
 fn read(text: &str, idle: &[&str], find: impl Fn(&[String]) -> Option<Found>) -> Option<String> {
     if text.contains(WRITTEN) {
         return None;
@@ -65,7 +64,7 @@ fn read(text: &str, idle: &[&str], find: impl Fn(&[String]) -> Option<Found>) ->
     (understood && Query::parse(&query).is_ok()).then_some(query)
 }
 
-/// Finds a component with a value at the start, and the hand before them.
+/// Finds a component with a value at the start; a hand may come before the component or the value.
 fn named(words: &[String], inventories: &[&Inventory]) -> Option<Found> {
     let (hand, mut at) = hand(words);
     let component = component(words.get(at)?)?;
@@ -88,7 +87,7 @@ fn named(words: &[String], inventories: &[&Inventory]) -> Option<Found> {
     Some((field, value, at + more))
 }
 
-/// Finds a value at the start that stands without its component; a hand may be named before one of a hand.
+/// Finds a value without its component at the start; a hand may come before a value of a hand.
 fn bare(words: &[String], inventories: &[&Inventory]) -> Option<Found> {
     let (hand, before) = hand(words);
     let of_hand = hand.and_then(|hand| {
@@ -101,7 +100,7 @@ fn bare(words: &[String], inventories: &[&Inventory]) -> Option<Found> {
     of_hand.or_else(|| value(words, inventories, None))
 }
 
-/// Finds the value that most words name; its field, its id, and how many they are.
+/// Finds the value whose name has the most words at the start; returns its field, its id, and the number of words.
 fn value(
     words: &[String],
     inventories: &[&Inventory],
@@ -131,12 +130,13 @@ fn value(
     spelt.or_else(|| described(words.first()?, inventories, component?))
 }
 
-/// Returns what a name says before it goes into detail: "main plate" of "main plate, pouce le long".
+/// Returns the part of a name before its details: "main plate" of "main plate, pouce le long".
 fn head(name: &str) -> &str {
     name.split([',', ':']).next().unwrap_or(name)
 }
 
-/// Finds the first value of a component in whose name a word begins so: "plat" in "main plate, pouce le long".
+/// Finds the first value of a component with a word in its name that begins with `word`: "plat" in "main plate, pouce
+/// le long".
 fn described(word: &str, inventories: &[&Inventory], component: Component) -> Option<Found> {
     let mut fits = inventories.iter();
     let plain = fits.find(|it| it.component == component && it.feature.is_none())?;
@@ -155,7 +155,7 @@ fn component(word: &str) -> Option<Component> {
     all.find(|it| says(word, it.names()))
 }
 
-/// Returns the hand that is named at the start, and how many words that took.
+/// Returns the hand at the start, and the number of words that name it.
 fn hand(words: &[String]) -> (Option<HandRef>, usize) {
     let of = |word: &String| {
         let mut all = HandRef::ALL.into_iter();
@@ -170,7 +170,7 @@ fn hand(words: &[String]) -> (Option<HandRef>, usize) {
     }
 }
 
-/// Returns whether a word is one of these names, or French for one.
+/// Returns whether a word is one of these names, or French for one of them.
 fn says(word: &str, names: &[&str]) -> bool {
     is_one_of(word, names) || names.contains(&words::part(word).as_str())
 }

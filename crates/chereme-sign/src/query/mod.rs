@@ -1,8 +1,8 @@
-//! The query language: which tokens are like this?
+//! The query language, which describes tokens.
 //!
-//! A query is parsed into a tree ([`Query`]). Every part of it knows its place in the text, so that an answer can
-//! point at an unknown value ([`unknown_value`]). Printing a query gives its canonical text. [`complete`] lists the
-//! texts that may follow at a cursor.
+//! A query is parsed into a tree ([`Query`]). Every part of it holds its place in the text, so that an error can point
+//! at an unknown value ([`unknown_value`]). Printing a query gives its canonical text. [`complete`] lists the texts
+//! that may follow at a cursor.
 //!
 //! ```
 //! use chereme_sign::query::Query;
@@ -85,10 +85,10 @@ pub use tree::{
 
 use std::str::FromStr;
 
-/// How many characters a query may have.
+/// The most characters of a query.
 pub const MAX_CHARS: usize = 10_000;
 
-/// How deep parentheses and negations may stand inside each other.
+/// The deepest nesting of parentheses and negations.
 pub const MAX_DEPTH: usize = 64;
 
 /// A guide to writing queries, in plain text of at most 80 columns.

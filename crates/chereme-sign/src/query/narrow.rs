@@ -1,15 +1,14 @@
-//! Adding a condition to the text of a query, and taking it out again.
+//! Adds conditions to the text of a query and removes them.
 
 use super::print::write_value;
 use super::tree::{Expr, Query};
 use super::{Pattern, Property, TextField};
 use crate::component::Field;
 
-/// Returns the query that wants a condition too: the written text, in parentheses if it says `or`,
-/// and the condition after it.
+/// Returns the query with a condition added: its text, in parentheses if it is an `or`, then the condition.
 ///
-/// The text stays as it is written. A query that wants the condition already stays whole; a text
-/// that is no query yet gets the condition at its end, so that nothing that was typed is lost.
+/// The text keeps its spelling. A query that already has the condition stays unchanged; a text that is not a valid
+/// query gets the condition at its end, so that nothing typed is lost.
 ///
 /// ```
 /// use chereme_sign::query::{narrow, without};
@@ -38,9 +37,9 @@ pub fn narrow(query: &str, condition: &str) -> String {
     kept(text.trim(), &wanted)
 }
 
-/// Returns the query that wants a condition no longer; the query as it is if it does not want it.
+/// Returns the query without a condition; unchanged if it does not have the condition.
 ///
-/// Only terms that must hold are taken out: the condition inside an `or` or after `not` stays.
+/// Only terms that must hold are removed: the condition inside an `or` or after `not` stays.
 #[must_use]
 pub fn without(query: &str, condition: &str) -> String {
     let query = query.trim();
@@ -84,7 +83,7 @@ pub fn without(query: &str, condition: &str) -> String {
     }
 }
 
-/// Returns whether a query wants a condition: whether every term of it must hold.
+/// Returns whether a query has a condition: whether each of the condition's terms is one of its terms that must hold.
 #[must_use]
 pub fn wants(query: &str, condition: &str) -> bool {
     match (Query::parse(query), Query::parse(condition)) {
@@ -95,10 +94,10 @@ pub fn wants(query: &str, condition: &str) -> bool {
     }
 }
 
-/// Returns the condition that a value of a facet stands for: exactly this value of this field.
+/// Returns the condition for a value of a facet: exactly this value of this field.
 ///
-/// `both.configuration`, which a query does not name, becomes a term for each hand. A field that no
-/// query can name gives nothing.
+/// `both.configuration`, which queries do not have, becomes a term for each hand. Returns `None` for a field that no
+/// query can name.
 #[must_use]
 pub fn facet_condition(field: &str, value: &str) -> Option<String> {
     let mut written = String::new();
@@ -150,7 +149,7 @@ fn bracketed(text: &str, root: &Expr) -> String {
     }
 }
 
-/// Returns the text if it asks what is wanted, else the canonical text of that.
+/// Returns the text if it means `wanted`, else the canonical text of `wanted`.
 fn kept(text: &str, wanted: &Query) -> String {
     match Query::parse(text) {
         Ok(query) if query == *wanted => text.to_owned(),
@@ -192,7 +191,7 @@ mod tests {
         ] {
             assert_eq!(narrow(query, condition), narrowed, "{query}");
             assert!(wants(narrowed, condition), "{narrowed}");
-            // Wanted once, it is not wanted twice.
+            // A condition is added only once.
             assert_eq!(narrow(narrowed, condition), narrowed);
             if !condition.contains(" or ") {
                 assert_eq!(without(narrowed, condition), query, "{narrowed}");

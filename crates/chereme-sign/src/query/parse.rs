@@ -1,4 +1,4 @@
-//! Reading a query: terms, joints, relations and examples. Comparisons are in `compare`.
+//! Reading a query: terms, joints, relations and examples. The module `compare` reads comparisons.
 
 use super::lex::{Cursor, Place, Word, is_quote};
 use super::tree::{
@@ -104,11 +104,11 @@ fn missing_term(cursor: &Cursor<'_>) -> QueryError {
     QueryError::new(at, message, remedy)
 }
 
-/// Returns the joint that is next, without stepping over it, unless it names a field.
+/// Returns the next joint, without stepping over it; `None` if the word names a field.
 pub(super) fn next_joint(cursor: &Cursor<'_>) -> Option<(Joint, At)> {
     let mut ahead = cursor.clone();
     let at = ahead.bare(Place::Term);
-    // Most words are longer than a joint, and need not be looked at.
+    // Only words of three characters or fewer can be joints.
     let joint = (at.end - at.start <= 3)
         .then(|| words::joint(&ahead.text(at)))
         .flatten()?;
@@ -244,7 +244,7 @@ fn worded(cursor: &mut Cursor<'_>) -> Result<Expr, QueryError> {
     }
 }
 
-/// Reads the rest of a saved search's name; `name` is its start, at `at` after the sign.
+/// Reads the rest of a saved search's name; `name` is its start, at `at` after the `@`.
 fn saved_search(cursor: &mut Cursor<'_>, at: At, name: &str) -> Result<Expr, QueryError> {
     let (mut name, mut at) = (name.to_owned(), at);
     if name.is_empty() && cursor.peek().is_some_and(is_quote) {
@@ -260,7 +260,7 @@ fn saved_search(cursor: &mut Cursor<'_>, at: At, name: &str) -> Result<Expr, Que
     Ok(Expr::Saved(Saved { at, name }))
 }
 
-/// Returns whether an address of a token or sign is next, after blanks.
+/// Returns whether the address of a token or sign is next, after blanks.
 fn example_follows(cursor: &Cursor<'_>) -> bool {
     let mut ahead = cursor.clone();
     ahead.skip_blanks();
@@ -332,7 +332,7 @@ fn within(cursor: &mut Cursor<'_>, at: At) -> Result<Relation, QueryError> {
     }
 }
 
-/// Reads the right side of a relation whose name stands at `at`.
+/// Reads the right side of a relation whose name is at `at`.
 fn related(cursor: &mut Cursor<'_>, at: At, relation: Relation) -> Result<Expr, QueryError> {
     const REMEDY: &str = r#"write a component, a gloss or a tier, such as nonmanual.brows=raised, gloss=CHAT or tier("Mouthing")=*"#;
     cursor.skip_blanks();
@@ -379,7 +379,7 @@ fn related(cursor: &mut Cursor<'_>, at: At, relation: Relation) -> Result<Expr, 
     }))
 }
 
-/// Reads the example and the components after `like`, which stands at `at`.
+/// Reads the example and the components after `like`, which is at `at`.
 fn like(cursor: &mut Cursor<'_>, at: At) -> Result<Expr, QueryError> {
     const REMEDY: &str = "write like token:41 or like CHAT, and then, if not all components count, on configuration, placement";
     cursor.skip_blanks();
@@ -444,7 +444,7 @@ fn threshold(cursor: &mut Cursor<'_>) -> Result<Option<f64>, QueryError> {
     }
 }
 
-/// Reads the address that a word after `like` is or begins.
+/// Reads the address that a word after `like` is or begins with.
 fn example(cursor: &mut Cursor<'_>, word: Word, remedy: &str) -> Result<(Example, At), QueryError> {
     let written = word.pattern.as_literal().map(str::to_owned);
     let Some(text) = written.filter(|text| !text.trim().is_empty()) else {

@@ -5,17 +5,17 @@ use crate::text::fold;
 
 /// A text in which `*` stands for any characters, none included: `MA*SON`, `BO*`, or just `CHAT`.
 ///
-/// It is kept as the stretches between the wildcards, as written. A pattern may also be a
-/// [regular expression](Expression), which is looked for anywhere in a text.
+/// It is stored as the pieces of text between the wildcards, as written. A pattern may also be a [regular
+/// expression](Expression), which may match anywhere in a text.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Pattern {
-    /// At least one; only the first and the last may be empty where there are several.
+    /// At least one; if there are several, only the first and the last may be empty.
     segments: Vec<String>,
     expression: Option<Expression>,
 }
 
 impl Pattern {
-    /// Returns the pattern that only `text` itself matches; a `*` in it is a plain character.
+    /// Returns the pattern that matches only `text` itself; a `*` in it is a plain character.
     #[must_use]
     pub fn literal(text: impl Into<String>) -> Self {
         Self {
@@ -24,7 +24,7 @@ impl Pattern {
         }
     }
 
-    /// Returns the pattern of the texts that a regular expression is found in.
+    /// Returns the pattern that matches the texts in which a regular expression is found.
     #[must_use]
     pub fn of_expression(expression: Expression) -> Self {
         Self {
@@ -33,13 +33,13 @@ impl Pattern {
         }
     }
 
-    /// Returns the regular expression that the pattern is, if it is one.
+    /// Returns the regular expression, if the pattern is one.
     #[must_use]
     pub fn expression(&self) -> Option<&Expression> {
         self.expression.as_ref()
     }
 
-    /// Returns the pattern written as `text`, where `*` is a wildcard and `\*` a plain star.
+    /// Returns the pattern written as `text`, in which `*` is a wildcard and `\*` a plain star.
     #[must_use]
     pub fn from_glob(text: &str) -> Self {
         let mut marks = Vec::with_capacity(text.len());
@@ -54,7 +54,7 @@ impl Pattern {
         Self::from_marks(marks)
     }
 
-    /// Returns the pattern of characters, where nothing stands for a wildcard.
+    /// Returns the pattern of characters; `None` stands for a wildcard.
     pub(super) fn from_marks(marks: impl IntoIterator<Item = Option<char>>) -> Self {
         let mut segments = vec![String::new()];
         let mut after_wildcard = false;
@@ -72,14 +72,14 @@ impl Pattern {
         }
     }
 
-    /// Returns the stretches between the wildcards: `["MA", "SON"]` for `MA*SON`, `["BO", ""]`
-    /// for `BO*`, one stretch where there is no wildcard; of a regular expression nothing is known.
+    /// Returns the pieces between the wildcards: `["MA", "SON"]` for `MA*SON`, `["BO", ""]` for `BO*`, one piece if
+    /// there is no wildcard, two empty ones for a regular expression.
     #[must_use]
     pub fn segments(&self) -> &[String] {
         &self.segments
     }
 
-    /// Returns the text where there is no wildcard.
+    /// Returns the text if there is no wildcard.
     #[must_use]
     pub fn as_literal(&self) -> Option<&str> {
         match &self.segments[..] {
@@ -88,7 +88,7 @@ impl Pattern {
         }
     }
 
-    /// Returns the text before the wildcard where the only wildcard is at the end.
+    /// Returns the text before the wildcard if the only wildcard is at the end.
     #[must_use]
     pub fn as_prefix(&self) -> Option<&str> {
         match &self.segments[..] {

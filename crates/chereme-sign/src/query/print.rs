@@ -173,20 +173,20 @@ impl Display for Like {
 }
 
 impl Display for Pattern {
-    /// Writes the pattern as a value of a query, in quotes where it needs them.
+    /// Writes the pattern as a value of a query, in quotes if it needs them.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write_value(f, self)
     }
 }
 
-/// Writes a value, in quotes where it could be read as something else.
+/// Writes a value, in quotes if it could be read as something else.
 pub(super) fn write_value(f: &mut impl Write, pattern: &Pattern) -> fmt::Result {
     write_quotable(f, pattern, |text| {
         words::missing(text).is_none() && !text.contains('>')
     })
 }
 
-/// Writes a pattern as a term of its own, in quotes where it could be read as something else.
+/// Writes a pattern as a term of its own, in quotes if it could be read as something else.
 fn write_term(f: &mut impl Write, pattern: &Pattern) -> fmt::Result {
     match bare(pattern) {
         Some(text)
@@ -268,7 +268,7 @@ fn separated<T>(
     Ok(())
 }
 
-/// Microseconds, written in seconds with no more decimals than needed.
+/// A time in microseconds, printed in seconds with no more decimals than needed.
 struct Seconds(i64);
 
 impl Display for Seconds {

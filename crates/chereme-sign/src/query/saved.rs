@@ -3,24 +3,24 @@
 use super::AttributeTest;
 use super::tree::{At, Expr, Query};
 
-/// A search that is saved under a name, asked as part of a query: `@chin`, `@"my chin"`.
+/// A saved search used by name as part of a query: `@chin`, `@"my chin"`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Saved {
-    /// Where it stands in the query.
+    /// Its place in the query.
     pub at: At,
-    /// Its name, without the sign before it.
+    /// Its name, without the `@`.
     pub name: String,
 }
 
 impl std::hash::Hash for At {
-    /// Every place equals every other, and so do their hashes.
+    /// Adds nothing: all places are equal, so their hashes must be, too.
     fn hash<H: std::hash::Hasher>(&self, _: &mut H) {}
 }
 
 impl Query {
-    /// Returns the query with the searches that its saved ones stand for in their place.
+    /// Returns the query with each saved search replaced by the query that `search` returns for it.
     ///
-    /// The parts of a search that `search` returns take the place of its name in this query.
+    /// All parts of such a query get the place of the saved search's name in this query.
     ///
     /// # Errors
     /// Those of `search`.
@@ -55,7 +55,7 @@ impl Expr {
         })
     }
 
-    /// Lets every part stand at one place.
+    /// Sets the place of every part to `at`.
     fn move_to(&mut self, at: At) {
         use super::tree::{Test, Wanted, What};
         fn values(what: &mut What, at: At) {

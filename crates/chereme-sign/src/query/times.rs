@@ -128,7 +128,7 @@ fn parse_time(text: &str, at: At) -> Result<i64, QueryError> {
     }
     if unit.is_empty() {
         let message = format!("{text:?} has no unit");
-        // Nothing that is signed lasts so many seconds.
+        // No sign lasts so many seconds.
         let long = whole.len() > 2;
         let unit = if long { "ms" } else { "s" };
         return Err(QueryError::new(at, message, REMEDY).suggest(Some(format!("{text}{unit}"))));

@@ -7,8 +7,8 @@ use std::ops::{Bound, Range, RangeBounds};
 
 /// A place in the text of a query, in characters (not bytes), half-open.
 ///
-/// Every place equals every other, so that two trees are equal when they ask the same thing,
-/// wherever it is written. Compare [`range`](Self::range)s to compare places.
+/// All places are equal, so that two trees are equal if they mean the same, whatever their spacing. Compare
+/// [`range`](Self::range)s to compare places.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct At {
     /// The first character.
@@ -51,7 +51,7 @@ impl PartialEq for At {
 
 impl Eq for At {}
 
-/// A question to a corpus: which tokens are like this?
+/// A query: a condition on the tokens of a corpus.
 ///
 /// Printing gives canonical text, and parsing what was printed gives an equal query.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,7 +61,7 @@ pub struct Query {
 }
 
 impl Query {
-    /// Returns every comparison of the query in written order, those on the right of relations too.
+    /// Returns every comparison of the query in written order, including those on the right of relations.
     #[must_use]
     pub fn tests(&self) -> Vec<&Test> {
         let mut found = Vec::new();
@@ -70,12 +70,12 @@ impl Query {
     }
 }
 
-/// Something that holds of a token or does not.
+/// A condition that holds for a token or does not.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Expr {
-    /// All of them hold; none at all hold of everything. Never holds another `And` directly.
+    /// All of them hold; an empty list holds for every token. Never contains another `And` directly.
     And(Vec<Expr>),
-    /// At least one holds. Has two or more, and never another `Or` directly.
+    /// At least one holds. Has two or more, and never contains another `Or` directly.
     Or(Vec<Expr>),
     /// It does not hold.
     Not(Box<Expr>),
@@ -85,12 +85,12 @@ pub enum Expr {
     Relation(Related),
     /// The token resembles another.
     Like(Like),
-    /// A saved search finds it.
+    /// The token is among the results of a saved search.
     Saved(Saved),
 }
 
 impl Expr {
-    /// Returns the conjunction of `terms`, flattened; one term stands for itself.
+    /// Returns the conjunction of `terms`, flattened; a single term is returned itself.
     #[must_use]
     pub fn all(terms: impl IntoIterator<Item = Self>) -> Self {
         let flat = |term| match term {
@@ -100,7 +100,7 @@ impl Expr {
         only(terms.into_iter().flat_map(flat).collect()).unwrap_or_else(Self::And)
     }
 
-    /// Returns the disjunction of `terms`, flattened; one term stands for itself.
+    /// Returns the disjunction of `terms`, flattened; a single term is returned itself.
     #[must_use]
     pub fn any(terms: impl IntoIterator<Item = Self>) -> Self {
         let flat = |term| match term {
@@ -110,7 +110,7 @@ impl Expr {
         only(terms.into_iter().flat_map(flat).collect()).unwrap_or_else(Self::Or)
     }
 
-    /// Returns where this stands in the query; of a negation, where the negated part stands.
+    /// Returns its place in the query; for a negation, the place of the negated part.
     #[must_use]
     pub fn at(&self) -> At {
         match self {
@@ -152,12 +152,12 @@ fn only(mut terms: Vec<Expr>) -> Result<Expr, Vec<Expr>> {
     }
 }
 
-/// A comparison of one thing with what is wanted.
+/// A comparison of one property of a token with wanted values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Test {
-    /// Where the whole comparison stands.
+    /// The place of the whole comparison.
     pub at: At,
-    /// Where the thing compared is named.
+    /// The place of the subject's name.
     pub subject_at: At,
     /// The subject of the comparison.
     pub what: What,
@@ -166,15 +166,15 @@ pub struct Test {
 /// The subject of a test.
 #[derive(Debug, Clone, PartialEq)]
 pub enum What {
-    /// A component of the token: `right.configuration=U`. Where no hand or phase is named, it
-    /// holds when the reading of any hand or phase passes, for `!=` too.
+    /// A component of the token: `right.configuration=U`. If no hand or phase is named, it holds if the reading of any
+    /// hand or phase passes, for `!=` too.
     Component(Field, Comparison),
-    /// Something known about the token as a whole: `origin=made`.
+    /// A property of the token as a whole: `origin=made`.
     Property(Property, Comparison),
     /// A whole text: `gloss=CHAT`.
     Whole(TextField, Comparison),
-    /// Words in a text: `gloss:BO*`, `"slow animal"`; any of the patterns is enough. A pattern of
-    /// several words is a phrase.
+    /// Words in a text: `gloss:BO*`, `"slow animal"`; one matching pattern is enough. A pattern of several words is a
+    /// phrase.
     Words(TextField, Vec<Pattern>),
     /// A text up to some slips: `gloss~ESCARGO`, `gloss~ESCARG~2`.
     Fuzzy {
@@ -182,44 +182,44 @@ pub enum What {
         field: TextField,
         /// The text to resemble.
         text: String,
-        /// How many characters may be added, left out, changed or swapped: 1 or 2.
+        /// The most characters that may be added, left out, changed or swapped: 1 or 2.
         slips: u8,
     },
-    /// An annotation on the tiers so named that shares time with the token: `tier("Mouthing")=ma*`.
+    /// An annotation on the tiers with a matching name that shares time with the token: `tier("Mouthing")=ma*`.
     Tier(Pattern, Comparison),
     /// A length or a moment: `duration<0.8s`.
     Time(TimeField, TimeTest),
-    /// A number or a text that a table says of the sign: `frequency>0.4`, `attribute.class=Noun`.
+    /// A number or a text about the sign from a table: `frequency>0.4`, `attribute.class=Noun`.
     Attribute(String, AttributeTest),
     /// A curve of the face or head: `nonmanual.brows>0.5 for 0.3s`.
     Curve(CurveTest),
 }
 
-/// A condition on a curve of the face or head while the token lasts, or over a part of it.
+/// A condition on a curve of the face or head during the token, or a part of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveTest {
     /// The part or number after `nonmanual.`, such as `brows`, `jaw_open` or `head_yaw`.
     pub name: String,
     /// The numbers that pass; always a [`Number`](AttributeTest::Number).
     pub test: AttributeTest,
-    /// How long they pass at least, in microseconds; 0 for one frame.
+    /// The least time for which they pass, in microseconds; 0 for one frame.
     pub lasting: i64,
 }
 
 /// An operator with the values on its right.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Comparison {
-    /// How the values are compared.
+    /// The kind of comparison.
     pub operator: Operator,
-    /// At least one.
+    /// The values; at least one.
     pub values: Vec<Value>,
 }
 
 impl Comparison {
     /// Returns whether a reading passes; one reading never passes for [`Steps`](Wanted::Steps).
     ///
-    /// `fits` decides whether a value is the [`Named`](Wanted::Named) one in the query, or has the
-    /// [`Features`](Wanted::Features). It is called for these two only, and reads the operator to know whether
+    /// `fits` decides whether a value is the query's [`Named`](Wanted::Named) one, or has its
+    /// [`Features`](Wanted::Features). It is called for these two only, and must read the operator to know whether
     /// narrower values count.
     #[must_use]
     pub fn accepts(&self, reading: &Reading, fits: impl Fn(&str, &Wanted) -> bool) -> bool {
@@ -247,7 +247,7 @@ impl Comparison {
     }
 }
 
-/// How a field is compared with values.
+/// An operator that compares a field with values.
 ///
 /// A value of an inventory may have narrower ones below it: `chin` lies on the `head`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -261,25 +261,25 @@ pub enum Operator {
     IsNot,
 }
 
-/// One value as it is asked for.
+/// One value on the right of an operator.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Value {
-    /// Where it stands in the query.
+    /// Its place in the query.
     pub at: At,
-    /// What is asked for.
+    /// The condition that it states.
     pub wanted: Wanted,
 }
 
 /// The wanted value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Wanted {
-    /// `*`: any value, as long as there is one.
+    /// `*`: any value.
     Present,
-    /// None, for this reason: `unset`, `n/a` or `unclear`.
+    /// A missing value, for this reason: `unset`, `n/a` or `unclear`.
     Missing(Missing),
-    /// One of this name; never `*` alone.
+    /// A value of this name; never `*` alone.
     Named(Pattern),
-    /// `[index -thumb]`: one with all these features.
+    /// `[index -thumb]`: a value with all these features.
     Features(Vec<Feature>),
     /// `head > chest`: the sign begins with the first and moves on to the others in this order,
     /// with or without further values between them. Two or more, each a name, features or `*`.
@@ -289,15 +289,15 @@ pub enum Wanted {
 /// A feature that a value must or must not have.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Feature {
-    /// Where it stands in the query, with its minus.
+    /// Its place in the query, with its minus.
     pub at: At,
     /// Its name as written.
     pub name: String,
-    /// Whether the value must be without it.
+    /// Whether the value must lack it.
     pub absent: bool,
 }
 
-/// Why a field has no value.
+/// The reason why a field has no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Missing {
     /// `unset`: nobody has coded it yet.
@@ -309,10 +309,10 @@ pub enum Missing {
 }
 
 impl Missing {
-    /// The three ways of having no value.
+    /// The three reasons.
     pub const ALL: [Self; 3] = [Self::Unset, Self::NotApplicable, Self::Unclear];
 
-    /// Returns how a query spells it.
+    /// Returns the spelling in a query.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -322,7 +322,7 @@ impl Missing {
         }
     }
 
-    /// Returns the reading that is asked for.
+    /// Returns the reading that it stands for.
     #[must_use]
     pub fn reading(self) -> Reading {
         match self {
@@ -346,7 +346,7 @@ pub enum TextField {
     Comment,
 }
 
-/// Something known about a token as a whole.
+/// A property of a token as a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Property {
     /// `captured`, `made`, `lexicon` or `generated`.
@@ -361,17 +361,17 @@ pub enum Property {
     Token,
     /// The name of the tier that the token is on.
     Tier,
-    /// The name of an inventory that values of the token come from.
+    /// The name of an inventory that has values of the token.
     Inventory,
-    /// The hand that the token is annotated for, else the hands that something is coded of: `right`,
-    /// `left`, `dominant`, `weak` or `both`.
+    /// The hand for which the token is annotated, else the hands for which something is coded: `right`, `left`,
+    /// `dominant`, `weak` or `both`.
     Hand,
 }
 
 /// A length or a moment of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum TimeField {
-    /// How long it lasts.
+    /// Its length.
     Duration,
     /// Its start, from the start of the recording.
     Start,
@@ -379,7 +379,7 @@ pub enum TimeField {
     End,
 }
 
-/// Which times are meant, in microseconds, never negative.
+/// A condition on a time, in microseconds, never negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum TimeTest {
     /// `<`.
@@ -390,7 +390,7 @@ pub enum TimeTest {
     Above(i64),
     /// `>=`.
     AtLeast(i64),
-    /// `=0.5s..1s`, ends included; the first is never above the second.
+    /// `=0.5s..1s`, ends included; the first is at most the second.
     Between(i64, i64),
 }
 
@@ -416,13 +416,13 @@ impl TimeTest {
 
 /// A relation of time to another annotation of the same recording.
 ///
-/// It holds where at least one annotation that passes the test stands in the relation; `not`
-/// before it says that none does.
+/// It holds if at least one annotation that passes the test has the relation; with `not` before it, if no annotation
+/// does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Related {
-    /// Where the relation and its right side stand.
+    /// The place of the relation and its right side.
     pub at: At,
-    /// How the token's span stands to that of the other annotation.
+    /// The relation of the token's span to that of the other annotation.
     pub relation: Relation,
     /// The other annotation: a component, a text or a tier.
     pub other: Test,
@@ -431,15 +431,15 @@ pub struct Related {
 /// A search by example.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Like {
-    /// Where it stands in the query.
+    /// Its place in the query.
     pub at: At,
-    /// Where the example is named.
+    /// The place of the example's address.
     pub example_at: At,
     /// The token to resemble.
     pub example: Example,
-    /// The components that count; all of them alike where the list is empty.
+    /// The components that count; if the list is empty, all count equally.
     pub on: Vec<Weighted>,
-    /// `above 0.6`: how alike a token must be, more than this, to be found at all; from 0 to 1.
+    /// `above 0.6`: the similarity, from 0 to 1, that a token must exceed to be found.
     pub above: Option<f64>,
 }
 
@@ -455,7 +455,7 @@ pub enum Example {
 /// A component that counts in a search by example.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Weighted {
-    /// Where it stands in the query.
+    /// Its place in the query.
     pub at: At,
     /// The component.
     pub field: Field,

@@ -4,7 +4,7 @@ use super::lex::{Cursor, Place, Word};
 use super::tree::{At, Feature, Value, Wanted};
 use super::{QueryError, lex, parse, words};
 
-/// Reads one or more of something, separated by commas.
+/// Reads one or more items, separated by commas.
 pub(super) fn list<T>(
     cursor: &mut Cursor<'_>,
     item: impl Fn(&mut Cursor<'_>) -> Result<T, QueryError>,
@@ -64,10 +64,10 @@ fn filled(cursor: &mut Cursor<'_>, place: Place) -> Result<Word, QueryError> {
     Ok(word)
 }
 
-/// How many values may follow each other in `a > b > c`.
+/// The most values in a sequence such as `a > b > c`.
 const MOST_STEPS: usize = 6;
 
-/// Reads one value of a component, or several that follow each other: `head > chest`.
+/// Reads one value of a component, or a sequence of several: `head > chest`.
 pub(super) fn path(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
     const REMEDY: &str =
         "write for example placement=head > chest, placement=head > * or * > chest";

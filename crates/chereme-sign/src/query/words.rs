@@ -1,4 +1,4 @@
-//! The words that mean something in a query, with their synonyms.
+//! The words with a meaning in queries, with their synonyms.
 
 use super::attributes;
 use super::tree::{Missing, Property, TextField, TimeField};
@@ -7,7 +7,7 @@ use crate::relation::Relation;
 use crate::text::{edit_distance, fold};
 
 impl TextField {
-    /// The texts, all together first.
+    /// The text fields, `Any` first.
     pub const ALL: [Self; 4] = [Self::Any, Self::Gloss, Self::Translation, Self::Comment];
 
     /// Returns the name in queries.
@@ -16,7 +16,7 @@ impl TextField {
         self.names()[0]
     }
 
-    /// Returns every spelling that is understood, the house name first.
+    /// Returns every spelling that is understood, the canonical name first.
     #[must_use]
     pub fn names(self) -> &'static [&'static str] {
         match self {
@@ -47,7 +47,7 @@ impl Property {
         self.names()[0]
     }
 
-    /// Returns every spelling that is understood, the house name first.
+    /// Returns every spelling that is understood, the canonical name first.
     #[must_use]
     pub fn names(self) -> &'static [&'static str] {
         match self {
@@ -83,7 +83,7 @@ impl TimeField {
         self.names()[0]
     }
 
-    /// Returns every spelling that is understood, the house name first.
+    /// Returns every spelling that is understood, the canonical name first.
     #[must_use]
     pub fn names(self) -> &'static [&'static str] {
         match self {
@@ -96,7 +96,7 @@ impl TimeField {
 
 /// The word that opens a relation with a distance.
 pub(super) const WITHIN: &str = "within";
-/// What follows the distance after `within`.
+/// The words after the distance of `within`.
 pub(super) const WITHIN_KINDS: [&str; 3] = ["around", "of-begin", "of-end"];
 /// The word that opens a search by example.
 pub(super) const LIKE: &str = "like";
@@ -107,7 +107,7 @@ pub(super) const INSTEAD_OF_ON: [&str; 6] = ["in", "by", "with", "of", "for", "s
 /// The word before a tier's name in parentheses.
 pub(super) const TIER: &str = "tier";
 
-/// The word before the least likeness of what a search by example finds.
+/// The word before the least similarity in a search by example.
 pub(super) const ABOVE: &str = "above";
 
 /// French for the parts of a component's name.
@@ -124,7 +124,7 @@ const FRENCH: [(&str, &str); 10] = [
     ("finale", "final"),
 ];
 
-/// Units of time with their length in microseconds, the first spelling of each the plainest.
+/// Units of time with their length in microseconds, the plainest spelling of each unit first.
 pub(super) const UNITS: [(&str, i64); 9] = [
     ("s", 1_000_000),
     ("sec", 1_000_000),
@@ -145,7 +145,7 @@ pub(super) enum Joint {
     Not,
 }
 
-/// Returns the joint that a word is, in any case.
+/// Returns the joint that a word is, if it is one, in any case.
 pub(super) fn joint(word: &str) -> Option<Joint> {
     let joints = [("and", Joint::And), ("or", Joint::Or), ("not", Joint::Not)];
     // In capitals they are glosses of French signs.
@@ -158,7 +158,7 @@ pub(super) fn joint(word: &str) -> Option<Joint> {
         .map(|(_, joint)| joint)
 }
 
-/// French for relations without a distance, understood where a comparison follows.
+/// French for relations without a distance, understood if a comparison follows.
 const FRENCH_RELATIONS: [(&str, &str); 12] = [
     ("chevauche", "overlaps"),
     ("ne-chevauche-pas", "not-overlaps"),
@@ -212,7 +212,7 @@ pub(super) fn component_of_part(name: &str) -> Option<Component> {
     found.map(|(_, component)| *component)
 }
 
-/// Returns the relation without a distance that a word is; capitals are glosses.
+/// Returns the relation without a distance that a word names; words in capitals are glosses.
 pub(super) fn plain_relation(word: &str) -> Option<Relation> {
     Relation::PLAIN
         .into_iter()
@@ -220,7 +220,7 @@ pub(super) fn plain_relation(word: &str) -> Option<Relation> {
         .map(|(_, relation)| relation)
 }
 
-/// Returns the missing state that an unquoted value is.
+/// Returns the reason for a missing value that an unquoted value names.
 pub(super) fn missing(word: &str) -> Option<Missing> {
     let word = if word == "N/A" { "n/a" } else { word };
     Missing::ALL
@@ -238,7 +238,8 @@ pub(super) fn is_reserved(word: &str) -> bool {
         || INSTEAD_OF_ON.contains(&word)
 }
 
-/// Returns whether an opening parenthesis right after this word is not part of a word.
+/// Returns whether an opening parenthesis directly after this word is a parenthesis of the query, and not part of a
+/// word.
 pub(super) fn opens_group(word: &str) -> bool {
     joint(word).is_some()
         || plain_relation(word).is_some()
@@ -246,7 +247,7 @@ pub(super) fn opens_group(word: &str) -> bool {
         || attributes::opens_name(word)
 }
 
-/// Returns the relation that a lower-case word nearly is.
+/// Returns the relation that a lower-case word nearly names.
 pub(super) fn near_relation(word: &str) -> Option<&'static str> {
     let length = word.chars().count();
     let plausible = |c: char| c.is_lowercase() || c == '-' || c == '_';
@@ -263,7 +264,7 @@ pub(super) fn near_relation(word: &str) -> Option<&'static str> {
         .map(|(_, name)| name)
 }
 
-/// Returns the house spelling of a part of a field's name: lower case, French in English.
+/// Returns the canonical spelling of a part of a field's name: in lower case, French words in English.
 pub(super) fn part(text: &str) -> String {
     let text = text.to_lowercase();
     let folded = fold(&text);
@@ -281,7 +282,7 @@ pub(super) enum Simple {
     Time(TimeField),
 }
 
-/// Returns the field of this name that is no component.
+/// Returns the field of this name that is not a component.
 pub(super) fn simple_field(name: &str) -> Option<Simple> {
     let name = fold(name);
     let is = |names: &[&str]| names.iter().any(|known| fold(known) == name);
@@ -304,7 +305,7 @@ pub(super) fn simple_field(name: &str) -> Option<Simple> {
     text.or_else(property).or_else(time)
 }
 
-/// Returns the house names of the fields that are no components.
+/// Returns the canonical names of the fields that are not components.
 pub(super) fn simple_names() -> impl Iterator<Item = &'static str> {
     let texts = [
         TextField::Gloss,
@@ -319,7 +320,7 @@ pub(super) fn simple_names() -> impl Iterator<Item = &'static str> {
         .chain(TimeField::ALL.into_iter().map(TimeField::name))
 }
 
-/// Returns the house names of the parts of a component's name: components, hands, phases.
+/// Returns the canonical names of the parts of a component's name: components, hands, phases.
 pub(super) fn part_names() -> impl Iterator<Item = &'static str> {
     let components = Component::ALL.into_iter().map(Component::name);
     let hands = HandRef::ALL.into_iter().map(HandRef::name);

@@ -1,14 +1,14 @@
-//! The tier rules as a list of what is broken.
+//! Checks the tier rules and lists the violations.
 
 use super::{Annotation, AnnotationId, Stereotype, Tier, TierId, TierSet, share};
 use crate::text::did_you_mean;
 use chereme_motion::{Instant, Span};
 use std::collections::BTreeMap;
 
-/// How many tiers may hang below one another.
+/// The deepest nesting of tiers.
 pub const MAX_DEPTH: usize = 64;
 
-/// One broken rule: which, where, and in the message what would be right.
+/// One broken rule, with its place; the message states a correction.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Violation {
     /// Two tiers have one name.
@@ -64,7 +64,7 @@ pub enum Violation {
     ZeroLength {
         /// The tier.
         tier: TierId,
-        /// The annotation, or nothing for one that was to be added.
+        /// The annotation; `None` for one that was to be added.
         annotation: Named,
         /// Its start and end.
         at: Instant,
@@ -74,7 +74,7 @@ pub enum Violation {
     Overlap {
         /// The tier.
         tier: TierId,
-        /// The annotation, or nothing for one that was to be added.
+        /// The annotation; `None` for one that was to be added.
         annotation: Named,
         /// Its time.
         span: Span,
@@ -136,23 +136,23 @@ pub enum Violation {
     SecondAssociation {
         /// The tier.
         tier: TierId,
-        /// The second child, or nothing for one that was to be added.
+        /// The second child; `None` for one that was to be added.
         annotation: Named,
         /// The annotation above.
         parent: AnnotationId,
         /// The first child.
         other: AnnotationId,
     },
-    /// A place among siblings is taken twice, left out, or given where there are no places.
+    /// A position among siblings is taken twice, left out, or given on a tier without positions.
     #[error("{annotation} on {tier} has place {order} among its siblings; it must be {expected}")]
     Order {
         /// The tier.
         tier: TierId,
         /// The annotation.
         annotation: AnnotationId,
-        /// Its place.
+        /// Its position.
         order: u32,
-        /// The place it must have.
+        /// The position that it must have.
         expected: u32,
     },
     /// A symbolic annotation has another time than follows from its parent.
@@ -172,7 +172,7 @@ pub enum Violation {
     NotInVocabulary {
         /// The tier.
         tier: TierId,
-        /// The annotation, or nothing for one that was to be added.
+        /// The annotation; `None` for one that was to be added.
         annotation: Named,
         /// The value.
         value: String,
@@ -183,7 +183,7 @@ pub enum Violation {
     },
 }
 
-/// An annotation, or one that was to be added and has no handle.
+/// An annotation; `None` for one that was to be added and has no handle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Named(pub Option<AnnotationId>);
 
@@ -307,7 +307,8 @@ fn check_time(annotation: &Annotation, latest: Option<&Annotation>) -> Option<Vi
     Some(overlap(tier, id.into(), span, other))
 }
 
-/// Returns what keeps an annotation off one that it overlaps: a possible end, a possible start, or another place.
+/// Returns the change that would separate an annotation from one that it overlaps: a possible end, a possible start, or
+/// another time.
 fn apart(span: Span, other: Span) -> String {
     let end =
         (other.start() > span.start()).then(|| format!("end it at {} or before", other.start()));
@@ -329,7 +330,7 @@ pub(super) fn overlap(tier: TierId, annotation: Named, span: Span, with: &Annota
     }
 }
 
-/// Returns the parent that the annotation has and must have, or how it breaks the rule.
+/// Returns the parent of an annotation, or the violation if it has none but needs one, or has one on a root tier.
 fn check_parent(
     set: &TierSet,
     tier: &Tier,
@@ -447,7 +448,7 @@ fn check_tiling(parent: &Annotation, children: &[&Annotation], found: &mut Vec<V
     }
 }
 
-/// Returns how a value breaks the rule of its tier's vocabulary, if it does.
+/// Returns the violation if a value is not in its tier's vocabulary.
 pub(super) fn check_value(
     set: &TierSet,
     tier: &Tier,

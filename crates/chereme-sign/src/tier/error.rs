@@ -1,4 +1,4 @@
-//! Why a change cannot be made.
+//! The reasons why a change cannot be made.
 
 use super::check::{Named, Violation};
 use super::{AnnotationId, Stereotype, TierId};
@@ -42,7 +42,7 @@ pub enum EditError {
     /// No annotation of the tier above holds the wanted time.
     #[error("{annotation} from {} to {} must lie inside one annotation of {parent_tier}{}", span.start(), span.end(), reach(nearest))]
     NoParent {
-        /// The annotation, or nothing for one that was to be added.
+        /// The annotation; `None` for one that was to be added.
         annotation: Named,
         /// The wanted time.
         span: Span,
@@ -88,9 +88,9 @@ pub enum EditError {
         annotation: AnnotationId,
         /// The wanted boundary.
         at: Instant,
-        /// The earliest boundary that is right.
+        /// The earliest allowed boundary.
         from: Instant,
-        /// The latest boundary that is right.
+        /// The latest allowed boundary.
         to: Instant,
     },
     /// A cut does not lie inside the annotation.
@@ -103,7 +103,7 @@ pub enum EditError {
         /// The annotation's time.
         span: Span,
     },
-    /// Two annotations to merge are not neighbours, the first before the second, below one parent.
+    /// Two annotations to merge are not neighbours below one parent, the first before the second.
     #[error(
         "{first} and {second} are not neighbours in this order on one tier below one parent; merge only such"
     )]
@@ -113,14 +113,14 @@ pub enum EditError {
         /// The second.
         second: AnnotationId,
     },
-    /// Two annotations to merge say different things.
+    /// Two annotations to merge have different values.
     #[error("{first} says {:?} and {second} says {:?}; give the value that both shall have", values.0.to_string(), values.1.to_string())]
     ValuesDiffer {
         /// The first.
         first: AnnotationId,
         /// The second.
         second: AnnotationId,
-        /// What they say.
+        /// Their values.
         values: Box<(Reading, Reading)>,
     },
     /// A time lies further than 2^62 microseconds from the start of the recording.

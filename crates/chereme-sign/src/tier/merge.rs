@@ -1,4 +1,4 @@
-//! Cutting an annotation in two, and making one of two.
+//! Cuts an annotation in two, and merges two into one.
 
 use super::error::EditError;
 use super::plan::{Done, Plan, hull};
@@ -20,7 +20,7 @@ impl Plan<'_> {
         Ok(())
     }
 
-    /// Cuts an annotation in two; the second half gets the parent given.
+    /// Cuts an annotation in two; `parent` becomes the parent of the second half.
     fn cut(&mut self, old: &Annotation, at: Instant, parent: Option<AnnotationId>) {
         let id = (self.fresh)();
         let first = Span::between(old.span.start(), at);
@@ -131,7 +131,7 @@ impl Plan<'_> {
             && self.neighbours(a).1.is_some_and(|after| after.id == b.id)
     }
 
-    /// Puts `joined` in place of `a`, removes `b`, and brings their children together.
+    /// Puts `joined` in place of `a`, removes `b`, and joins their children.
     fn join(&mut self, a: &Annotation, b: &Annotation, joined: Annotation, seam: Seam) -> Done {
         let (id, span) = (joined.id, joined.span);
         self.puts.push(joined);
@@ -243,7 +243,7 @@ impl Plan<'_> {
     }
 }
 
-/// Returns what both say; where one says nothing yet, what the other says.
+/// Returns the value that both have; if one is unset, the other's value.
 fn common_value(a: &Annotation, b: &Annotation) -> Result<Reading, EditError> {
     match (&a.value, &b.value) {
         (Reading::Unset, value) | (value, Reading::Unset) => Ok(value.clone()),

@@ -1,4 +1,4 @@
-//! From a wish to the edits that carry it out, with all their consequences.
+//! Plans the edits that carry out a change with all its consequences.
 
 use super::check::{Named, Violation, check_tiers, check_value, overlap};
 use super::error::EditError;
@@ -22,7 +22,7 @@ impl Change {
         }
     }
 
-    /// Returns the time around which [`plan`] looks at annotations, or nothing where it needs none.
+    /// Returns the time around which [`plan`] examines annotations; `None` if it needs none.
     ///
     /// `named` are the annotations that the change [names](Self::annotations) and, of those on
     /// symbolic tiers, their parents. The tier set given to [`plan`] must hold every tier; on the
@@ -56,8 +56,8 @@ pub(super) fn hull(a: Span, b: Span) -> Span {
 /// without effect gives no edits.
 ///
 /// # Errors
-/// [`EditError`] where the change would break a rule of [the tiers](super) or names what is not
-/// there. Nothing can be done to a set whose [tiers alone](check_tiers) break a rule.
+/// [`EditError`] if the change would break a rule of [the tiers](super), or names something that does not exist. No
+/// change is possible in a set whose [tiers alone](check_tiers) break a rule.
 pub fn plan(
     set: &TierSet,
     change: &Change,
@@ -313,7 +313,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Puts `new` and fits what lies below the annotation as it was into its new time.
+    /// Puts `new` and fits the annotations below it into its new time.
     pub(super) fn put_fitting(&mut self, new: Annotation) {
         let old = self.set.annotation(new.id);
         let span = new.span;
@@ -343,7 +343,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Shifts aligned children with a parent that kept its length, or else clips them to it.
+    /// Shifts aligned children with a parent that kept its length; clips them to the parent otherwise.
     fn fit_aligned(&mut self, old: Span, new: Span, how: Stereotype, children: &[&Annotation]) {
         if old.micros() == new.micros() {
             let by = new.start().micros().saturating_sub(old.start().micros());

@@ -10,13 +10,13 @@ use std::str::FromStr;
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TierRole {
-    /// Which sign is made; each annotation is a token.
+    /// The sign; each annotation is a token.
     Gloss,
     /// One component of the sign, or one feature of it.
     Component {
         /// The component.
         component: Component,
-        /// The feature, such as `brows` or `palm`, or nothing for the whole.
+        /// The feature, such as `brows` or `palm`; `None` for the whole.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         feature: Option<String>,
     },
@@ -115,7 +115,7 @@ impl FromStr for TierRole {
     }
 }
 
-/// Whose hand something is about.
+/// The hand or hands that something is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(into = "&'static str")]
 pub enum Hands {
@@ -183,16 +183,15 @@ impl fmt::Display for Hands {
 pub struct TierTopic {
     /// The subject of the annotations.
     pub role: TierRole,
-    /// Whose hand they are about, if a hand's.
+    /// The hand that they describe, if they describe one.
     pub hand: Option<Hands>,
 }
 
 impl TierTopic {
-    /// Reads a topic that may say which of successive values it holds, as the title of a column may:
-    /// `final.dominant.configuration`.
+    /// Reads a topic that may include a phase, as the title of a column may: `final.dominant.configuration`.
     ///
     /// # Errors
-    /// [`RoleError`] where the text is no role.
+    /// [`RoleError`] if the text is not a role.
     pub fn with_phase(text: &str) -> Result<(Self, Option<Phase>), RoleError> {
         let lower = text.trim().to_lowercase();
         let (first, rest) = lower.split_once('.').unwrap_or((&lower, ""));
@@ -244,7 +243,7 @@ impl fmt::Display for TierTopic {
     }
 }
 
-/// A text that is no role of a tier or column.
+/// A text that is not a role of a tier or column.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum RoleError {
     /// No word of it is known, or the words do not go together.
@@ -252,10 +251,10 @@ pub enum RoleError {
     Unknown {
         /// The text.
         text: String,
-        /// The word that was meant, perhaps.
+        /// The word that was probably meant.
         nearest: Option<String>,
     },
-    /// It names a hand where only a role has a place.
+    /// It names a hand, but a role alone has none.
     #[error("{text:?} names the {hand} hand; a role alone has none")]
     Hand {
         /// The text.
@@ -263,7 +262,7 @@ pub enum RoleError {
         /// The hand.
         hand: Hands,
     },
-    /// It names one of successive values, which a tier has no need of.
+    /// It names a phase, but a tier has none.
     #[error("{text:?} names a phase, {phase}; a tier holds successive values one after another")]
     Phase {
         /// The text.

@@ -1,20 +1,20 @@
-//! Where the annotations of a tier go when some are moved or one is resized: plain functions over spans.
+//! Computes the new spans of a tier's annotations when some are moved or one is resized: plain functions over spans.
 //!
-//! Nothing here ever overlaps or gets lost: in normal mode what is dragged stops at its neighbours, a
-//! bulldozer pushes them as far as it must, and shifting takes along all that comes after.
+//! Annotations never overlap or get lost: in normal mode a dragged annotation stops at its neighbours, bulldozer mode
+//! pushes them as far as necessary, and shift mode moves all later ones, too.
 
 use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-/// An annotation in time, in microseconds; those of a tier do not overlap and come in order.
+/// An annotation as a span in microseconds; those of a tier do not overlap and are in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Item {
     /// Its number.
     pub id: i64,
-    /// Where it starts.
+    /// Its start.
     pub start: i64,
-    /// Where it ends; this moment is no part of it.
+    /// Its end: the first microsecond after it.
     pub end: i64,
 }
 
@@ -31,14 +31,14 @@ pub enum Mode {
     Shift,
 }
 
-/// By what an annotation is held.
+/// The part of an annotation that is dragged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Grip {
-    /// By its start.
+    /// Its start.
     Start,
-    /// By its end.
+    /// Its end.
     End,
-    /// As a whole.
+    /// The whole annotation.
     Whole,
 }
 
@@ -49,12 +49,12 @@ pub struct Limits {
     pub from: i64,
     /// The latest end, in microseconds.
     pub to: i64,
-    /// The shortest that an annotation can become, in microseconds.
+    /// The least length of an annotation, in microseconds.
     pub least: i64,
 }
 
-/// Returns the annotations that change, as they are then, when the `chosen` ones are moved by `by`
-/// microseconds, or the boundary of the first of them.
+/// Returns the changed annotations, with their new spans, when the `chosen` ones are moved by `by` microseconds, or a
+/// boundary of the first chosen one.
 #[must_use]
 pub fn dragged(
     items: &[Item],
@@ -86,8 +86,8 @@ pub fn dragged(
     changed.map(|(_, new)| new).collect()
 }
 
-/// Returns the annotations that change where they lie end to end and keep doing so: the neighbour's
-/// boundary goes along. None where the first or last boundary of all, or a whole one, is dragged.
+/// Returns the changed annotations on a tier whose annotations tile their parent: the neighbour's boundary moves too.
+/// Empty if the outermost start or end, or a whole annotation, is dragged.
 #[must_use]
 pub fn tiled(
     items: &[Item],
@@ -123,9 +123,9 @@ pub fn tiled(
     ]
 }
 
-/// Returns the annotations that give way to a new one at `wanted`, as they are then: those from its start
-/// on, as far as they must in bulldozer mode, all by the same time in shift mode. Nothing where one that
-/// begins earlier is in the way, where there is no room at the end, or in normal mode.
+/// Returns the annotations that make room for a new one at `wanted`, with their new spans: those that start at or after
+/// its start, each as far as it must in bulldozer mode, all by the same time in shift mode. `None` if an annotation
+/// that begins earlier is in the way, if there is no room at the end, or in normal mode.
 #[must_use]
 pub fn opened(items: &[Item], wanted: (i64, i64), mode: Mode, limits: Limits) -> Option<Vec<Item>> {
     let at = items.partition_point(|item| item.start < wanted.0);
@@ -151,8 +151,8 @@ pub fn opened(items: &[Item], wanted: (i64, i64), mode: Mode, limits: Limits) ->
     Some(changed.map(|(_, new)| new).collect())
 }
 
-/// Returns changed annotations in an order that never makes two of them overlap: those that move right from the
-/// last, those that move left from the first.
+/// Returns changed annotations in an order in which no two overlap at any step: first those that move right, from the
+/// last on, then those that move left, from the first on.
 #[must_use]
 pub fn in_order(items: &[Item], changed: &[Item]) -> Vec<Item> {
     let right = |new: &Item| {
@@ -167,7 +167,7 @@ pub fn in_order(items: &[Item], changed: &[Item]) -> Vec<Item> {
     later
 }
 
-/// Returns the longest part of `from..to` in which no annotation lies.
+/// Returns the longest part of `from..to` without annotations.
 #[must_use]
 pub fn room(items: &[Item], (from, to): (i64, i64)) -> Option<(i64, i64)> {
     let first = items.partition_point(|item| item.end <= from);
@@ -197,7 +197,7 @@ impl Limits {
     }
 }
 
-/// Reverses time, so that a rule for ends serves for starts.
+/// Reverses time, so that a rule for ends can be applied to starts.
 fn mirrored(items: &[Item]) -> Vec<Item> {
     let turned = items.iter().rev().map(|item| Item {
         start: -item.end,
@@ -215,7 +215,7 @@ fn shifted(item: Item, by: i64) -> Item {
     }
 }
 
-/// Moves the end of one.
+/// Moves the end of the annotation at `at`.
 fn resized(items: &[Item], at: usize, by: i64, mode: Mode, limits: Limits) -> Vec<Item> {
     let item = items[at];
     let least = limits.least.min(item.end - item.start).max(1);
@@ -242,7 +242,7 @@ fn resized(items: &[Item], at: usize, by: i64, mode: Mode, limits: Limits) -> Ve
     new
 }
 
-/// Pushes those after `at` on as far as they are in the way.
+/// Pushes the annotations after `at` as far as they are in the way.
 fn push(items: &mut [Item], at: usize) {
     for next in at + 1..items.len() {
         let by = items[next - 1].end - items[next].start;
@@ -252,7 +252,7 @@ fn push(items: &mut [Item], at: usize) {
     }
 }
 
-/// Moves those that are chosen, the first of them at `at`.
+/// Moves the chosen annotations, the first of them at `at`.
 fn whole(
     items: &[Item],
     chosen: &BTreeSet<i64>,
@@ -321,7 +321,7 @@ fn right(items: &[Item], chosen: &BTreeSet<i64>, by: i64, mode: Mode, limits: Li
     new
 }
 
-/// Puts one annotation into the room nearest to `start`.
+/// Puts one annotation into the free place nearest to `start`.
 fn nearest_room(items: &[Item], at: usize, start: i64, limits: Limits) -> Item {
     let item = items[at];
     let length = item.end - item.start;

@@ -20,7 +20,7 @@ fn a_cursor_knows_what_could_stand_there() {
     }
 }
 
-/// Queries with a cursor, what is expected there, the prefix, and what would be replaced.
+/// Queries with a cursor, the expected kind of text there, the prefix, and the text to replace.
 const COMPLETIONS: &[(&str, &str, &str, &str)] = &[
     ("|", "Term", "", ""),
     ("conf|", "Term", "conf", "conf"),

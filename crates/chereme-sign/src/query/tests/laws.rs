@@ -1,4 +1,4 @@
-//! Laws of any text and of any query.
+//! Laws for any text and for any query.
 
 use super::super::*;
 use super::{CANONICAL, REWRITTEN};
@@ -6,7 +6,7 @@ use crate::component::{Component, Field, HandRef, Phase};
 use crate::relation::Relation;
 use proptest::prelude::*;
 
-/// Checks what must hold of any text at all.
+/// Checks the laws for any text.
 fn check_any(text: &str) {
     let count = text.chars().count();
     match Query::parse(text) {
@@ -210,7 +210,7 @@ fn value_of(wanted: Wanted) -> Value {
     }
 }
 
-/// A component with values that follow each other.
+/// A component with a sequence of values.
 fn path() -> impl Strategy<Value = What> {
     let step = prop_oneof![Just(Wanted::Present), pattern().prop_map(Wanted::Named)];
     let steps = prop::collection::vec(step.prop_map(value_of), 2..4);
@@ -221,7 +221,7 @@ fn path() -> impl Strategy<Value = What> {
     })
 }
 
-/// A test whose thing compared is an annotation.
+/// A test whose subject is an annotation.
 fn annotation() -> impl Strategy<Value = Test> {
     let text = || prop::sample::select(TextField::ALL.to_vec());
     prop_oneof![

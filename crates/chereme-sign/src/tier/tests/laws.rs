@@ -120,7 +120,7 @@ fn run(dice: &[Dice], mut each: impl FnMut(&TierSet, &Change, &[Edit])) -> (Tier
     (set, accepted)
 }
 
-/// Returns the part of `set` that [`Change::window`] says a change needs.
+/// Returns the part of `set` that a change needs according to [`Change::window`].
 fn neighbourhood(set: &TierSet, change: &Change) -> TierSet {
     let mut named: Vec<&Annotation> = change
         .annotations()
