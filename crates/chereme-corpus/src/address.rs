@@ -1,4 +1,4 @@
-//! Addresses: how people name a recording, token, sign, signer, tier or annotation.
+//! Addresses: texts that name a recording, token, sign, signer, tier or annotation.
 
 use std::fmt;
 use std::str::FromStr;
@@ -21,7 +21,7 @@ pub enum Name {
     Text(String),
 }
 
-/// The thing that a text like `token:41` names.
+/// The object that a text such as `token:41` names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Address {
     /// `recording:…`.
@@ -36,7 +36,8 @@ pub enum Address {
     Tier(i64),
     /// `annotation:…`, always a number.
     Annotation(i64),
-    /// A bare gloss: the sign's citation form; where movement is asked for and no sign is called so, a recording.
+    /// A bare gloss: the citation form of the sign; if movement is asked for and no sign has this gloss, a recording of
+    /// this name.
     Gloss(String),
 }
 
@@ -107,14 +108,14 @@ impl fmt::Display for Address {
     }
 }
 
-/// A stretch of a recording, as an address names it.
+/// A stretch of a recording that an address names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Stretch {
     /// The recording.
     pub recording: RecordingRow,
-    /// The part of it that is meant.
+    /// The named part of the recording.
     pub span: Span,
-    /// The token it is, where the address names one.
+    /// The token, if the address names one.
     pub token: Option<TokenRow>,
 }
 
@@ -132,7 +133,7 @@ pub(crate) fn token(connection: &Connection, address: &Address) -> Result<TokenR
     }
 }
 
-/// Returns the sign with this gloss: letter by letter, else the only one alike but for case and accents.
+/// Returns the sign with exactly this gloss, otherwise the only one that differs from it in case and accents alone.
 pub(crate) fn sign(connection: &Connection, gloss: &str) -> Result<i64> {
     if let Some(id) = signs::find_sign(connection, gloss)? {
         return Ok(id);
@@ -216,7 +217,7 @@ fn ambiguous(text: &str, candidates: impl Iterator<Item = String>) -> Error {
     .advise("write which one")
 }
 
-/// Returns the recording that `name` names.
+/// Returns the recording with this name or number.
 pub(crate) fn recording(connection: &Connection, name: &Name) -> Result<RecordingRow> {
     match name {
         Name::Number(id) => recordings::recording(connection, *id),
@@ -236,7 +237,7 @@ pub(crate) fn recording(connection: &Connection, name: &Name) -> Result<Recordin
     }
 }
 
-/// Returns the signer that `name` names.
+/// Returns the signer with this name or number.
 pub(crate) fn signer(connection: &Connection, name: &Name) -> Result<SignerRow> {
     let found = match name {
         Name::Number(id) => recordings::signer(connection, *id)?,
@@ -256,7 +257,7 @@ pub(crate) fn signer(connection: &Connection, name: &Name) -> Result<SignerRow> 
     })
 }
 
-/// Returns the stretch of movement that `address` names; a bare name that no sign has may be a recording's.
+/// Returns the stretch of movement that `address` names; a bare name that belongs to no sign may be a recording's name.
 pub(crate) fn stretch(connection: &Connection, address: &Address) -> Result<Stretch> {
     let named = match address {
         Address::Recording(name) => Some(recording(connection, name)?),

@@ -1,4 +1,4 @@
-//! Movement from notation: HamNoSys text, SiGML files, and signs that the corpus holds as notation.
+//! Generates movement from notation: HamNoSys text, SiGML files, and signs that the corpus has as notation.
 
 use std::path::Path;
 
@@ -20,27 +20,27 @@ use crate::recombine::{NotationFinding, Recombination};
 use crate::sources::CorpusSources;
 use crate::sources::notation::{NEXT, OWN_BODY};
 
-/// Who signs what is notated, and how.
+/// The signer and the body language for notated signs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Staging<'a> {
-    /// The name or address of a signer or a recording whose body signs; without one the corpus chooses, and one
-    /// without any movement takes the body that comes with the program.
+    /// The name or address of a signer or a recording whose body signs. Without one the corpus chooses; a corpus
+    /// without movement takes the body that comes with the program.
     pub signer: Option<&'a str>,
-    /// The body language: `default`, `measured` in the corpus's captured signs, or a file; without one
-    /// what is measured, where there is enough of it.
+    /// The body language: `default`, `measured` in the corpus's captured signs, or a file. Without one the measured
+    /// body language is used if there are enough measurements.
     pub language: Option<&'a str>,
 }
 
 impl Corpus {
-    /// Makes movement of notation: of HamNoSys text, of a SiGML or HamNoSys file, or of signs that the
-    /// corpus holds as notation, one after the other; stores it under `gloss` where there is one.
+    /// Generates movement from notation: HamNoSys text, a SiGML or HamNoSys file, or signs that the corpus has as
+    /// notation, one after the other. Stores it under `gloss` if one is given.
     ///
-    /// Of HamNoSys that cannot be read whole, what was understood is made; the report's warnings say
-    /// what was not, and what is odd about a file.
+    /// If HamNoSys cannot be read completely, movement is generated from the parts that were understood; warnings of
+    /// the report list the other parts, and oddities of a file.
     ///
     /// # Errors
-    /// Where the notation cannot be read, with the symbol or the line; where nothing notated has that
-    /// name; where the body has no arms. Nothing half-made is stored.
+    /// Fails if the notation cannot be read (the error names the symbol or the line), if nothing notated has that name,
+    /// or if the body has no arms. Nothing incomplete is stored.
     pub fn animate(
         &mut self,
         notation: &[&str],
@@ -68,10 +68,10 @@ impl Corpus {
         Ok(done)
     }
 
-    /// Returns the address of a body, which may be a signer's or a recording's name alone.
+    /// Returns the address of a body; the text may be just the name of a signer or a recording.
     ///
     /// # Errors
-    /// Where the corpus knows nobody of that name.
+    /// Fails if the corpus has no signer and no recording of that name.
     pub(crate) fn body(&self, wanted: &str) -> Result<String> {
         let connection = self.store.read();
         let name = || Name::Text(wanted.to_owned());
@@ -101,7 +101,7 @@ impl Corpus {
         Ok(wanted.to_owned())
     }
 
-    /// Returns the address of the body that the corpus chooses where none is named.
+    /// Returns the address of the body that the corpus chooses if none is named.
     pub(crate) fn chosen_body(&mut self) -> Result<String> {
         let inventories = self.inventories_now()?;
         let sources = CorpusSources::open(&mut self.store, &inventories, &self.learned)?;
@@ -111,7 +111,7 @@ impl Corpus {
     }
 }
 
-/// Reports that handshapes cannot be seen on a body whose skeleton has no fingers.
+/// Returns a warning that handshapes are not visible on a body whose skeleton has no fingers.
 fn without_fingers(anatomy: &Anatomy) -> Option<NotationFinding> {
     let without: Vec<&str> = Side::BOTH
         .into_iter()
@@ -132,7 +132,7 @@ fn without_fingers(anatomy: &Anatomy) -> Option<NotationFinding> {
     })
 }
 
-/// Returns the recipe's leaf, and what is odd about the notation.
+/// Returns the leaf of the recipe, and findings about the notation.
 fn leaf(notation: &[&str], staging: &Staging<'_>) -> Result<(Node, Vec<NotationFinding>)> {
     let notated = |of: String| Notation {
         of,
@@ -163,7 +163,7 @@ fn leaf(notation: &[&str], staging: &Staging<'_>) -> Result<(Node, Vec<NotationF
     })
 }
 
-/// Returns HamNoSys text that can be read whole: as it is, or what was understood of it, with what is odd.
+/// Returns HamNoSys text that can be read completely: the given text, or the understood part of it, with findings.
 fn understood(text: &str) -> Result<(String, Vec<NotationFinding>)> {
     let (read, whole) = match hamnosys::parse(text) {
         Ok(read) => (read, None),
@@ -197,13 +197,13 @@ fn understood(text: &str) -> Result<(String, Vec<NotationFinding>)> {
     Ok((known, findings))
 }
 
-/// Returns a sign without how its text spelled it, odd symbols and all.
+/// Returns a sign without its original spelling and odd symbols.
 fn unspelled(sign: &Sign) -> Result<Sign> {
     let tree = serde_json::to_value(sign).and_then(serde_json::from_value);
     tree.map_err(|error| Error::wrong(format!("the notation cannot be copied: {error}")))
 }
 
-/// Returns what is odd about a file of notation; nothing of what is no file's name.
+/// Returns findings about a file of notation; none if the name is not that of a file.
 fn odd_in_file(name: &str) -> Result<Vec<NotationFinding>> {
     const ENDINGS: [&str; 5] = ["sigml", "hsigml", "xml", "hns", "txt"];
     let path = Path::new(name);
@@ -226,7 +226,7 @@ fn odd_in_file(name: &str) -> Result<Vec<NotationFinding>> {
     Ok(findings.into_iter().map(told).collect())
 }
 
-/// Returns HamNoSys text, typed or from a file of one sign; nothing for anything else.
+/// Returns HamNoSys text, typed or from a file with one sign; nothing for other inputs.
 fn plain_text(notation: &str) -> Result<Option<String>> {
     let path = Path::new(notation);
     let lines = path
@@ -253,7 +253,7 @@ fn plain_text(notation: &str) -> Result<Option<String>> {
     let named = words
         .first()
         .is_some_and(|word| hamnosys::symbol::Symbol::from_name(word).is_some());
-    // Words that all look like names of symbols are meant as such, even where none is one.
+    // If all words look like names of symbols, they are taken as such, even if some are unknown.
     let meant = words.len() > 1 && words.iter().all(|word| word.starts_with("ham"));
     Ok((symbols || named || meant).then(|| notation.to_owned()))
 }

@@ -7,11 +7,11 @@ use crate::db::search::begin_reading;
 use crate::error::Result;
 
 impl Corpus {
-    /// Returns what stands before and after tokens, at most `most` annotations to each side, in the
-    /// order of `tokens`; of tokens that are not there, nothing but the number.
+    /// Returns the annotations before and after tokens, at most `most` on each side, in the order of `tokens`; for a
+    /// missing token only its number.
     ///
     /// # Errors
-    /// Where the database fails.
+    /// Fails if the database fails.
     pub fn around(&self, tokens: &[i64], most: usize) -> Result<Vec<Around>> {
         let reading = begin_reading(self.store.read())?;
         tokens

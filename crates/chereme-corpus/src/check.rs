@@ -1,4 +1,4 @@
-//! Integrity: the faults of a corpus, their places, and how to mend them.
+//! Integrity check: the faults of a corpus, their places, and remedies.
 
 use std::collections::BTreeMap;
 
@@ -24,46 +24,46 @@ use crate::progress::{Progress, Step, Unit};
 use crate::tokens;
 use crate::track::{self, TrackKind, TrackRow};
 
-/// What a check found.
+/// The result of a check.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct CheckReport {
-    /// Whether nothing is wrong.
+    /// Whether no fault was found.
     pub ok: bool,
-    /// How many things of each kind were looked at.
+    /// Number of checked objects of each kind.
     pub checked: BTreeMap<&'static str, u64>,
-    /// What is wrong.
+    /// The faults.
     pub faults: Vec<Fault>,
-    /// What was mended.
+    /// Descriptions of the repairs.
     pub mended: Vec<String>,
 }
 
-/// Something that is wrong with a corpus.
+/// A fault in a corpus.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Fault {
     /// `database`, `reference`, `block`, `movement`, `skeleton`, `inventory`, `notation`, `tier`,
     /// `tokens`, `history` or `index`.
     pub kind: &'static str,
-    /// Where.
+    /// The place of the fault.
     pub place: String,
-    /// What is wrong.
+    /// The fault in words.
     pub message: String,
-    /// How to mend it.
+    /// The remedy.
     pub remedy: String,
 }
 
 const BACKUP: &str = "take the file from a backup, or import the recording again";
-/// How many overlaps of one tier are faults of their own; the rest are counted.
+/// The number of overlaps on one tier that are listed as separate faults; the rest are counted.
 const SHOWN_OVERLAPS: u64 = 3;
 const MEND: &str = "`chereme check CORPUS --mend` puts it right";
 
 impl Corpus {
-    /// Looks at everything that can be wrong: the database, references, blocks and their hashes,
-    /// skeletons, inventories, notations, tier rules, tokens, history and the search index.
+    /// Checks everything in the corpus: the database, references, blocks and their hashes, skeletons, inventories,
+    /// notations, tier rules, tokens, history and the search index.
     ///
     /// With `mend`, derived rows (tokens, index) are built again if they are wrong.
     ///
     /// # Errors
-    /// Where the database cannot be read at all, or the work is stopped.
+    /// Fails if the database cannot be read at all, or the work is stopped.
     pub fn check(&mut self, mend: bool, progress: &mut Progress<'_>) -> Result<CheckReport> {
         let mut report = CheckReport::default();
         let mut looking = Looking {
@@ -249,7 +249,7 @@ impl Looking<'_, '_> {
         Ok(())
     }
 
-    /// Decodes every block of a track and looks for frames that are missing.
+    /// Decodes every block of a track and looks for missing frames.
     fn track(&mut self, connection: &Connection, row: &TrackRow) -> Result<()> {
         if row.kind != TrackKind::Skeleton {
             return track::read::track(connection, row, None).map(|_| ());
@@ -354,7 +354,7 @@ impl Looking<'_, '_> {
     }
 }
 
-/// Returns the tiers of a recording with all their annotations, for the rules to be checked.
+/// Returns the tiers of a recording with all their annotations, for a check of the tier rules.
 pub(crate) fn tier_set(connection: &Connection, recording: i64) -> Result<TierSet> {
     let mut annotations = Vec::new();
     let mut all = Vec::new();

@@ -1,14 +1,14 @@
-//! Blocks of numbers as bytes: the columns of one channel group over some frames, without loss.
+//! Lossless coding of blocks of numbers as bytes: the columns of one channel group over some frames.
 //!
-//! Two layouts exist. Version 1 holds decimals without gaps, as movement of text files is: the byte 1, the
-//! frames and the columns (u32 each, little-endian), then each column: its decimals (u8), its coding (0 all
-//! equal, 1 pco), the length of its code (u32), the code, and its exceptions (u32 how many; each a frame u32,
-//! a length u32 and the number's own text). Coded are the mantissas: the number is mantissa / 10^decimals.
+//! Two layouts exist. Version 1 holds decimals without gaps, as movement in text files has them: the byte 1, the number
+//! of frames and of columns (u32 each, little-endian), then each column: its decimals (u8), its coding (0 all equal, 1
+//! pco), the length of its code (u32), the code, and its exceptions (u32 their number; each a frame u32, a length u32
+//! and the number's own text). The code holds the mantissas: the number is mantissa / 10^decimals.
 //!
 //! Version 2 holds numbers of any form, with gaps. Each column begins with its form (u8): 0 decimals (then u8
-//! decimals), 1 f32, 2 f64, 3 integers (then zero and unit, f64 each), 4 f64 that are all f32 as well and are
-//! coded so. Coding, length and code follow as in version 1, for decimals the exceptions, and then the gaps
-//! (u32 how many; each the first frame u32 and the first frame after it u32).
+//! decimals), 1 f32, 2 f64, 3 integers (then zero and unit, f64 each), 4 f64 numbers that can all be stored exactly as
+//! f32. Coding, length and code follow as in version 1, for decimals the exceptions, and then the gaps (u32 their
+//! number; each the first frame u32 and the first frame after it u32).
 
 use std::ops::Range;
 
@@ -165,7 +165,7 @@ fn put_code<T: Plain>(bytes: &mut Vec<u8>, values: &[T]) {
     bytes.extend_from_slice(&code);
 }
 
-/// Returns the columns that `bytes` hold if they are `count` columns of `frames` numbers.
+/// Decodes `bytes` as `count` columns of `frames` numbers.
 pub(crate) fn decode(bytes: &[u8], frames: usize, count: usize) -> Result<Vec<Column>, String> {
     let mut rest = bytes;
     match start(&mut rest, frames, count)? {

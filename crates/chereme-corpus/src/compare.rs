@@ -1,4 +1,4 @@
-//! Annotation files and recordings side by side: their differences, and merges of files.
+//! Differences between annotation files and recordings, and merges of files.
 
 use chereme_formats::compare::{self, Conflict, Difference, Merged};
 use chereme_formats::eaf::{self, Transcript, patched, raw, to_raw};
@@ -23,15 +23,16 @@ pub enum CompareSide {
     },
 }
 
-/// Annotation files brought together.
+/// The result of a merge of annotation files.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct FileMerge {
-    /// The merged file, in the format and layout of mine.
+    /// The merged file, in the format and layout of `mine`.
     #[serde(skip)]
     pub bytes: Vec<u8>,
-    /// The differences from mine to the merged file.
+    /// The differences between `mine` and the merged file.
     pub changes: Difference,
-    /// Annotations that both changed in different ways. Mine stands; the other candidate is on a tier `NAME (theirs)`.
+    /// Annotations that both changed in different ways. The merged file has that of `mine`; the other candidate is on a
+    /// tier `NAME (theirs)`.
     pub conflicts: Vec<Conflict>,
 }
 
@@ -80,7 +81,7 @@ impl Corpus {
     }
 }
 
-/// Merges an annotation file into another; `base` is the file that both were copies of, if it is known.
+/// Merges two annotation files; `base` is the file that both were copied from, if it is known.
 ///
 /// # Errors
 /// If a file cannot be read, or the merged one cannot be written in the format of mine.
@@ -131,7 +132,7 @@ fn write_eaf(mine: &[u8], whole: &Transcript) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Reads a document by its contents, whatever its name ends in.
+/// Reads a document and determines its format from its contents, ignoring the file name.
 fn read(name: &str, bytes: &[u8]) -> Result<(Transcript, Format)> {
     let head = &bytes[..bytes.len().min(4096)];
     let plain: Vec<u8> = head.iter().copied().filter(|byte| *byte != 0).collect();

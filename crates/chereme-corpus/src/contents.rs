@@ -1,5 +1,5 @@
-//! The content of a corpus as a window shows it, read at one moment: an overview of everything, and one recording
-//! whole.
+//! The content of a corpus for display in a window, read at one moment: an overview of everything, and one complete
+//! recording.
 
 use crate::Corpus;
 use crate::db::contents as rows;
@@ -15,12 +15,12 @@ use crate::inventories::{self, StoredInventory};
 use crate::kept::{self, KeptSearch};
 use crate::merge::CorpusConflict;
 
-/// A corpus at a glance, at one moment.
+/// Overview of a corpus at one moment.
 #[derive(Debug, Clone, Default)]
 pub struct Overview {
     /// The moment: [`Corpus::generation`].
     pub generation: i64,
-    /// Whether its file may only be read here, so that every change is refused.
+    /// Whether the file cannot be written, so that every change is refused.
     pub read_only: bool,
     /// The recordings, in the order in which they were stored.
     pub recordings: Vec<RecordingGlance>,
@@ -30,7 +30,7 @@ pub struct Overview {
     pub signers: Vec<SignerRow>,
     /// The inventories, oldest first.
     pub inventories: Vec<StoredInventory>,
-    /// The searches that are kept, by name.
+    /// The saved searches, by name.
     pub searches: Vec<KeptSearch>,
     /// The newest operations, the newest first.
     pub operations: Vec<OperationRow>,
@@ -65,18 +65,18 @@ pub struct TierContents {
 }
 
 impl Corpus {
-    /// Returns a number that grows with every change of the corpus, by whatever program; cheap.
+    /// Returns a number that grows with every change of the corpus, by any program; it is cheap to read.
     ///
     /// # Errors
-    /// Where the database fails.
+    /// Fails if the database fails.
     pub fn generation(&self) -> Result<i64> {
         rows::generation(self.store.read())
     }
 
-    /// Returns the corpus at a glance, with its newest `operations` operations.
+    /// Returns an overview of the corpus, with its newest `operations` operations.
     ///
     /// # Errors
-    /// Where the database fails or holds what cannot be.
+    /// Fails if the database fails or holds invalid rows.
     pub fn overview(&self, operations: usize) -> Result<Overview> {
         let reading = begin_reading(self.store.read())?;
         let inventories = inventory_rows(&reading, None)?;
@@ -99,7 +99,7 @@ impl Corpus {
     /// Returns the annotations of the recording of that row.
     ///
     /// # Errors
-    /// Where there is no such recording, or the database fails.
+    /// Fails if there is no such recording, or the database fails.
     pub fn contents(&self, recording: i64) -> Result<Contents> {
         let reading = begin_reading(self.store.read())?;
         let tiers = tiers::tiers(&reading, recording)?.into_iter().map(|row| {

@@ -24,7 +24,7 @@ pub use chereme_sign::cue::Reading as KeysOptions;
 pub struct CueKeys {
     /// The code that was used.
     pub code: String,
-    /// The words and how each is said; empty if the input was phones.
+    /// The words and their pronunciations; empty if the input was phones.
     pub words: Vec<SpokenWord>,
     /// The keys in order.
     pub keys: Vec<CueKey>,
@@ -54,7 +54,7 @@ pub struct CueKey {
     pub shape: u8,
     /// The placement.
     pub placement: String,
-    /// The placement if speakers say the vowel in another way, too.
+    /// Another placement, for speakers who pronounce the vowel differently.
     pub or_placement: Option<String>,
     /// The phones in SAMPA.
     pub phones: Vec<String>,
@@ -99,7 +99,7 @@ impl CueKeys {
     }
 }
 
-/// The names of tiers of phones that aligners write, folded and without other signs.
+/// The names that aligners give to tiers of phones, folded and without punctuation.
 const PHONE_TIERS: [&str; 7] = [
     "phones",
     "phone",
@@ -109,15 +109,15 @@ const PHONE_TIERS: [&str; 7] = [
     "phoneme",
     "phonetique",
 ];
-/// Shorter gaps between phones are no pauses, only rounding.
+/// Shorter gaps between phones are rounding errors, not pauses.
 const SILENCE_MICROS: i64 = 10_000;
 /// The largest file of an alignment.
 const MOST_FILE_BYTES: u64 = 1 << 28;
 
-/// Returns the keys of the phones of an alignment, a TextGrid or an EAF file, with their own times.
+/// Returns the keys for the phones of an alignment, a TextGrid or an EAF file, with the times of the phones.
 ///
-/// The tier is the one that is named, else the first that is called as aligners call it. The alphabet is the
-/// one that knows most of the labels if the options name none.
+/// The tier is the named one, otherwise the first whose name aligners use for phones. If the options name no alphabet,
+/// it is the one that contains most of the labels.
 ///
 /// # Errors
 /// If the file cannot be read, or has no such tier.
@@ -131,7 +131,7 @@ pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) 
     Ok(keys)
 }
 
-/// Returns the phones of an alignment as a recipe takes them: SAMPA with milliseconds, the first pause included.
+/// Returns the phones of an alignment in the format for recipes: SAMPA with milliseconds, including the first pause.
 ///
 /// # Errors
 /// As [`cue_keys_of_file`].
@@ -144,25 +144,25 @@ pub fn cue_phones_of_file(
     Ok(read.written())
 }
 
-/// Who cues, and how.
+/// The cuer, and the manner of cueing.
 #[derive(Debug, Clone, Default)]
 pub struct CueOptions {
-    /// How the text or the phones are read.
+    /// How the text or phones are read.
     pub reading: KeysOptions,
     /// The name or address of a signer or a recording whose body cues; without one the corpus chooses.
     pub signer: Option<String>,
-    /// The rule that says when the hand is where.
+    /// The rule for the times of the hand relative to the sounds.
     pub phase: PhaseRule,
-    /// The left hand cues, whatever the signer's handedness.
+    /// Whether the left hand cues, regardless of the signer's handedness.
     pub left: bool,
 }
 
 impl Corpus {
-    /// Makes the movement of a cuer who says `text`, which is text or phones; stores it under `gloss` if there
-    /// is one, with tiers for phones, keys, hand and fingers.
+    /// Generates the movement of a cuer who says `text`, which is text or phones; stores it under `gloss` if one is
+    /// given, with tiers for phones, keys, hand and fingers.
     ///
     /// # Errors
-    /// If nothing in the text can be cued, or the body has no arm, fingers or head. Nothing half-made is stored.
+    /// Fails if nothing in the text can be cued, or the body has no arm, fingers or head. Nothing incomplete is stored.
     pub fn cue(
         &mut self,
         text: &str,
@@ -179,8 +179,8 @@ impl Corpus {
     }
 }
 
-/// Returns the phones of `text` in IPA as the program `espeak-ng` says them, if it is installed, and what of its output
-/// has no key; `code` is a code's name.
+/// Returns the phones of `text` in IPA as the program `espeak-ng` pronounces them, if it is installed, and the
+/// characters of its output that have no key; `code` is the name of a code.
 ///
 /// # Errors
 /// If the code does not exist, the text is larger than 64 KiB, or `espeak-ng` cannot be run.
@@ -211,7 +211,7 @@ pub fn cue_phones_of_espeak(text: &str, code: &str) -> Result<(String, Vec<char>
         .map_err(cannot)?;
     let mut stdin = child.stdin.take();
     let lines = text.replace(['.', '!', '?', ';'], "\n");
-    // The text is written while the output is read, so that neither waits for the other.
+    // A separate thread writes the text while this one reads the output, so that neither blocks the other.
     let writer = std::thread::spawn(move || {
         stdin
             .as_mut()
@@ -230,7 +230,7 @@ pub fn cue_phones_of_espeak(text: &str, code: &str) -> Result<(String, Vec<char>
     ))
 }
 
-/// Returns the recipe, as JSON, of a cuer who says `text`; `on` is the address of a body, without which the corpus
+/// Returns the recipe, as JSON, for a cuer who says `text`; `on` is the address of a body, and without it the corpus
 /// chooses one.
 #[must_use]
 pub fn cue_recipe(text: &str, options: &CueOptions, on: Option<String>) -> String {
@@ -312,7 +312,7 @@ fn aligned(
     Ok((Utterance::of_phones(code, spaced, alphabet), name, findings))
 }
 
-/// Returns the alphabet that knows most of the labels; of equals SAMPA before IPA before MFA.
+/// Returns the alphabet that contains most of the labels; in a tie SAMPA before IPA before MFA.
 pub(crate) fn guessed_alphabet(code: &CueCode, phones: &[Phone]) -> Alphabet {
     let knows = |alphabet: &Alphabet| {
         let labels = phones.iter().map(|phone| &phone.label);
@@ -324,7 +324,7 @@ pub(crate) fn guessed_alphabet(code: &CueCode, phones: &[Phone]) -> Alphabet {
     rated.copied().unwrap_or_default()
 }
 
-/// Returns whether a tier is called as aligners call their phones.
+/// Returns whether a tier's name is one that aligners use for phones.
 pub(crate) fn is_phone_tier(name: &str) -> bool {
     let folded = chereme_sign::text::fold(name);
     let plain: String = folded.chars().filter(|c| c.is_alphanumeric()).collect();
@@ -366,7 +366,7 @@ fn phone_tier<'a>(
     })
 }
 
-/// Puts a pause into every silence between two phones.
+/// Inserts a pause into every silence between two phones.
 pub(crate) fn with_gaps(phones: Vec<Phone>) -> Vec<Phone> {
     let mut spaced: Vec<Phone> = Vec::with_capacity(phones.len());
     let mut at = Instant::ZERO;

@@ -1,4 +1,4 @@
-//! Scalar curves beside movement: a number a frame, such as how much the brows are raised.
+//! Scalar curves beside movement: a number for each frame, such as how much the brows are raised.
 
 use std::io::Write;
 use std::ops::Range;
@@ -17,7 +17,7 @@ use crate::face;
 use crate::movement::Track;
 use crate::track::{self, NewTrack};
 
-/// Decimals of stored numbers.
+/// The number of decimals of stored numbers.
 const DECIMALS: u8 = 6;
 
 impl Corpus {
@@ -34,7 +34,7 @@ impl Corpus {
     }
 }
 
-/// Stores the curves of a made movement, a number for each of its frames, as a track of their own.
+/// Stores the curves of a generated movement, with a number for each frame, as a track of their own.
 pub(crate) fn store(
     connection: &Connection,
     recording: i64,
@@ -67,8 +67,8 @@ pub(crate) fn store(
     Ok(())
 }
 
-/// Returns the curves of non-manuals that go with a movement, over `frames` of it: a number for each frame. Those of a
-/// captured face are the numbers of the house's face, such as `face.jaw_open`.
+/// Returns the curves of non-manuals that accompany a movement, over `frames` of it: a number for each frame. A
+/// captured face gives the numbers of this program's own face, such as `face.jaw_open`.
 pub(crate) fn of_track(
     connection: &Connection,
     track: &Track,
@@ -85,7 +85,7 @@ pub(crate) fn of_track(
     Ok(all)
 }
 
-/// Returns the curves that a recipe made, over `frames` of its movement.
+/// Returns the curves that a recipe generated, over `frames` of its movement.
 fn made(connection: &Connection, track: &Track, frames: Range<usize>) -> Result<Vec<Curve>> {
     let Some(row) = motion::nonmanuals(connection, track.row.id)? else {
         return Ok(Vec::new());
@@ -124,8 +124,8 @@ fn made(connection: &Connection, track: &Track, frames: Range<usize>) -> Result<
     Ok(all)
 }
 
-/// Writes the curves of a stretch as a table: a frame a row, its time in seconds from the first one, and
-/// a column for each curve.
+/// Writes the curves of a stretch as a table: one row for each frame, with its time in seconds from the first one and a
+/// column for each curve.
 pub(crate) fn write_table(
     connection: &Connection,
     stretch: &Stretch,

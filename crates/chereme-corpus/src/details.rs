@@ -1,4 +1,4 @@
-//! All that is known of one token, sign, signer or recording, read at one moment.
+//! Full details of one token, sign, signer or recording, read at one moment.
 
 use chereme_motion::anatomy::Measures;
 use chereme_sign::Component;
@@ -17,22 +17,22 @@ use crate::media::MediaPlace;
 use crate::movement::Track;
 use crate::notation;
 
-/// All that is known of one thing.
+/// Full details of one object.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Details {
-    /// Of a token.
+    /// Details of a token.
     Token(Box<TokenDetails>),
-    /// Of a sign.
+    /// Details of a sign.
     Sign(SignDetails),
-    /// Of a signer.
+    /// Details of a signer.
     Signer(SignerDetails),
-    /// Of a recording.
+    /// Details of a recording.
     Recording(RecordingDetails),
-    /// How many tokens have a value of an inventory, by its row and its id.
+    /// A value of an inventory: the row of the inventory, the value's id, and the number of tokens that have it.
     Value(i64, String, u64),
 }
 
-/// All that is known of a token.
+/// Full details of a token.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TokenDetails {
     /// The token.
@@ -43,9 +43,9 @@ pub struct TokenDetails {
     pub notation: Option<String>,
     /// The recipe of its recording, if that was generated.
     pub recipe: Option<String>,
-    /// The addresses of what it was made from.
+    /// The addresses of its sources, if it was generated.
     pub made_from: Vec<String>,
-    /// The recordings that were made from it, by row and name.
+    /// The recordings that were generated from it, by row and name.
     pub made_into: Vec<(i64, String)>,
 }
 
@@ -62,11 +62,11 @@ pub struct TokenValue {
     pub value: Option<String>,
     /// The inventory that it comes from.
     pub inventory: Option<i64>,
-    /// The annotation that says so.
+    /// The annotation that gives the value.
     pub annotation: Option<i64>,
 }
 
-/// All that is known of a sign.
+/// Full details of a sign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignDetails {
     /// The row.
@@ -77,33 +77,33 @@ pub struct SignDetails {
     pub notes: Option<String>,
     /// Translations, as language and text.
     pub texts: Vec<(String, String)>,
-    /// Its tokens; the citation form says so.
+    /// Its tokens; [`TokenRow::citation`] marks the citation form.
     pub tokens: Vec<TokenRow>,
 }
 
-/// All that is known of a signer.
+/// Full details of a signer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignerDetails {
     /// The row.
     pub id: i64,
     /// The recordings.
     pub recordings: Vec<RecordingRow>,
-    /// The body's measures in metres, in the first recording that has a body to measure.
+    /// The body's measures in metres, from the first recording with a body that can be measured.
     pub measures: Option<Measures>,
 }
 
-/// All that is known of a recording beyond its rows.
+/// Details of a recording beyond its rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordingDetails {
     /// The row.
     pub id: i64,
     /// How many joints its skeleton has.
     pub joints: usize,
-    /// Which part of the body each known joint is: part, joint.
+    /// The body part of each identified joint: part, joint.
     pub roles: Vec<(String, String)>,
-    /// Parts that no joint is.
+    /// Body parts without a joint.
     pub missing: Vec<String>,
-    /// How many metres one unit of its file is.
+    /// The length of one unit of its file in metres.
     pub metres_per_unit: Option<f64>,
     /// The axes of its file.
     pub axes: Option<String>,
@@ -117,12 +117,12 @@ pub struct RecordingDetails {
     pub engine: Option<String>,
 }
 
-/// Returns a token in HamNoSys, as written or converted from its SiGML; `None` if it is not notated.
+/// Returns the HamNoSys of a token, as written or converted from its SiGML; `None` if it is not notated.
 fn hamnosys(connection: &Connection, token: i64) -> Result<Option<String>> {
     if notations::of_token(connection, token)?.is_none() {
         return Ok(None);
     }
-    // The check of the corpus reports an unreadable notation; the rest can be seen without it.
+    // The check of the corpus reports an unreadable notation; the other details can be shown without it.
     let Ok(notation) = notation::find(connection, &Address::Token(token)) else {
         return Ok(None);
     };
@@ -134,10 +134,10 @@ fn hamnosys(connection: &Connection, token: i64) -> Result<Option<String>> {
 }
 
 impl Corpus {
-    /// Returns all that is known of a token.
+    /// Returns full details of a token.
     ///
     /// # Errors
-    /// Where the address names no token, or the database fails.
+    /// Fails if the address names no token, or the database fails.
     pub fn token_details(&self, address: &Address) -> Result<TokenDetails> {
         let reading = begin_reading(self.store.read())?;
         let row = address::token(&reading, address)?;
@@ -174,10 +174,10 @@ impl Corpus {
         })
     }
 
-    /// Returns all that is known of a sign.
+    /// Returns full details of a sign.
     ///
     /// # Errors
-    /// Where there is no such sign, or the database fails.
+    /// Fails if there is no such sign, or the database fails.
     pub fn sign_details(&self, sign: &Name) -> Result<SignDetails> {
         let reading = begin_reading(self.store.read())?;
         let id = match sign {
@@ -196,10 +196,10 @@ impl Corpus {
         })
     }
 
-    /// Returns all that is known of a signer.
+    /// Returns full details of a signer.
     ///
     /// # Errors
-    /// Where there is no such signer, or the database fails.
+    /// Fails if there is no such signer, or the database fails.
     pub fn signer_details(&self, signer: &Name) -> Result<SignerDetails> {
         let reading = begin_reading(self.store.read())?;
         let signer = address::signer(&reading, signer)?;
@@ -224,7 +224,7 @@ impl Corpus {
     /// Returns the details of a recording's movement and files.
     ///
     /// # Errors
-    /// Where there is no such recording, or the database fails.
+    /// Fails if there is no such recording, or the database fails.
     pub fn recording_details(&self, recording: &Name) -> Result<RecordingDetails> {
         let reading = begin_reading(self.store.read())?;
         let id = address::recording(&reading, recording)?.id;
@@ -260,10 +260,10 @@ impl Corpus {
         Ok(details)
     }
 
-    /// Returns how many tokens have this value of the inventory of that row.
+    /// Returns the number of tokens that have this value of the inventory of that row.
     ///
     /// # Errors
-    /// Where the database fails.
+    /// Fails if the database fails.
     pub fn value_uses(&self, inventory: i64, value: &str) -> Result<u64> {
         signs::tokens_with(self.store.read(), inventory, value)
     }

@@ -1,4 +1,4 @@
-//! Small edits of recordings, signers and signs, each an operation.
+//! Small edits of recordings, signers and signs; each is an operation.
 
 use chereme_motion::Side;
 use rusqlite::Connection;
@@ -19,9 +19,9 @@ use crate::words::counted;
 pub struct RecordingChange {
     /// Its name, which no other recording may have.
     pub name: Option<String>,
-    /// The signer's name, or nobody; a signer that is not there is made.
+    /// The signer's name, or nobody; a missing signer is added.
     pub signer: Option<Option<String>>,
-    /// How it came about.
+    /// Its origin.
     pub origin: Option<Origin>,
     /// The terms under which it may be used, or none.
     pub licence: Option<Option<String>>,
@@ -34,7 +34,7 @@ pub struct RecordingChange {
 pub struct SignerChange {
     /// The name, which no other signer may have.
     pub name: Option<String>,
-    /// The dominant hand, or that it is not known.
+    /// The dominant hand, or nothing if it is unknown.
     pub handedness: Option<Option<Side>>,
     /// Remarks, or none.
     pub notes: Option<Option<String>>,
@@ -43,7 +43,7 @@ pub struct SignerChange {
 /// A change of a sign; a missing field stays as it is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SignChange {
-    /// Its gloss, which no other sign may have; the annotations that say the old one follow.
+    /// Its gloss, which no other sign may have; annotations with the old gloss are changed too.
     pub gloss: Option<String>,
     /// Remarks, or none.
     pub notes: Option<Option<String>>,
@@ -54,10 +54,10 @@ pub struct SignChange {
 }
 
 impl Corpus {
-    /// Changes a recording; tokens follow where the signer changes.
+    /// Changes a recording; if the signer changes, tokens are derived again.
     ///
     /// # Errors
-    /// Where the recording is not there, or the name is taken.
+    /// Fails if the recording does not exist, or the name is taken.
     pub fn change_recording(
         &mut self,
         recording: &Name,
@@ -96,11 +96,11 @@ impl Corpus {
         })
     }
 
-    /// Changes a signer. The tokens of the signer's recordings follow a new handedness, and tiers whose participant
-    /// is the signer follow a new name.
+    /// Changes a signer. Tokens of the signer's recordings are derived again for a new handedness, and tiers with the
+    /// signer as participant get a new name.
     ///
     /// # Errors
-    /// Where the signer is not there, or the name is taken.
+    /// Fails if the signer does not exist, or the name is taken.
     pub fn change_signer(&mut self, signer: &Name, change: &SignerChange) -> Result<SignerRow> {
         self.store.operation("change signer", |connection| {
             let old = address::signer(connection, signer)?;
@@ -137,7 +137,7 @@ impl Corpus {
     /// Makes a token the citation form of its sign, and returns it.
     ///
     /// # Errors
-    /// Where the address names no token.
+    /// Fails if the address names no token.
     pub fn set_citation(&mut self, token: &Address) -> Result<TokenRow> {
         self.store.operation("set citation", |connection| {
             let row = address::token(connection, token)?;
@@ -150,7 +150,7 @@ impl Corpus {
     /// Changes the gloss, notes or translations of a sign, and returns its gloss.
     ///
     /// # Errors
-    /// Where the sign or a translation to remove is not there, or the gloss is another sign's.
+    /// Fails if the sign or a translation to remove does not exist, or the gloss is another sign's.
     pub fn change_sign(&mut self, sign: &Name, change: &SignChange) -> Result<String> {
         self.store.operation("change sign", |connection| {
             let id = match sign {

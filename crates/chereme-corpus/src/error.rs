@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// A failure of work on a corpus.
+/// An error in work on a corpus.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -14,14 +14,14 @@ pub enum Error {
         /// The error of the system.
         source: std::io::Error,
     },
-    /// The file is there but is no corpus, or one that this version cannot open.
+    /// The file exists but is not a corpus, or is one that this version cannot open.
     #[error("{path} cannot be opened as a corpus: {reason}")]
     NotACorpus {
         /// The file.
         path: PathBuf,
-        /// Why not.
+        /// The reason.
         reason: String,
-        /// What would be right.
+        /// The remedy.
         remedy: String,
     },
     /// The database refused or failed.
@@ -30,50 +30,50 @@ pub enum Error {
     /// The search index failed.
     #[error("the search index says: {0}")]
     Index(#[source] Box<dyn std::error::Error + Send + Sync>),
-    /// A stored row or block cannot be what it is.
+    /// A stored row or block with invalid content.
     #[error("{place} is damaged: {reason}")]
     Damaged {
         /// The row or block.
         place: String,
-        /// The fault of the text.
+        /// The fault.
         reason: String,
     },
-    /// Words of the caller that mean nothing here.
+    /// A request of the caller that is invalid in this corpus.
     #[error("{message}")]
     Wrong {
-        /// What is wrong.
+        /// The fault.
         message: String,
-        /// The words, file, line or row it is about.
+        /// The words, file, line or row with the fault.
         place: Option<String>,
-        /// What would be right.
+        /// The remedy.
         remedy: Option<String>,
     },
-    /// Several things of one piece of work cannot be done; nothing was changed.
+    /// Several parts of a request cannot be carried out; nothing was changed.
     #[error("{}", several(errors))]
     Several {
         /// The failed changes, each with its place.
         errors: Vec<Error>,
     },
-    /// The caller asked to stop; nothing was changed.
+    /// The caller stopped the work; nothing was changed.
     #[error("stopped; the corpus is as it was before")]
     Stopped,
 }
 
-/// Why the database refused, where people can do something about it.
+/// A reason for a failure of the database that the user can remove.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cause {
     /// Another program is writing.
     Busy,
     /// The disk is full.
     Full,
-    /// The file or its folder may not be written.
+    /// The file or its folder is not writable.
     ReadOnly,
     /// The file is damaged.
     Damaged,
 }
 
 impl Error {
-    /// Returns why the database refused, where it did and people can do something about it.
+    /// Returns the reason for a failure of the database, if the user can remove it.
     #[must_use]
     pub fn cause(&self) -> Option<Cause> {
         use rusqlite::ErrorCode;
@@ -89,7 +89,7 @@ impl Error {
         })
     }
 
-    /// Returns the failure with that message, about nothing in particular.
+    /// Returns the error with that message, without a place.
     pub fn wrong(message: impl Into<String>) -> Self {
         Self::Wrong {
             message: message.into(),
@@ -98,7 +98,7 @@ impl Error {
         }
     }
 
-    /// Returns the failure to read or write `path`.
+    /// Returns the error for a failure to read or write `path`.
     pub fn file(path: impl Into<PathBuf>, source: std::io::Error) -> Self {
         Self::File {
             path: path.into(),
@@ -106,7 +106,7 @@ impl Error {
         }
     }
 
-    /// Returns the failure about `place`.
+    /// Returns the error with `place` as its place.
     #[must_use]
     pub fn at(self, place: impl Into<String>) -> Self {
         match self {
@@ -121,7 +121,7 @@ impl Error {
         }
     }
 
-    /// Returns the failure with advice.
+    /// Returns the error with advice.
     #[must_use]
     pub fn advise(self, remedy: impl Into<String>) -> Self {
         match self {
@@ -134,7 +134,7 @@ impl Error {
         }
     }
 
-    /// Returns what the failure is about: a file, line, row or the caller's words.
+    /// Returns the place of the error: a file, line, row or the caller's words.
     #[must_use]
     pub fn place(&self) -> Option<String> {
         match self {
@@ -178,7 +178,7 @@ impl Error {
     }
 }
 
-/// The error of the system, in plain words if it is common.
+/// Returns the message of a system error, in plain words if it is common.
 fn said(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "there is nothing of this name".to_owned(),
@@ -187,7 +187,7 @@ fn said(error: &std::io::Error) -> String {
     }
 }
 
-/// The faults of a list, a line each.
+/// Returns the messages of a list of errors, one per line.
 fn several(errors: &[Error]) -> String {
     const SHOWN: usize = 20;
     let mut lines = vec![match errors.len() {

@@ -1,4 +1,4 @@
-//! How a signer's finger angles are read: against the straightest and most bent posture that the takes show.
+//! Corrections of a signer's finger angles, relative to the straightest and most bent postures in the signer's takes.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -14,14 +14,14 @@ use crate::db::recordings::{self, RecordingRow};
 use crate::error::Result;
 use crate::movement::{BLOCK_FRAMES, ChannelGroup, Track};
 
-/// Takes of a signer that are looked at.
+/// The largest number of a signer's takes that are read.
 const TAKES: usize = 12;
-/// Blocks of frames of a take that are looked at, evenly spaced over it.
+/// The number of blocks of frames that are read from a take, evenly spaced over it.
 const BLOCKS: usize = 8;
-/// Frames a second that are looked at.
+/// The frames per second that are read.
 const RATE: f64 = 30.0;
 
-/// The corrections that were found, and the generation of the corpus when they were.
+/// Cache of the corrections, with the generation of the corpus for which they are valid.
 #[derive(Debug, Default)]
 pub(crate) struct Kept {
     generation: i64,
@@ -29,10 +29,10 @@ pub(crate) struct Kept {
 }
 
 impl Corpus {
-    /// Returns how the angles of the right and left fingers of a recording are corrected before handshapes are read
-    /// from them: by the straightest and the most bent posture of each finger, over the captured takes of the same
-    /// signer on the same skeleton, or over the take alone if its signer is not known. Movement that the program made
-    /// is not corrected.
+    /// Returns the corrections for the angles of the right and left fingers of a recording, which are applied before
+    /// handshapes are read from them. They follow from the straightest and the most bent posture of each finger over
+    /// the captured takes of the same signer on the same skeleton, or over the take alone if its signer is unknown.
+    /// Generated movement is not corrected.
     ///
     /// # Errors
     /// If there is no such recording, or rows or blocks are damaged.
@@ -43,7 +43,7 @@ impl Corpus {
     }
 }
 
-/// Returns the corrections of a recording; those found before serve until the corpus changes.
+/// Returns the corrections of a recording; they are cached until the corpus changes.
 pub(crate) fn corrections(
     connection: &Connection,
     kept: &RefCell<Kept>,
@@ -86,7 +86,7 @@ pub(crate) fn corrections(
     Ok(found)
 }
 
-/// Adds a take, without odd frames at its ends.
+/// Adds a take to the ranges, without odd frames at its ends.
 fn observe(connection: &Connection, track: &Track, ranges: &mut [HandRange; 2]) -> Result<()> {
     let anatomy = track.anatomy(connection)?;
     if Side::BOTH.iter().all(|&side| !anatomy.has_fingers(side)) {

@@ -10,30 +10,30 @@ pub use crate::db::rows::{InventoryInfo, SignerInfo};
 use crate::db::{OperationRow, SCHEMA_VERSION, attributes, info as rows};
 use crate::error::Result;
 
-/// What is in a corpus.
+/// Overview of the contents of a corpus.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Info {
     /// The file.
     pub path: PathBuf,
-    /// How large it is.
+    /// Its size in bytes.
     pub file_bytes: u64,
     /// The version of its schema.
     pub schema_version: i32,
     /// How many rows there are of each kind.
     pub counts: BTreeMap<&'static str, u64>,
-    /// Recordings by how they came about.
+    /// Number of recordings by origin.
     pub recordings: BTreeMap<String, u64>,
-    /// Tracks by kind: `skeleton`, `markers`, `curves`, `media`.
+    /// Number of tracks by kind: `skeleton`, `markers`, `curves`, `media`.
     pub tracks: BTreeMap<String, u64>,
-    /// Tokens by how they came about.
+    /// Number of tokens by origin.
     pub tokens: BTreeMap<String, u64>,
-    /// Tiers by what they say.
+    /// Number of tiers by role.
     pub tiers: BTreeMap<String, u64>,
     /// Hours of movement.
     pub motion_hours: f64,
     /// Frames of movement.
     pub motion_frames: u64,
-    /// Bytes of the file by what they hold: `motion`, `history`, `search`, `sources`, `rest`.
+    /// Sizes of the file's contents in bytes: `motion`, `history`, `search`, `sources`, `rest`.
     pub bytes: BTreeMap<&'static str, u64>,
     /// The signers.
     pub signers: Vec<SignerInfo>,
@@ -41,28 +41,28 @@ pub struct Info {
     pub inventories: Vec<InventoryInfo>,
     /// The properties of signs from tables, besides their components.
     pub attributes: Vec<AttributeInfo>,
-    /// What was done last.
+    /// The newest operation.
     pub last_operation: Option<OperationRow>,
 }
 
-/// An attribute of signs at a glance.
+/// Summary of an attribute of signs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AttributeInfo {
     /// Its name, the title of its column.
     pub name: String,
     /// How many entries have it.
     pub entries: u64,
-    /// The least number, where all of them are numbers.
+    /// The least number, if all values are numbers.
     pub least: Option<f64>,
-    /// The greatest number, where all of them are numbers.
+    /// The greatest number, if all values are numbers.
     pub greatest: Option<f64>,
 }
 
 impl Corpus {
-    /// Returns what is in the corpus.
+    /// Returns an overview of the contents of the corpus.
     ///
     /// # Errors
-    /// Where the database fails.
+    /// Fails if the database fails.
     pub fn info(&self) -> Result<Info> {
         let connection = self.store.read();
         let motion = rows::motion(connection)?;

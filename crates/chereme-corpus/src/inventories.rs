@@ -1,4 +1,4 @@
-//! The inventories of a corpus: the built-in ones, and those that came with its files.
+//! The inventories of a corpus: the built-in ones, and those from imported files.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ pub(crate) fn store_builtin(connection: &Connection) -> Result<()> {
     Ok(())
 }
 
-/// Writes an inventory, and returns its row; values that the stored one has beyond it stay.
+/// Writes an inventory, and returns its row; further values of the stored inventory remain.
 pub(crate) fn store(connection: &Connection, inventory: &Inventory) -> Result<i64> {
     let place = || format!("inventory {:?}", inventory.id);
     let mut document: Value = serde_json::from_str(&inventory.to_json())
@@ -53,10 +53,10 @@ pub(crate) fn store(connection: &Connection, inventory: &Inventory) -> Result<i6
     Ok(id)
 }
 
-/// Returns an inventory that a file brings with the values that the corpus has of it already.
+/// Returns an inventory from a file, joined with the values that the corpus already has in it.
 ///
-/// Ids that differ in case or accents are two values, unless one of them is a further spelling of a value that is
-/// there; a value or a name that means another value is left out.
+/// Ids that differ in case or accents are two values, unless one of them is a further spelling of an existing value. A
+/// value or a name that would mean a different existing value is left out.
 pub(crate) fn joined(before: Option<&Inventory>, new: Inventory) -> Inventory {
     let mut all = before.map_or_else(Vec::new, |before| before.values.clone());
     let mut meant: BTreeMap<String, String> = BTreeMap::new();
@@ -105,7 +105,7 @@ pub(crate) fn load(connection: &Connection) -> Result<Vec<StoredInventory>> {
         .collect()
 }
 
-/// Returns the inventories that the tiers of a recording have, oldest first.
+/// Returns the inventories of a recording's tiers, oldest first.
 pub(crate) fn load_of(connection: &Connection, recording: i64) -> Result<Vec<StoredInventory>> {
     rows::inventories(connection, Some(recording))?
         .into_iter()

@@ -1,6 +1,6 @@
-//! Searches that are kept in the corpus under a name, so that they travel with it.
+//! Searches that are saved in the corpus under a name, so that they travel with it.
 //!
-//! Wherever a query is asked, `@NAME` in it stands for the one that is kept under that name.
+//! In every query, `@NAME` stands for the search saved under that name.
 
 use chereme_sign::query::Query;
 use chereme_sign::text::{did_you_mean, edit_distance, fold, nearest};
@@ -13,18 +13,18 @@ use crate::error::{Error, Result};
 use crate::search::wrong;
 
 impl Corpus {
-    /// Returns the searches that are kept, by name.
+    /// Returns the saved searches, by name.
     ///
     /// # Errors
-    /// Where the database fails.
+    /// Fails if the database fails.
     pub fn kept_searches(&self) -> Result<Vec<KeptSearch>> {
         searches(self.store.read())
     }
 
-    /// Keeps searches under their names, each in place of the one that had its name.
+    /// Saves searches under their names; a search replaces the one that had its name.
     ///
     /// # Errors
-    /// Where a name is empty or a query cannot be understood; nothing is kept then.
+    /// Fails if a name is empty or a query cannot be understood; nothing is saved then.
     pub fn keep_searches(&mut self, searches: &[KeptSearch]) -> Result<()> {
         self.store.operation("keep search", |connection| {
             for search in searches {
@@ -43,7 +43,7 @@ impl Corpus {
         })
     }
 
-    /// Gives a kept search another name.
+    /// Gives a saved search another name.
     ///
     /// # Errors
     /// Fails if no search has that name, or if the new name is empty or taken.
@@ -66,7 +66,7 @@ impl Corpus {
         })
     }
 
-    /// Keeps a search no longer, and returns it.
+    /// Removes a saved search, and returns it.
     ///
     /// # Errors
     /// Fails if no search has that name.
@@ -80,19 +80,19 @@ impl Corpus {
     }
 }
 
-/// Returns the searches that are kept, by name.
+/// Returns the saved searches, by name.
 pub(crate) fn searches(connection: &Connection) -> Result<Vec<KeptSearch>> {
     let all = rows::searches(connection)?.into_iter();
     Ok(all.map(|(_, search)| search).collect())
 }
 
-/// How many kept searches may stand inside each other.
+/// The depth to which saved searches may name one another.
 const MOST_INSIDE: usize = 16;
 
-/// Reads a query, with the searches that `@NAME` stands for in their place.
+/// Reads a query, and replaces each `@NAME` by the search that it stands for.
 ///
 /// # Errors
-/// Where it cannot be understood, or a search is not there or stands inside itself.
+/// Fails if it cannot be understood, or a saved search does not exist or names itself.
 pub(crate) fn parsed(connection: &Connection, query: &str) -> Result<Query> {
     parsed_inside(connection, query, 0)
 }
@@ -104,7 +104,7 @@ fn parsed_inside(connection: &Connection, query: &str, inside: usize) -> Result<
             .at(query)
             .advise("keep searches that do not name each other in a circle"));
     }
-    // A name with blanks is understood without quotes if it is the whole query.
+    // A name with blanks needs no quotes if it is the whole query.
     if let Some(name) = query.trim().strip_prefix('@')
         && let Some((_, search)) = found(connection, name)?
     {
@@ -117,7 +117,7 @@ fn parsed_inside(connection: &Connection, query: &str, inside: usize) -> Result<
     })
 }
 
-/// Returns the text of a query that stands for itself, without the names of others.
+/// Returns the text of a query with all names of saved searches replaced.
 fn whole(connection: &Connection, query: &str) -> Result<String> {
     let filled = parsed(connection, query)?;
     match Query::parse(query) {
@@ -170,11 +170,11 @@ fn there(connection: &Connection, name: &str) -> Result<(i64, KeptSearch)> {
     )
 }
 
-/// How many kept searches are named where one is asked for that is not there.
+/// The number of saved searches that are listed if the wanted one does not exist.
 const TOLD: usize = 8;
 
-/// Returns the kept search that a person who wrote `name` most likely meant: one that is a slip or two away,
-/// has the name in its own, or half of its letters.
+/// Returns the saved search that the user most likely meant by `name`: one whose name differs by a slip or two,
+/// contains `name`, or shares half of its letters.
 #[must_use]
 pub fn kept_like<'a>(name: &str, searches: &'a [KeptSearch]) -> Option<&'a KeptSearch> {
     let name = name.trim().trim_start_matches('@');
@@ -314,7 +314,7 @@ mod tests {
         let error = corpus.search("not @chim", &SearchOptions::default());
         let error = error.expect_err("not there");
         assert!(error.to_string().contains("did you mean"), "{error}");
-        // A search stands for itself: it does not change with those that it was made of.
+        // A saved search stands for itself: it does not change with those from which it was composed.
         let both = [kept("both", "@chin gloss=A")];
         corpus.keep_searches(&both).expect("kept");
         corpus.forget_search("chin").expect("forgotten");

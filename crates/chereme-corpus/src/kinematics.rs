@@ -1,4 +1,4 @@
-//! Curves of how hands move in part of a recording.
+//! Kinematic curves of the hands in part of a recording.
 
 use std::ops::Range;
 
@@ -11,32 +11,32 @@ use crate::curves;
 use crate::error::Result;
 use crate::movement::{ChannelGroup, Track};
 
-/// How far around the wanted frames movement is looked at, in seconds, so that curves of neighbouring
-/// parts fit together.
+/// The time around the requested frames that is read too, in seconds, so that curves of neighbouring parts fit
+/// together.
 const AROUND: f64 = 0.5;
 
 /// Curves of a part of a recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curves {
-    /// The frames they are of, counted from the recording's first.
+    /// The range of frames, counted from the recording's first.
     pub frames: Range<usize>,
     /// The rate of the frames.
     pub rate: Rate,
-    /// Where the first frame of the recording lies on its clock, in microseconds.
+    /// The time of the recording's first frame on its clock, in microseconds.
     pub offset_us: i64,
-    /// A number for every frame, or `None` if the skeleton does not allow one.
+    /// A number for every frame, or `None` if the skeleton does not allow it to be computed.
     pub kinematics: Kinematics,
-    /// The frames at which a wrist is slowest between two strokes, in order, of both hands.
+    /// The frames at which either wrist is slowest between two strokes, in order.
     pub minima: Vec<usize>,
     /// The scalar curves that are stored beside the movement, such as those of its non-manuals.
     pub stored: Vec<Curve>,
 }
 
 impl Corpus {
-    /// Returns curves of the frames that start in `span` of the recording of that row.
+    /// Returns the curves for the frames that start within `span` of the recording of that row.
     ///
     /// # Errors
-    /// Where there is no such recording, it holds no movement, or the database fails.
+    /// Fails if there is no such recording, it holds no movement, or the database fails.
     pub fn curves(&self, recording: i64, span: Span) -> Result<Curves> {
         let connection = self.store.read();
         let track = Track::of(connection, recording)?;

@@ -1,7 +1,7 @@
-//! A corpus opened for work: SQLite, search index, history, every use case.
+//! A corpus opened for work: SQLite, search index, history, and all use cases.
 //!
-//! [`Corpus`] is the single door for every skin. Each change is one named operation in one
-//! transaction, with its changeset. Nothing here prints, prompts, or reads the environment.
+//! [`Corpus`] is the only entry point for the user interfaces. Each change is one named operation in one transaction,
+//! with its changeset. Nothing here prints, prompts, or reads the environment.
 
 mod address;
 mod animate;
@@ -158,21 +158,21 @@ pub use values::MergedValues;
 pub struct Corpus {
     store: Store,
     learned: RefCell<sources::Learned>,
-    /// The inventories as they were at that generation.
+    /// Cache of the inventories, with the generation for which they are valid.
     inventories: RefCell<Option<(i64, Arc<Vec<StoredInventory>>)>>,
-    /// The corrections of finger angles by recording.
+    /// Cache of the corrections of finger angles by recording.
     hands: RefCell<hands::Kept>,
-    /// The recipe that is worked on.
+    /// The recipe being drafted.
     drafted: recombine::Drafted,
-    /// Expressions of faces as numbers, as they were after the newest operation.
+    /// Cache of facial expressions as numbers, valid after the newest operation.
     faces: RefCell<face::Pool>,
 }
 
 impl Corpus {
-    /// Makes an empty corpus at `path` for `author` to work with.
+    /// Creates an empty corpus at `path`; `author` is recorded with every change.
     ///
     /// # Errors
-    /// [`Error::File`] where something is there already or the folder is missing.
+    /// [`Error::File`] if something exists there already or the folder is missing.
     pub fn create(path: &Path, author: &str) -> Result<Self> {
         Ok(Self {
             store: Store::create(path, author, inventories::store_builtin)?,
@@ -184,7 +184,7 @@ impl Corpus {
         })
     }
 
-    /// Opens the corpus at `path` for `author` to work with.
+    /// Opens the corpus at `path`; `author` is recorded with every change.
     ///
     /// # Errors
     /// [`Error::File`] if the file does not exist, [`Error::NotACorpus`] if it is another kind of file.
@@ -199,21 +199,21 @@ impl Corpus {
         })
     }
 
-    /// Returns the file.
+    /// Returns the path of the file.
     #[must_use]
     pub fn path(&self) -> &Path {
         self.store.path()
     }
 
-    /// Takes the newest operation back that stands, and returns the operation that did so.
+    /// Undoes the newest operation that is in effect, and returns the operation that did so.
     ///
     /// # Errors
-    /// Fails if nothing is left to undo, or if another change touched a row of the operation since.
+    /// Fails if nothing is left to undo, or if another change has touched a row of the operation since.
     pub fn undo(&mut self) -> Result<OperationRow> {
         self.undo_told(&mut Progress::new(&mut unheard))
     }
 
-    /// Does what [`undo`](Self::undo) does, and can be stopped.
+    /// Undoes as [`undo`](Self::undo) does, and can be stopped.
     ///
     /// # Errors
     /// Those of [`undo`](Self::undo), and [`Error::Stopped`].
@@ -221,7 +221,7 @@ impl Corpus {
         self.store.undo(progress)
     }
 
-    /// Does the operation again that was undone last, and returns the operation that did so.
+    /// Redoes the operation that was undone last, and returns the operation that did so.
     ///
     /// # Errors
     /// Fails if nothing is left to redo.
@@ -229,7 +229,7 @@ impl Corpus {
         self.redo_told(&mut Progress::new(&mut unheard))
     }
 
-    /// Does what [`redo`](Self::redo) does, and can be stopped.
+    /// Redoes as [`redo`](Self::redo) does, and can be stopped.
     ///
     /// # Errors
     /// Those of [`redo`](Self::redo), and [`Error::Stopped`].
@@ -240,7 +240,7 @@ impl Corpus {
     /// Returns the newest operations first, at most `limit` of them.
     ///
     /// # Errors
-    /// Where the database fails.
+    /// Fails if the database fails.
     pub fn log(&self, limit: usize) -> Result<Vec<OperationRow>> {
         self.store.log(limit)
     }

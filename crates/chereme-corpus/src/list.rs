@@ -1,4 +1,4 @@
-//! Rows of the corpus as lists, filtered and sorted.
+//! Lists of rows of the corpus, filtered and sorted.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -20,7 +20,7 @@ use crate::db::tiers;
 use crate::error::{Error, Result};
 use crate::notation;
 
-/// What to list.
+/// The kind of rows in a list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ListKind {
     /// Recordings.
@@ -41,9 +41,9 @@ pub enum ListKind {
     Values,
     /// Signers.
     Signers,
-    /// Searches that are kept.
+    /// Saved searches.
     Searches,
-    /// Operations, the newest first.
+    /// Operations, newest first.
     Operations,
 }
 
@@ -115,7 +115,7 @@ impl ListKind {
         }
     }
 
-    /// Returns the column of that name; `recording` of recordings is their name, and so on.
+    /// Returns the column of that name; for recordings `recording` means their name, and so on.
     fn column(self, name: &str) -> Result<usize> {
         let columns = self.table().columns;
         let name = name.trim();
@@ -157,27 +157,27 @@ impl FromStr for ListKind {
     }
 }
 
-/// Which rows to list, and in which order.
+/// Filter and order of a list.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ListFilter {
-    /// Columns and what they must fit.
+    /// Columns and their conditions.
     ///
-    /// A text column fits a pattern such as `BO*`, whatever its case and accents; a number a number,
-    /// `>5`, `>=5`, `<5`, `<=5` or `2..5`; a flag `yes` or `no`; and any column `none` where it holds
-    /// nothing. `recording`, `signer` and `tier` take addresses such as `recording:3` too.
+    /// The condition of a text column is a pattern such as `BO*`, ignoring case and accents; of a number a number,
+    /// `>5`, `>=5`, `<5`, `<=5` or `2..5`; of a flag `yes` or `no`. `none` means an empty cell in any column.
+    /// `recording`, `signer` and `tier` also accept addresses such as `recording:3`.
     pub columns: Vec<(String, String)>,
     /// The column to sort by.
     pub sort: Option<String>,
-    /// Whether the greatest comes first.
+    /// Whether the greatest value comes first.
     pub descending: bool,
     /// The most rows to list; all by default.
     pub limit: Option<usize>,
-    /// How many rows to leave out before.
+    /// The number of rows to skip.
     pub offset: usize,
 }
 
 impl ListFilter {
-    /// Returns the filter that wants `pattern` of `column` too.
+    /// Returns the filter with the condition `pattern` on `column` added.
     #[must_use]
     pub fn with(mut self, column: impl Into<String>, pattern: impl Into<String>) -> Self {
         self.columns.push((column.into(), pattern.into()));
@@ -185,10 +185,10 @@ impl ListFilter {
     }
 }
 
-/// Rows as they are shown.
+/// Rows for display.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Listing {
-    /// How many rows fit the filter, whatever part of them is listed.
+    /// The number of rows that meet the conditions, including those that are not listed.
     pub total: u64,
     /// The rows, each with every column of [`ListKind::columns`] in that order.
     pub rows: Vec<Map<String, Value>>,
@@ -198,7 +198,7 @@ impl Corpus {
     /// Lists rows of one kind.
     ///
     /// # Errors
-    /// Where a column is not there or a pattern does not suit it.
+    /// Fails if a column does not exist or a pattern does not suit its type.
     pub fn list(&self, kind: ListKind, filter: &ListFilter) -> Result<Listing> {
         let connection = self.store.read();
         let mut wanted = Wanted {
@@ -265,7 +265,7 @@ impl Corpus {
         }
     }
 
-    /// The row that an address such as `recording:3` names, in a column of such rows.
+    /// Returns the row that an address such as `recording:3` names, if the column holds such rows.
     fn addressed(&self, kind: ListKind, column: &str, pattern: &str) -> Result<Option<i64>> {
         let connection = self.store.read();
         let of = |what: &str| column == what || (column == "name" && kind.singular() == what);
@@ -323,7 +323,7 @@ fn between(pattern: &str) -> Option<Test> {
     Some(Test::Between(least, most))
 }
 
-/// Returns the values of a token by field, such as `initial.right.placement`; a list if there are several. A value
+/// Returns the values of a token by field, such as `initial.right.placement`; a list if a field has several. A value
 /// that does not apply is `n/a`, an unclear one `unclear`.
 fn components(values: &[TokenValueRow]) -> Value {
     let mut map = Map::new();
@@ -349,8 +349,8 @@ fn components(values: &[TokenValueRow]) -> Value {
     Value::Object(map)
 }
 
-/// Puts the notation of each token that `notation` names in its place, as JSON: `{"token", "system",
-/// "file", "line", "text", "document"}`.
+/// Replaces each token in the column `notation` by its notation as JSON: `{"token", "system", "file", "line", "text",
+/// "document"}`.
 fn add_notations(connection: &Connection, rows: &mut [Map<String, Value>]) -> Result<()> {
     let token = |row: &Map<String, Value>| row.get("notation").and_then(Value::as_i64);
     let tokens: Vec<i64> = rows.iter().filter_map(token).collect();
@@ -363,7 +363,7 @@ fn add_notations(connection: &Connection, rows: &mut [Map<String, Value>]) -> Re
     Ok(())
 }
 
-/// Returns a cell of a row as people read it in a table.
+/// Returns a cell of a row as text for a table.
 #[must_use]
 pub fn cell_text(value: &Value) -> String {
     match value {
@@ -393,8 +393,8 @@ pub fn cell_text(value: &Value) -> String {
     }
 }
 
-/// Returns fields with their values as people read them in a table: successive values of a component
-/// in one, such as `right.configuration=S>C`, values at a time as `arc+twisting`.
+/// Returns fields with their values as text for a table: successive values of a component together, such as
+/// `right.configuration=S>C`, simultaneous values as `arc+twisting`.
 #[must_use]
 pub fn components_text<'v>(fields: impl IntoIterator<Item = (&'v String, &'v Value)>) -> String {
     let mut cells: Vec<(String, BTreeMap<_, String>)> = Vec::new();

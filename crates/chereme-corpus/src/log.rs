@@ -1,4 +1,4 @@
-//! The history in detail: the rows that an operation changed, from what to what.
+//! The history in detail: the rows that an operation changed, with their old and new values.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use crate::db::OperationRow;
 use crate::db::history::{self, RowChange};
 use crate::error::{Error, Result};
 
-/// The tables whose rows people know, with the noun for one of them and the column that names it.
+/// The tables that the user knows, each with the noun for a row and the column with its name.
 const KNOWN: [(&str, &str, &str); 11] = [
     ("annotation", "annotation", "value"),
     ("tier", "tier", "name"),
@@ -27,7 +27,7 @@ const KNOWN: [(&str, &str, &str); 11] = [
     ("notation", "notation", "system"),
 ];
 
-/// Columns that say nothing to people.
+/// Columns that are of no interest to the user.
 const SILENT: [&str; 8] = [
     "id",
     "uid",
@@ -44,15 +44,15 @@ const SILENT: [&str; 8] = [
 pub struct OperationDetail {
     /// The operation.
     pub operation: OperationRow,
-    /// How many rows of things that people know it changed, whatever part of them is listed.
+    /// The number of changed rows in tables that the user knows, including those that are not listed.
     pub total: u64,
-    /// How many rows it changed, by table; rows that follow from others are among them.
+    /// The number of changed rows by table, including derived rows.
     pub tables: BTreeMap<String, u64>,
     /// The changes, in order.
     pub changes: Vec<Changed>,
 }
 
-/// A row that an operation changed.
+/// A row changed by an operation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Changed {
     /// The kind of thing, such as `annotation`.
@@ -65,7 +65,7 @@ pub struct Changed {
     pub place: Option<String>,
     /// The kind of change.
     pub kind: ChangeKind,
-    /// Its columns that differ; for what was added or removed, all that it says.
+    /// Its columns that differ; for an added or removed row, all its contents.
     pub fields: Vec<FieldChange>,
 }
 
@@ -73,18 +73,18 @@ pub struct Changed {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ChangeKind {
-    /// It was not there before.
+    /// The row is new.
     Added,
-    /// It differs from before.
+    /// The row has other values.
     Changed,
-    /// It is there no longer.
+    /// The row was removed.
     Removed,
 }
 
 /// A column of a row before and after.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FieldChange {
-    /// The column, such as `start_us`; of a reference the name of the thing, such as `signer`.
+    /// The column, such as `start_us`; for a reference the kind of row that it refers to, such as `signer`.
     pub field: String,
     /// The value before.
     pub from: Value,
@@ -93,10 +93,10 @@ pub struct FieldChange {
 }
 
 impl Corpus {
-    /// Returns what an operation changed, at most `limit` of its changes.
+    /// Returns the changes of an operation, at most `limit` of them.
     ///
     /// # Errors
-    /// Where there is no such operation, or its changeset cannot be read.
+    /// Fails if there is no such operation, or its changeset cannot be read.
     pub fn operation(&self, id: i64, limit: usize) -> Result<OperationDetail> {
         let connection = self.store.read();
         let operation = history::log(connection, usize::MAX)?
@@ -128,16 +128,17 @@ impl Corpus {
         })
     }
 
-    /// Returns how many operations stand and can be undone, and how many can be redone.
+    /// Returns the number of operations that are in effect and can be undone, and the number of those that can be
+    /// redone.
     ///
     /// # Errors
-    /// Where the database fails.
+    /// Fails if the database fails.
     pub fn steps(&self) -> Result<(usize, usize)> {
         history::steps(self.store.read())
     }
 }
 
-/// The rows of an operation as they were before the first change of each and are after the last.
+/// The rows of an operation, each as before its first change and after its last.
 #[derive(Default)]
 struct Rows {
     order: Vec<(usize, i64)>,
@@ -166,7 +167,7 @@ impl Rows {
         }
     }
 
-    /// The rows that differ in the end, by kind of thing.
+    /// Returns the rows whose state at the end differs from that at the beginning, by table.
     fn known(&self) -> impl Iterator<Item = (usize, &Value, &Value)> {
         self.order.iter().filter_map(|key| {
             let (before, after) = self.images.get(key)?;
@@ -174,7 +175,7 @@ impl Rows {
         })
     }
 
-    /// Returns the name of a row of `table` as it was in this operation, else as it is now.
+    /// Returns the name of a row of `table` at the time of this operation, otherwise its present name.
     fn name(&self, connection: &Connection, table: &str, id: i64) -> Result<Option<String>> {
         let known = KNOWN.iter().position(|known| known.0 == table);
         let image = known.and_then(|known| {
@@ -188,7 +189,7 @@ impl Rows {
         }
     }
 
-    /// Returns the row that a row refers to, as it was in this operation, else as it is now.
+    /// Returns the row that a row refers to, at the time of this operation, otherwise at present.
     fn refers(
         &self,
         connection: &Connection,
@@ -293,7 +294,7 @@ fn changed(
 }
 
 impl Changed {
-    /// Returns the change as a line for people.
+    /// Returns the change as a line of text for the user.
     #[must_use]
     pub fn sentence(&self) -> String {
         let own = |field: &&FieldChange| {

@@ -1,4 +1,4 @@
-//! A map of the signs: every sign has a place in a plane, and signs that are alike lie near each other.
+//! A map of the signs: every sign has a position in a plane, and similar signs lie near each other.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write as _;
@@ -21,7 +21,7 @@ use crate::search::SearchOptions;
 /// The signs of a map and the components that place them.
 #[derive(Debug, Clone, Default)]
 pub struct MapOptions {
-    /// The components that count, each as much as the others; all four of the hands if empty.
+    /// The components that are compared, with equal weight; all four of the hands if empty.
     pub components: Vec<Component>,
     /// The tokens to place, as a query; the citation forms of all signs if `None`.
     pub query: Option<String>,
@@ -45,17 +45,17 @@ pub struct MapPoint {
     pub token: i64,
     /// Its gloss.
     pub gloss: String,
-    /// How it came about.
+    /// Its origin.
     pub origin: Origin,
-    /// The place from the left edge, 0 to 1.
+    /// The distance from the left edge, 0 to 1.
     pub x: f32,
-    /// The place from the top edge, 0 to 1.
+    /// The distance from the top edge, 0 to 1.
     pub y: f32,
-    /// The tokens most like it, the nearest first.
+    /// The most similar tokens, nearest first.
     pub near: Vec<i64>,
 }
 
-/// The neighbours that place a sign, and those that a point names.
+/// The number of neighbours that determine the position of a sign, and of those that a point lists.
 const NEIGHBOURS: usize = 15;
 const NAMED: usize = 5;
 /// The most tokens on one map.
@@ -66,8 +66,8 @@ const WEIGHTS: (f32, f32, f32) = (1.0, 0.8, 0.6);
 const SIDE: (f32, f32) = (1600.0, 60.0);
 
 impl Corpus {
-    /// Places signs in a plane by their coding. Two signs are alike if they share values, features of handshapes, or wider places;
-    /// each component counts as much as the others. The same corpus gives the same map.
+    /// Arranges signs in a plane by their coding. Two signs are similar if they share values, features of handshapes,
+    /// or wider placements; all components have equal weight. The same corpus gives the same map.
     ///
     /// # Errors
     /// [`Error::Wrong`] if the query cannot be read, if fewer than two tokens are coded for the components, or if there are more
@@ -237,8 +237,8 @@ fn escaped(text: &str) -> String {
         .collect()
 }
 
-/// Returns the features of a coding: its values, their features and the values that contain them. Those of each component have
-/// length 1 together.
+/// Returns the features of a coding: its values, their features and the values that contain them. The features of each
+/// component together have length 1.
 fn features(
     coding: &BTreeMap<String, String>,
     components: &[Component],

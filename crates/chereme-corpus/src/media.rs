@@ -1,6 +1,6 @@
 //! Media files of recordings, such as the film of a take: their paths, and new links.
 //!
-//! A corpus keeps where a file lies and never the file itself.
+//! A corpus stores the path of a file and never the file itself.
 
 use std::path::{Path, PathBuf};
 
@@ -14,11 +14,11 @@ use crate::error::{Error, Result};
 /// A change of a recording's media.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum MediaChange {
-    /// A file goes with it, where a path or address says.
+    /// Adds the file at a path or address.
     Add(String),
-    /// The file of the track of that row lies elsewhere.
+    /// Sets another path for the track of that row.
     Move(i64, String),
-    /// The track of that row goes.
+    /// Removes the track of that row.
     Remove(i64),
 }
 
@@ -29,15 +29,15 @@ pub struct MediaPlace {
     pub track: MediaTrackRow,
     /// Its path, or the first path that was tried; `None` for an address on the network.
     pub path: Option<PathBuf>,
-    /// Whether a file is there.
+    /// Whether the file exists.
     pub is_there: bool,
 }
 
 impl Corpus {
-    /// Changes which media files go with a recording, and returns its media tracks.
+    /// Changes the media files of a recording, and returns its media tracks.
     ///
     /// # Errors
-    /// Where the recording is not there, a track is not one of its media tracks, or a place is blank.
+    /// Fails if the recording does not exist, a track is not one of its media tracks, or a path is blank.
     pub fn change_media(
         &mut self,
         recording: &Name,
@@ -84,11 +84,11 @@ impl Corpus {
         })
     }
 
-    /// Returns the media files of a recording, and whether they were found: at their path, beside the corpus, or by
-    /// their names in the corpus's folder.
+    /// Returns the media files of a recording, and whether they were found: at their path, at the place of import, or
+    /// by name in the corpus's folder and below.
     ///
     /// # Errors
-    /// Where the recording is not there, or the database fails.
+    /// Fails if the recording does not exist, or the database fails.
     pub fn media(&self, recording: &Name) -> Result<Vec<MediaPlace>> {
         let connection = self.store.read();
         let row = address::recording(connection, recording)?;
@@ -107,15 +107,16 @@ impl MediaTrackRow {
     }
 }
 
-/// Looks for the file of a media track of the corpus at `corpus`: at its path, where it was imported from, then by its
-/// name next to the corpus and in folders there; also as an MP4 of the same name, since people convert films that no player here knows.
+/// Looks for the file of a media track of the corpus at `corpus`: at its path, at the place from which it was imported,
+/// then by its name in the corpus's folder and below. A file of the same name with the ending of MP4 is accepted too,
+/// since users convert films that no player here can decode.
 #[must_use]
 pub fn find_media(track: MediaTrackRow, corpus: &Path) -> MediaPlace {
     let folder = corpus.parent().unwrap_or(Path::new(""));
     let candidates = candidates(&track.url, folder);
     let there = candidates.iter().find(|path| path.is_file()).cloned();
     let there = there.or_else(|| {
-        // An import has seen the file at its place, which annotation files rarely know.
+        // An import has seen the file at this place, which annotation files rarely contain.
         let imported = track.imported.iter();
         let imported = imported.filter(|it| is_same_film(&track, &file_name(it)));
         imported
@@ -148,11 +149,11 @@ pub fn find_media(track: MediaTrackRow, corpus: &Path) -> MediaPlace {
     }
 }
 
-/// Most entries of folders that are looked at for a missing file, and how deep folders are.
+/// The largest number of folder entries that are searched for a missing file, and the depth of folders.
 const MOST_ENTRIES: usize = 5000;
 const DEEPEST: usize = 3;
 
-/// Returns files in a folder and the folders in it, the nearest first.
+/// Returns files in a folder and the folders below, nearest first.
 fn files_near(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -177,7 +178,7 @@ fn files_near(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Returns the name of a file that a person linked, another than those of files that transcripts name.
+/// Returns the track name of a file that a person linked; it differs from those of files that transcripts name.
 fn linked(number: u32) -> String {
     format!("linked {number}")
 }
@@ -189,11 +190,11 @@ fn said(url: &str) -> Result<String> {
     }
 }
 
-/// Returns where the file of a URL or path may lie, the likeliest first.
+/// Returns the possible paths for a URL or path, most likely first.
 fn candidates(url: &str, folder: &Path) -> Vec<PathBuf> {
     let local = match url.split_once("://") {
         Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => {
-            // Between the slashes stands a machine, which is this one.
+            // The host between the slashes is this computer.
             decoded(&rest[rest.find('/').unwrap_or(0)..])
         }
         Some(_) => return Vec::new(),
@@ -204,7 +205,7 @@ fn candidates(url: &str, folder: &Path) -> Vec<PathBuf> {
     };
     let path = Path::new(&local);
     let mut all = vec![folder.join(path)];
-    // Paths of other systems have names too.
+    // Paths of other systems end in a file name too.
     let name = local.rsplit(['/', '\\']).next().unwrap_or_default();
     if !name.is_empty() {
         all.push(folder.join(name));
@@ -212,7 +213,7 @@ fn candidates(url: &str, folder: &Path) -> Vec<PathBuf> {
     all
 }
 
-/// Returns a URL's path with `%20` and the like as what they stand for.
+/// Returns a URL's path with escapes such as `%20` decoded.
 fn decoded(text: &str) -> String {
     let bytes = text.as_bytes();
     let mut out = Vec::with_capacity(bytes.len());
@@ -228,18 +229,18 @@ fn decoded(text: &str) -> String {
     String::from_utf8_lossy(&out).into_owned()
 }
 
-/// Returns whether a path or URL ends as those of films do.
+/// Returns whether a path or URL has the ending of a film.
 #[must_use]
 pub fn is_film(url: &str) -> bool {
     media_type(url).is_some_and(|kind| kind.starts_with("video"))
 }
 
-/// Returns the name of the file at the end of a path or URL of any system.
+/// Returns the file name at the end of a path or URL of any system.
 pub(crate) fn file_name(url: &str) -> String {
     decoded(url.rsplit(['/', '\\']).next().unwrap_or(url))
 }
 
-/// Returns whether a file of that name holds the film of a track; a converted film keeps its name but for the ending.
+/// Returns whether a file of that name may hold the film of a track; a converted film differs only in its ending.
 pub(crate) fn is_same_film(track: &MediaTrackRow, name: &str) -> bool {
     let own = file_name(&track.url);
     let stem = |name: &str| {

@@ -1,4 +1,4 @@
-//! The movement of a recording: stored by channel group and block, read back in part.
+//! The movement of a recording: stored by channel group and block, so that parts of it can be read.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -23,10 +23,10 @@ use crate::db::recordings::{self, MotionTrackRow};
 use crate::db::tracks;
 use crate::error::{Error, Result};
 
-/// How many frames a block holds: long enough to be coded well, short enough to be read alone.
+/// The number of frames in a block: enough for good compression, few enough to be read alone.
 pub(crate) const BLOCK_FRAMES: usize = 512;
 
-/// The joints that are stored together, so that one hand is read alone.
+/// Joints that are stored together, so that for example one hand can be read alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ChannelGroup {
     /// The joints below the right wrist.
@@ -37,7 +37,7 @@ pub enum ChannelGroup {
     RightArm,
     /// From the left collar bone to the wrist.
     LeftArm,
-    /// Neck, head and all above.
+    /// Neck, head and everything above.
     Head,
     /// Everything else.
     Rest,
@@ -68,7 +68,7 @@ impl ChannelGroup {
     }
 }
 
-/// Which joints lie in which group.
+/// Returns the joints of each group.
 pub(crate) fn channel_groups(
     skeleton: &Skeleton,
     anatomy: &Anatomy,
@@ -97,12 +97,12 @@ pub(crate) fn channel_groups(
     groups
 }
 
-/// How the track of a skeleton that came from no BVH holds its numbers: the unit quaternion of every joint (x, y, z, w),
-/// then, for joints that move, their place in their parent's space.
+/// The column layout of a skeleton track that did not come from a BVH file: the unit quaternion of every joint (x, y,
+/// z, w), followed by the position in the parent's space for joints that move.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Layout {
     rotations: RotationForm,
-    /// The joints that move.
+    /// The joints with changing positions.
     moving: Vec<usize>,
 }
 
@@ -168,7 +168,7 @@ impl Layout {
     }
 }
 
-/// The rotations at rest of a skeleton's document.
+/// The rest rotations in a skeleton's document.
 #[derive(Deserialize)]
 struct Rests {
     joints: Vec<Rest>,
@@ -179,7 +179,7 @@ struct Rest {
     rest: Option<[f64; 4]>,
 }
 
-/// Returns the skeleton of a document whose joints may be turned at rest.
+/// Returns the skeleton of a document, whose joints may have rest rotations.
 fn skeleton_of(hierarchy: &Hierarchy, document: &str) -> Option<Skeleton> {
     let plain = chereme_formats::bvh::convert::skeleton(hierarchy).ok()?;
     let rests: Rests = serde_json::from_str(document).ok()?;
@@ -191,7 +191,7 @@ fn skeleton_of(hierarchy: &Hierarchy, document: &str) -> Option<Skeleton> {
     Skeleton::new(joints.collect()).ok()
 }
 
-/// The motion track of a recording with all that is needed to read it.
+/// The motion track of a recording, with everything needed to read it.
 pub(crate) struct Track {
     pub(crate) row: MotionTrackRow,
     pub(crate) hierarchy: Hierarchy,
@@ -199,12 +199,12 @@ pub(crate) struct Track {
     pub(crate) rate: Rate,
     fix: Option<ChannelFix>,
     groups: BTreeMap<ChannelGroup, Vec<usize>>,
-    /// How it holds its numbers, and its skeleton, if it came from no BVH.
+    /// The layout of its numbers and its skeleton, if it did not come from a BVH file.
     exact: Option<(Layout, Arc<Skeleton>)>,
 }
 
 impl Track {
-    /// Returns the motion track that is the body of a recording.
+    /// Returns the motion track of a recording's body.
     pub(crate) fn of(connection: &Connection, recording: i64) -> Result<Self> {
         let Some(row) = recordings::body_track(connection, recording)? else {
             let name = recordings::recording(connection, recording)?.name;
@@ -269,17 +269,17 @@ impl Track {
         })
     }
 
-    /// Returns how many frames there are.
+    /// Returns the number of frames.
     pub(crate) fn frames(&self) -> usize {
         usize::try_from(self.row.frames).unwrap_or_default()
     }
 
-    /// Returns whether the numbers are those of a BVH, which can be written as they are.
+    /// Returns whether the numbers came from a BVH file, so that they can be written unchanged.
     pub(crate) fn is_of_bvh(&self) -> bool {
         self.exact.is_none()
     }
 
-    /// Returns which columns of the file a group's joints have.
+    /// Returns the columns of the file for a group's joints.
     pub(crate) fn columns_of(&self, group: ChannelGroup) -> Vec<usize> {
         let joints = self.groups.get(&group).map_or(&[][..], Vec::as_slice);
         let Some((layout, _)) = &self.exact else {
@@ -290,15 +290,15 @@ impl Track {
         joints.iter().flat_map(own).collect()
     }
 
-    /// Returns the frames that start in `span`.
+    /// Returns the frames that start within `span`.
     pub(crate) fn frames_in(&self, span: Span) -> Range<usize> {
         let frames = self.rate.frames_in(span.shifted(-self.row.offset_us));
         frames.start.min(self.frames())..frames.end.min(self.frames())
     }
 
-    /// Calls `take` with the columns of whole blocks that hold any of `frames`, group by group.
+    /// Calls `take` with the columns of complete blocks that contain any of `frames`, group by group.
     ///
-    /// It is given the columns' numbers in the file, the first frame of the block, and its columns.
+    /// `take` receives the indices of the columns in the file, the first frame of the block, and the columns.
     pub(crate) fn blocks(
         &self,
         connection: &Connection,
@@ -330,8 +330,8 @@ impl Track {
         Ok(())
     }
 
-    /// Returns the movement of `frames` in metres and model space; joints of groups that are not
-    /// asked for stay at rest.
+    /// Returns the movement of `frames` in metres and model space; joints of groups that are not requested stay at
+    /// rest.
     pub(crate) fn clip(
         &self,
         connection: &Connection,
@@ -405,7 +405,7 @@ impl Track {
         })
     }
 
-    /// Returns the clip of columns of quaternions and places; joints whose columns were not read stay at rest.
+    /// Returns the clip for columns of quaternions and positions; joints whose columns were not read stay at rest.
     fn exact_clip(
         &self,
         layout: &Layout,
@@ -456,8 +456,8 @@ impl Track {
         Clip::new(Arc::clone(skeleton), self.rate, channels).map_err(|error| bad(error.to_string()))
     }
 
-    /// Returns what the skeleton's joints are, measured where the recording begins; made movement has the body of
-    /// what it was made from, measured there.
+    /// Returns the body parts of the skeleton's joints, measured at the beginning of the recording; for generated
+    /// movement, measured at the beginning of the recording that provided its body.
     pub(crate) fn anatomy(&self, connection: &Connection) -> Result<Anatomy> {
         let first = self.clip(connection, 0..self.head(), &ChannelGroup::ALL)?;
         let roles = self.row.roles.as_deref().map(str::parse::<Roles>);
@@ -482,7 +482,7 @@ impl Track {
         Ok(standing(anatomy, if same { &body } else { &first }))
     }
 
-    /// Returns how many frames from the first on are looked at for odd ones.
+    /// Returns the number of initial frames that are searched for odd ones.
     fn head(&self) -> usize {
         let frames = (ENDS * self.rate.per_second()).ceil() as usize;
         frames.clamp(1, BLOCK_FRAMES).min(self.frames().max(1))
@@ -515,7 +515,7 @@ impl Track {
     }
 }
 
-/// Measures an anatomy in the first frame that is not odd, if no body can take the rest pose.
+/// Measures an anatomy in the first ordinary frame, if no body can assume the rest pose.
 pub(crate) fn standing(anatomy: Anatomy, head: &Clip) -> Anatomy {
     if anatomy.is_posed() || head.frames() == 0 {
         return anatomy;
@@ -527,10 +527,10 @@ pub(crate) fn standing(anatomy: Anatomy, head: &Clip) -> Anatomy {
     }
 }
 
-/// How long odd frames at an end of a recording may be and still be found for measuring, in seconds.
+/// The longest run of odd frames at an end of a recording that is skipped for measuring, in seconds.
 const ENDS: f64 = 2.5;
 
-/// Returns the clip with the root's places multiplied.
+/// Returns the clip with the root's positions multiplied.
 fn scale_root(clip: Clip, scale: f64) -> Clip {
     let (skeleton, rate) = (clip.skeleton().clone(), clip.rate());
     let mut channels = clip.clone().into_channels();
@@ -540,7 +540,7 @@ fn scale_root(clip: Clip, scale: f64) -> Clip {
     Clip::new(skeleton, rate, channels).unwrap_or(clip)
 }
 
-/// Returns which columns of a file those joints have.
+/// Returns the columns of a file for those joints.
 pub(crate) fn columns_of(hierarchy: &Hierarchy, joints: &[usize]) -> Vec<usize> {
     let ranges = hierarchy.columns();
     joints

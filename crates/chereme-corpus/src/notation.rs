@@ -1,4 +1,4 @@
-//! Signs as notation: those that the corpus holds, and those of files beside it.
+//! Signs as notation: those in the corpus, and those in files beside it.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -34,33 +34,33 @@ pub struct Notation {
     pub line: Option<i64>,
     /// The HamNoSys text as it was written, if it is HamNoSys.
     pub text: Option<String>,
-    /// What hands, face and body do, and what the file said beside it.
+    /// Actions of hands, face and body, and further contents of the file.
     pub document: Notated,
 }
 
 impl Corpus {
-    /// Returns the notation of what an address names: of a token, or of a sign's citation form, or else
-    /// of the first of the sign's tokens that has one.
+    /// Returns the notation of the token at an address, or of a sign: that of its citation form, otherwise that of the
+    /// first of its tokens that has one.
     ///
     /// # Errors
-    /// Where the address names no token or sign, or nothing notated.
+    /// Fails if the address names no token or sign, or nothing notated.
     pub fn notation(&self, address: &Address) -> Result<Notation> {
         find(self.store.read(), address)
     }
 
-    /// Returns the notations that a name stands for: those of a file that was imported, by its name
-    /// (`BABY.sigml`, or `BABY`), in the order of the file; or else that of an address. Where the file
-    /// holds several signs, `BABY` is the one that is glossed so.
+    /// Returns the notations for a name: those of an imported file with this name (`BABY.sigml`, or `BABY`), in the
+    /// order of the file; otherwise that of an address. If the file holds several signs, `BABY` is the one with that
+    /// gloss.
     ///
     /// # Errors
-    /// Where no file has the name, and it names nothing notated.
+    /// Fails if no file has the name, and it names nothing notated.
     pub fn notations(&self, name: &str) -> Result<Vec<Notation>> {
         named(self.store.read(), name)
     }
 }
 
-/// Returns the notations of the file of this name, or else of an address. Where `NAME.sigml` holds
-/// several signs and one of them is `NAME`, that sign is meant.
+/// Returns the notations of the file of this name, otherwise of an address. If `NAME.sigml` holds several signs and one
+/// of them is `NAME`, only that sign is returned.
 pub(crate) fn named(connection: &Connection, name: &str) -> Result<Vec<Notation>> {
     let name = name.trim();
     let of_file = |file: &str| -> Result<Vec<Notation>> {
@@ -80,7 +80,7 @@ pub(crate) fn named(connection: &Connection, name: &str) -> Result<Vec<Notation>
     Ok(if sign.is_empty() { others } else { sign })
 }
 
-/// Returns the notation of what an address names.
+/// Returns the notation of the object at an address.
 pub(crate) fn find(connection: &Connection, address: &Address) -> Result<Notation> {
     let sign = match address {
         Address::Sign(Name::Number(id)) => Some(*id),
@@ -123,11 +123,11 @@ pub(crate) fn of_tokens(
     Ok(found)
 }
 
-/// Reads what a row holds.
+/// Reads the notation of a row.
 pub(crate) fn read(row: NotationRow) -> Result<Notation> {
     let document: Notated = serde_json::from_str(&row.document)
         .map_err(|error| damaged(format!("notation {}", row.id), error.to_string()))?;
-    // The sign may have another gloss by now.
+    // The sign may have another gloss now.
     let document = Notated {
         gloss: row.gloss,
         ..document
@@ -142,18 +142,18 @@ pub(crate) fn read(row: NotationRow) -> Result<Notation> {
     })
 }
 
-/// How a file of notation is written.
+/// Format of a notation file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Form {
     /// SiGML, gestural or of symbols.
     Sigml,
-    /// HamNoSys, a sign a line.
+    /// HamNoSys, one sign per line.
     Lines,
 }
 
 impl Form {
-    /// Returns how a file is written, by the ending of its name; of `.xml` and `.txt`, which may be
-    /// anything, by what they begin with.
+    /// Returns the format of a file, by the ending of its name; for `.xml` and `.txt`, which are ambiguous, by the
+    /// first bytes.
     pub(crate) fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_string_lossy().to_lowercase();
         match ending.as_str() {
@@ -168,11 +168,11 @@ impl Form {
     }
 }
 
-/// Returns the first bytes of a file; none where it cannot be read.
+/// Returns the first bytes of a file; nothing if it cannot be read.
 fn beginning(path: &Path) -> Vec<u8> {
     let mut bytes = Vec::new();
     if let Ok(file) = File::open(path) {
-        // Whoever reads the whole file reports a failure to read.
+        // A failure to read is reported when the whole file is read.
         let _ = file.take(LOOKED_AT).read_to_end(&mut bytes);
     }
     bytes
@@ -181,7 +181,7 @@ fn beginning(path: &Path) -> Vec<u8> {
 /// Signs of a file, each with its line.
 pub(crate) type Signs = Vec<(Notated, u64)>;
 
-/// Returns the signs of a file, and what is odd about it.
+/// Returns the signs of a file, and findings about it.
 pub(crate) fn read_signs(bytes: &[u8], form: Form) -> Result<(Signs, Vec<Finding>)> {
     let wrong = |error: &dyn std::error::Error| Error::wrong(error.to_string());
     Ok(match form {
@@ -202,11 +202,11 @@ pub(crate) fn read_signs(bytes: &[u8], form: Form) -> Result<(Signs, Vec<Finding
     })
 }
 
-/// Reads the signs of a file, SiGML or lines of HamNoSys, that need not be in any corpus, and what is odd
-/// about it.
+/// Reads the signs of a file, SiGML or lines of HamNoSys, without a corpus, and returns them with findings about the
+/// file.
 ///
 /// # Errors
-/// Where the file cannot be read, or holds no notation.
+/// Fails if the file cannot be read, or holds no notation.
 pub fn read_notation(path: &Path) -> Result<(Vec<Notated>, Vec<Finding>)> {
     let size = fs::metadata(path).map_err(|error| Error::file(path, error))?;
     if size.len() > MOST_BYTES {

@@ -14,30 +14,29 @@ use crate::db::{recordings, signs};
 use crate::error::{Error, Result};
 use crate::suggest;
 
-/// How an empty cell counts.
+/// The treatment of an empty cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Empty {
-    /// It is a value like any other: a sign without a weak hand differs from one with it, and two
+    /// An empty cell is a value like any other: a sign without a weak hand differs from one with it, and two signs
     /// without it are equal there.
     #[default]
     Value,
-    /// Nobody knows: a sign with an empty field takes no part.
+    /// An empty cell is unknown: a sign with an empty field takes no part.
     Unknown,
 }
 
-/// Which fields make a pair, and how.
+/// The fields that are compared, and the treatment of empty cells.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct PairOptions {
-    /// The fields: titles of the columns of an imported lexicon table, whose cells are compared as
-    /// they were written; or fields of queries such as `dominant.configuration`, by which the
-    /// citation forms of the corpus are compared. One word such as `S13` may stand for a
-    /// [set](FIELD_SETS). All coded fields where none is named.
+    /// The fields: titles of the columns of an imported lexicon table, whose cells are compared as written; or fields
+    /// of queries such as `dominant.configuration`, by which the citation forms of the corpus are compared. One word
+    /// such as `S13` may stand for a [set](FIELD_SETS). If empty, all coded fields.
     pub fields: Vec<String>,
-    /// How an empty cell counts.
+    /// The treatment of an empty cell.
     pub empty: Empty,
 }
 
-/// Sets of columns of the Signbank that have a name.
+/// Named sets of columns of the Signbank.
 pub const FIELD_SETS: [(&str, &[&str]); 5] = [
     (
         "S13",
@@ -113,14 +112,14 @@ pub struct Pairs {
     pub homonym_signs: usize,
     /// How many signs take part.
     pub entries: usize,
-    /// How many forms they have that differ.
+    /// The number of different forms among them.
     pub forms: usize,
-    /// How many pairs differ in two values that are both given; the others hang on an empty cell.
+    /// The number of pairs whose two values are both given; in the others one cell is empty.
     pub certain: usize,
-    /// How many pairs differ in each field, the most first.
+    /// The number of pairs by differing field, most first.
     #[serde(serialize_with = "in_order")]
     pub by_field: Vec<(String, usize)>,
-    /// The signs that are in the most pairs, ten at most, those of equal number by gloss.
+    /// The signs in the largest number of pairs, at most ten; equal numbers are ordered by gloss.
     pub densest: Vec<Dense>,
     /// The SHA-256 of the list: lines `A`, tab, `B`, tab, field, sorted, each ended by a line feed.
     pub sha256: String,
@@ -158,16 +157,16 @@ fn in_order<S: serde::Serializer>(
     out.collect_map(counts.iter().map(|(field, count)| (field, count)))
 }
 
-/// How many pairs are listed at most.
+/// The largest number of listed pairs.
 const MOST_PAIRS: usize = 5_000_000;
-/// How many of the densest signs are named.
+/// The number of densest signs that are listed.
 const DENSEST: usize = 10;
 
 impl Corpus {
     /// Returns the minimal pairs of the corpus: signs that differ in exactly one of the fields.
     ///
     /// # Errors
-    /// [`Error::Wrong`] if a field is not there, or there are more pairs than can be listed.
+    /// [`Error::Wrong`] if a field does not exist, or there are more pairs than can be listed.
     pub fn pairs(&self, options: &PairOptions) -> Result<Pairs> {
         let connection = self.store.read();
         let named = match &options.fields[..] {
@@ -192,7 +191,7 @@ struct Table {
     rows: Vec<(String, Vec<String>)>,
 }
 
-/// Returns the rows of the imported tables that have all the columns, if there is such a table.
+/// Returns the rows of the imported tables that have all the columns, if there are such tables.
 fn of_tables(connection: &Connection, fields: &[String]) -> Result<Option<Table>> {
     let mut rows = Vec::new();
     let mut known: BTreeSet<String> = BTreeSet::new();
@@ -237,7 +236,7 @@ fn of_tables(connection: &Connection, fields: &[String]) -> Result<Option<Table>
     Ok(Some(Table { fields, rows }))
 }
 
-/// Returns the codings of the citation forms, by fields of queries.
+/// Returns the codings of the citation forms, by query field.
 fn of_citations(corpus: &Corpus, fields: &[String]) -> Result<Table> {
     let connection = corpus.store.read();
     let mut codings = Vec::new();
@@ -337,7 +336,7 @@ fn pairs(mut table: Table, empty: Empty) -> Result<Pairs> {
     })
 }
 
-/// Returns the cells as numbers that are equal where the texts are; the empty cell is 0.
+/// Returns the cells as numbers that are equal if the texts are equal; the empty cell is 0.
 fn numbered(rows: &[(String, Vec<String>)]) -> Vec<Vec<u32>> {
     let mut known: BTreeMap<&str, u32> = BTreeMap::from([("", 0)]);
     let mut number = |text| {
@@ -349,7 +348,7 @@ fn numbered(rows: &[(String, Vec<String>)]) -> Vec<Vec<u32>> {
         .collect()
 }
 
-/// Returns the rows that are equal in all fields but one, each in order.
+/// Returns groups of rows that are equal in all fields, or in all fields but `without`; rows are in order.
 fn groups(cells: &[Vec<u32>], without: Option<usize>) -> BTreeMap<Vec<u32>, Vec<usize>> {
     let mut groups: BTreeMap<Vec<u32>, Vec<usize>> = BTreeMap::new();
     for (at, row) in cells.iter().enumerate() {

@@ -1,13 +1,13 @@
-//! Paths that somebody who types one may mean.
+//! Completion of typed paths.
 
 use std::fs;
 use std::path::{MAIN_SEPARATOR, Path};
 
-/// Folders with more entries than this are completed from the first of them.
+/// In folders with more entries only this many are considered.
 const MOST: usize = 5000;
 
-/// Returns the files and folders that a typed path may become, folders first and ending in a separator; hidden ones
-/// only after a dot. An unreadable folder gives an empty list.
+/// Returns the files and folders whose paths begin with a typed one, folders first and with a final separator; hidden
+/// ones only after a dot. An unreadable folder gives an empty list.
 #[must_use]
 pub fn paths_like(typed: &str) -> Vec<String> {
     let (folder, start) = match typed.rfind(['/', MAIN_SEPARATOR]) {

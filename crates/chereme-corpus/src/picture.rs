@@ -36,42 +36,42 @@ use crate::sources::notation::own_body;
 use whole::extension;
 pub(crate) use whole::write;
 
-/// How high a film is, and how many pictures it shows in a second.
+/// The height of a film in pixels, and its pictures per second.
 const FILM: usize = 540;
 const FILM_RATE: u32 = 25;
-/// A stretch longer than this is drawn only in part.
+/// The longest stretch that is drawn completely, in microseconds.
 const LONGEST: i64 = 120_000_000;
 
-/// The name of the symbols of HamNoSys among the inventories.
+/// The inventory name for the symbols of HamNoSys.
 const SYMBOLS: &str = "hamnosys";
-/// The name of the faces of SiGML's non-manuals among the inventories.
+/// The inventory name for the faces of SiGML's non-manuals.
 const FACES: &str = "faces";
-/// The size in pixels up to which a handshape is drawn to be read at that size.
+/// The size in pixels up to which a handshape is drawn in the style for small sizes.
 const SMALL_HAND: usize = 160;
-/// How high one picture of movement is, in pixels.
+/// The height of one picture of movement, in pixels.
 const HEIGHT: usize = 260;
-/// How high a symbol of notation is drawn, in pixels of a picture that can be shown at any size.
+/// The height of a notation symbol, in pixels of a scalable picture.
 const SYMBOL: f32 = 64.0;
 
-/// The content of a picture.
+/// Options for drawing a picture.
 #[derive(Debug, Clone)]
 pub struct PictureOptions {
     /// How many pictures stand side by side on a contact sheet.
     pub frames: usize,
-    /// Whether the contact sheet shows the hands from close by, and the face if it is active.
+    /// Whether the contact sheet has close-ups of the hands, and of the face if it is active.
     pub hands: bool,
-    /// Whether the face stands next to the signer from close by, in every picture.
+    /// Whether a close-up of the face is beside the signer in every picture.
     pub face: bool,
-    /// How high one picture is, in pixels; without a number 260 for movement, 540 for a film, 128 for a handshape, 160
-    /// for a face.
+    /// The height of one picture in pixels; by default 260 for movement, 540 for a film, 128 for a handshape, 160 for a
+    /// face.
     pub height: Option<usize>,
-    /// How fast an animation runs, 1 being the recorded speed; from 0.05 to 20.
+    /// The speed of an animation relative to the recorded speed; from 0.05 to 20.
     pub speed: f64,
-    /// How many pictures a film shows in a second, from 1 to 120.
+    /// The pictures per second of a film, from 1 to 120.
     pub rate: u32,
-    /// Whether glosses stand below an animation or a film while they are signed.
+    /// Whether glosses appear below an animation or a film while they are signed.
     pub captions: bool,
-    /// Whether a file that is there already is written over.
+    /// Whether an existing file is overwritten.
     pub force: bool,
 }
 
@@ -95,41 +95,41 @@ impl Default for PictureOptions {
 pub struct Picture {
     /// The file.
     pub path: PathBuf,
-    /// What it shows.
+    /// Its subject.
     pub title: String,
     /// Its size in bytes.
     pub bytes: u64,
-    /// How many pictures, or symbols of a notation, follow each other or stand side by side.
+    /// The number of pictures, or of symbols of a notation, in sequence or side by side.
     pub frames: usize,
-    /// The body on which notation was animated, where the sign has no movement of its own.
+    /// The body on which notation was animated, if the sign has no movement of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub animated_on: Option<String>,
-    /// Whether the drawn notation was transcribed from the movement because no other is stored.
+    /// Whether the drawn notation was transcribed from the movement because none is stored.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub transcribed: bool,
 }
 
-/// A piece of movement with what is needed to look at it.
+/// A piece of movement with the data needed to display it.
 #[derive(Debug, Clone)]
 pub struct Moving {
     /// Its stretch of a recording.
     pub stretch: Stretch,
     /// The movement in metres and model space.
     pub clip: Clip,
-    /// Which joint is what.
+    /// The body part of each joint.
     pub anatomy: Anatomy,
-    /// The face in each frame, if curves of non-manuals give it; else empty.
+    /// The face in each frame, if curves of non-manuals give it; otherwise empty.
     pub faces: Vec<Face>,
 }
 
-/// Movement as it is drawn.
+/// Movement in the form for drawing.
 #[derive(Debug, Clone, Copy)]
 pub struct Performance<'a> {
     /// The movement.
     pub clip: &'a Clip,
-    /// Which joint is what.
+    /// The body part of each joint.
     pub anatomy: &'a Anatomy,
-    /// The face in each frame; at rest in frames beyond them.
+    /// The face in each frame; frames beyond them have a face at rest.
     pub faces: &'a [Face],
 }
 
@@ -153,10 +153,10 @@ impl<'a> From<&'a Recombination> for Performance<'a> {
     }
 }
 
-/// Returns the body that comes with the program: a single frame at rest, with which joint is what.
+/// Returns the body that comes with the program: a single frame at rest, with the body part of each joint.
 ///
 /// # Errors
-/// Where the program's own file is damaged.
+/// Fails if the program's own file is damaged.
 pub fn built_in_body() -> Result<(Clip, Arc<Anatomy>)> {
     let body = own_body()?;
     Ok((body.clip, body.anatomy))
@@ -171,8 +171,8 @@ impl Corpus {
         self.movement_in(address, None, &ChannelGroup::ALL)
     }
 
-    /// Returns part of the movement at an address: of a span of the recording, and of some channel
-    /// groups; joints of others stay at rest.
+    /// Returns part of the movement at an address: a span of the recording, and some channel groups; joints of other
+    /// groups stay at rest.
     ///
     /// # Errors
     /// As [`movement`](Self::movement).
@@ -194,7 +194,7 @@ impl Corpus {
         let track = Track::of(connection, stretch.recording.id)?;
         let frames = track.frames_in(stretch.span);
         let clip = track.clip(connection, frames.clone(), groups)?;
-        // A word is mouthed over the whole of its curve, also where only a part of it is looked at.
+        // A word is mouthed over its whole curve, even if only a part of it is displayed.
         let curves = curves::of_track(connection, &track, 0..track.frames())?;
         let faces = chereme_compose::faces(&curves);
         let faces = faces.get(frames).map(<[Face]>::to_vec).unwrap_or_default();
@@ -206,13 +206,12 @@ impl Corpus {
         })
     }
 
-    /// Draws movement to a file: a contact sheet where it ends in `.png`, an animation where it ends
-    /// in `.gif`, a film where it ends in `.mp4`. A sign that is there as notation only is animated, on the body that the corpus chooses.
-    /// Where the file ends in `.svg`, the notation itself is drawn, symbol by symbol; of a sign without one, what
-    /// its movement is transcribed as.
+    /// Draws movement to a file: a contact sheet for `.png`, an animation for `.gif`, a film for `.mp4`. A sign that
+    /// has only a notation is animated on the body that the corpus chooses. For `.svg` the notation itself is drawn,
+    /// symbol by symbol; for a sign without one, the transcription of its movement.
     ///
     /// # Errors
-    /// Where there is nothing to draw, the ending is another, or the file is there already.
+    /// Fails if there is nothing to draw, the file has another ending, or it exists already.
     pub fn draw(
         &mut self,
         address: &Address,
@@ -235,7 +234,7 @@ impl Corpus {
         };
         let from = stretch.span.start();
         let span = Span::between(from, from.shifted(stretch.span.micros().min(LONGEST)));
-        // The face of points on film is looked at on the program's own body.
+        // A face from points on film is shown on the program's own body.
         let own = options.face && face::has_face(connection, stretch.recording.id)?;
         if !own
             && recordings::body_track(connection, stretch.recording.id)?.is_none()
@@ -257,11 +256,11 @@ impl Corpus {
         draw_scenes(&[scene], to, options, progress)
     }
 
-    /// Draws several movements next to each other to a file, as one animation (`.gif`) or film (`.mp4`). They begin
-    /// together, and a shorter one holds its last picture.
+    /// Draws several movements side by side to a file, as one animation (`.gif`) or film (`.mp4`). They begin together,
+    /// and a shorter one holds its last picture.
     ///
     /// # Errors
-    /// As [`draw`](Self::draw); and if one of them has no movement, or the file is neither.
+    /// As [`draw`](Self::draw); also fails if one of them has no movement, or the file has another ending.
     pub fn draw_together(
         &mut self,
         addresses: &[Address],
@@ -311,7 +310,7 @@ impl Corpus {
             text: text.to_owned(),
         };
         if let Some(token) = &stretch.token {
-            // The last picture may lie a part of a frame later, and is held.
+            // The last picture may lie a fraction of a frame later, and is held.
             let end = stretch.span.end().shifted(1_000_000);
             let whole = Span::between(stretch.span.start(), end);
             return Ok(vec![caption(&token.gloss, whole)]);
@@ -326,7 +325,7 @@ impl Corpus {
         Ok(spans.collect())
     }
 
-    /// Draws the symbols of a notation to an SVG: the stored notation, or else a transcription of the movement.
+    /// Draws the symbols of a notation to an SVG: the stored notation, otherwise a transcription of the movement.
     fn draw_symbols(
         &self,
         address: &Address,
@@ -376,12 +375,12 @@ impl Corpus {
         })
     }
 
-    /// Draws handshapes to a PNG: one value, or all values of an inventory that have a posture. The symbols of
-    /// HamNoSys, as the inventory `hamnosys`, are drawn to an SVG; faces for the non-manuals of SiGML, as the
-    /// inventory `faces`, to a PNG.
+    /// Draws handshapes to a PNG: one value, or all values of an inventory that have a posture. The inventory
+    /// `hamnosys` stands for the symbols of HamNoSys, drawn to an SVG; `faces` stands for the faces of SiGML's
+    /// non-manuals, drawn to a PNG.
     ///
     /// # Errors
-    /// Where no inventory is called so, or it has no handshape of that name.
+    /// Fails if there is no such inventory, or it has no handshape of that name.
     pub fn draw_handshapes(
         &self,
         inventory: &str,
@@ -479,7 +478,7 @@ fn written(picture: &str, title: &str, symbols: usize, to: &Path, force: bool) -
 /// Draws a clip to a file; see [`Corpus::draw`].
 ///
 /// # Errors
-/// As there.
+/// As [`Corpus::draw`].
 pub fn draw_clip(
     performance: Performance<'_>,
     title: &str,
@@ -503,7 +502,7 @@ pub fn draw_clip(
     draw_scenes(&[scene], to, options, progress)
 }
 
-/// A movement that is drawn next to others.
+/// A movement that is drawn beside others.
 struct Scene<'a> {
     performance: Performance<'a>,
     title: &'a str,
@@ -569,7 +568,7 @@ fn draw_scenes(
     Ok(told(to, &titles.join(", "), bytes, frames))
 }
 
-/// Draws a contact sheet, and returns its size in bytes and how many pictures stand side by side.
+/// Draws a contact sheet, and returns its size in bytes and the number of pictures.
 fn sheet(
     scene: &Scene<'_>,
     to: &Path,
@@ -605,7 +604,7 @@ fn sheet(
     Ok((bytes, options.frames.min(clip.frames())))
 }
 
-/// Returns the pictures of movements next to each other: one from two sides, of several each from the front.
+/// Returns the pictures of movements side by side: a single one from two sides, several each from the front.
 fn strip<'a>(
     scenes: &[Scene<'a>],
     options: &PictureOptions,

@@ -1,4 +1,4 @@
-//! The place of an open corpus's file, which can be deleted or moved meanwhile, and a copy of the corpus.
+//! The file of an open corpus, which may be deleted or moved meanwhile, and copies of the corpus.
 
 use std::fs::Metadata;
 use std::path::{Path, PathBuf};
@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 use crate::Corpus;
 use crate::error::Result;
 
-/// The file at a path, as it was at one moment.
+/// Identity of the file at a path, at one moment.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     path: PathBuf,
-    /// The system's own number of the file, if it has one.
+    /// The system's own id of the file, if it has one.
     id: Option<(u64, u64)>,
 }
 
 impl Place {
-    /// Returns the file that is at `path` now.
+    /// Returns the identity of the file that is at `path` now.
     #[must_use]
     pub fn of(path: &Path) -> Self {
         Self {
@@ -24,7 +24,7 @@ impl Place {
         }
     }
 
-    /// Returns whether that file is still there: neither deleted, nor moved, nor another in its place.
+    /// Returns whether that file is still at its path: not deleted, moved or replaced.
     #[must_use]
     pub fn stands(&self) -> bool {
         match self.path.metadata() {
@@ -41,18 +41,18 @@ fn id(file: &Metadata) -> Option<(u64, u64)> {
     Some((file.dev(), file.ino()))
 }
 
-/// Other systems keep a file that is open in its place.
+/// Returns nothing: other systems do not let an open file be replaced.
 #[cfg(not(unix))]
 fn id(_: &Metadata) -> Option<(u64, u64)> {
     None
 }
 
 impl Corpus {
-    /// Writes all of the corpus to a new file, also where its own was deleted while it is open.
+    /// Writes the whole corpus to a new file, even if its own file was deleted while it is open.
     ///
     /// # Errors
-    /// [`Error::File`](crate::Error::File) where something is there already, and where the disk or the database
-    /// fails; then nothing is left there.
+    /// [`Error::File`](crate::Error::File) if something exists there already, or if the disk or the database fails;
+    /// then nothing is left there.
     pub fn save_copy(&self, to: &Path) -> Result<()> {
         self.store.copy(to)
     }

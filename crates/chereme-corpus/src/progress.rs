@@ -1,23 +1,23 @@
-//! How long work reports its progress, and receives the request to stop.
+//! Progress reports of long work, and requests to stop it.
 
 use std::ops::ControlFlow;
 
 use crate::error::{Error, Result};
 
-/// Where long work is.
+/// The current state of long work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step<'a> {
     /// The current task, such as a file's name.
     pub task: &'a str,
-    /// How much of it is done.
+    /// The amount that is done.
     pub done: u64,
     /// The total amount, if it is known.
     pub total: Option<u64>,
-    /// What is counted.
+    /// The unit of the amounts.
     pub unit: Unit,
 }
 
-/// What [`Step`] counts.
+/// Unit of the amounts in a [`Step`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// Bytes of a file.
@@ -28,7 +28,7 @@ pub enum Unit {
     Items,
 }
 
-/// Hears of every [`Step`] and says whether to go on; stopping leaves the corpus as it was.
+/// Receiver of every [`Step`], which decides whether to go on; stopping leaves the corpus unchanged.
 pub struct Progress<'a>(&'a mut dyn FnMut(Step<'_>) -> ControlFlow<()>);
 
 impl<'a> Progress<'a> {
@@ -40,7 +40,7 @@ impl<'a> Progress<'a> {
     /// Reports a step.
     ///
     /// # Errors
-    /// [`Error::Stopped`] where the listener says so.
+    /// [`Error::Stopped`] if the receiver asks to stop.
     pub fn tell(&mut self, step: Step<'_>) -> Result<()> {
         match (self.0)(step) {
             ControlFlow::Continue(()) => Ok(()),
@@ -49,7 +49,7 @@ impl<'a> Progress<'a> {
     }
 }
 
-/// Hears nothing and never stops.
+/// Ignores the step and never stops.
 pub fn unheard(_: Step<'_>) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }

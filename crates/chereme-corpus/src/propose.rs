@@ -1,4 +1,4 @@
-//! Codings that are proposed from movement, for a component that nobody has coded yet.
+//! Codings that are proposed from movement, for components that nobody has coded yet.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -29,38 +29,39 @@ use crate::transcribe::TranscribedFeature;
 pub struct ProposeOptions {
     /// The components, of [`Proposed::COMPONENTS`].
     pub components: Vec<Component>,
-    /// The tokens; those that have a component keep what they have.
+    /// The tokens; a token that already has a value for a component keeps it.
     pub scope: ProposeScope,
 }
 
-/// The tokens that something is proposed for.
+/// The tokens that get proposals.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ProposeScope {
     /// All of the corpus.
     All,
     /// Those of a recording.
     Recording(Name),
-    /// Those of a recording that share time with a span.
+    /// Those of a recording that overlap a span.
     Span(Name, Span),
     /// A single one.
     Token(i64),
 }
 
-/// What was proposed.
+/// The result of a proposal.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct Proposed {
-    /// How many tokens got values.
+    /// The number of tokens that got values.
     pub tokens: u64,
-    /// How many annotations that are.
+    /// The number of annotations written.
     pub annotations: u64,
-    /// How many tokens without the component could not be read: they have no movement, or none that is understood.
+    /// The number of tokens without the component that could not be read: they have no movement, or none that the
+    /// transcription understands.
     pub unread: u64,
     /// The recordings, in order.
     pub recordings: Vec<String>,
 }
 
 impl Proposed {
-    /// The components that are read from movement.
+    /// The components that can be read from movement.
     pub const COMPONENTS: [Component; 4] = [
         Component::Configuration,
         Component::Placement,
@@ -69,16 +70,16 @@ impl Proposed {
     ];
 }
 
-/// The end of the names of tiers with proposals.
+/// The suffix of the names of tiers with proposals.
 const SUFFIX: &str = " (proposed)";
 
-/// Returns the name of the tier that accepted values of a tier with proposals go to; `None` for other tiers.
+/// Returns the name of the tier that accepted values from a tier with proposals are moved to; `None` for other tiers.
 #[must_use]
 pub fn proposed_for(tier: &str) -> Option<&str> {
     tier.strip_suffix(SUFFIX)
 }
 
-/// A value of a token that is to be written.
+/// A value of a token to be written.
 struct Value {
     start: i64,
     end: i64,
@@ -89,11 +90,11 @@ struct Value {
 /// The subject of a tier with proposals: a component, a feature of it, and the hand.
 type Subject = (Component, Option<String>, HandRef);
 
-/// The values that go onto each tier, by the recording.
+/// The values for each tier, by recording and subject.
 type Values = BTreeMap<(String, Subject), Vec<Value>>;
 
 impl Corpus {
-    /// Proposes one component for every token of the corpus that has no value for it: [`propose`](Self::propose).
+    /// Proposes one component for every token of the corpus without a value for it, see [`propose`](Self::propose).
     ///
     /// # Errors
     /// As [`propose`](Self::propose).
@@ -109,17 +110,16 @@ impl Corpus {
         self.propose(&options, progress)
     }
 
-    /// Reads components of tokens from their movement where they have no value for them, and writes that onto tiers of
-    /// their own, called for example `configuration dominant (proposed)`.
+    /// Reads components of tokens from their movement if they have no value for them, and writes the values onto tiers
+    /// of their own, named for example `configuration dominant (proposed)`.
     ///
-    /// Each value is an annotation of a detector, as those of [`AnnotationOrigin::Detector`], with its confidence, so
-    /// that a person's codings stay apart from it and another detector may replace it; all of it is one operation, which
-    /// one step back takes away. The values are those of [`transcribe`](Self::transcribe) in the words of the corpus's
-    /// inventories.
+    /// Each value is an annotation by a detector ([`AnnotationOrigin::Detector`]) with its confidence, so that a
+    /// person's codings stay separate and another detector may replace it. All of it is one operation, which one undo
+    /// reverts. The values are those of [`transcribe`](Self::transcribe), expressed in the corpus's inventories.
     ///
     /// # Errors
-    /// [`Error::Stopped`] where `progress` says so before anything is written; where movement does not say a
-    /// component, nothing has the name in the scope, or the corpus cannot be written.
+    /// [`Error::Stopped`] if `progress` asks to stop before anything is written. Fails if a component cannot be read
+    /// from movement, nothing has the name in the scope, or the corpus cannot be written.
     pub fn propose(
         &mut self,
         options: &ProposeOptions,
@@ -211,7 +211,7 @@ impl Corpus {
         Ok(found.hits.into_iter().filter(is_in).collect())
     }
 
-    /// Returns what a token's movement says of components, for each hand in the order of time.
+    /// Returns the values of components read from a token's movement, for each hand in order of time.
     fn read(
         &self,
         components: &BTreeSet<Component>,
@@ -276,11 +276,11 @@ impl Corpus {
         Ok(Some(read).filter(|read| !read.is_empty()))
     }
 
-    /// Accepts proposals as they are: each becomes an annotation of the person who works, on the tier without
+    /// Accepts proposals unchanged: each becomes an annotation by the author of the corpus, on the tier without
     /// `(proposed)` in its name, which is added if it is missing. All of it is one operation.
     ///
     /// # Errors
-    /// If one of them is no proposal, lies where its tier has an annotation already, or the corpus cannot be written.
+    /// Fails if one of them is not a proposal, overlaps an annotation of its tier, or the corpus cannot be written.
     pub fn accept_proposals(
         &mut self,
         annotations: &[i64],
@@ -344,7 +344,7 @@ impl Corpus {
         self.annotate_with("accept", &new, (&changes, &options), progress)
     }
 
-    /// Returns the annotations to add, and the tiers for them that a recording lacks.
+    /// Returns the annotations to add, and the tiers for them that recordings lack.
     fn changes(&self, all: Values) -> Result<(Vec<NewTier>, Vec<AnnotationChange>)> {
         let (mut tiers, mut changes) = (Vec::new(), Vec::new());
         for ((recording, (component, feature, hand)), mut values) in all {
@@ -365,7 +365,7 @@ impl Corpus {
             }
             values.sort_by_key(|value| value.start);
             for value in values {
-                // Signs of two hands may lie over each other; annotations of one tier may not.
+                // Signs of two hands may overlap; annotations of one tier may not.
                 let start = value.start.max(end.unwrap_or(i64::MIN));
                 if start >= value.end {
                     continue;
@@ -389,8 +389,8 @@ impl Corpus {
         Ok((tiers, changes))
     }
 
-    /// Returns where the last annotation of a recording's tier ends, 0 where it holds none; nothing where there is no
-    /// such tier.
+    /// Returns the end of the last annotation on a recording's tier, 0 if it has none; nothing if there is no such
+    /// tier.
     fn tier_end(&self, recording: &Name, tier: &str) -> Result<Option<i64>> {
         let connection = self.store.read();
         let recording = crate::address::recording(connection, recording)?;
@@ -403,8 +403,8 @@ impl Corpus {
     }
 }
 
-/// Returns how sure a value is, from 0.5 to 1: the residual of the second best reading as a share of both. `None` if no
-/// feature of notation belongs to the value.
+/// Returns the confidence of a value, from 0.5 to 1: the residual of the second best reading as a share of both. `None`
+/// if no feature of notation belongs to the value.
 fn confidence(
     features: &[TranscribedFeature],
     (component, feature, _): &Subject,

@@ -1,4 +1,4 @@
-//! How alike two pieces of movement are.
+//! Similarity of two pieces of movement.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ impl Corpus {
     /// Compares two pieces of movement by dynamic time warping, component by component.
     ///
     /// # Errors
-    /// Where an address has no movement, or the two have nothing in common that can be compared.
+    /// Fails if an address has no movement, or the two have nothing in common that can be compared.
     pub fn score(&self, a: &Address, b: &Address, options: &ScoreOptions) -> Result<Score> {
         let (a, b) = (self.movement(a)?, self.movement(b)?);
         score(&a, &b, options)
@@ -23,7 +23,7 @@ impl Corpus {
     /// Compares as [`score`](Self::score) does, and draws the alignment to a PNG.
     ///
     /// # Errors
-    /// As there, or where the picture cannot be written.
+    /// As [`score`](Self::score), or if the picture cannot be written.
     pub fn draw_alignment(
         &self,
         [a, b]: [&Address; 2],

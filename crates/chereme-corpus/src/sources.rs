@@ -1,4 +1,4 @@
-//! The answers to the questions of recipes, read from the rows.
+//! Answers to the questions that recipes ask about the corpus, read from the rows.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -37,10 +37,10 @@ mod language;
 mod learned;
 pub(crate) mod notation;
 
-/// A stretch longer than this is not taken as the source of a recipe.
+/// The longest stretch that a recipe accepts as a source, in microseconds.
 const LONGEST: i64 = 600_000_000;
 
-/// The corpus as recipes see it.
+/// The corpus from the point of view of recipes.
 pub(crate) struct CorpusSources<'a> {
     pub(crate) connection: &'a Connection,
     pub(crate) index: &'a SearchIndex,
@@ -48,17 +48,17 @@ pub(crate) struct CorpusSources<'a> {
     pub(crate) learned: &'a RefCell<Learned>,
 }
 
-/// The numbers learned from a corpus, kept until something in it changes.
+/// Cache of the numbers learned from a corpus, valid until something in it changes.
 #[derive(Default)]
 pub(crate) struct Learned {
-    /// The newest operation when it was learned, and what it was.
+    /// The newest operation when the profile was learned, and the profile.
     profile: Option<(Option<i64>, Option<LearnedProfile>)>,
-    /// The same for body language.
+    /// The newest operation when body language was measured, and the samples.
     samples: Option<(Option<i64>, Samples)>,
 }
 
 impl<'a> CorpusSources<'a> {
-    /// Opens what recipes see of a corpus, its search index brought up to date.
+    /// Opens a corpus for recipes, with its search index brought up to date.
     pub(crate) fn open(
         store: &'a mut Store,
         inventories: &'a [StoredInventory],
@@ -102,7 +102,7 @@ impl<'a> CorpusSources<'a> {
         Ok(material)
     }
 
-    /// The values on the component tiers over a stretch, counted from its first frame.
+    /// Returns the values on the component tiers over a stretch, with times counted from its first frame.
     fn held(&self, stretch: &Stretch, handedness: Handedness) -> Result<Vec<Held>> {
         let mut held = Vec::new();
         let (start, end) = (stretch.span.start().micros(), stretch.span.end().micros());
@@ -180,7 +180,7 @@ impl<'a> CorpusSources<'a> {
     }
 }
 
-/// The body of a recording as it stands in the first frame.
+/// Returns the body of a recording in its first frame.
 pub(crate) fn standing(connection: &Connection, recording: RecordingRow) -> Result<Material> {
     let track = Track::of(connection, recording.id)?;
     let stretch = Stretch {
@@ -191,7 +191,7 @@ pub(crate) fn standing(connection: &Connection, recording: RecordingRow) -> Resu
     movement(connection, &track, &stretch)
 }
 
-/// The movement of a stretch, without its annotations.
+/// Returns the movement of a stretch, without its annotations.
 fn movement(connection: &Connection, track: &Track, stretch: &Stretch) -> Result<Material> {
     let frames = track.frames_in(stretch.span);
     let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
@@ -271,7 +271,7 @@ impl Sources for CorpusSources<'_> {
         };
         let find = || -> Result<Option<Material>> {
             let mut recordings = recordings::recordings(self.connection)?;
-            // Generated movement has a body from elsewhere, and may be generated again on another.
+            // Generated movement has its body from elsewhere, and may be generated again on another.
             recordings.retain(|row| match wanted {
                 Some(signer) => row.signer_id == Some(signer),
                 None => row.origin != Origin::Made,
@@ -445,7 +445,7 @@ fn unreadable(error: &Error) -> SourceError {
     SourceError::Unreadable(error.to_string())
 }
 
-/// Says of an address that names no movement what it is instead.
+/// Returns the error for an address without movement, which depends on what the address names instead.
 fn missing(sources: &CorpusSources<'_>, address: &str, error: &Error) -> SourceError {
     let own = address.to_owned();
     let parsed: Option<Address> = address.parse().ok();

@@ -25,10 +25,10 @@ pub struct Suggestions {
     pub coding: BTreeMap<String, String>,
     /// Minimal pairs: signs coded for the same fields, and alike in all but one of them.
     pub partners: Vec<Partner>,
-    /// Signs alike in all but one of the fields that both are coded for, if one of the two is coded
-    /// for further fields: nobody knows whether they differ there, too.
+    /// Signs that agree in all but one of the fields that both are coded for, if one of the two is coded for further
+    /// fields: whether they differ in these is unknown.
     pub possible: Vec<Partner>,
-    /// Values that no sign of the corpus has with the rest of this coding, by field.
+    /// Values that no sign of the corpus combines with the rest of this coding, by field.
     pub unused: BTreeMap<String, Vec<String>>,
 }
 
@@ -39,7 +39,7 @@ pub struct Partner {
     pub token: i64,
     /// Its gloss.
     pub gloss: String,
-    /// How it came about.
+    /// Its origin.
     pub origin: Origin,
     /// The field in which they differ.
     pub field: String,
@@ -49,14 +49,14 @@ pub struct Partner {
     pub to: String,
     /// How many fields are equal.
     pub equal: usize,
-    /// How many fields only one of the two is coded for.
+    /// The number of fields that only one of the two is coded for.
     pub one_sided: usize,
-    /// A recipe that would give its coding, where one changes that field.
+    /// A recipe that would give its coding, if there is one that changes that field.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recipe: Option<String>,
 }
 
-/// Fewer equal fields than these say little.
+/// The fewest equal fields that make a comparison meaningful.
 const LEAST_EQUAL: usize = 2;
 const MOST_UNUSED: usize = 40;
 
@@ -64,11 +64,11 @@ const MOST_UNUSED: usize = 40;
 type Coding = BTreeMap<String, String>;
 
 impl Corpus {
-    /// Returns what could be made from a token: signs of the corpus coded alike but for one
-    /// component, with a recipe where one leads there, and values that no sign has with the rest.
+    /// Returns suggestions for new signs from a token: signs of the corpus whose codings differ in one component, with
+    /// a recipe if there is one, and values that no sign combines with the rest.
     ///
-    /// Only citation forms are looked at. A field that only one of the two is coded for fits nothing:
-    /// such a sign is a possible partner.
+    /// Only citation forms are compared. A field that only one of the two is coded for matches nothing: such a sign is
+    /// a possible partner.
     ///
     /// # Errors
     /// Fails if nothing has that address, or if the token has no coding.
@@ -188,7 +188,7 @@ impl Corpus {
     }
 }
 
-/// Returns the name under which the coding of a token has a field.
+/// Returns the name of a field in the coding of a token.
 pub(crate) fn coding_name(field: &Field) -> String {
     let part = field.feature.as_ref();
     let part = part.map_or(String::new(), |part| format!(".{part}"));
@@ -255,7 +255,7 @@ fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
         .collect()
 }
 
-/// How many fields are equal, and which differ, of those that both have.
+/// Returns the number of equal fields, and the fields that differ, among those that both have.
 fn compare(a: &Coding, b: &Coding) -> (usize, Vec<String>) {
     let both = a
         .iter()
@@ -271,7 +271,7 @@ fn compare(a: &Coding, b: &Coding) -> (usize, Vec<String>) {
     (equal, different)
 }
 
-/// A recipe that changes one field of a token with movement.
+/// Returns a recipe that changes one field of a token with movement.
 fn recipe(token: &TokenRow, field: &str, to: &str) -> Option<String> {
     token.recording_id?;
     if to.contains(" > ") {

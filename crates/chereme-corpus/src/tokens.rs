@@ -1,4 +1,4 @@
-//! Tokens of a recording, derived from its tiers after every change of them.
+//! Tokens of a recording, derived from its tiers after every change to them.
 
 use std::collections::BTreeMap;
 
@@ -15,12 +15,12 @@ use crate::error::Result;
 use crate::inventories::StoredInventory;
 use crate::progress::{Progress, Step, Unit, unheard};
 
-/// Brings the tokens of a recording to what its tiers say; those that stay keep their rows.
+/// Updates the tokens of a recording from its tiers; tokens that remain keep their rows.
 ///
-/// Each annotation of a gloss tier with a value is a token. The values of the component tiers during it are its
-/// values, except phases of movement: preparation, stroke and retraction divide time. With `window` only the tokens
-/// near that time are derived: enough after a change inside it. Values become the ids that the tiers' inventories
-/// have for them.
+/// Each annotation with a value on a gloss tier is a token. Its values are those of the component tiers during it,
+/// except the phases of movement: preparation, stroke and retraction divide time. With `window` only the tokens near
+/// that time are derived, which suffices after a change within it. Values are converted to the ids of the tiers'
+/// inventories.
 pub(crate) fn derive(
     connection: &Connection,
     recording: i64,
@@ -32,7 +32,7 @@ pub(crate) fn derive(
     bring(connection, recording, window, inventories, progress)
 }
 
-/// Does the same for a whole recording, and can be stopped.
+/// Derives the tokens of a whole recording as [`derive()`] does, and can be stopped.
 pub(crate) fn derive_told(
     connection: &Connection,
     recording: i64,
@@ -132,13 +132,14 @@ struct Gloss {
 /// The annotations on the tiers of a recording, by time.
 struct Said {
     handedness: Handedness,
-    /// That of the participants of tiers who are signers.
+    /// The handedness of participants of tiers who are signers.
     of_participants: BTreeMap<String, Handedness>,
     glosses: Vec<Gloss>,
     components: Vec<Coded>,
     /// The components of each gloss, by the row of its annotation.
     owned: BTreeMap<i64, Vec<usize>>,
-    /// The glosses that touch this span are read; the others only decide to whom a component belongs.
+    /// If given, only the glosses that touch this span are derived; the others only take part in the assignment of
+    /// components.
     within: Option<Span>,
 }
 
@@ -278,7 +279,7 @@ impl Said {
             .collect()
     }
 
-    /// Gives each component to the gloss that it belongs to, among those of each hand of each participant; the
+    /// Assigns each component to the gloss that it belongs to, among those for each hand of each participant;
     /// components of one participant never belong to a gloss of another.
     fn give(&mut self, progress: &mut Progress<'_>) -> Result<()> {
         type Whose<'g> = (Option<&'g str>, Option<&'static str>);

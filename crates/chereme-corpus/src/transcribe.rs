@@ -1,4 +1,4 @@
-//! The notation of stored movement.
+//! Transcription of stored movement to notation.
 
 mod again;
 
@@ -19,24 +19,24 @@ use crate::movement::{ChannelGroup, Track};
 use crate::progress::Progress;
 use again::Again;
 
-/// The longest stretch in seconds that is taken for one sign.
+/// The longest stretch that is transcribed as one sign, in seconds.
 const LONGEST: f64 = 60.0;
-/// A correction of finger angles above this, in radians, is reported.
+/// The correction of finger angles above which a finding reports it, in radians.
 const MUCH: f64 = 0.15;
 
-/// A piece of movement as HamNoSys, each feature with how far the movement is from it.
+/// The HamNoSys transcription of a piece of movement, with the residual of each feature.
 #[derive(Debug, Clone, Serialize)]
 pub struct Transcribed {
-    /// The token, where the address names one.
+    /// The token, if the address names one.
     pub token: Option<i64>,
-    /// Its gloss, else the recording's name.
+    /// Its gloss, otherwise the recording's name.
     pub gloss: String,
     /// The recording.
     pub recording: i64,
-    /// Where the sign itself starts and ends, ways from and to rest cut off, in microseconds from the
-    /// start of the recording.
+    /// The start of the sign itself, without the transitions from and to rest, in microseconds from the start of the
+    /// recording.
     pub start_us: i64,
-    /// As above.
+    /// The end of the sign itself, in microseconds from the start of the recording.
     pub end_us: i64,
     /// The HamNoSys text.
     pub hamnosys: String,
@@ -52,16 +52,16 @@ pub struct Transcribed {
     pub findings: Vec<String>,
 }
 
-/// The posture that a sign begins with, or something that is done.
+/// The initial posture of a sign, or one of its actions.
 #[derive(Debug, Clone, Serialize)]
 pub struct TranscribedStage {
-    /// The number of the action, from 1; nothing for the posture at the beginning.
+    /// The number of the action, from 1; nothing for the initial posture.
     pub action: Option<usize>,
-    /// The hand, where each does something for itself.
+    /// The hand, if each hand does something of its own.
     pub hand: Option<Side>,
-    /// From when, in microseconds from the start of the recording.
+    /// The start, in microseconds from the start of the recording.
     pub start_us: i64,
-    /// Until when, with all repetitions.
+    /// The end, including all repetitions.
     pub end_us: i64,
     /// Its HamNoSys.
     pub hamnosys: String,
@@ -72,19 +72,19 @@ pub struct TranscribedStage {
 /// A feature of notation, at a moment of a recording.
 #[derive(Debug, Clone, Serialize)]
 pub struct TranscribedFeature {
-    /// What it is about: `handshape`, `palm`, `location`...
+    /// Its kind: `handshape`, `palm`, `location`...
     pub feature: FeatureKind,
     /// The hand, if the feature has one.
     pub hand: Option<Side>,
-    /// The number of the action it belongs to, from 1; nothing for the posture at the beginning.
+    /// The number of the action it belongs to, from 1; nothing for the initial posture.
     pub action: Option<usize>,
-    /// When it is seen, in microseconds from the start of the recording.
+    /// The moment at which it is observed, in microseconds from the start of the recording.
     pub at_us: i64,
-    /// From when the posture or action lasts that it belongs to.
+    /// The start of the posture or action that it belongs to.
     pub start_us: i64,
-    /// Until when it lasts.
+    /// The end of that posture or action.
     pub end_us: i64,
-    /// What it is.
+    /// The best reading.
     #[serde(flatten)]
     pub value: TranscribedValue,
     /// `deg`, `cm` or `share`.
@@ -102,19 +102,19 @@ pub struct TranscribedValue {
     pub hamnosys: String,
     /// The names of the symbols.
     pub symbols: Vec<&'static str>,
-    /// How far the movement is from it, in the feature's unit.
+    /// The distance of the movement from this value, in the feature's unit.
     pub residual: f64,
 }
 
 impl Corpus {
-    /// Writes a token, or another short piece of movement, in HamNoSys.
+    /// Transcribes a token, or another short piece of movement, to HamNoSys.
     ///
-    /// Only the frames of the token are read, so a long recording costs no more than a short one. Movement
-    /// generated from notation alone, by this version of the animator, is verified by re-synthesis.
+    /// Reads only the frames of the token, so a long recording costs no more than a short one. Movement that this
+    /// version of the animator generated from notation alone is verified by re-synthesis.
     ///
     /// # Errors
-    /// Where the address names no movement, one longer than a minute, or a skeleton without arms; where `progress`
-    /// says to stop.
+    /// Fails if the address names no movement, a stretch longer than a minute, or a skeleton without arms, or if
+    /// `progress` asks to stop.
     pub fn transcribe(
         &self,
         address: &Address,
@@ -194,11 +194,11 @@ impl Corpus {
         })
     }
 
-    /// Writes a token in HamNoSys as [`transcribe`](Self::transcribe) does, and keeps that as its notation.
+    /// Transcribes a token as [`transcribe`](Self::transcribe) does, and stores the result as its notation.
     ///
     /// # Errors
-    /// As there; where the address names no token; and, unless `force`, where the token has another
-    /// notation already.
+    /// As [`transcribe`](Self::transcribe). Also fails if the address names no token, or if the token has another
+    /// notation already and `force` is not set.
     pub fn store_transcription(
         &mut self,
         address: &Address,
@@ -255,7 +255,7 @@ impl Corpus {
     }
 }
 
-/// Says by how much finger angles were corrected, if that is much.
+/// Returns a finding about the correction of finger angles, if it is large.
 fn corrected(hands: &[HandCorrection; 2]) -> Option<String> {
     let most = hands
         .iter()

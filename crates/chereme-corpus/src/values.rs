@@ -1,4 +1,4 @@
-//! Values of inventories, added and merged one at a time.
+//! Adding and merging values of inventories.
 
 use chereme_sign::text::{did_you_mean, nearest};
 use chereme_sign::{Inventory, InventoryValue};
@@ -14,19 +14,20 @@ use crate::tokens;
 /// The result of a merge of values.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct MergedValues {
-    /// The value that is left.
+    /// The remaining value.
     pub value: String,
-    /// How many annotations said the other.
+    /// The number of annotations that had the other value.
     pub annotations: u64,
-    /// How many entries of lexicons had the other.
+    /// The number of lexicon entries that had the other value.
     pub entries: u64,
 }
 
 impl Corpus {
-    /// Adds a value to an inventory, as one operation; tokens whose tiers say it follow.
+    /// Adds a value to an inventory, as one operation; tokens whose tiers use the value are derived again.
     ///
     /// # Errors
-    /// Where the inventory is not there, has the value already, or one of the value's spellings means another one.
+    /// Fails if the inventory does not exist or has the value already, or if one of the value's spellings means another
+    /// value.
     pub fn add_value(&mut self, inventory: &str, value: &InventoryValue) -> Result<()> {
         self.store.operation("add value", |connection| {
             let stored = named(connection, inventory)?;
@@ -59,11 +60,11 @@ impl Corpus {
         })
     }
 
-    /// Makes one value of two, as one operation: whatever says `from` says `into`, and the spellings of `from`
-    /// are from then on others of `into`, so that a table that is imported again means the same.
+    /// Merges two values, as one operation: `into` replaces `from` everywhere, and the spellings of `from` become
+    /// further spellings of `into`, so that importing a table again has the same effect.
     ///
     /// # Errors
-    /// Where the inventory or a value is not there.
+    /// Fails if the inventory or a value does not exist.
     pub fn merge_values(
         &mut self,
         inventory: &str,
@@ -100,7 +101,7 @@ impl Corpus {
     }
 }
 
-/// Returns an inventory without the value `gone`, whose spellings and narrower values the value `left` takes over.
+/// Returns an inventory without the value `gone`; its spellings and narrower values pass to the value `left`.
 fn merged(inventory: &Inventory, gone: &InventoryValue, left: &str) -> Inventory {
     let mut whole = inventory.clone();
     whole.values.retain(|value| value.id != gone.id);
@@ -153,7 +154,7 @@ fn value<'i>(inventory: &'i Inventory, name: &str) -> Result<&'i InventoryValue>
     })
 }
 
-/// Brings the tokens of recordings along whose tiers take their values from an inventory.
+/// Derives the tokens of recordings again whose tiers take their values from an inventory.
 fn derive(connection: &Connection, inventory: i64) -> Result<()> {
     for recording in rows::recordings_with(connection, inventory)? {
         let of_tiers = inventories::load_of(connection, recording)?;

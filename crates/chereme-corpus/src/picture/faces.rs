@@ -1,11 +1,11 @@
-//! A sheet of what faces do for the non-manuals of SiGML.
+//! A sheet with the faces for SiGML's non-manuals.
 
 use chereme_figure::face_sheet;
 use chereme_sign::hamnosys::face::Expression;
 
 use super::*;
 
-/// How large one face is drawn, in pixels.
+/// The size of one face in pixels.
 const FACE: usize = 160;
 
 /// Draws every listed face of SiGML on the program's own body.

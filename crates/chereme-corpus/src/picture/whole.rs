@@ -1,4 +1,4 @@
-//! Files that are there whole or not at all.
+//! Files that are written completely or not at all.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 
-/// Writes a file next to its name and moves it there once it is whole.
+/// Writes a file under a temporary name beside its path, and renames it when it is complete.
 pub(crate) fn write(
     to: &Path,
     force: bool,

@@ -1,4 +1,4 @@
-//! The body language that notation is animated with: the usual one, a quiet one, what was measured, or a file.
+//! The body language for animating notation: the usual one, a quiet one, the measured one, or one from a file.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,9 +12,9 @@ use super::learned::language::Samples;
 use super::{CorpusSources, unreadable};
 use crate::db::history;
 
-/// The longest file of body language that is read.
+/// The size of the longest body language file that is read, in bytes.
 const MOST_BYTES: u64 = 1 << 20;
-/// The names that are no files.
+/// The names that do not stand for files.
 const DEFAULT: &str = "default";
 const MEASURED: &str = "measured";
 const QUIET: &str = "quiet";

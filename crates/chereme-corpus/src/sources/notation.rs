@@ -1,4 +1,4 @@
-//! Signs as notation for recipes, and a body for a corpus that has none.
+//! Notated signs for recipes, and a body for a corpus that has none.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ const OWN_RECORDING: &str = "bol.bvh";
 pub(crate) const NEXT: &str = " + ";
 
 impl CorpusSources<'_> {
-    /// Returns the signs that a name stands for: of the corpus, of a file, or several with ` + ` between.
+    /// Returns the notated signs for a name: from the corpus, from a file, or several names separated by ` + `.
     pub(super) fn notated(&self, name: &str) -> std::result::Result<Vec<Notated>, SourceError> {
         let error = match notation::named(self.connection, name) {
             Ok(found) if !found.is_empty() => {
@@ -57,7 +57,7 @@ impl CorpusSources<'_> {
         Ok(signs)
     }
 
-    /// Returns whether a name is that of a sign or a token, notated or not.
+    /// Returns whether a name belongs to a sign or a token, notated or not.
     fn has(&self, name: &str) -> bool {
         match name.parse() {
             Ok(Address::Gloss(gloss) | Address::Sign(Name::Text(gloss))) => {
@@ -72,7 +72,7 @@ impl CorpusSources<'_> {
         notation::find(self.connection, &name.parse()?)
     }
 
-    /// Returns the movement of a sign that the corpus has as notation only, on the body it chooses.
+    /// Returns the movement of a sign that has only a notation, on the body that the corpus chooses.
     pub(super) fn animated(
         &self,
         address: &str,
@@ -138,7 +138,7 @@ pub(crate) fn own_body() -> Result<Material> {
     })
 }
 
-/// Returns the first `most` frames of a recording of the starter corpus, with which joint is what, and the file's bytes.
+/// Returns the first `most` frames of a recording of the starter corpus, its anatomy, and the file's bytes.
 pub(crate) fn own_movement(name: &str, most: usize) -> Result<(Clip, Anatomy, &'static [u8])> {
     let bad = |what: String| Error::wrong(format!("{name} of the program cannot be read: {what}"));
     let bytes = starter::starter_files()

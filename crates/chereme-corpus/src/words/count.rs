@@ -1,4 +1,4 @@
-//! How many of something, in singular and plural.
+//! Counts of things as text, in singular and plural.
 
 use super::Language;
 
@@ -47,7 +47,7 @@ pub fn counted(count: u64, noun: &str) -> String {
     counted_in(count, noun, Language::English)
 }
 
-/// Returns how many of something there are, in a language; a noun that the table lacks stays English.
+/// Returns a count of things in a language; a noun that the table lacks stays English.
 #[must_use]
 pub fn counted_in(count: u64, noun: &str, language: Language) -> String {
     format!("{count} {}", numbered(count, noun, language))
@@ -58,7 +58,7 @@ pub fn counted_in(count: u64, noun: &str, language: Language) -> String {
 pub fn numbered(count: u64, noun: &str, language: Language) -> String {
     let known = NOUNS.iter().find(|known| known.0 == noun);
     match (known, language) {
-        // French takes the plural from two on.
+        // French uses the plural from two on.
         (Some((_, _, one, many)), Language::French) => {
             if count < 2 { one } else { many }.to_string()
         }

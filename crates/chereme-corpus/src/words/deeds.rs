@@ -1,4 +1,4 @@
-//! Sentences for work on annotations; the history stores the English ones.
+//! Sentences for work on annotations; the history stores the English form.
 
 use std::fmt::Display;
 
@@ -28,7 +28,7 @@ texts! {
     SPLIT: "{n} annotations split", "{n} annotations coupées";
 }
 
-/// Returns the sentences for annotations of a role that were given a value: for one, and for several.
+/// Returns the sentences for giving a value to annotations of a role: to one, and to several.
 #[must_use]
 pub fn valued(role: &TierRole) -> [Text; 2] {
     let component = match role {
@@ -45,7 +45,7 @@ pub fn valued(role: &TierRole) -> [Text; 2] {
     }
 }
 
-/// Returns a sentence of this table, given in English, in a language; nothing for any other text.
+/// Returns a sentence of this table, given in English, in another language; nothing for other texts.
 pub(super) fn told(english: &str, language: Language) -> Option<String> {
     let all = [
         [ONE_HANDSHAPE, HANDSHAPES],

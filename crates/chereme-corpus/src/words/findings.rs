@@ -1,6 +1,6 @@
-//! Findings and remedies of an import in French, found by their English form, as the messages are.
+//! French forms of import findings and remedies, looked up by their English form like the messages.
 
-/// Findings and remedies as English and French; a form that another contains stands after it.
+/// Findings and remedies in English and French; a form that is contained in another comes after it.
 pub(super) const FINDINGS: &[(&str, &str)] = &[
     (
         "the file does not state the rate of the film; {n} frames a second are taken",

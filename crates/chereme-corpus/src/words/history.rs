@@ -1,4 +1,4 @@
-//! The history: the effects of operations, as sentences.
+//! Sentences that describe the effects of operations.
 
 use std::fmt::Display;
 
@@ -69,7 +69,7 @@ texts! {
     DID_FORGET_SEARCH: "Saved search removed: {what}", "Recherche enregistrée supprimée : {what}";
 }
 
-/// Returns what an operation did, as a sentence.
+/// Returns the effect of an operation, as a sentence.
 #[must_use]
 pub fn sentence(it: &OperationRow, language: Language) -> String {
     let say = |text: Text, values: &[(&str, &dyn Display)]| fill(text.of(language), values);
@@ -102,7 +102,7 @@ pub fn sentence(it: &OperationRow, language: Language) -> String {
     known.unwrap_or_else(|| format!("{}: {summary}", it.name))
 }
 
-/// Returns the sentence for operations whose summary stands in it as it is.
+/// Returns the sentence for operations whose summary is inserted unchanged.
 fn plain(name: &str) -> Option<Text> {
     Some(match name {
         "remove tier" => DID_REMOVE_TIER,
@@ -152,7 +152,7 @@ pub fn annotated(summary: &str, language: Language) -> Option<String> {
     let mut said = Vec::new();
     let mut rest = Some(counts);
     while let Some(now) = rest {
-        // The text of a value comes last, and may hold commas.
+        // The text of a value comes last, and may contain commas.
         if let Some(whole) = deeds::told(now, language) {
             said.push(whole);
             break;

@@ -1,4 +1,4 @@
-//! Differences, merges and their conflicts.
+//! Words for differences, merges and their conflicts.
 
 use super::Text;
 use crate::merge::Decision;
@@ -48,7 +48,7 @@ texts! {
     DID_DECIDE: "Decided {what}", "Décidé {what}";
 }
 
-/// Returns the word for one thing of a kind that is merged, such as `annotation`.
+/// Returns the noun for an object of a merged kind, such as `annotation`.
 #[must_use]
 pub fn kind(table: &str) -> Text {
     let kinds = [

@@ -1,7 +1,7 @@
-//! Messages of the library in French, found by their English form.
+//! French forms of the library's messages, looked up by their English form.
 //!
-//! The library says what is wrong in English. A line of the table gives such a message and its French form;
-//! `{name}` stands for what differs from case to case and is carried over.
+//! The library writes its messages in English. Each line of the table has such a message and its French form; `{name}`
+//! stands for a variable part, which is copied.
 
 use super::Language;
 use super::findings::FINDINGS;
@@ -273,7 +273,7 @@ pub fn message(text: &str, language: Language) -> Option<String> {
     in_french(text)
 }
 
-/// Returns every form in English and French.
+/// Returns all messages in English and French.
 fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
     MESSAGES.iter().chain(FINDINGS).chain(QUERIES).chain(NOTES)
 }
@@ -283,7 +283,8 @@ fn in_french(text: &str) -> Option<String> {
     all().find_map(|(english, french)| carried(text, english, french, &part))
 }
 
-/// Returns `other` with what `text` has in the blanks of `form`, each as `said`; nothing if it has another form.
+/// Returns `other` filled with the variable parts of `text`, each converted by `said`; nothing if `text` does not have
+/// the form `form`.
 fn carried(text: &str, form: &str, other: &str, said: &dyn Fn(&str) -> String) -> Option<String> {
     let mut values = Vec::new();
     let mut parts = form.split('{');

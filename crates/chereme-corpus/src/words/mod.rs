@@ -1,4 +1,4 @@
-//! Words that the command line and the window share, in English and French.
+//! Words shared by the command line and the window, in English and French.
 //!
 //! A text is a constant of its table; `{name}` in it is filled by [`fill`]. To add one, write a line
 //! into the table of its part; to add a table, name it in `TABLES` of the tests below.
@@ -32,7 +32,7 @@ mod notes;
 mod queries;
 pub mod trouble;
 
-/// A language that the program speaks.
+/// A language of the user interfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Language {
@@ -48,7 +48,7 @@ impl Language {
     pub const ALL: [(Self, &'static str); 2] =
         [(Self::English, "English"), (Self::French, "Français")];
 
-    /// Returns its code, as inventories give names by it.
+    /// Returns its language code, which inventories use for their names.
     #[must_use]
     pub fn code(self) -> &'static str {
         match self {
@@ -57,7 +57,7 @@ impl Language {
         }
     }
 
-    /// Returns the language that a locale such as `fr_FR.UTF-8` asks for.
+    /// Returns the language for a locale such as `fr_FR.UTF-8`.
     #[must_use]
     pub fn of_locale(locale: &str) -> Self {
         if locale.to_lowercase().starts_with("fr") {
@@ -88,7 +88,7 @@ impl Text {
     }
 }
 
-/// Returns `text` with every `{name}` of `values` filled in.
+/// Returns `text` with each `{name}` replaced by its value in `values`.
 #[must_use]
 pub fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
     let mut filled = text.to_owned();

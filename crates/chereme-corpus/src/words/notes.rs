@@ -1,6 +1,6 @@
-//! Notes of the steps of a recipe in French, found by their English form.
+//! French forms of the notes on recipe steps, looked up by their English form.
 
-/// Notes as English and French; a form that another contains stands after it.
+/// Notes in English and French; a form that is contained in another comes after it.
 pub(super) const NOTES: &[(&str, &str)] = &[
     (
         "{value} becomes {other} over {span}, from {origin}",

@@ -1,6 +1,6 @@
-//! Faults of a query and their remedies in French, found by their English form.
+//! French forms of query errors and their remedies, looked up by their English form.
 
-/// Messages and remedies as English and French; a form that another contains stands after it.
+/// Messages and remedies in English and French; a form that is contained in another comes after it.
 pub(super) const QUERIES: &[(&str, &str)] = &[
     (
         "the value {value} is in no inventory; did you mean {near}?",

@@ -1,4 +1,4 @@
-//! Errors of the corpus in another language.
+//! Words for errors of the corpus.
 
 texts! {
     ERROR: "error: {what}", "erreur : {what}";

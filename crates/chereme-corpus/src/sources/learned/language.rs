@@ -1,9 +1,8 @@
-//! Body language as captured movement shows it: how large, how long and how deep what people annotated
-//! is.
+//! Body language measured in captured movement: size, duration and depth of annotated movements.
 //!
 //! Only captured movement counts, and only if a person has named the kind of movement: on a tier, or in the lexicon
-//! entry of its sign. Annotations by the program itself do not count: its categories are those of the usual body
-//! language. Movements without a marked size have the usual size.
+//! entry of its sign. Annotations by the program itself do not count, because its categories are those of the usual
+//! body language. Movements without a marked size have the usual size.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -24,26 +23,27 @@ use crate::error::Result;
 use crate::inventories::StoredInventory;
 use crate::movement::{ChannelGroup, Track};
 
-/// With fewer movements than these the usual number stays.
+/// The fewest movements for a measured number; with fewer the usual number stays.
 const FEWEST: usize = 8;
-/// The most annotations that are looked at, and the most movements that are measured: evenly spread.
+/// The largest number of annotations that are read, and of movements that are measured; they are evenly spread.
 const MOST_SPANS: usize = 50_000;
 const MOST_MEASURED: usize = 600;
 /// The margin before and after a stretch, in microseconds: annotations are not exact.
 const AROUND: i64 = 300_000;
-/// The shortest transition, in seconds, whatever its way takes of it.
+/// The shortest transition in seconds, whatever its distance.
 const LEAST_TRANSITION: f64 = 0.05;
-/// Names of a small, a usual and a big one; those that are not measured keep their share of the usual.
+/// Names of the numbers for a small, a usual and a big size; those that are not measured keep their proportion to the
+/// usual size.
 const SIZES: [[&str; 3]; 2] = [
     ["move.small", "move.normal", "move.big"],
     ["circle.small", "circle.normal", "circle.big"],
 ];
 
-/// What was measured: for each number whose movement it was and how much.
+/// The measurements: for each number the signers and amounts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Samples(BTreeMap<&'static str, Vec<(Option<String>, f64)>>);
 
-/// A movement that someone has told the kind of.
+/// A movement whose kind someone has annotated.
 #[derive(Debug, Clone, PartialEq)]
 struct Told {
     recording: i64,
@@ -51,14 +51,14 @@ struct Told {
     hand: Option<Hands>,
     kind: String,
     size: Option<String>,
-    /// Whether its manner is the usual one, so that its time counts.
+    /// Whether its manner is the usual one, so that its duration counts.
     plain: bool,
-    /// Whether the stretch is a whole sign, in which only one stroke may be.
+    /// Whether the stretch is a whole sign, which may contain only one stroke.
     sign: bool,
 }
 
 impl Samples {
-    /// Measures what is annotated in captured movement.
+    /// Measures annotated movements in captured recordings.
     pub(crate) fn of(connection: &Connection, inventories: &[StoredInventory]) -> Result<Self> {
         let spans = spans::movement_spans(connection, MOST_SPANS)?;
         let lexicon = spans::lexicon_movements(connection, MOST_SPANS)?;
@@ -182,7 +182,7 @@ impl Samples {
         }
     }
 
-    /// Returns the numbers with enough movements, the signer's own if these are enough.
+    /// Returns the numbers with enough measurements; the signer's own if these suffice.
     pub(crate) fn language(&self, signer: Option<&str>) -> Language {
         let mut values = BTreeMap::new();
         for (name, samples) in &self.0 {
@@ -205,7 +205,7 @@ impl Samples {
     }
 }
 
-/// Returns the median and the quartiles; nothing where there are too few.
+/// Returns the median and the quartiles; nothing if there are too few values.
 fn summed(mut values: Vec<f64>, of: &str) -> Option<LanguageValue> {
     if values.len() < FEWEST {
         return None;
@@ -224,8 +224,8 @@ fn summed(mut values: Vec<f64>, of: &str) -> Option<LanguageValue> {
     })
 }
 
-/// Lets a small and a big size that are not measured follow the usual one, and leaves out what does not
-/// rise from small to big.
+/// Scales a small and a big size that are not measured with the usual one, and removes sizes that do not rise from
+/// small to big.
 fn rising(values: &mut BTreeMap<String, LanguageValue>, names: &[&str; 3]) {
     let usual = |name: &str| BodyLanguage::usual().value(name).unwrap_or_default();
     if let Some(measured) = values.get(names[1]).map(|it| it.value) {
@@ -248,7 +248,7 @@ fn rising(values: &mut BTreeMap<String, LanguageValue>, names: &[&str; 3]) {
     }
 }
 
-/// Returns the information on component tiers: kinds of movement with their size and manner, and phases.
+/// Returns the movements annotated on component tiers: their kinds with size and manner, and phases.
 fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told> {
     let id = |span: &MovementSpan| -> String {
         let own = inventories
@@ -279,7 +279,7 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told
             _ => continue,
         };
         let beside = |feature: &str| {
-            // Spans come by recording and time: those that share time are near.
+            // Spans come by recording and time: overlapping ones are near each other in the list.
             let near = spans[n.saturating_sub(64)..].iter();
             let near = near.take_while(|it| {
                 it.recording_id < span.recording_id
@@ -307,8 +307,8 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told
     told
 }
 
-/// Returns the movements that lexicon entries give for captured tokens without an annotation of movement: only
-/// tokens with one movement of one size, made once, on which all entries of the sign agree.
+/// Returns the movements that lexicon entries state for captured tokens without an annotation of movement: only tokens
+/// with one movement of one size, performed once, on which all entries of the sign agree.
 fn in_lexicon(rows: &[LexiconMovement]) -> Vec<Told> {
     let mut told = Vec::new();
     for token in rows.chunk_by(|a, b| a.token == b.token) {
@@ -345,7 +345,7 @@ fn between(start: i64, end: i64) -> Span {
     Span::between(Instant::from_micros(start), Instant::from_micros(end))
 }
 
-/// Whose movement a recording holds.
+/// The body and the signer of a recording.
 struct Body {
     recording: i64,
     track: Option<(Track, Anatomy)>,
@@ -383,7 +383,7 @@ impl Body {
         })
     }
 
-    /// Returns the hand that is meant; of both the dominant one.
+    /// Returns the side of the given hand; for both hands that of the dominant one.
     fn side(&self, hand: Option<Hands>) -> Side {
         let hand = hand.and_then(Hands::one);
         hand.unwrap_or(HandRef::Dominant).resolve(self.handedness)
