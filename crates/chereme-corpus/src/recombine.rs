@@ -1,4 +1,4 @@
-//! New signs from stored ones: a recipe evaluated, and stored with its movement, tiers and origin.
+//! New signs from stored ones: evaluates a recipe, and stores the result with its movement, tiers and sources.
 
 mod again;
 mod draft;
@@ -40,10 +40,10 @@ pub(crate) use draft::Drafted;
 pub use parts::MadePart;
 pub(crate) use phases::{measured as measured_phases, store as store_phases};
 
-/// Decimals of the numbers of made movement: a millionth of a degree, or of the file's unit.
+/// The number of decimals of generated movement: a millionth of a degree, or of the file's unit.
 const DECIMALS: u8 = 6;
 
-/// A sign that was made, or what would be made.
+/// The result of evaluating a recipe, stored or not.
 #[derive(Debug, Clone, Serialize)]
 pub struct Recombination {
     /// The recipe as the corpus spells it.
@@ -63,31 +63,31 @@ pub struct Recombination {
     pub notes: Vec<TimedNote>,
     /// The names of its scalar curves, such as those of non-manuals.
     pub curves: Vec<String>,
-    /// Findings about the notation that it was generated from.
+    /// Findings about the notation from which it was generated.
     pub findings: Vec<NotationFinding>,
-    /// What making it told.
+    /// The report of the evaluation.
     pub report: Report,
-    /// The same for people.
+    /// The report in words.
     #[serde(skip)]
     pub explanation: String,
     /// The movement.
     #[serde(skip)]
     pub clip: Clip,
-    /// The face in each frame, if non-manuals give it; else empty.
+    /// The face in each frame, if non-manuals give it; otherwise empty.
     #[serde(skip)]
     pub faces: Vec<Face>,
-    /// Which joint of it is what.
+    /// The body parts of the movement's joints.
     #[serde(skip)]
     pub anatomy: std::sync::Arc<Anatomy>,
-    /// Which hand the signer signs with.
+    /// The signer's handedness.
     #[serde(skip)]
     pub handedness: Handedness,
-    /// The pieces that it was made from, in their order, with their time in it.
+    /// The pieces from which it was composed, in order, with their times in it.
     #[serde(skip)]
     pub parts: Vec<MadePart>,
 }
 
-/// Something said about a stretch of made movement.
+/// A note about a stretch of generated movement.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct TimedNote {
     /// `sign`, `transition`, or a component such as `movement`.
@@ -98,7 +98,7 @@ pub struct TimedNote {
     pub hand: Option<Side>,
     /// The gloss, or the component's value; `None` if it is unknown.
     pub value: Option<String>,
-    /// When it starts, in microseconds from the first frame.
+    /// Its start, in microseconds from the first frame.
     pub start_us: i64,
     /// The first microsecond after it.
     pub end_us: i64,
@@ -106,16 +106,16 @@ pub struct TimedNote {
     pub from: String,
 }
 
-/// Something odd about notation, which was made into movement in spite of it.
+/// A finding about notation that was animated in spite of it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct NotationFinding {
     /// The file, if the finding is about one.
     pub file: Option<String>,
     /// The line of the file, from 1.
     pub line: Option<u64>,
-    /// The symbol of HamNoSys text, from 0.
+    /// The index of the symbol in HamNoSys text, from 0.
     pub symbol: Option<usize>,
-    /// What is odd.
+    /// The oddity.
     pub message: String,
     /// The remedy, if there is one.
     pub remedy: Option<String>,
@@ -138,7 +138,7 @@ impl std::fmt::Display for NotationFinding {
 }
 
 impl Corpus {
-    /// Makes the movement of a recipe without storing anything.
+    /// Evaluates a recipe without storing anything.
     ///
     /// # Errors
     /// Fails if the recipe is invalid or cannot be evaluated; the error names the step, the reason and the remedy.
@@ -150,7 +150,7 @@ impl Corpus {
     /// Evaluates a recipe and stores its movement as a sign with this gloss, with its tiers and its sources.
     ///
     /// # Errors
-    /// As [`preview`](Self::preview); nothing half-made is stored.
+    /// As [`preview`](Self::preview); nothing incomplete is stored.
     pub fn recombine(&mut self, recipe: &str, gloss: &str) -> Result<Recombination> {
         let gloss = gloss.trim();
         if gloss.is_empty() {
@@ -166,7 +166,7 @@ impl Corpus {
         Ok(done)
     }
 
-    /// Returns the inventories, read again only where the corpus changed: previews follow each other fast.
+    /// Returns the inventories, which are read again only if the corpus has changed: previews follow each other fast.
     pub(crate) fn inventories_now(&self) -> Result<Arc<Vec<StoredInventory>>> {
         let now = self.generation()?;
         let mut kept = self.inventories.borrow_mut();
@@ -190,7 +190,7 @@ impl Corpus {
     }
 }
 
-/// Reads a recipe as text, or as JSON where it begins with a brace.
+/// Reads a recipe as text, or as JSON if it begins with a brace.
 fn read(text: &str) -> Result<Recipe> {
     if text.trim_start().starts_with('{') {
         return serde_json::from_str(text).map_err(|error| {
@@ -307,7 +307,7 @@ fn store(
     Ok((recording, token, name))
 }
 
-/// The signer whose body moves, where one is known.
+/// Returns the signer whose body moves, if known.
 fn signer_of(connection: &Connection, made: &Made) -> Result<Option<i64>> {
     Ok(match made.signer.as_deref().map(str::parse) {
         Some(Ok(Address::Signer(name))) => Some(address::signer(connection, &name)?.id),
@@ -315,7 +315,8 @@ fn signer_of(connection: &Connection, made: &Made) -> Result<Option<i64>> {
     })
 }
 
-/// The hierarchy and unit of the source whose skeleton moves, so that the new sign is written as it is.
+/// Returns the hierarchy and unit of the source whose skeleton moves, so that the new sign can be written in the same
+/// form.
 fn source_of(
     connection: &Connection,
     resolved: &Resolved,
@@ -328,7 +329,7 @@ fn source_of(
         let Ok(stretch) = address::stretch(connection, &material.address.parse()?) else {
             continue;
         };
-        // A recording of a face alone is performed by the program's own body.
+        // A recording that has only a face is performed by the program's own body.
         if recordings::body_track(connection, stretch.recording.id)?.is_none() {
             continue;
         }
@@ -440,8 +441,8 @@ fn store_tiers(
     store_notes(connection, recording, made, inventories)
 }
 
-/// Writes the notes of generated movement below the existing tiers; a tier of the same name is used again, and its
-/// annotations stay.
+/// Writes the notes of generated movement onto tiers below the existing ones; an existing tier of the same name is
+/// used, and its annotations remain.
 fn store_notes(
     connection: &Connection,
     recording: i64,
@@ -594,7 +595,7 @@ fn recipe_row(
 /// The tier that names the source of each stretch of a generated sign.
 pub(crate) const SOURCE: &str = "Source";
 
-/// Returns the version of the program and of what makes movement in it.
+/// Returns the version of the program and of its movement generators.
 pub(crate) fn engine() -> String {
     format!("{}+{ENGINE}", env!("CARGO_PKG_VERSION"))
 }
@@ -611,7 +612,7 @@ fn store_inputs(connection: &Connection, recipe: i64, resolved: &Resolved) -> Re
     Ok(())
 }
 
-/// The recording and the token that an input's address means.
+/// Returns the recording and the token at an input's address.
 fn source_rows(connection: &Connection, address: &str) -> Result<(Option<i64>, Option<i64>)> {
     Ok(match address.parse()? {
         Address::Token(token) => (signs::token(connection, token)?.recording_id, Some(token)),

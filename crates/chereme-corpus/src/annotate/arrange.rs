@@ -1,4 +1,4 @@
-//! The place of a tier: among the others of its recording, and below which of them it hangs.
+//! The position of a tier: its place among the tiers of its recording, and its parent.
 
 use chereme_sign::Stereotype;
 use chereme_sign::tier::{TierSet, check, check_tiers};
@@ -11,7 +11,7 @@ use crate::db::edits;
 use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 
-/// Gives a tier a place among those of its recording, counted from 0; later ones move on.
+/// Moves a tier to a place among those of its recording, counted from 0; later tiers move down.
 pub(super) fn place(connection: &Connection, tier: &TierRow, place: u32) -> Result<()> {
     let mut all = rows::tiers(connection, tier.recording_id)?;
     let Some(here) = all.iter().position(|row| row.id == tier.id) else {
@@ -28,7 +28,7 @@ pub(super) fn place(connection: &Connection, tier: &TierRow, place: u32) -> Resu
     Ok(())
 }
 
-/// Hangs a tier with its annotations below another, or below none; returns the tier's row as it is then.
+/// Puts a tier with its annotations below another, or makes it a root tier; returns the tier's new row.
 pub(super) fn hang(
     connection: &Connection,
     tier: &TierRow,
@@ -98,7 +98,7 @@ pub(super) fn hang(
     Ok(row)
 }
 
-/// Returns an annotation with the one above that holds its time.
+/// Returns an annotation with the parent annotation that contains its time.
 fn below(
     row: AnnotationRow,
     hangs: bool,

@@ -14,11 +14,10 @@ use crate::import::ReportFinding;
 use crate::progress::Progress;
 
 impl Corpus {
-    /// Makes the changes that a table (CSV or TSV) of annotations asks for, as one operation.
+    /// Applies the changes in a table (CSV or TSV) of annotations, as one operation.
     ///
-    /// `name` is what errors call the table. Rows without a recording are about `recording`, or
-    /// about the only one of the corpus. The form is that of
-    /// [`chereme_formats::table::annotations::read`].
+    /// `name` is the name of the table in errors. Rows without a recording apply to `recording`, or to the only one of
+    /// the corpus. The format is that of [`chereme_formats::table::annotations::read`].
     ///
     /// # Errors
     /// [`Error::Several`] with every row that cannot be carried out; nothing is changed then.
@@ -66,7 +65,7 @@ impl Corpus {
                 });
             }
             Err(Error::Several { mut errors }) => {
-                // A column that is not understood may be the one that the rows lack.
+                // A column that was not recognised may be the one that the rows lack.
                 let unused = findings.iter().filter(|it| it.line == Some(1));
                 errors.extend(unused.map(|finding| {
                     Error::wrong(finding.message.clone())

@@ -1,4 +1,4 @@
-//! Tiers copied beside themselves, and put in another order.
+//! Copies of tiers, and the order of tiers.
 
 use chereme_sign::Stereotype;
 use chereme_sign::text::fold;
@@ -15,7 +15,7 @@ use crate::inventories;
 use crate::tokens;
 use crate::words::counted;
 
-/// Which annotations go along when a tier is copied.
+/// The annotations to copy with a tier.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Copied {
     /// All of them.
@@ -25,17 +25,17 @@ pub enum Copied {
     Times,
     /// None.
     Nothing,
-    /// Those whose value holds this text, whatever its case and accents; on tiers without gaps the others
-    /// go along without values.
+    /// Those whose value contains this text, ignoring case and accents; on tiers without gaps the others are copied
+    /// without values.
     Holding(String),
 }
 
 impl Corpus {
-    /// Copies a tier under another name, with the annotations that are to go along; it hangs where that one
-    /// hangs and stands below it. Tiers below it are not copied.
+    /// Copies a tier under another name, with the selected annotations; the copy has the same parent and comes after
+    /// it. Tiers below it are not copied.
     ///
     /// # Errors
-    /// Where the tier is not there, or the recording has one of that name.
+    /// Fails if the tier does not exist, or the recording has one of that name.
     pub fn copy_tier(&mut self, tier: &TierName, name: &str, copied: &Copied) -> Result<TierRow> {
         self.store.operation("copy tier", |connection| {
             let from = names::tier(connection, tier)?;
@@ -82,11 +82,11 @@ impl Corpus {
         })
     }
 
-    /// Puts the tiers of a recording in an order, given by their rows; those that are not named stay behind
-    /// the others as they are.
+    /// Sets the order of a recording's tiers, given by their rows; those that are not listed come after the others in
+    /// their present order.
     ///
     /// # Errors
-    /// Where the recording is not there, or one of the rows is no tier of it.
+    /// Fails if the recording does not exist, or one of the rows is no tier of it.
     pub fn order_tiers(&mut self, recording: &Name, order: &[i64]) -> Result<()> {
         self.store.operation("order tiers", |connection| {
             let recording = address::recording(connection, recording)?;
@@ -96,7 +96,7 @@ impl Corpus {
     }
 }
 
-/// Returns an annotation as it goes along to a copy of its tier.
+/// Returns the copy of an annotation on a copied tier.
 fn copy(row: AnnotationRow, tier: &TierRow, copied: &Copied) -> Option<AnnotationRow> {
     let without_gaps = matches!(
         tier.stereotype,

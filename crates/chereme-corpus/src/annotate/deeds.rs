@@ -1,4 +1,4 @@
-//! The line of the history that names the work of a list of changes.
+//! The summary line of the history for a list of changes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,15 +6,15 @@ use super::AnnotateReport;
 use crate::db::tiers::TierRow;
 use crate::words::{Text, counted, deeds as words, fill};
 
-/// Work on annotations that has a name of its own, such as a merge.
+/// Changes of annotations for which the summary has a specific sentence, such as a merge.
 #[derive(Debug, Default)]
 pub(super) struct Deeds {
     moved: BTreeSet<i64>,
     merged: BTreeSet<i64>,
     split: BTreeSet<i64>,
-    /// By the sentences for it and the value that was given.
+    /// Annotations that got a value, by the sentence for it and the value.
     valued: BTreeMap<(&'static str, String), (Text, Text, BTreeSet<i64>)>,
-    /// Whether the line counts annotations added, changed and removed instead.
+    /// Whether the summary counts added, changed and removed annotations instead.
     other: bool,
 }
 
@@ -31,7 +31,7 @@ impl Deeds {
         self.split.insert(annotation);
     }
 
-    /// An annotation of a tier was given a value.
+    /// Records that an annotation of a tier got a value.
     pub(super) fn says(&mut self, tier: &TierRow, annotation: i64, value: &str) {
         let [one, several] = words::valued(&tier.role);
         let key = (several.en, value.to_owned());
@@ -44,7 +44,7 @@ impl Deeds {
         self.other = true;
     }
 
-    /// Returns the line.
+    /// Returns the summary.
     pub(super) fn summary(&self, report: &AnnotateReport) -> String {
         let named = self.named();
         let what = if self.other || named.is_empty() {
@@ -79,7 +79,7 @@ impl Deeds {
             say((words::ONE_MOVED, words::MOVED), &self.moved, ""),
             say((words::MERGED, words::MERGED), &self.merged, ""),
             say((words::ONE_SPLIT, words::SPLIT), &self.split, ""),
-            // A value may hold anything, also what parts these.
+            // A value may contain any text, including the separator of these parts.
             valued,
         ];
         parts.into_iter().flatten().collect()

@@ -1,4 +1,4 @@
-//! The annotations that a drag holds: their neighbours on the tier, and the limits of their movement.
+//! Annotations that are being dragged: their neighbours on the tier, and the limits of their movement.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,21 +8,21 @@ use chereme_sign::tier::spans::{self, Grip, Item, Limits, Mode};
 use crate::contents::{Contents, TierContents};
 use crate::db::tiers::TierRow;
 
-/// How long an annotation is at least, where frames do not say: a hundredth of a second.
+/// The shortest length of an annotation in a recording without frames: a hundredth of a second.
 pub const LEAST: i64 = 10_000;
-/// Where a recording without movement ends: annotations make it longer.
+/// The end of a recording without movement, which annotations can extend.
 pub(super) const FAR: i64 = 1 << 50;
 
 /// How the annotations of a tier get their times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Their own.
+    /// Times of their own.
     Root,
-    /// Their own, inside those of the annotation above.
+    /// Times of their own, within the parent annotation.
     Inside,
-    /// They share the time of the annotation above without gaps.
+    /// They divide the time of the parent annotation without gaps.
     Tiled,
-    /// None of their own.
+    /// No times of their own.
     Listed,
 }
 
@@ -41,23 +41,23 @@ impl Kind {
     }
 }
 
-/// Annotations of one tier that are held, with those that may be in their way.
+/// Annotations of one tier that are being dragged, with those that may be in their way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Held {
     /// The tier.
     pub tier: i64,
     /// How its annotations get their times.
     pub kind: Kind,
-    /// The annotations that may be in the way, the held ones among them, in order of time.
+    /// The annotations that may be in the way, including the dragged ones, in order of time.
     pub items: Vec<Item>,
-    /// Those that are held.
+    /// The dragged annotations.
     pub chosen: BTreeSet<i64>,
-    /// The time in which they must stay.
+    /// The time limits of the dragged annotations.
     pub limits: Limits,
 }
 
 impl Held {
-    /// Returns those that change when they are dragged.
+    /// Returns the annotations that change when they are dragged.
     #[must_use]
     pub fn dragged(&self, grip: Grip, by: i64, mode: Mode) -> Vec<Item> {
         match self.kind {
@@ -67,11 +67,11 @@ impl Held {
         }
     }
 
-    /// Returns what of the changed ones has to be asked for, in an order that never overlaps.
+    /// Returns the changes that must be requested, in an order that never overlaps.
     #[must_use]
     pub fn asked(&self, changed: &[Item]) -> Vec<Item> {
         if self.kind == Kind::Tiled {
-            // The neighbours' shared boundaries follow by themselves.
+            // The neighbours' shared boundaries are adjusted automatically.
             let own = changed.iter().filter(|item| self.chosen.contains(&item.id));
             return own.copied().collect();
         }
@@ -79,7 +79,7 @@ impl Held {
     }
 }
 
-/// Returns the time within which annotations of a recording lie; `frames` says whether it has movement.
+/// Returns the time limits for annotations of a recording; `frames` means that it has movement.
 #[must_use]
 pub fn limits(contents: &Contents, frames: bool) -> Limits {
     let to = if frames {
@@ -94,8 +94,8 @@ pub fn limits(contents: &Contents, frames: bool) -> Limits {
     }
 }
 
-/// Returns what is held when `chosen` are dragged, tier by tier. Annotations whose parent is held too
-/// follow it and are left out.
+/// Returns what is dragged if `chosen` are, tier by tier. Annotations whose parent is dragged too move with it and are
+/// left out.
 #[must_use]
 pub fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<Held> {
     let limits = limits(contents, frames);
@@ -130,7 +130,7 @@ pub fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<He
     all
 }
 
-/// Returns annotations with all that hang below them.
+/// Returns annotations together with all their descendants.
 #[must_use]
 pub fn with_below(contents: &Contents, mut all: BTreeSet<i64>) -> BTreeSet<i64> {
     loop {
@@ -147,7 +147,7 @@ pub fn with_below(contents: &Contents, mut all: BTreeSet<i64>) -> BTreeSet<i64> 
     }
 }
 
-/// Returns the places of the annotations of a tier that are in `chosen`.
+/// Returns the indices of the annotations of a tier that are in `chosen`.
 pub fn places<'a>(
     tier: &'a TierContents,
     chosen: &'a BTreeSet<i64>,
@@ -158,7 +158,7 @@ pub fn places<'a>(
         .map(|(at, _)| at)
 }
 
-/// Returns the annotations of a tier in time, only those below `parent` where one is given.
+/// Returns the annotations of a tier with times; if `parent` is given, only its children.
 #[must_use]
 pub fn items(tier: &TierContents, parent: Option<i64>) -> Vec<Item> {
     let columns = &tier.annotations;
@@ -181,8 +181,8 @@ fn span_of(contents: &Contents, id: i64) -> Option<(i64, i64)> {
     })
 }
 
-/// Returns the room for a new annotation of a tier within `wanted`: the free time, and on a tier below another the
-/// part inside one annotation of that tier.
+/// Returns the room for a new annotation of a tier within `wanted`: the free time, and on a tier below another the part
+/// inside one annotation of that tier.
 #[must_use]
 pub fn room(contents: &Contents, tier: &TierContents, wanted: (i64, i64)) -> Option<(i64, i64)> {
     let own = items(tier, None);
@@ -213,7 +213,7 @@ pub fn room(contents: &Contents, tier: &TierContents, wanted: (i64, i64)) -> Opt
     best
 }
 
-/// Returns the whole parent if it has no child yet, else the tail of the child in which `wanted` begins, or its
+/// Returns the whole parent if it has no child yet, otherwise the tail of the child in which `wanted` begins, or its
 /// head if both begin together.
 fn tiled_room(own: &[Item], above: Item, wanted: (i64, i64)) -> Option<(i64, i64)> {
     let mut below = own

@@ -1,4 +1,4 @@
-//! Annotations that give way to one that is added or moved, as the timeline of the window does it.
+//! Moves annotations out of the way of one that is added or moved, as the timeline of the window does.
 
 use std::collections::BTreeSet;
 
@@ -13,8 +13,8 @@ use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 
 impl Work<'_> {
-    /// Moves an annotation with those in its way, and returns whether that was done: in normal mode and
-    /// on tiers whose annotations lie end to end it is not.
+    /// Moves an annotation and those in its way, and returns whether it did so; it does not in normal mode and on tiers
+    /// whose annotations lie end to end.
     pub(super) fn moved_with_others(
         &mut self,
         row: &AnnotationRow,
@@ -62,7 +62,7 @@ impl Work<'_> {
         )))
     }
 
-    /// Moves annotations out of the time that a new one shall have, as the mode says.
+    /// Moves annotations out of the time of a new one, as the mode requires.
     pub(super) fn make_room(&mut self, tier: &TierRow, span: Span) -> Result<()> {
         let mode = self.options.mode;
         if mode == Mode::Normal || !matches!(Kind::of(tier), Kind::Root | Kind::Inside) {
@@ -77,7 +77,7 @@ impl Work<'_> {
         let wanted = (span.start().micros(), span.end().micros());
         match spans::opened(&items, wanted, mode, limits) {
             Some(changed) => self.respan(tier, &spans::in_order(&items, &changed)),
-            // The tier rules say what is in the way.
+            // The tier rules report the obstacle.
             None => Ok(()),
         }
     }

@@ -1,7 +1,7 @@
-//! Changes of annotations: each list of them is one operation, all of it or nothing.
+//! Changes of annotations: each list of changes is one operation, carried out completely or not at all.
 //!
-//! The tier rules are those of [`chereme_sign::tier`]; here their neighbourhood is loaded from the
-//! rows, and what follows from a change is written back.
+//! The tier rules are those of [`chereme_sign::tier`]; this module loads the affected rows and writes the resulting
+//! changes back.
 
 mod arrange;
 mod bulk;
@@ -49,47 +49,47 @@ use scope::Scope;
 /// One change of annotations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnnotationChange {
-    /// The place of the request, such as `changes.csv, line 3`; errors name it.
+    /// The origin of the request, such as `changes.csv, line 3`; errors name it.
     pub place: Option<String>,
-    /// A name by which later changes of the same list can call the annotation that this one adds.
+    /// A name by which later changes of the same list can refer to the annotation that this one adds.
     pub label: Option<String>,
-    /// What to do.
+    /// The action.
     pub action: AnnotationAction,
 }
 
 /// A change of annotations.
 ///
-/// Values are texts: an id, alias or name of the tier's inventory, or anything where the tier has
-/// none. On coded tiers (glosses, components, and those with an inventory) `unset`, `n/a` and
-/// `unclear` say how a value is missing; a blank text is unset everywhere.
+/// Values are texts: an id, alias or name of the tier's inventory, or any text if it has none. On coded tiers (glosses,
+/// components, and those with an inventory) `unset`, `n/a` and `unclear` give the reason for a missing value; a blank
+/// text is unset everywhere.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AnnotationAction {
     /// Adds an annotation.
     Add {
         /// The tier.
         tier: TierName,
-        /// Where it starts; not needed on a symbolic tier.
+        /// The start; not needed on a symbolic tier.
         start: Option<Moment>,
-        /// Where it ends; not needed on a symbolic tier.
+        /// The end; not needed on a symbolic tier.
         end: Option<Moment>,
-        /// The annotation above on a symbolic tier, where the times do not name it.
+        /// The parent annotation on a symbolic tier, if the times do not determine it.
         parent: Option<AnnotationName>,
-        /// The place among its siblings on a Symbolic_Subdivision, from 0; nothing for the end.
+        /// The place among its siblings on a Symbolic_Subdivision, from 0; by default at the end.
         order: Option<u32>,
-        /// What it says.
+        /// The value.
         value: String,
-        /// How sure its origin is, from 0 to 1.
+        /// The confidence of its origin, from 0 to 1.
         confidence: Option<f64>,
     },
     /// Gives an annotation another time, another value, or both.
     Set {
         /// The annotation.
         annotation: AnnotationName,
-        /// Where it shall start.
+        /// The new start.
         start: Option<Moment>,
-        /// Where it shall end.
+        /// The new end.
         end: Option<Moment>,
-        /// What it shall say.
+        /// The new value.
         value: Option<String>,
     },
     /// Gives an annotation of a Symbolic_Subdivision another place among its siblings.
@@ -106,18 +106,18 @@ pub enum AnnotationAction {
         /// The cut.
         at: Moment,
     },
-    /// Makes one annotation of two neighbours.
+    /// Merges two neighbours into one annotation.
     Merge {
-        /// The earlier one, which stays.
+        /// The earlier one, which remains.
         first: AnnotationName,
-        /// The later one, which goes.
+        /// The later one, which is removed.
         second: AnnotationName,
         /// The value of the merged annotation; `None` if both have the same.
         value: Option<String>,
-        /// Whether equal children that meet at the seam become one too.
+        /// Whether equal children that meet at the seam are merged too.
         join: bool,
     },
-    /// Removes an annotation and all below it.
+    /// Removes an annotation and all its descendants.
     Remove {
         /// The annotation.
         annotation: AnnotationName,
@@ -134,46 +134,45 @@ impl From<AnnotationAction> for AnnotationChange {
     }
 }
 
-/// How changes are made.
+/// Options for changes.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct AnnotateOptions {
     /// Whether times move to the start of the nearest frame of the recording's movement.
     pub snap: bool,
-    /// Who says so.
+    /// The source of the annotations.
     pub origin: AnnotationOrigin,
-    /// The effect on annotations in the way of an added or moved one: in normal mode the change is refused.
+    /// The treatment of annotations in the way of an added or moved one; in normal mode the change is refused.
     pub mode: Mode,
-    /// The unit of bare numbers in a table whose titles name none; seconds by default.
+    /// The unit of bare numbers in a table whose titles name no unit; seconds by default.
     pub unit: Option<TimeUnit>,
 }
 
 /// The result of a list of changes.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct AnnotateReport {
-    /// For each change the annotation that it added, changed or removed.
+    /// The annotation that each change added, changed or removed.
     pub annotations: Vec<i64>,
-    /// How many annotations were added, those that follow from a split among them.
+    /// The number of added annotations, including those that result from a split.
     pub added: u64,
-    /// How many were changed, those that follow from others among them.
+    /// The number of changed annotations, including those that had to follow others.
     pub changed: u64,
-    /// How many were removed, those below others among them.
+    /// The number of removed annotations, including descendants.
     pub removed: u64,
     /// The recordings, in order.
     pub recordings: Vec<String>,
-    /// The change in words, as the history has it: `1 annotation changed to MINE in take 3`.
+    /// A summary of the change, as in the history: `1 annotation changed to MINE in take 3`.
     pub summary: String,
 }
 
 impl Corpus {
-    /// Makes changes of annotations as one operation, in their order: all of them, or none.
+    /// Carries out changes of annotations as one operation, in order: all of them, or none.
     ///
-    /// Tokens and search follow. Annotations that a person changes or adds belong to that person from then on, and
+    /// Tokens and search are updated. Annotations that a person changes or adds belong to that person from then on, and
     /// moved ones lose the milliseconds of the file they came from.
     ///
     /// # Errors
-    /// Where changes break a rule of their tier, name what is not there, or say what the tier's
-    /// inventory does not have: [`Error::Several`] with each of them where the list has more than
-    /// one.
+    /// Fails if changes violate a rule of their tier, name a missing object, or use a value that the tier's inventory
+    /// does not have: [`Error::Several`] with each of them if the list has more than one.
     pub fn annotate(
         &mut self,
         changes: &[AnnotationChange],
@@ -195,7 +194,7 @@ impl Corpus {
         })
     }
 
-    /// Adds tiers, and makes changes of annotations, as one operation of that name: all of it, or nothing.
+    /// Adds tiers and changes annotations as one operation of that name: all of it, or nothing.
     pub(crate) fn annotate_with(
         &mut self,
         name: &str,
@@ -212,7 +211,7 @@ impl Corpus {
     }
 }
 
-/// Makes changes of annotations; returns the report, and the line of the history.
+/// Carries out changes of annotations; returns the report, and the summary for the history.
 fn carry_out(
     connection: &Connection,
     changes: &[AnnotationChange],
@@ -240,12 +239,12 @@ fn carry_out(
     Ok((report, summary))
 }
 
-/// A list of changes on its way into the rows.
+/// State while a list of changes is carried out.
 struct Work<'a> {
     connection: &'a Connection,
     options: &'a AnnotateOptions,
     scopes: BTreeMap<i64, Scope>,
-    /// Annotations by the labels of the changes that added them; nothing for changes that failed.
+    /// Annotations by the labels of the changes that added them; nothing if the change failed.
     labels: BTreeMap<String, Option<i64>>,
     faults: Vec<Error>,
     deeds: Deeds,
@@ -266,7 +265,7 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Makes one change, or notes why it cannot be made.
+    /// Carries out one change, or records why it cannot be carried out.
     fn change(&mut self, change: &AnnotationChange) -> Result<()> {
         let done = self.act(change);
         let annotation = match done {
@@ -465,7 +464,7 @@ impl<'a> Work<'a> {
         Ok(row.id)
     }
 
-    /// Plans a change among its neighbours, writes what it takes, and returns what it added first.
+    /// Plans a change among its neighbours, writes the edits, and returns the first added annotation.
     fn carry_out(
         &mut self,
         tier: i64,
@@ -507,7 +506,7 @@ impl<'a> Work<'a> {
         Ok(written.added.first().copied())
     }
 
-    /// Returns what `text` says on a tier.
+    /// Returns the reading of `text` on a tier.
     fn reading(&mut self, tier: &TierRow, text: &str) -> Result<Reading> {
         let inventory = self
             .scope_of(tier.id)?
@@ -541,7 +540,7 @@ impl<'a> Work<'a> {
     }
 }
 
-/// Handles from here on are those of annotations that have no row yet.
+/// The first handle for annotations that have no row yet.
 const FRESH: u64 = 1 << 62;
 
 fn unsigned(id: i64) -> u64 {
@@ -568,7 +567,7 @@ fn is_symbolic(tier: &TierRow) -> bool {
         .is_some_and(|stereotype| !stereotype.is_alignable())
 }
 
-/// Returns the value of `text` on a tier with that inventory, as the inventory's own id if it has one.
+/// Returns the reading of `text` on a tier with that inventory, as the inventory's own id if it has one.
 fn reading(tier: &TierRow, inventory: Option<&StoredInventory>, text: &str) -> Result<Reading> {
     let coded = inventory.is_some() || tier.role.is_coded();
     if !coded || text.trim().is_empty() {

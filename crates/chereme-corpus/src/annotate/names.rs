@@ -1,4 +1,4 @@
-//! How people name tiers and annotations, and which rows those are.
+//! The names of tiers and annotations in requests, and the rows that they stand for.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ use crate::db::edits;
 use crate::db::tiers::{self as tier_rows, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 
-/// A tier as people name it.
+/// A tier in a request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum TierName {
     /// `tier:12`.
@@ -57,7 +57,7 @@ impl fmt::Display for TierName {
     }
 }
 
-/// An annotation as people name it.
+/// An annotation in a request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum AnnotationName {
     /// `annotation:12`.
@@ -65,16 +65,16 @@ pub enum AnnotationName {
     /// By the label of an earlier change of the same list, its id in the file it came from, or its
     /// number.
     Called {
-        /// The recording whose file is meant; nothing for any.
+        /// The recording whose file has the id; nothing for any recording.
         recording: Option<Name>,
         /// The label or id.
         id: String,
     },
-    /// The one on a tier that starts there, to the millisecond.
+    /// The annotation on a tier with this start, to the millisecond.
     At {
         /// The tier.
         tier: TierName,
-        /// Where it starts.
+        /// Its start.
         start: Moment,
     },
 }
@@ -93,7 +93,7 @@ impl AnnotationName {
     }
 }
 
-/// Returns the tier that `name` names.
+/// Returns the tier with that name.
 pub(super) fn tier(connection: &Connection, name: &TierName) -> Result<TierRow> {
     let (recording, wanted) = match name {
         TierName::Number(id) => return tier_rows::tier(connection, *id),
@@ -126,7 +126,7 @@ pub(super) fn tier(connection: &Connection, name: &TierName) -> Result<TierRow> 
 
 const SEQUEL: &str = "could not be added";
 
-/// Returns whether a fault only follows from that of an earlier change.
+/// Returns whether an error is only a consequence of an earlier change's error.
 pub(super) fn is_sequel(fault: &Error) -> bool {
     matches!(fault, Error::Wrong { message, .. } if message.ends_with(SEQUEL))
 }
@@ -136,7 +136,7 @@ impl Work<'_> {
         tier(self.connection, name)
     }
 
-    /// Returns the annotation that `name` names.
+    /// Returns the annotation with that name.
     pub(super) fn annotation(&mut self, name: &AnnotationName) -> Result<AnnotationRow> {
         match name {
             AnnotationName::Number(id) => tier_rows::annotation(self.connection, *id),
@@ -210,7 +210,7 @@ impl Work<'_> {
         .advise(around))
     }
 
-    /// Returns the annotation above a symbolic tier that holds all of `span`.
+    /// Returns the annotation on the parent of a symbolic tier that contains all of `span`.
     pub(super) fn above(&self, tier: &TierRow, span: Span) -> Result<i64> {
         let above = tier.parent_id.unwrap_or_default();
         let (start, end) = (span.start().micros(), span.end().micros());

@@ -1,4 +1,4 @@
-//! Finding values of annotations and replacing them, and shifting whole tiers in time.
+//! Finds and replaces values of annotations, and shifts whole tiers in time.
 
 use chereme_formats::table::annotations::Moment;
 use chereme_motion::Instant;
@@ -35,7 +35,7 @@ impl Find {
     /// Reads a regular expression.
     ///
     /// # Errors
-    /// Where it is none.
+    /// Fails if the text is not a regular expression.
     pub fn pattern(text: &str) -> Result<Self> {
         let advice = "write a regular expression such as ^BO.*; a text is found without --regex";
         Regex::new(text).map(Self::Pattern).map_err(|error| {
@@ -48,7 +48,7 @@ impl Find {
         })
     }
 
-    /// Returns `value` with everything that is found replaced.
+    /// Returns `value` with all matches replaced.
     fn replaced(&self, value: &str, with: &str) -> String {
         match self {
             Self::Text(text) if text.is_empty() => value.to_owned(),
@@ -63,16 +63,16 @@ impl Find {
     }
 }
 
-/// The tiers that a search for values or a shift is about.
+/// The tiers in which values are searched or that are shifted.
 #[derive(Debug, Clone, Default)]
 pub struct Within {
     /// The recording; nothing for all of them.
     pub recording: Option<Name>,
-    /// Names of tiers, `*` for any letters, or `tier:12`; none for all of them.
+    /// Names of tiers, with `*` for any letters, or `tier:12`; empty for all of them.
     pub tiers: Vec<String>,
 }
 
-/// A value that was replaced, or would be.
+/// A value that was replaced, or would be in a dry run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ReplacedValue {
     /// The annotation's row.
@@ -81,7 +81,7 @@ pub struct ReplacedValue {
     pub recording: String,
     /// The tier's name.
     pub tier: String,
-    /// When it starts, in microseconds.
+    /// The start, in microseconds.
     pub start_us: i64,
     /// The value before.
     pub from: String,
@@ -89,7 +89,7 @@ pub struct ReplacedValue {
     pub to: String,
 }
 
-/// The result of a replacement, or of trying one.
+/// The result of a replacement or of a dry run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Replaced {
     /// Whether nothing was written.
@@ -103,10 +103,10 @@ pub struct Replaced {
 impl Corpus {
     /// Replaces the matches of `find` in the values of annotations by `with`, as one operation.
     ///
-    /// A value that becomes empty is unset. With `dry_run` everything is tried and nothing written.
+    /// A value that becomes empty is unset. With `dry_run` the replacement is tried and nothing is written.
     ///
     /// # Errors
-    /// Where a tier is not there, or its inventory does not have a new value; nothing is changed then.
+    /// Fails if a tier does not exist, or its inventory does not have a new value; nothing is changed then.
     pub fn replace_values(
         &mut self,
         find: &Find,
@@ -147,8 +147,8 @@ impl Corpus {
     /// annotations below them.
     ///
     /// # Errors
-    /// Where a tier is not there or has no times of its own, or an annotation would leave the recording
-    /// or the annotation above it; nothing is changed then.
+    /// Fails if a tier does not exist or has no times of its own, or if an annotation would leave the recording or its
+    /// parent annotation; nothing is changed then.
     pub fn shift_tiers(
         &mut self,
         within: &Within,
@@ -181,7 +181,7 @@ impl Corpus {
         }
     }
 
-    /// Makes changes, or with `dry_run` tries them and takes them back.
+    /// Carries out changes; with `dry_run` it rolls them back.
     fn annotate_or_try(
         &mut self,
         changes: &[AnnotationChange],
@@ -257,7 +257,7 @@ fn moved(item: Item, by: i64) -> Item {
     }
 }
 
-/// Refuses a shift that would leave the recording, and says how far one can go.
+/// Fails if a shift would leave the recording; the error names the largest possible shift.
 fn check(
     connection: &Connection,
     recording: &RecordingRow,
@@ -286,7 +286,7 @@ fn check(
     .advise(format!("shift it by {:.3}s at most", most as f64 / 1e6)))
 }
 
-/// Returns the tiers that are meant, with their recordings, in order.
+/// Returns the selected tiers with their recordings, in order.
 fn tiers_within(connection: &Connection, within: &Within) -> Result<Vec<(RecordingRow, TierRow)>> {
     let recordings = match &within.recording {
         Some(name) => vec![address::recording(connection, name)?],
@@ -309,7 +309,7 @@ fn tiers_within(connection: &Connection, within: &Within) -> Result<Vec<(Recordi
     }
     if let Some((text, _)) = within.tiers.iter().zip(used).find(|(_, used)| !used) {
         return Err(match &within.recording {
-            // Says which tiers there are.
+            // Lists the existing tiers.
             Some(_) => {
                 let name = TierName::read(text, within.recording.as_ref())?;
                 match names::tier(connection, &name) {
@@ -329,7 +329,7 @@ fn no_tier(text: &str) -> Error {
         .advise("`chereme list CORPUS tiers` lists them")
 }
 
-/// Returns whether a tier has that name or number; `*` stands for any letters.
+/// Returns whether a tier has that name or number; `*` matches any letters.
 fn is_meant(text: &str, tier: &TierRow) -> bool {
     if let Ok(crate::Address::Tier(id)) = text.parse() {
         return id == tier.id;

@@ -1,4 +1,4 @@
-//! Whole sets of tiers for a recording, so that annotating can begin.
+//! Whole sets of tiers for a recording, as a start for annotation.
 
 use chereme_formats::roles::Hands;
 use chereme_sign::{HandRef, Stereotype, TierRole};
@@ -12,19 +12,19 @@ use crate::db::recordings::{self, RecordingRow};
 use crate::db::tiers::{self as rows, TierRow};
 use crate::error::{Error, Result};
 
-/// Which tiers a recording is to have.
+/// The set of tiers to add to a recording.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Scheme {
     /// Gloss and translation; below the gloss handshape, placement, movement with its direction, palm and
     /// finger direction of either hand, mouth, brows and head; a comment.
     #[default]
     Usual,
-    /// Those of another recording.
+    /// The tiers of another recording.
     Like(Name),
-    /// The components of the hand of a gloss tier, of both hands if it has none: handshape, placement, movement
-    /// with its direction, palm and finger direction below that tier.
+    /// Tiers for the components of the hand of a gloss tier, or of both hands if it has none: handshape, placement,
+    /// movement with its direction, palm and finger direction, all below that tier.
     ///
-    /// Where a name is taken, that of the gloss tier stands behind it.
+    /// If a name is taken, that of the gloss tier is appended.
     Below(TierName),
 }
 
@@ -44,13 +44,14 @@ const OF_NO_HAND: [(&str, &str); 3] = [
 ];
 
 impl Corpus {
-    /// Gives a recording the tiers of a scheme that it lacks, without annotations, and returns them.
+    /// Adds the tiers of a scheme that a recording lacks, without annotations, and returns them.
     ///
-    /// It lacks those whose name it does not have, and of the usual ones those that no tier of it stands for.
+    /// A tier is lacking if no tier of the recording has its name. If it is not copied from another recording, it is
+    /// lacking only if no tier has its role and hands either.
     ///
     /// # Errors
-    /// Where the recording or the one to be like is not there, that one has no tiers, all of them are there
-    /// already, or a tier would hang below one that cannot bear it.
+    /// Fails if a recording does not exist, if the model recording has no tiers, if all tiers exist already, or if a
+    /// tier cannot be below its parent.
     pub fn add_tiers(&mut self, recording: &Name, scheme: &Scheme) -> Result<Vec<TierRow>> {
         self.store.operation("add tiers", |connection| {
             let recording = address::recording(connection, recording)?;
@@ -71,7 +72,7 @@ impl Corpus {
     }
 }
 
-/// A tier to be added, and the row of one that it is to be like.
+/// A tier to be added, and the row of the tier that it copies, if there is one.
 type Wanted = (NewTier, Option<TierRow>);
 
 fn add(
@@ -89,7 +90,7 @@ fn add(
             continue;
         }
         let mut row = new_row(connection, recording.id, &tier)?;
-        // Below one gloss tier stands what stands below another too.
+        // Tiers below one gloss tier may have the same roles as those below another.
         let same =
             |it: &TierRow| it.topic() == row.topic() && (!below || it.parent_id == row.parent_id);
         if like.is_none() && there.iter().any(same) {
@@ -178,7 +179,7 @@ fn below(connection: &Connection, gloss: &TierRow) -> Result<Vec<Wanted>> {
                 .parse()
                 .map_err(|error| Error::wrong(format!("{error}")))?;
             let mut name = format!("{name} {}", letters(hand));
-            // Its own child of that name is there already, and is not made again.
+            // An existing child of that name is not created again.
             let taken = |it: &TierRow| it.name == name && it.parent_id != Some(gloss.id);
             if there.iter().any(taken) {
                 name = format!("{name} ({})", gloss.name);
@@ -195,7 +196,7 @@ fn below(connection: &Connection, gloss: &TierRow) -> Result<Vec<Wanted>> {
     Ok(all)
 }
 
-/// Returns what the names of a hand's tiers end with.
+/// Returns the suffix of the names of a hand's tiers.
 fn letters(hand: HandRef) -> &'static str {
     match hand {
         HandRef::Right => "RH",

@@ -1,4 +1,4 @@
-//! A recording while its annotations are changed: its clock, its tiers, and what lies near a change.
+//! A recording whose annotations are being changed: its clock, its tiers, and the rows near a change.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use crate::db::tiers::{self as tier_rows, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
 
-/// How far after the end of the movement an annotation may end: times of files are milliseconds.
+/// How far beyond the end of the movement an annotation may end, in microseconds: files have times in milliseconds.
 const LENIENCE: i64 = 1000;
 
 /// The latest end of an annotation in a recording without movement, unless it is longer already: six hours.
@@ -37,7 +37,7 @@ struct Clock {
     frames: usize,
 }
 
-/// The rows that a change needs to be planned.
+/// The rows that are needed to plan a change.
 pub(super) struct Neighbourhood {
     pub(super) set: TierSet,
     pub(super) rows: BTreeMap<i64, AnnotationRow>,
@@ -84,7 +84,7 @@ impl Scope {
         }
     }
 
-    /// Returns when `moment` is; with `snap` the start of the nearest frame.
+    /// Returns the time of `moment`; with `snap` the start of the nearest frame.
     pub(super) fn instant(&self, moment: Moment, snap: bool) -> Result<Instant> {
         let needs = |what: &str| {
             Error::wrong(format!(
@@ -147,8 +147,8 @@ impl Scope {
         Ok(())
     }
 
-    /// Loads what [`Change::window`] asks for: the annotations of the changed tier and the one above
-    /// near the change, all below those of the changed tier, and the named ones with their parents.
+    /// Loads the rows for [`Change::window`]: the annotations of the changed tier and its parent near the change, all
+    /// descendants of those on the changed tier, and the named annotations with their parents.
     pub(super) fn neighbourhood(
         &self,
         connection: &Connection,
@@ -208,7 +208,7 @@ pub(super) fn hull(a: Span, b: Span) -> Span {
     Span::between(a.start().min(b.start()), a.end().max(b.end()))
 }
 
-/// Returns a stored tier as the tier rules know it; values are checked against inventories elsewhere.
+/// Returns a stored tier in the form for the tier rules; values are checked against inventories elsewhere.
 pub(super) fn sign_tier(row: &TierRow) -> Tier {
     Tier {
         id: TierId(unsigned(row.id)),
@@ -223,7 +223,7 @@ pub(super) fn sign_tier(row: &TierRow) -> Tier {
     }
 }
 
-/// Returns a stored annotation as the tier rules know it.
+/// Returns a stored annotation in the form for the tier rules.
 pub(super) fn annotation(row: &AnnotationRow) -> Annotation {
     Annotation {
         id: handle(row.id),

@@ -21,7 +21,7 @@ use crate::inventories::{self, StoredInventory};
 use crate::tokens;
 use crate::words::counted;
 
-/// Where the values of a tier come from.
+/// The source of a tier's values.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Values {
     /// The first inventory of the corpus for the tier's component; any text for other tiers.
@@ -42,22 +42,22 @@ pub struct NewTier {
     pub name: String,
     /// The subject of its annotations.
     pub role: TierRole,
-    /// Whose hand they are about.
+    /// The hand or hands that they describe.
     pub hand: Option<Hands>,
-    /// The name of the tier above, and how this one hangs below it.
+    /// The name of the parent tier, and the relation to it.
     pub parent: Option<(String, Stereotype)>,
-    /// Where its values come from.
+    /// The source of its values.
     pub values: Values,
-    /// Who is annotated.
+    /// The person who is annotated.
     pub participant: Option<String>,
-    /// Who annotates.
+    /// The annotator.
     pub annotator: Option<String>,
     /// The language of its values.
     pub language: Option<String>,
 }
 
 impl NewTier {
-    /// Returns a root tier with nothing said about it but its role.
+    /// Returns a root tier with only a name and a role.
     #[must_use]
     pub fn new(recording: Name, name: impl Into<String>, role: TierRole) -> Self {
         Self {
@@ -81,20 +81,20 @@ pub struct TierChange {
     pub name: Option<String>,
     /// The subject of its annotations.
     pub role: Option<TierRole>,
-    /// Whose hand they are about, or nobody's.
+    /// The hand or hands that they describe, or none.
     pub hand: Option<Option<Hands>>,
-    /// Where its values come from.
+    /// The source of its values.
     pub values: Option<Values>,
-    /// The name of the tier above and how it hangs below it, or none; its annotations must lie inside
-    /// those above.
+    /// The name of the parent tier and the relation to it, or none; the annotations must lie inside those of the
+    /// parent.
     pub parent: Option<Option<(String, Stereotype)>>,
-    /// Its place among the tiers of the recording, from 0; past the end is the end.
+    /// Its place among the tiers of the recording, from 0; a number past the end means the end.
     pub place: Option<u32>,
-    /// Who is annotated, or nobody; a signer that is not there is made.
+    /// The person who is annotated, or nobody; a missing signer is added.
     pub participant: Option<Option<String>>,
-    /// Who annotates, or nobody.
+    /// The annotator, or nobody.
     pub annotator: Option<Option<String>>,
-    /// The language of its values, or that none is said.
+    /// The language of its values, or none.
     pub language: Option<Option<String>>,
 }
 
@@ -111,8 +111,8 @@ impl Corpus {
     /// Adds a tier to a recording, below its others.
     ///
     /// # Errors
-    /// Where the name is taken, the tier above or the inventory is not there, or a tier with times
-    /// of its own would hang below one without.
+    /// Fails if the name is taken, the parent tier or the inventory does not exist, or a tier with times of its own
+    /// would be below one without.
     pub fn add_tier(&mut self, tier: &NewTier) -> Result<TierRow> {
         self.store.operation("add tier", |connection| {
             let (row, recording) = insert(connection, tier)?;
@@ -121,15 +121,14 @@ impl Corpus {
         })
     }
 
-    /// Changes the name, role, hand, inventory, parent, place, participant, annotator or language of a
-    /// tier; tokens follow.
+    /// Changes the name, role, hand, inventory, parent, place, participant, annotator or language of a tier; tokens are
+    /// derived again.
     ///
     /// A tier that gets another component loses its inventory unless one is given.
     ///
     /// # Errors
-    /// Where the name is taken, the inventory is not there or is for another component, the tier
-    /// says what the inventory does not have, or its annotations do not lie inside those of the tier
-    /// above.
+    /// Fails if the name is taken, the inventory does not exist or belongs to another component, the tier has values
+    /// that the inventory lacks, or its annotations do not lie inside those of the parent tier.
     pub fn change_tier(&mut self, tier: &TierName, change: &TierChange) -> Result<TierRow> {
         self.store.operation("change tier", |connection| {
             let old = names::tier(connection, tier)?;
@@ -156,10 +155,10 @@ impl Corpus {
         })
     }
 
-    /// Removes a tier, those below it, and their annotations; tokens follow.
+    /// Removes a tier, those below it, and their annotations; tokens are derived again.
     ///
     /// # Errors
-    /// Where the tier is not there.
+    /// Fails if the tier does not exist.
     pub fn remove_tier(&mut self, tier: &TierName) -> Result<RemovedTiers> {
         self.store.operation("remove tier", |connection| {
             edits::defer_references(connection)?;
@@ -187,7 +186,7 @@ impl Corpus {
     }
 }
 
-/// Makes a participant of a tier a signer of the corpus, where none has that name.
+/// Adds a participant of a tier to the signers of the corpus, if no signer has that name.
 fn know(connection: &Connection, participant: Option<&str>) -> Result<()> {
     if let Some(name) = participant {
         recordings::signer_named(connection, name, None)?;
@@ -361,7 +360,7 @@ fn inventory<'i>(
     Ok(Some(stored))
 }
 
-/// Refuses an inventory that does not have what the tier says.
+/// Fails if an inventory lacks values of the tier.
 fn check_values(connection: &Connection, tier: &TierRow, stored: &StoredInventory) -> Result<()> {
     let mut missing = Vec::new();
     for (value, count) in edits::values_of_tier(connection, tier.id)? {

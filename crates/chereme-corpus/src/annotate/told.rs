@@ -1,4 +1,4 @@
-//! Refusals of the tier rules as people read them: tiers by name, annotations by what they say and when.
+//! Messages about refused changes, with names of tiers and values of annotations instead of row numbers.
 
 use std::fmt::Write;
 
@@ -12,10 +12,10 @@ use crate::db::recordings;
 use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 
-/// How many letters of a value a message shows.
+/// The number of letters of a value that a message shows.
 const SHOWN: usize = 40;
 
-/// Returns `message` with `tier:N` and `annotation:N` outside of quotes as names.
+/// Returns `message` with names in place of `tier:N` and `annotation:N` outside of quotes.
 pub(crate) fn named(connection: &Connection, message: &str) -> String {
     let mut told = String::with_capacity(message.len());
     let (mut quoted, mut rest) = (false, message);
@@ -41,7 +41,7 @@ pub(crate) fn named(connection: &Connection, message: &str) -> String {
     told
 }
 
-/// Reads `KIND:12` at the start of a text, and returns the number and how long that is.
+/// Reads `KIND:12` at the start of a text, and returns the number and its length.
 fn number(text: &str, kind: &str) -> Option<(i64, usize)> {
     let digits = text.strip_prefix(kind)?;
     let length = digits.bytes().take_while(u8::is_ascii_digit).count();
@@ -63,7 +63,7 @@ fn annotation_named(connection: &Connection, id: i64) -> Option<String> {
     Some(format!("{} at {at}", said(&row)))
 }
 
-/// Returns an annotation with what it says, as one of several that can be meant.
+/// Returns an annotation as text, for a list of possible ones.
 pub(super) fn candidate(connection: &Connection, id: i64) -> String {
     match annotation_named(connection, id) {
         Some(name) => format!("annotation:{id} ({name})"),
@@ -71,7 +71,7 @@ pub(super) fn candidate(connection: &Connection, id: i64) -> String {
     }
 }
 
-/// Returns what an annotation says, in quotes, or how it says nothing.
+/// Returns the value of an annotation in quotes, or the reason for a missing one.
 pub(crate) fn said(row: &AnnotationRow) -> String {
     if row.state != ValueState::Value {
         return format!("an annotation without a value ({})", row.state.name());
@@ -82,7 +82,7 @@ pub(crate) fn said(row: &AnnotationRow) -> String {
     }
 }
 
-/// Returns why a change of a tier is refused, and what would be possible.
+/// Returns the error for a refused change of a tier, with possible alternatives.
 pub(super) fn refused(connection: &Connection, tier: i64, error: &EditError) -> Result<Error> {
     let row = rows::tier(connection, tier)?;
     let recording = recordings::recording(connection, row.recording_id)?;

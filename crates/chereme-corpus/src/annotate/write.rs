@@ -1,4 +1,4 @@
-//! The edits of a change to rows.
+//! Writes the edits of a change to rows.
 
 use std::collections::BTreeMap;
 
@@ -13,15 +13,15 @@ use crate::db::columns::{AnnotationOrigin, ValueState};
 use crate::db::tiers::{self as tier_rows, AnnotationRow};
 use crate::error::Result;
 
-/// Who says what a change says.
+/// The source of a change.
 pub(super) struct Says<'a> {
     pub(super) origin: AnnotationOrigin,
     pub(super) confidence: Option<f64>,
-    /// The annotations that the change is about, not those that merely follow.
+    /// The annotations named by the change, without those that merely follow.
     pub(super) named: &'a [i64],
 }
 
-/// What was written.
+/// The result of writing edits.
 #[derive(Default)]
 pub(super) struct Written {
     pub(super) added: Vec<i64>,
@@ -30,7 +30,7 @@ pub(super) struct Written {
     pub(super) touched: Option<Span>,
 }
 
-/// Writes edits in their order; `rows` are the annotations as they stand.
+/// Writes edits in their order; `rows` are the present annotations.
 pub(super) fn write(
     connection: &Connection,
     edits: &[Edit],
@@ -132,8 +132,8 @@ fn placed(row: AnnotationRow, new: &Annotation, parent_id: Option<i64>) -> Annot
     }
 }
 
-/// The properties from the file that the row does not hold, without those that a change made false: the vocabulary
-/// entry of another value, and the mark that ends were never set.
+/// Returns the properties from the file that the row does not hold, without those that a change made wrong: the
+/// vocabulary entry of another value, and the mark of ends that were never set.
 fn source(source: Option<&str>, moved: bool, renamed: bool) -> Option<String> {
     let mut source: Value = serde_json::from_str(source?).ok()?;
     let map = source.as_object_mut()?;

@@ -1,4 +1,4 @@
-//! Markers and keys of a recording, as the models of cued speech take them.
+//! Markers and keys of a recording in the form for the models of cued speech.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -26,9 +26,9 @@ use crate::track::read;
 
 /// The name of the tracks of restored markers.
 pub(super) const RESTORED: &str = "restored";
-/// The fewest labels of a set by which a recording counts as showing it.
+/// The fewest labels of a set that make a recording count as showing it.
 const FEWEST: usize = 12;
-/// The longest take that is followed, in frames.
+/// The longest take that is processed, in frames.
 const MOST_FRAMES: usize = 400_000;
 
 /// The markers of a recording that models of cued speech know.
@@ -42,13 +42,13 @@ pub struct CuedMarkers {
     pub rate: f64,
     /// How many frames there are.
     pub frames: u64,
-    /// Those of forearm and hand.
+    /// Those of the forearm and hand.
     pub hand: MarkerSet,
     /// Those of the face.
     pub face: MarkerSet,
-    /// Labels of the file that mean no marker of the models.
+    /// Labels of the file that belong to no marker of the models.
     pub unused: Vec<String>,
-    /// How many of the hidden places are restored in a track of their own.
+    /// The number of hidden positions that are restored in a track of their own.
     pub restored: u64,
 }
 
@@ -57,16 +57,16 @@ pub struct CuedMarkers {
 pub struct MarkerSet {
     /// How many markers of the set the recording has.
     pub found: u64,
-    /// The names of the others.
+    /// The names of the missing markers.
     pub missing: Vec<String>,
-    /// The share of the places of found markers that are seen.
+    /// The share of visible positions among those of the found markers.
     pub seen: f64,
 }
 
 /// Reads labels of markers from a table of two columns: the program's name, such as `HB1`, and the file's label.
 ///
 /// # Errors
-/// If the file cannot be read, or a line has another number of cells or a name that the models do not have.
+/// Fails if the file cannot be read, or a line has another number of cells or a name that the models do not have.
 pub fn read_marker_labels(path: &Path) -> Result<Vec<(String, String)>> {
     const MOST_BYTES: u64 = 1 << 20;
     let size = std::fs::metadata(path)
@@ -102,16 +102,17 @@ pub fn read_marker_labels(path: &Path) -> Result<Vec<(String, String)>> {
     Ok(all)
 }
 
-/// A take of a cuer: its markers in millimetres of model space, hidden ones with what was restored of them before.
+/// A take of a cuer: its markers in millimetres of model space; hidden markers have the positions that were restored
+/// earlier.
 pub(super) struct Take {
     pub(super) row: RecordingRow,
     pub(super) track: TrackRow,
     pub(super) markers: Markers,
-    /// For each marker of the hand its place among the track's points.
+    /// The index of each hand marker among the track's points.
     pub(super) hand_points: Vec<Option<usize>>,
     pub(super) face_points: Vec<Option<usize>>,
     pub(super) rate: f64,
-    /// Where frame 0 lies on the recording's clock, in seconds.
+    /// The time of frame 0 on the recording's clock, in seconds.
     pub(super) offset: f64,
     pub(super) hand: Vec<hand::Frame>,
     pub(super) face: Vec<face::Frame>,
@@ -140,7 +141,7 @@ fn found(points: &[Option<usize>]) -> usize {
     points.iter().flatten().count()
 }
 
-/// Returns the share of places that are seen.
+/// Returns the share of positions that are visible.
 fn shown(frames: &[Vec<Option<chereme_motion::glam::DVec3>>]) -> f64 {
     let all: usize = frames.iter().map(Vec::len).sum();
     let seen: usize = frames
@@ -151,7 +152,7 @@ fn shown(frames: &[Vec<Option<chereme_motion::glam::DVec3>>]) -> f64 {
 }
 
 impl Corpus {
-    /// Returns which markers of a recording the models of cued speech know, and how much of them is seen.
+    /// Returns the markers of a recording that the models of cued speech know, and their visibility.
     ///
     /// # Errors
     /// If there is no such recording, or it has no markers in a room.
@@ -306,7 +307,7 @@ pub(super) fn take(
     })
 }
 
-/// Puts what was restored before where markers are hidden.
+/// Fills hidden markers with positions that were restored earlier.
 fn fill(
     connection: &Connection,
     recording: i64,
@@ -344,7 +345,7 @@ fn mapped(wanted: &[String], names: &[&str], options: &CuedOptions) -> Vec<Optio
     labels::mapped(&wanted, names)
 }
 
-/// Returns where markers are in each frame, in millimetres of model space.
+/// Returns the positions of markers in each frame, in millimetres of model space.
 fn frames(
     markers: &Markers,
     points: &[Option<usize>],
@@ -363,10 +364,10 @@ fn frames(
         .collect()
 }
 
-/// Returns the takes of recordings; without names those of all captured recordings that show a hand or a face of a cuer.
+/// Returns the takes of recordings; without names those of all captured recordings that show a cuer's hand or face.
 ///
 /// # Errors
-/// If a named recording has no such markers, or no recording has.
+/// Fails if a named recording has no such markers, or no recording has.
 pub(super) fn takes(
     connection: &Connection,
     names: &[Name],
@@ -413,7 +414,7 @@ impl Cued {
     }
 }
 
-/// Returns the takes of recordings that have keys, followed through their markers.
+/// Returns the takes of recordings that have keys, with their markers and keys.
 ///
 /// # Errors
 /// If no recording has both markers of a hand and keys.
@@ -450,7 +451,7 @@ pub(super) fn cued(
     Ok(found)
 }
 
-/// Returns the keys of a take in its own time: those of its tier of keys, else those that its phones predict.
+/// Returns the keys of a take in its own time: those of its tier of keys, otherwise those that its phones predict.
 pub(super) fn keys(connection: &Connection, take: &Take, code: &CueCode) -> Result<Vec<Key>> {
     let phones = phones(connection, take.row.id, code)?;
     let own = tier(connection, take.row.id, |name| name == CueTier::Keys.name())?;
@@ -496,12 +497,13 @@ pub(super) fn keys(connection: &Connection, take: &Take, code: &CueCode) -> Resu
     Ok(predicted(&read, take.offset))
 }
 
-/// A vowel alone at the place of consonants may be either; one that stands elsewhere is a vowel.
+/// Returns whether the placement of a key is that of its vowel. A single vowel at the placement of consonants is
+/// ambiguous; at another placement it is a vowel.
 fn placement_is_of_vowel(code: &CueCode, gloss: &str) -> bool {
     cue::of_gloss(gloss).is_some_and(|(placement, _)| placement != code.consonant_alone)
 }
 
-/// Returns the keys of an utterance with times.
+/// Returns the keys of an utterance whose times are known.
 pub(super) fn predicted(read: &Utterance, offset: f64) -> Vec<Key> {
     let keys = read.keys.iter().filter_map(|key| {
         let span = key.span?;
@@ -523,7 +525,7 @@ pub(super) fn predicted(read: &Utterance, offset: f64) -> Vec<Key> {
     keys.collect()
 }
 
-/// Returns the phones of a recording's tier, and their alphabet.
+/// Returns the phones of a recording's phone tier, and their alphabet.
 pub(super) fn phones(
     connection: &Connection,
     recording: i64,
@@ -546,7 +548,7 @@ pub(super) fn phones(
     Ok(Some((crate::cue::with_gaps(phones), alphabet)))
 }
 
-/// Returns the annotations of the first tier of a recording whose name fits.
+/// Returns the annotations of the first tier of a recording whose name meets `fits`.
 pub(super) fn tier(
     connection: &Connection,
     recording: i64,

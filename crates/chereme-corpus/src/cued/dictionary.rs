@@ -1,4 +1,4 @@
-//! Movements between keys cut from captured takes, and what a script lacks of them.
+//! Movements between keys cut from captured takes, and those that a script needs in addition.
 
 use std::collections::BTreeMap;
 
@@ -20,29 +20,29 @@ use crate::cue::KeysOptions;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 
-/// How many components the places of the hand's markers keep.
+/// The number of components kept for the positions of the hand's markers.
 const KEEP: usize = 40;
-/// From how many frames the components are found at most.
+/// The largest number of frames from which the components are computed.
 const MOST_LEARNED: usize = 3000;
-/// The lever arm by which turns of the head are weighed, in millimetres.
+/// The lever arm that weighs rotations of the head, in millimetres.
 const LEVER: f64 = 100.0;
-/// How many frames a dictionary holds at most.
+/// The largest number of frames in a dictionary.
 const MOST_FRAMES: usize = 1_000_000;
-/// How many different dikeys 41 keys have.
+/// The number of different dikeys that 41 keys can form.
 const ALL_KINDS: u64 = 1680;
 
-/// A dictionary of movements between keys.
+/// Report on a dictionary of movements between keys.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DictionaryReport {
-    /// The recordings that it was cut from.
+    /// The recordings from which it was cut.
     pub recordings: Vec<String>,
     /// How many movements it has.
     pub dikeys: u64,
-    /// How many different pairs of keys these are.
+    /// The number of different pairs of keys among them.
     pub kinds: u64,
-    /// How many different pairs the keys of French have.
+    /// The number of different pairs that the keys of French can form.
     pub of: u64,
-    /// The mean distance by which its components miss the places of markers, in millimetres.
+    /// The mean distance between the positions of markers and their reconstruction from the components, in millimetres.
     pub missed_mm: f64,
     /// The pairs of keys with their counts and sources, the most frequent first.
     pub pairs: Vec<Dikeys>,
@@ -59,7 +59,7 @@ pub struct Dikeys {
     pub pair: String,
     /// How many movements there are.
     pub count: u64,
-    /// The recordings and frames that they were cut from.
+    /// The recordings and frames from which they were cut.
     pub sources: Vec<String>,
 }
 
@@ -68,13 +68,13 @@ pub struct Dikeys {
 pub struct ScriptCoverage {
     /// How many sentences the script has.
     pub sentences: u64,
-    /// How many pairs of keys they have.
+    /// The number of pairs of keys in it.
     pub pairs: u64,
     /// The share of them that the dictionary has.
     pub covered: f64,
     /// The pairs that it lacks, the most frequent first.
     pub missing: Vec<MissingDikey>,
-    /// The sentences that would add most, the best first.
+    /// The sentences that would add the most pairs, best first.
     pub worth: Vec<WorthRecording>,
 }
 
@@ -98,12 +98,12 @@ pub struct WorthRecording {
     pub adds: u64,
 }
 
-/// Returns a key as the parts of a dictionary name it.
+/// Returns the name of a key in a dictionary.
 pub(super) fn named(end: DikeyEnd) -> String {
     format!("{}-{}", placement_name(end.placement), end.shape)
 }
 
-/// Returns two keys as the parts of a dictionary name them.
+/// Returns the name of a pair of keys in a dictionary.
 pub(super) fn pair_name((from, to): (DikeyEnd, DikeyEnd)) -> String {
     format!("{}>{}", named(from), named(to))
 }
@@ -114,13 +114,13 @@ pub(super) const REST: DikeyEnd = DikeyEnd {
     shape: 0,
 };
 
-/// A dictionary with all that is needed to make movement of it and to read it back.
+/// A dictionary with the data needed to generate movement from it and to read that back.
 pub(super) struct Book {
     pub(super) dictionary: Dictionary,
     pub(super) components: Pca,
     pub(super) known: Recognisers,
     pub(super) rate: f64,
-    /// Where the rigid markers of the head usually are; empty if takes show no face.
+    /// The usual positions of the head's rigid markers; empty if no take shows a face.
     pub(super) rigid: Vec<DVec3>,
     recordings: Vec<String>,
     left_out: Vec<String>,
@@ -128,7 +128,7 @@ pub(super) struct Book {
 }
 
 impl Book {
-    /// Returns the hand's markers in the space of the head and the head's motion, as a row of parameters has them.
+    /// Returns the hand's markers in head space and the head's motion, for a row of parameters.
     pub(super) fn places(&self, row: &[f64]) -> (Vec<DVec3>, Rigid) {
         let keep = self.components.directions.len();
         let flat = self.components.rebuild(&row[..keep]);
@@ -145,12 +145,12 @@ impl Book {
 }
 
 impl Corpus {
-    /// Returns the dictionary of movements between keys that captured takes give, and what a script lacks of it: a text
-    /// with a sentence on each line.
+    /// Returns the dictionary of movements between keys from captured takes, and the pairs that a script lacks; the
+    /// script is a text with one sentence per line.
     ///
     /// # Errors
-    /// If no recording has a cuer's markers and keys, they are too few, the script cannot be read, or `progress` stops
-    /// the work.
+    /// Fails if no recording has a cuer's markers and keys, if they are too few, if the script cannot be read, or if
+    /// `progress` stops the work.
     pub fn cue_dictionary(
         &self,
         recordings: &[Name],
@@ -190,7 +190,7 @@ impl Corpus {
     }
 }
 
-/// How many sentences are named as worth recording.
+/// The largest number of sentences that are listed as worth recording.
 const MOST_WORTH: usize = 20;
 
 fn coverage(
@@ -256,7 +256,7 @@ fn coverage(
     })
 }
 
-/// Cuts the dictionary of captured takes.
+/// Cuts the dictionary from captured takes.
 pub(super) fn book(
     connection: &Connection,
     recordings: &[Name],
@@ -365,7 +365,7 @@ pub(super) fn book(
     })
 }
 
-/// The places of the hand's markers in the space of the head, one coordinate after another, and the head's motion.
+/// The positions of the hand's markers in head space, one coordinate after another, and the head's motion.
 type HeadRow = Option<(Vec<f64>, [f64; 6])>;
 
 fn in_head(own: &Cued) -> Vec<HeadRow> {
@@ -428,7 +428,7 @@ fn missed(components: &Pca, row: &[f64]) -> f64 {
     sum / (row.len() / 3).max(1) as f64
 }
 
-/// Returns the keys of a take with the frames at which the hand arrives, the rest before the first movement among them.
+/// Returns the keys of a take with the frames of the hand's arrival, including the rest before the first movement.
 fn goals(own: &Cued, shown: &[Shown]) -> Vec<(DikeyEnd, usize)> {
     let frame_of = |seconds: f64| (seconds * own.take.rate).round().max(0.0) as usize;
     let last = own.take.frames().saturating_sub(1);

@@ -1,14 +1,15 @@
-//! Captured cued speech: markers of a cuer followed, restored, recognised, measured, and cut into a dictionary.
+//! Captured cued speech: following, restoring, recognising and measuring a cuer's markers, and cutting them into a
+//! dictionary.
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`capture`] | markers and keys of a recording as the models take them |
-//! | [`restore`] | hidden markers read off models of hand and face, as a track of their own |
-//! | [`recognise`] | shapes and placements recognised, with tables of what was confused |
-//! | [`targets`] | movements and targets of keys found and written as tiers; statistics of phases |
-//! | [`dictionary`] | movements between keys cut from the corpus, and what a script lacks |
-//! | [`say`] | a sentence put together from the dictionary, and read back |
-//! | [`slips`] | produced against predicted keys |
+//! | [`capture`] | markers and keys of a recording in the form for the models |
+//! | [`restore`] | hidden markers estimated by models of hand and face, as a track of their own |
+//! | [`recognise`] | recognition of shapes and placements, with confusion tables |
+//! | [`targets`] | movements and targets of keys, written as tiers; statistics of phases |
+//! | [`dictionary`] | movements between keys cut from the corpus, and those that a script needs in addition |
+//! | [`say`] | a sentence composed from the dictionary, and read back |
+//! | [`slips`] | comparison of produced and predicted keys |
 
 mod capture;
 mod dictionary;
@@ -30,7 +31,7 @@ pub use say::{CueCosts, FromDictionary, SaidPiece};
 pub use slips::{CueSlip, CueSlips, SlipKind};
 pub use targets::{CuePhaseRow, CuePhaseStatistics, CueTargets, FoundKey};
 
-/// Which code was cued, and which labels the markers of files have.
+/// The code of the cuer, and the labels of markers in files.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CuedOptions {
     /// The code's name or language, such as `french`.
@@ -63,12 +64,12 @@ impl CuedOptions {
     }
 }
 
-/// Returns the name of a placement by the number that models use.
+/// Returns the name of a placement from its number in the models.
 fn placement_name(number: u8) -> &'static str {
     cue::placement_of_number(usize::from(number)).unwrap_or("unknown")
 }
 
-/// Returns a key as people write it, such as `mouth-4`.
+/// Returns a key in the usual notation, such as `mouth-4`.
 fn key_name(placement: u8, shape: u8) -> String {
     format!("{}-{shape}", placement_name(placement))
 }

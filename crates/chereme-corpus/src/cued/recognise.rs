@@ -1,4 +1,4 @@
-//! Shapes and placements of captured keys recognised, with tables of what was taken for what.
+//! Recognition of shapes and placements of captured keys, with confusion tables.
 
 use chereme_analysis::cue::gauss::{Confusion, Recogniser};
 use chereme_analysis::cue::session::{Recognisers, examples, find, find_known};
@@ -10,14 +10,14 @@ use crate::Corpus;
 use crate::address::Name;
 use crate::error::{Error, Result};
 
-/// How well shapes and placements are recognised.
+/// Results of the recognition of shapes and placements.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CueRecognition {
     /// The recordings from which the recognisers learned.
     pub trained_on: Vec<String>,
     /// The recordings whose keys were recognised.
     pub tested_on: Vec<String>,
-    /// Whether keys were recognised that the recognisers had learned from.
+    /// Whether some of the recognised keys also served for learning.
     pub same: bool,
     /// Shapes.
     pub shapes: CueConfusion,
@@ -25,18 +25,18 @@ pub struct CueRecognition {
     pub placements: CueConfusion,
     /// The keys that were recognised as others.
     pub misread: Vec<Misread>,
-    /// Takes whose keys have no room in their frames.
+    /// Takes without enough frames for their keys.
     pub left_out: Vec<String>,
 }
 
-/// How often each class was taken for which.
+/// Confusion table: how often each class was recognised as each.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CueConfusion {
     /// The classes, in order.
     pub classes: Vec<String>,
-    /// For each class that was shown, how often it was recognised as each class.
+    /// For each true class, how often it was recognised as each class.
     pub counts: Vec<Vec<u64>>,
-    /// The share that was recognised as what it is.
+    /// The share of correct recognitions.
     pub rate: f64,
 }
 
@@ -45,7 +45,7 @@ pub struct CueConfusion {
 pub struct Misread {
     /// The recording.
     pub recording: String,
-    /// When its target is, in microseconds.
+    /// The time of its target, in microseconds.
     pub at_us: i64,
     /// The key that should be shown.
     pub key: String,
@@ -78,8 +78,8 @@ impl CueConfusion {
 impl Corpus {
     /// Recognises the shapes and placements of captured keys at their targets.
     ///
-    /// The recognisers learn from the recordings `train` and are tried on `test`; without names on every second
-    /// recording each, in their order.
+    /// The recognisers learn from the recordings `train` and are tested on `test`; without names they learn from and
+    /// are tested on every second recording each, in order.
     ///
     /// # Errors
     /// If no recording has a cuer's markers and keys, or they are too few.
@@ -167,7 +167,7 @@ impl Corpus {
     }
 }
 
-/// Finds the gestures of takes, and the recognisers that they teach.
+/// Finds the gestures of takes, and trains recognisers on them.
 pub(super) fn learned(
     takes: &[Cued],
 ) -> Result<(Recognisers, Vec<Vec<chereme_analysis::cue::session::Shown>>)> {

@@ -19,14 +19,15 @@ use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use crate::track::{NewTrack, Track, store};
 
-/// How markers are restored.
+/// Options for restoring markers.
 #[derive(Debug, Clone)]
 pub struct RestoreOptions {
-    /// The recordings from which the models learn; without names those of the hand alone and of the face alone, else all.
+    /// The recordings from which the models learn; without names takes of the hand alone and of the face alone,
+    /// otherwise all takes.
     pub train: Vec<Name>,
-    /// How many components the posture of the hand has, from 1 to 25.
+    /// The number of components in the model of the hand's posture, from 1 to 25.
     pub components: usize,
-    /// Report the errors and store nothing.
+    /// Whether to report the errors and store nothing.
     pub dry_run: bool,
     /// Labels and code.
     pub cued: CuedOptions,
@@ -56,21 +57,21 @@ pub struct RestoredTake {
     pub face_from: Vec<String>,
     /// How many frames there are.
     pub frames: u64,
-    /// How many places of known markers are hidden.
+    /// The number of hidden positions of known markers.
     pub hidden: u64,
-    /// How many of them were restored.
+    /// The number of restored positions.
     pub restored: u64,
-    /// How many of these are uncertain: their predicted standard deviation is above 8 mm in the room.
+    /// The number of uncertain positions: their predicted standard deviation is above 8 mm in the room.
     pub uncertain: u64,
     /// The mean distance of the hand's visible markers from the model, in millimetres.
     pub hand_mm: Option<f64>,
-    /// The same along one axis.
+    /// The mean distance along one axis, in millimetres.
     pub hand_axis_mm: Option<f64>,
     /// The mean distance of the face's visible markers from the model, in millimetres.
     pub face_mm: Option<f64>,
     /// The markers that were restored.
     pub markers: Vec<RestoredMarker>,
-    /// The track of restored places; nothing if none was stored.
+    /// The track of restored positions; nothing if none was stored.
     pub track: Option<String>,
     /// Reasons for caution.
     pub findings: Vec<String>,
@@ -81,20 +82,20 @@ pub struct RestoredTake {
 pub struct RestoredMarker {
     /// Its name in the file.
     pub name: String,
-    /// In how many frames it was restored.
+    /// The number of frames in which it was restored.
     pub frames: u64,
     /// The mean of its predicted standard deviation in the room, in millimetres.
     pub sd_mm: f64,
-    /// The greatest of them.
+    /// The greatest predicted standard deviation, in millimetres.
     pub most_sd_mm: f64,
 }
 
-/// A predicted standard deviation in the room above this, in millimetres, is reported as uncertain.
+/// The predicted standard deviation in the room above which a position counts as uncertain, in millimetres.
 const UNCERTAIN: f64 = 8.0;
-/// From how many frames a model learns at most.
+/// The largest number of frames from which a model learns.
 const MOST_LEARNED: usize = 10_000;
 
-/// A frame by the model of the face: the head's motion, and the place and predicted error of each marker.
+/// A frame in the model of the face: the head's motion, and the position and predicted error of each marker.
 type FaceRow = (Rigid, Vec<DVec3>, Vec<f64>);
 
 struct Models {
@@ -104,9 +105,9 @@ struct Models {
 }
 
 impl Corpus {
-    /// Restores the hidden markers of cuers: models of hand and face learn from recordings, and what they say of hidden
-    /// markers becomes the track `restored` of each recording, in the place of one from before, with the predicted
-    /// standard deviation of each place. Captured tracks stay as they are.
+    /// Restores the hidden markers of cuers. Models of hand and face learn from recordings, and their estimates of
+    /// hidden markers become the track `restored` of each recording, with the predicted standard deviation of each
+    /// position; an earlier track of that name is replaced. Captured tracks remain unchanged.
     ///
     /// # Errors
     /// If there are no such markers, too few frames to learn from, or `progress` stops the work.
@@ -180,7 +181,7 @@ impl Corpus {
     }
 }
 
-/// Learns the models: the hand's from takes of the hand alone if there are any, the face's from takes of the face.
+/// Trains the models: the hand's on takes of the hand alone if there are any, the face's on takes of the face.
 fn models(
     connection: &Connection,
     options: &RestoreOptions,
@@ -241,7 +242,7 @@ fn models(
     })
 }
 
-/// Returns captured frames of takes in which something is seen, evenly thinned.
+/// Returns captured frames of takes in which something is visible, evenly thinned.
 fn thinned(takes: &[&Take], points: fn(&Take) -> &[Option<usize>]) -> Vec<Vec<Option<DVec3>>> {
     let all: usize = takes.iter().map(|take| take.frames()).sum();
     let step = all.div_ceil(MOST_LEARNED).max(1);
@@ -339,7 +340,7 @@ fn restored(
     Ok((report, Some(track)))
 }
 
-/// Returns a frame as it was captured, without what was restored before.
+/// Returns a frame as captured, without positions that were restored earlier.
 fn captured(take: &Take, points: &[Option<usize>], frame: usize) -> Vec<Option<DVec3>> {
     let space = take.markers.space();
     points
@@ -351,8 +352,8 @@ fn captured(take: &Take, points: &[Option<usize>], frame: usize) -> Vec<Option<D
         .collect()
 }
 
-/// Adds the restored places of a set of markers; returns the mean distance of its visible ones from the model, and
-/// the same along one axis.
+/// Adds the restored positions of a set of markers; returns the mean distance of its visible markers from the model,
+/// and the mean distance along one axis.
 fn set<'a>(
     take: &Take,
     points: &[Option<usize>],

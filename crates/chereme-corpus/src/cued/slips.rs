@@ -1,4 +1,4 @@
-//! Produced against predicted keys of a take: insertions, deletions, and substitutions of shape or placement.
+//! Comparison of produced and predicted keys of a take: insertions, deletions, and substitutions of shape or placement.
 
 use chereme_analysis::cue::session::Key;
 use chereme_compose::CueTier;
@@ -36,7 +36,7 @@ pub struct CueSlips {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SlipKind {
-    /// A key that should not be there.
+    /// A superfluous key.
     Insertion,
     /// A key that is missing.
     Deletion,
@@ -49,7 +49,7 @@ pub enum SlipKind {
 }
 
 impl SlipKind {
-    /// Returns the word for it.
+    /// Returns the name of the kind.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -67,7 +67,7 @@ impl SlipKind {
 pub struct CueSlip {
     /// The kind.
     pub kind: SlipKind,
-    /// When it is, in microseconds; nothing for a missing key whose time is unknown.
+    /// Its time, in microseconds; nothing for a missing key whose time is unknown.
     pub at_us: Option<i64>,
     /// The key that was predicted; nothing for an insertion.
     pub predicted: Option<String>,
@@ -75,17 +75,17 @@ pub struct CueSlip {
     pub produced: Option<String>,
 }
 
-/// The longest sequences that are compared.
+/// The length of the longest sequences that are compared.
 const MOST: usize = 5_000;
 
 impl Corpus {
     /// Compares the keys that a take shows with those that its phones, or a text, predict.
     ///
-    /// Produced keys are those of its tier of keys; without one, or with `recognised`, those that the recognisers read at
-    /// the targets of the predicted keys, which finds substitutions only.
+    /// Produced keys are those of its tier of keys. Without one, or with `recognised`, they are those that the
+    /// recognisers read at the targets of the predicted keys, which finds only substitutions.
     ///
     /// # Errors
-    /// If there is no such recording, neither phones nor a text predict keys, or no keys can be read.
+    /// Fails if there is no such recording, neither phones nor a text predict keys, or no keys can be read.
     pub fn cue_slips(
         &self,
         recording: &Name,
@@ -231,7 +231,8 @@ fn kind(expected: (u8, u8), produced: (u8, u8)) -> Option<SlipKind> {
     }
 }
 
-/// Aligns both sequences at the least cost: half for each part of a key that differs, 0.7 for a key too many or too few.
+/// Aligns both sequences at the least cost: half for each part of a key that differs, 0.7 for a superfluous or missing
+/// key.
 fn compared(expected: &[Expected], produced: &[Produced]) -> (u64, Vec<CueSlip>) {
     const GAP: f32 = 0.7;
     let width = produced.len() + 1;
@@ -293,7 +294,7 @@ fn compared(expected: &[Expected], produced: &[Produced]) -> (u64, Vec<CueSlip>)
 }
 
 impl CueSlips {
-    /// Returns how many slips there are of a kind.
+    /// Returns the number of slips of a kind.
     #[must_use]
     pub fn count(&self, kind: SlipKind) -> usize {
         self.slips.iter().filter(|slip| slip.kind == kind).count()

@@ -1,4 +1,4 @@
-//! Movements and targets of captured keys found and written as tiers, and the statistics of their phases.
+//! Finds the movements and targets of captured keys, writes them as tiers, and computes statistics of their phases.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -26,7 +26,7 @@ use crate::picture;
 pub struct CueTargets {
     /// The recording.
     pub recording: String,
-    /// The keys in order; empty if they have no room in the frames.
+    /// The keys in order; empty if the take has too few frames for them.
     pub keys: Vec<FoundKey>,
     /// The tiers that were written.
     pub tiers: Vec<String>,
@@ -41,23 +41,23 @@ pub struct FoundKey {
     pub kind: &'static str,
     /// The start of its first sound.
     pub a1_us: i64,
-    /// The hand's movement to the target; nothing if it is too short or unclear, or the placement is the same.
+    /// The hand's movement to the target; nothing if it is too short or unclear, or if the placement stays the same.
     pub hand_us: Option<[i64; 2]>,
     /// The fingers' movement.
     pub fingers_us: Option<[i64; 2]>,
     /// The frame of the target.
     pub target_us: i64,
-    /// The log of the probability of the right placement at the target.
+    /// The logarithm of the probability of the right placement at the target.
     pub placement_log: f64,
-    /// The log of the probability of the right shape.
+    /// The logarithm of the probability of the right shape.
     pub shape_log: f64,
-    /// For how long the right placement is the most probable one.
+    /// The time in which the right placement is the most probable one.
     pub placement_extent_us: Option<[i64; 2]>,
-    /// For how long the right shape is the most probable one.
+    /// The time in which the right shape is the most probable one.
     pub shape_extent_us: Option<[i64; 2]>,
 }
 
-/// When hands and fingers begin and arrive against the sounds of keys.
+/// The times at which hands and fingers begin and arrive relative to the sounds of keys.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CuePhaseStatistics {
     /// The recordings.
@@ -68,7 +68,7 @@ pub struct CuePhaseStatistics {
     pub rows: Vec<CuePhaseRow>,
 }
 
-/// When the hand or the fingers begin and arrive for keys of one kind.
+/// The times at which the hand or the fingers begin and arrive, for keys of one kind.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CuePhaseRow {
     /// `hand` or `fingers`.
@@ -81,13 +81,13 @@ pub struct CuePhaseRow {
     pub begins_ms: [f64; 3],
     /// Arrival minus the start of the sound, in milliseconds.
     pub arrives_ms: [f64; 3],
-    /// The same as a share of the consonant for pairs, of the key for others.
+    /// The arrival as a share of the consonant for pairs, of the key for others.
     pub share: [f64; 3],
 }
 
 impl Corpus {
     /// Finds the movements and targets of keys in captured takes; with `store` they are written as tiers of their
-    /// recordings, one operation for all. A tier that a person wrote or changed stays, and the new one has another name.
+    /// recordings, in one operation. A tier that a person wrote or changed remains, and the new one gets another name.
     ///
     /// # Errors
     /// If no recording has a cuer's markers and keys, or they are too few.
@@ -130,8 +130,8 @@ impl Corpus {
         Ok(found)
     }
 
-    /// Returns when hands and fingers begin and arrive against the sounds of keys, by kind of key; successions of the
-    /// same placement, or of the same shape, do not count.
+    /// Returns the times at which hands and fingers begin and arrive relative to the sounds of keys, by kind of key; a
+    /// key with the same placement, or the same shape, as the one before does not count.
     ///
     /// # Errors
     /// If no recording has a cuer's markers and keys, or they are too few.
@@ -164,11 +164,11 @@ impl Corpus {
 }
 
 impl CuePhaseStatistics {
-    /// Draws the phases to an SVG: for each part and kind a box from the first to the third quartile of begin and arrival,
-    /// with its median, on an axis from -600 to 600 ms.
+    /// Draws the phases to an SVG: for each part and kind a box from the first to the third quartile of begin and
+    /// arrival, with the median, on an axis from -600 to 600 ms.
     ///
     /// # Errors
-    /// If the file is there already and `force` is not set, or it cannot be written.
+    /// If the file exists already and `force` is not set, or it cannot be written.
     pub fn draw(&self, to: &Path, force: bool) -> Result<()> {
         let text = self.svg();
         let fill = |out: &mut std::io::BufWriter<std::fs::File>| {
@@ -255,7 +255,7 @@ fn found_keys(own: &Cued, shown: &[Shown]) -> Vec<FoundKey> {
     .collect()
 }
 
-/// Writes the tiers of a recording: movements of hand and fingers, and the extents of gestures; returns their names.
+/// Writes the tiers of a recording: movements of hand and fingers, and the extents of gestures. Returns their names.
 fn written(connection: &Connection, recording: i64, keys: &[FoundKey]) -> Result<Vec<String>> {
     let mut hand = Vec::new();
     let mut fingers = Vec::new();
@@ -298,10 +298,11 @@ fn written(connection: &Connection, recording: i64, keys: &[FoundKey]) -> Result
     Ok(names)
 }
 
-/// A row of a tier: begin, end, value, and the log of its probability.
+/// A row of a tier: begin, end, value, and the logarithm of its probability.
 pub(super) type Row = (i64, i64, String, f64);
 
-/// Writes a tier of a detector in the place of one from before; a tier of that name that a person or a file wrote stays.
+/// Writes a tier of a detector and replaces its earlier version; a tier of that name that a person or a file wrote
+/// remains.
 pub(super) fn write_tier(
     connection: &Connection,
     recording: i64,

@@ -1,4 +1,4 @@
-//! The captured face of a recording: channels of a face system, or the points of a face on film.
+//! The captured face of a recording: channels of a face system, or points of a face on film.
 
 use chereme_compose::{Curve, NUMBER};
 use chereme_formats::faces::{FaceMesh, Measures, System, View};
@@ -11,12 +11,12 @@ use crate::db::upgrade::NONMANUALS;
 use crate::error::Result;
 use crate::track;
 
-/// So many frames of points are read at once.
+/// The number of frames of points that are read at once.
 const PIECE: usize = 4_096;
-/// Points in more frames than this are not read as a face.
+/// The largest number of frames of points that are read as a face.
 const LONGEST: usize = 1_000_000;
 
-/// How far the head is above the hips, in metres: the lever by which a leaning trunk moves it.
+/// The height of the head above the hips, in metres: the lever by which a leaning trunk moves it.
 const TRUNK: f64 = 0.65;
 
 /// The captured face of a recording.
@@ -24,14 +24,15 @@ pub(crate) struct Captured {
     pub(crate) row: TrackRow,
     pub(crate) times: Times,
     pub(crate) view: View,
-    /// The recording on whose take the weights were fitted.
+    /// The recording of the take on which the weights were fitted.
     pub(crate) fitted: Option<i64>,
-    /// The middle of the places of the head.
+    /// The mean position of the head.
     usual_place: Option<[f64; 3]>,
 }
 
-/// Returns the captured face of a recording, whole or of the frames in a span of the recording's clock: the first track of
-/// curves that is of a face system, else the first track of points with a face. Curves that a recipe made do not count.
+/// Returns the captured face of a recording, complete or in the frames within a span of the recording's clock: the
+/// first track of curves in a face system, otherwise the first track of points with a face. Curves that a recipe
+/// generated do not count.
 pub(crate) fn captured(
     connection: &Connection,
     recording: i64,
@@ -40,7 +41,7 @@ pub(crate) fn captured(
     captured_with(connection, recording, span, &Fits::of(connection)?)
 }
 
-/// Returns the same with fitted weights that were looked up before.
+/// Returns the captured face as [`captured`] does, with fitted weights that were looked up before.
 pub(crate) fn captured_with(
     connection: &Connection,
     recording: i64,
@@ -60,7 +61,7 @@ pub(crate) fn captured_with(
         let mut row = row.clone();
         let curves = track::read::curves(connection, &row, span)?;
         if let (Some(span), Some(rate)) = (span, row.rate) {
-            // The times of an even part count from its first frame.
+            // In a part at an even rate, times count from its first frame.
             let count = usize::try_from(row.frames.unwrap_or_default()).unwrap_or(usize::MAX);
             let skipped = Times::Even(rate).frames_in(span.shifted(-row.offset_us), count);
             let moved = rate.instant(skipped.start).micros();
@@ -86,7 +87,7 @@ pub(crate) fn captured_with(
     Ok(None)
 }
 
-/// Returns the face of a track of points; `None` if they hold none.
+/// Returns the face from a track of points; `None` if the points contain no face.
 fn of_points(
     connection: &Connection,
     recording: i64,
@@ -142,7 +143,7 @@ fn of_points(
     }))
 }
 
-/// Returns the middle of the places of a head.
+/// Returns the mean position of a head.
 fn usual_place(view: &View) -> Option<[f64; 3]> {
     let places = view.place.as_ref().filter(|all| !all.is_empty())?;
     let middle = |axis: usize| {
@@ -153,8 +154,8 @@ fn usual_place(view: &View) -> Option<[f64; 3]> {
 }
 
 impl Captured {
-    /// Returns the turns of the trunk at a moment, in radians, as the place of the head shows them: a trunk that leans
-    /// carries the head forward and aside; `None` if the capture does not say where the head is.
+    /// Returns the rotation of the trunk at a moment, in radians, estimated from the position of the head: a leaning
+    /// trunk moves the head forward and sideways. `None` if the capture has no position of the head.
     pub(crate) fn trunk_at(&self, moment: Instant) -> Option<[f64; 3]> {
         let places = self.view.place.as_ref()?;
         let (first, second, share) = self.place_of(moment);
@@ -165,7 +166,8 @@ impl Captured {
         Some([turn(forward), 0.0, -turn(left)])
     }
 
-    /// Returns the frames around a moment of the recording's clock, and how far it is from the first to the second.
+    /// Returns the two frames around a moment of the recording's clock, and the share of the way from the first to the
+    /// second.
     fn place_of(&self, moment: Instant) -> (usize, usize, f64) {
         let own = moment.shifted(-self.row.offset_us).seconds();
         let last = self.view.faces.len().saturating_sub(1);
@@ -177,8 +179,8 @@ impl Captured {
         (first, (first + 1).min(last), at.fract())
     }
 
-    /// Returns the face, the known numbers and the turns of the head at a moment of the recording's clock, blended between
-    /// frames; before the first frame and after the last one the nearest frame's.
+    /// Returns the face, its known numbers and the rotation of the head at a moment of the recording's clock, blended
+    /// between frames; before the first frame and after the last one those of the nearest frame.
     pub(crate) fn at(&self, moment: Instant) -> (Face, Option<[f64; 3]>) {
         let (first, second, share) = self.place_of(moment);
         let face = match self.view.faces.get(first) {
@@ -207,7 +209,7 @@ impl Captured {
             }
     }
 
-    /// Returns a curve for each number that the capture gives, at these moments of the recording's clock.
+    /// Returns a curve for each number of the capture, at these moments of the recording's clock.
     pub(crate) fn curves(&self, moments: impl Iterator<Item = Instant>) -> Vec<Curve> {
         let faces: Vec<[f64; Face::LEN]> = moments.map(|at| self.at(at).0.numbers()).collect();
         let known = Face::NAMES

@@ -1,4 +1,4 @@
-//! Performances of a function ranked for a sentence, and the sentence animated with the chosen one.
+//! Ranks performances of a function for a sentence, and animates the sentence with the chosen one.
 
 use std::thread;
 
@@ -18,36 +18,36 @@ use crate::error::{Error, Result};
 use crate::progress::Progress;
 use crate::recombine::Recombination;
 
-/// So many performances stand for all when a medoid is looked for.
+/// The number of performances that represent all in the search for a medoid.
 const REFERENCES: usize = 64;
 
-/// By what performances are ranked.
+/// The criterion of a ranking.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Rank {
-    /// The most alike to the sentence's own face first; without one the medoid.
+    /// Most similar to the sentence's own face first; if it has none, as for the medoid.
     #[default]
     Nearest,
-    /// The least alike to the sentence's own face first.
+    /// Least similar to the sentence's own face first.
     Farthest,
-    /// The most alike to all others first: a usual performance of the function.
+    /// Most similar to all others first: a typical performance of the function.
     Medoid,
 }
 
-/// How performances are compared and ranked.
+/// Options for comparing and ranking performances.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChooseOptions {
-    /// By what they are ranked.
+    /// The criterion.
     pub rank: Rank,
-    /// The names of the channels that are compared; empty for head, brows and brows drawn together.
+    /// The names of the channels to compare; if empty, head, brows, and brows drawn together.
     pub channels: Vec<String>,
     /// The factor of each phase's cost.
     pub weights: [f64; 4],
-    /// Whether the ratio of lengths counts, as in the paper.
+    /// Whether the ratio of lengths is a factor of the score, as in the paper.
     pub stretch: bool,
-    /// What happens to phases whose lengths no path connects.
+    /// The treatment of phases whose lengths no path connects.
     pub no_path: NoPath,
-    /// How many performances are reported, with the reasons; those behind them are only counted.
+    /// The number of performances that are reported with reasons; the others are only counted.
     pub limit: usize,
 }
 
@@ -75,25 +75,26 @@ pub struct Choice {
     pub recording_id: i64,
     /// The milestones of that expression, on its recording's clock.
     pub milestones: Milestones,
-    /// By what the performances are ranked: by the medoid if the sentence has no face of its own.
+    /// The criterion used: the medoid if the sentence has no face of its own.
     pub rank: Rank,
-    /// The channels that were compared, with what counts as 1.
+    /// The channels that were compared, with their units.
     pub channels: Vec<FaceChannel>,
-    /// Channels that were asked for and that the sentence's own face, or half of the performances, do not give.
+    /// Requested channels that are missing from the sentence's own face, or from half of the performances.
     pub left_out: Vec<String>,
     /// How many performances were compared.
     pub compared: u64,
-    /// With how many each was compared, to find the most usual one; 0 if they are ranked against the sentence's own face.
+    /// The number of performances with which each was compared to find the most typical one; 0 if they are ranked
+    /// against the sentence's own face.
     pub references: u64,
-    /// In how many comparisons a phase had no path under the plain window, and was adapted.
+    /// The number of comparisons in which a phase had no path under the plain window, so that the window was adapted.
     pub adapted: u64,
-    /// The first of them, best first.
+    /// The first performances, best first.
     pub ranking: Vec<Ranked>,
     /// Performances that could not be compared, with the reason.
     pub skipped: Vec<(String, String)>,
 }
 
-/// One performance in its place.
+/// One performance in a ranking.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Ranked {
     /// The address of the performance.
@@ -104,11 +105,12 @@ pub struct Ranked {
     pub recording_id: i64,
     /// Its milestones, on the clock of its recording.
     pub milestones: Milestones,
-    /// The recipe by which the sentence gets this face.
+    /// The recipe that gives the sentence this face.
     pub recipe: String,
-    /// The score by which it is ranked; smaller is more alike.
+    /// The score that determines its place; smaller is more similar.
     pub score: f64,
-    /// The score's parts; of a medoid against the most usual performance, of that one against the second.
+    /// The parts of the score; in a ranking by medoid, compared with the most typical performance, and for that one
+    /// compared with the second.
     #[serde(flatten)]
     pub parts: FaceScore,
 }
@@ -118,26 +120,26 @@ pub struct Ranked {
 pub struct FaceScore {
     /// The sum over phases times the ratio of lengths.
     pub stretched: f64,
-    /// The sum over phases alone.
+    /// The sum over phases, without the ratio of lengths.
     pub unstretched: f64,
-    /// The length of the target over that of the performance.
+    /// The ratio of the target's length to that of the performance.
     pub stretch: f64,
-    /// The size of that ratio's natural logarithm.
+    /// The absolute value of that ratio's natural logarithm.
     pub log_stretch: f64,
-    /// Whether a phase was left out because one of them does not have it.
+    /// Whether a phase was left out because one of the two lacks it.
     pub partial: bool,
     /// The phases.
     pub phases: Vec<phases::PhaseScore>,
-    /// For each channel its mean difference over all phases in units that count as 1, largest first.
+    /// The mean difference of each channel over all phases in the channel's unit, largest first.
     pub channels: Vec<ScoredChannel>,
 }
 
-/// How far a channel is off.
+/// The difference in one channel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScoredChannel {
     /// The channel.
     pub name: &'static str,
-    /// The mean difference of aligned frames, in units that count as 1.
+    /// The mean difference of aligned frames, in the channel's unit.
     pub difference: f64,
 }
 
@@ -230,7 +232,8 @@ impl ChooseOptions {
 }
 
 impl Corpus {
-    /// Returns how alike the expression at `b` is to that at `a`, phase by phase and channel by channel; 0 is alike.
+    /// Returns the difference of the expression at `b` from that at `a`, phase by phase and channel by channel; 0 means
+    /// equal.
     ///
     /// # Errors
     /// If an address has no expression, or not just one, or the two have no channel in common.
@@ -265,10 +268,11 @@ impl Corpus {
         Ok(FaceScore::of(found, &channels))
     }
 
-    /// Ranks the recorded performances of a function for a sentence, phase by phase; a recording is never its own candidate.
+    /// Ranks the recorded performances of a function for a sentence, phase by phase; a recording is never its own
+    /// candidate.
     ///
-    /// The sentence is a recording or token with an expression of that function; a recording without one takes the
-    /// expression over all of its signs. Equal scores are ordered by the names of recordings.
+    /// The sentence is a recording or token with an expression of that function; for a recording without one the
+    /// expression spans all of its signs. Equal scores are ordered by the names of recordings.
     ///
     /// # Errors
     /// If the address names no such sentence, no performance can be compared, or `progress` stops the work.
@@ -330,10 +334,10 @@ impl Corpus {
         self.recombine(&recipe, gloss)
     }
 
-    /// Returns the recipe by which a sentence gets the face of a performance.
+    /// Returns the recipe that gives a sentence the face of a performance.
     ///
     /// # Errors
-    /// If the sentence is not there any more.
+    /// Fails if the sentence no longer exists.
     pub fn recipe_of_choice(&self, choice: &Choice, token: &str) -> Result<String> {
         let target: Address = choice.target.parse()?;
         let recording = recording_of(self.store.read(), &target)?;
@@ -347,7 +351,7 @@ impl Corpus {
         ))
     }
 
-    /// Returns where the movement of a recording begins on its clock, in microseconds.
+    /// Returns the start of a recording's movement on its clock, in microseconds.
     fn start_of(&self, recording: i64) -> Result<i64> {
         let connection = self.store.read();
         let row = address::recording(connection, &Name::Number(recording))?;
@@ -373,13 +377,13 @@ impl Corpus {
     }
 }
 
-/// What was asked for.
+/// A request for a ranking.
 struct Asked<'a> {
     options: &'a ChooseOptions,
     asked: &'a [usize],
     own: &'a Expression,
     target: &'a Address,
-    /// Where the sentence's movement begins on its recording's clock, in microseconds.
+    /// The start of the sentence's movement on its recording's clock, in microseconds.
     start: i64,
 }
 
@@ -527,8 +531,8 @@ impl Asked<'_> {
     }
 }
 
-/// Returns the recipe that carries the expression of `token` onto the milestones of a recording whose movement begins at
-/// `start` microseconds of its clock.
+/// Returns the recipe that transfers the expression of `token` to the milestones of a recording whose movement begins
+/// at `start` microseconds of its clock.
 fn carried(
     recording: i64,
     function: &Function,
@@ -546,7 +550,7 @@ fn adapted(score: &PhasedScore) -> u64 {
     u64::from(score.phases.iter().any(made))
 }
 
-/// Returns what `work` gives for each item, in order, worked out by as many threads as the machine has cores.
+/// Returns the results of `work` for each item, in order, computed by as many threads as the machine has cores.
 fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = thread::available_parallelism()
         .map_or(1, usize::from)

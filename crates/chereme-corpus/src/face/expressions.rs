@@ -1,5 +1,5 @@
-//! Where expressions of a function are: annotations of function tiers, with milestones that were written or that follow
-//! from the glosses.
+//! Finds expressions by function: annotations on function tiers, with milestones that were written or that follow from
+//! the glosses.
 
 use chereme_motion::{Instant, Span};
 use chereme_sign::milestones::{EDGE, Function, Milestones, Phase, milestones};
@@ -13,7 +13,7 @@ use crate::db::columns::AnnotationOrigin;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 
-/// Names of tiers of functions, folded and without signs between.
+/// Names of function tiers, folded and without punctuation.
 const NAMES: [&str; 14] = [
     "function",
     "functions",
@@ -30,7 +30,7 @@ const NAMES: [&str; 14] = [
     "satztyp",
     "zinstype",
 ];
-/// The begin of the name of a tier of milestones; the function follows.
+/// The prefix of the name of a tier of milestones; the function follows.
 pub(crate) const TIER: &str = "milestones ";
 
 /// An expression of the face in a recording.
@@ -38,7 +38,7 @@ pub(crate) const TIER: &str = "milestones ";
 pub(crate) struct Expression {
     pub(crate) recording: i64,
     pub(crate) function: Function,
-    /// On the recording's clock.
+    /// The milestones on the recording's clock.
     pub(crate) milestones: Milestones,
     /// The annotation of its function, or of its first phase if no tier names a function.
     pub(crate) annotation: i64,
@@ -48,11 +48,11 @@ pub(crate) struct Expression {
     pub(crate) stored: Vec<i64>,
     /// Whether a person wrote or corrected its milestones.
     pub(crate) corrected: bool,
-    /// Its oddities.
+    /// Findings about the expression.
     pub(crate) odd: Vec<String>,
 }
 
-/// The signs of one signer in order of time, and the utterances they are in.
+/// The signs of one signer in order of time, and the utterances that contain them.
 struct Signing {
     signs: Vec<(Span, String)>,
     utterances: Vec<Span>,
@@ -80,7 +80,8 @@ fn middle(span: Span) -> Instant {
     span.start().shifted(span.micros() / 2)
 }
 
-/// Returns the expressions of a recording in order of time, of one function or of all; `tier` names the tier of functions.
+/// Returns the expressions of a recording in order of time, of one function or of all; `tier` is the name of the
+/// function tier.
 pub(crate) fn of_recording(
     connection: &Connection,
     recording: i64,
@@ -123,7 +124,8 @@ pub(crate) fn of_recording(
 }
 
 impl Signing {
-    /// Returns the signs of the fullest gloss tier of a participant, of the dominant hand if there are several.
+    /// Returns the signs on a participant's gloss tier with the most annotations; if there are several, that of the
+    /// dominant hand.
     fn of(connection: &Connection, all: &[TierRow], participant: Option<&str>) -> Result<Self> {
         let mut best = ((false, false, 0), Vec::new());
         let mut utterances = Vec::new();
@@ -163,7 +165,8 @@ impl Signing {
         inside.map(|(_, gloss)| gloss.clone()).collect()
     }
 
-    /// Returns the expression over the signs whose middle lies in an annotation; over its own span without signs.
+    /// Returns the expression over the signs whose middle lies in an annotation; if there are none, over the
+    /// annotation's own span.
     fn expression(&self, recording: i64, function: Function, of: &AnnotationRow) -> Expression {
         let span = span_of(of);
         let own = self.utterances.iter().find(|it| it.contains(middle(span)));
@@ -211,7 +214,7 @@ impl Signing {
     }
 }
 
-/// Returns the milestones that tiers hold, phase by phase.
+/// Returns the expressions with milestones written on tiers, phase by phase.
 fn written(
     connection: &Connection,
     recording: i64,
@@ -257,7 +260,7 @@ fn function_of_tier(name: &str) -> Option<Function> {
 
 fn phase_of(value: &str) -> Option<Phase> {
     let first = value.split_whitespace().next()?;
-    // A body that is one phase.
+    // A body that consists of one phase.
     if first == "M2-M4" {
         return Some(Phase::Rest);
     }
@@ -266,7 +269,7 @@ fn phase_of(value: &str) -> Option<Phase> {
         .find(|phase| phase.between() == first)
 }
 
-/// Returns what a value says about an end that lies outside of the recording: `M1-M2 from -0.300s`.
+/// Returns the end outside of the recording that a value states, as in `M1-M2 from -0.300s`.
 fn outside(value: &str, word: &str) -> Option<Instant> {
     let mut words = value
         .split_whitespace()
@@ -323,8 +326,8 @@ fn joined(
     })
 }
 
-/// Returns the one expression at an address: of a recording or the only one there, of an annotation of a function or phase,
-/// or the one over a token.
+/// Returns the single expression at an address: that of a recording with only one, that of an annotation of a function
+/// or phase, or the one over a token.
 pub(crate) fn at(
     connection: &Connection,
     address: &Address,
@@ -366,7 +369,7 @@ pub(crate) fn at(
     }
 }
 
-/// Returns an expression with the milestones that follow from the glosses, whatever tiers of milestones hold.
+/// Returns an expression with the milestones that follow from the glosses, ignoring tiers of milestones.
 pub(crate) fn derived(connection: &Connection, it: &Expression) -> Result<Expression> {
     let annotation = tiers::annotation(connection, it.annotation)?;
     let tier = tiers::tier(connection, annotation.tier_id)?;
@@ -379,7 +382,8 @@ pub(crate) fn derived(connection: &Connection, it: &Expression) -> Result<Expres
     })
 }
 
-/// Returns the expression that a function would have over all signs of a recording; `None` if it has no glosses.
+/// Returns the expression that a function would have if it spanned all signs of a recording; `None` if it has no
+/// glosses.
 pub(crate) fn over_all(
     connection: &Connection,
     recording: i64,

@@ -1,4 +1,5 @@
-//! The weights of a mapping fitted to a signer on a take in which the face goes as far as it can, kept with that take.
+//! Fits the weights of a mapping to a signer, on a take in which the face moves to its extremes; the fit is stored with
+//! that take.
 
 use std::collections::BTreeMap;
 
@@ -12,12 +13,12 @@ use crate::address::{self, Address, Name};
 use crate::db::tracks;
 use crate::error::{Error, Result};
 
-/// The fit of a take as it was stored.
+/// The fit of a take.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FaceFit {
     /// The recording of the take.
     pub recording: String,
-    /// The signer whose faces are taken by it; `None` if it is for this recording alone.
+    /// The signer whose faces the fit applies to; `None` if it is for this recording alone.
     pub signer: Option<String>,
     /// The system, such as `arkit`.
     pub system: String,
@@ -25,13 +26,13 @@ pub struct FaceFit {
     pub frames: u64,
     /// The numbers of the face.
     pub numbers: Vec<FittedNumber>,
-    /// Numbers that the take never tried out, and what the mapping loses.
+    /// Numbers that do not change in the take, and losses of the mapping.
     pub findings: Vec<FaceFinding>,
     /// Whether it was stored.
     pub stored: bool,
 }
 
-/// How one number of a face is taken.
+/// The fit of one number of a face.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FittedNumber {
     /// The name.
@@ -40,9 +41,9 @@ pub struct FittedNumber {
     pub formula: String,
     /// The number of a face at rest.
     pub rest: f64,
-    /// The factor of all weights above rest; 1 if the take never went there.
+    /// The factor of all weights above rest; 1 if the take has no values there.
     pub up: f64,
-    /// The same below rest.
+    /// The factor of all weights below rest; 1 if the take has no values there.
     pub down: f64,
 }
 
@@ -61,11 +62,11 @@ pub(crate) struct Fits {
 }
 
 impl Fits {
-    /// Returns every fit that takes of a corpus hold.
+    /// Returns all fits stored with takes of a corpus.
     pub(crate) fn of(connection: &Connection) -> Result<Self> {
         let mut fits = Self::default();
         for (recording, signer, text) in tracks::layouts_of_curves(connection)? {
-            // A layout that is no fit is of another program.
+            // A layout without a fit belongs to another program.
             let Ok(Kept { fit }) = serde_json::from_str(&text) else {
                 continue;
             };
@@ -80,7 +81,7 @@ impl Fits {
         Ok(fits)
     }
 
-    /// Takes the numbers of a recording's face by the fit of its own take or of its signer's newest one; returns the
+    /// Converts the numbers of a recording's face by the fit of its own take or of its signer's newest one; returns the
     /// recording of that take.
     pub(crate) fn apply(&self, recording: i64, view: &mut View) -> Option<i64> {
         let own = self
@@ -98,9 +99,9 @@ impl Fits {
 }
 
 impl Corpus {
-    /// Fits the weights of a face system's mapping to the signer of a take in which the face goes as far as it can, and with
-    /// `store` keeps them with that take: faces of the same signer and system count from the signer's own rest from then
-    /// on, and are 1 where the signer's face usually goes no farther.
+    /// Fits the weights of a face system's mapping to the signer of a take in which the face moves to its extremes.
+    /// With `store` the weights are stored with that take: faces of the same signer and system are then measured from
+    /// the signer's own rest, and are 1 at the signer's usual extreme.
     ///
     /// # Errors
     /// If nothing has that address, it has no captured face, or the corpus cannot be written.

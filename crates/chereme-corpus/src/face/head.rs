@@ -1,32 +1,32 @@
-//! The turns of head and trunk: pitch (down), yaw (to the signer's left) and roll (to the right), in radians.
+//! Rotations of head and trunk: pitch (down), yaw (to the signer's left) and roll (to the right), in radians.
 
 use chereme_motion::glam::{DQuat, EulerRot};
 use chereme_motion::{Anatomy, Clip, Part};
 
-/// A part that turns less than this, in radians, was not captured.
+/// The smallest rotation of a part that counts as captured, in radians.
 const STILL: f64 = 0.008;
 
-/// Returns the rotation in model space of these turns.
+/// Returns the rotation in model space for these angles.
 pub(crate) fn rotation([pitch, yaw, roll]: [f64; 3]) -> DQuat {
     DQuat::from_euler(EulerRot::YXZ, yaw, pitch, roll)
 }
 
-/// Returns the turns of a rotation in model space.
+/// Returns the angles of a rotation in model space.
 pub(crate) fn turns(rotation: DQuat) -> [f64; 3] {
     let (yaw, pitch, roll) = rotation.to_euler(EulerRot::YXZ);
     [pitch, yaw, roll]
 }
 
-/// The turns of head and trunk in each frame of a clip.
+/// The rotations of head and trunk in each frame of a clip.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Turns {
-    /// Of the head against the chest; `None` if the skeleton has no head, or it never turns.
+    /// The head relative to the chest; `None` if the skeleton has no head, or it never turns.
     pub(crate) head: Option<Vec<[f64; 3]>>,
-    /// Of the chest against the hips; `None` if the skeleton has no chest, or it never turns.
+    /// The chest relative to the hips; `None` if the skeleton has no chest, or it never turns.
     pub(crate) trunk: Option<Vec<[f64; 3]>>,
 }
 
-/// Returns the turns of head and trunk in each frame, from the skeleton's rest posture on.
+/// Returns the rotations of head and trunk in each frame, relative to the skeleton's rest posture.
 pub(crate) fn of_clip(clip: &Clip, anatomy: &Anatomy) -> Turns {
     let head = anatomy.joint(Part::Head).or(anatomy.joint(Part::Neck));
     let chest = anatomy.joint(Part::Chest).or(anatomy.joint(Part::Spine));
@@ -52,7 +52,7 @@ pub(crate) fn of_clip(clip: &Clip, anatomy: &Anatomy) -> Turns {
     }
 }
 
-/// Returns turns that are not the same throughout; those of a part that was not captured are.
+/// Returns rotations that change; those of a part that was not captured are constant.
 fn moving(all: Vec<[f64; 3]>) -> Option<Vec<[f64; 3]>> {
     let first = *all.first()?;
     let away = |turn: &[f64; 3]| turn.iter().zip(first).any(|(a, b)| (a - b).abs() > STILL);

@@ -1,4 +1,4 @@
-//! Milestones derived from glosses and functions, and written as tiers that can be corrected.
+//! Derives milestones from glosses and functions, and writes them as tiers that can be corrected.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,16 +21,16 @@ use crate::db::tiers;
 use crate::error::Result;
 use crate::progress::{Progress, Step, Unit};
 
-/// Which milestones are derived, and whether they are written.
+/// Options for the derivation of milestones.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MilestoneOptions {
     /// The function; `None` for every function that a tier names.
     pub function: Option<Function>,
-    /// The name of the tier of functions; `None` for tiers called function, construction, clause type and so on.
+    /// The name of the function tier; `None` for tiers named function, construction, clause type and so on.
     pub tier: Option<String>,
     /// The recording; `None` for all.
     pub recording: Option<Address>,
-    /// Whether nothing is written.
+    /// Whether the call leaves the corpus unchanged.
     pub dry_run: bool,
 }
 
@@ -39,11 +39,11 @@ pub struct MilestoneOptions {
 pub struct Expressions {
     /// How many annotations of phases were written.
     pub written: u64,
-    /// How many expressions have milestones that a person wrote or corrected, and keep them.
+    /// The number of expressions whose milestones a person wrote or corrected; these remain.
     pub kept: u64,
     /// The expressions, by recording and time.
     pub expressions: Vec<FoundExpression>,
-    /// How many expressions of each function tiers name.
+    /// The number of expressions of each function that tiers name.
     pub functions: BTreeMap<String, u64>,
 }
 
@@ -52,9 +52,9 @@ pub struct Expressions {
 pub struct FoundExpression {
     /// The recording's name.
     pub recording: String,
-    /// The address by which other commands know it.
+    /// The address of the expression in other commands.
     pub address: String,
-    /// Its function for the signs that it spans.
+    /// Its function over the signs that it spans.
     pub function: Function,
     /// The glosses that it spans.
     pub signs: Vec<String>,
@@ -63,19 +63,20 @@ pub struct FoundExpression {
     pub milestones: Milestones,
     /// Whether its milestones are those that a person wrote or corrected.
     pub corrected: bool,
-    /// What is odd.
+    /// Findings about the expression.
     pub findings: Vec<String>,
 }
 
 impl Corpus {
-    /// Finds expressions of the face by tiers of functions, derives their milestones from the glosses that they span, and
+    /// Finds expressions of the face on function tiers, derives their milestones from the glosses that they span, and
     /// writes the phases of each onto a tier such as `milestones wh`.
     ///
-    /// Phases that a person wrote or corrected stay, and are the expression's milestones from then on. An end that lies
-    /// outside of the recording is kept in the value, as `M1-M2 from -0.300s`.
+    /// Phases that a person wrote or corrected remain, and are the expression's milestones from then on. An end outside
+    /// of the recording is stored in the value, as in `M1-M2 from -0.300s`.
     ///
     /// # Errors
-    /// If the recording is not there, the corpus cannot be written, or `progress` stops the work before anything is.
+    /// Fails if the recording does not exist, if the corpus cannot be written, or if `progress` stops the work before
+    /// anything is written.
     pub fn milestones(
         &mut self,
         options: &MilestoneOptions,
@@ -199,7 +200,7 @@ impl Corpus {
         Ok(written)
     }
 
-    /// Returns whether a tier holds annotations in the way of new ones: those that are not about to be removed.
+    /// Returns whether a tier has annotations in the way of new ones, apart from those that are about to be removed.
     fn is_occupied(
         &self,
         recording: i64,
@@ -240,7 +241,7 @@ fn tier_name(function: &Function, number: usize) -> String {
     }
 }
 
-/// Returns an expression with milestones that follow from today's glosses, whatever was written before.
+/// Returns an expression with milestones that follow from the present glosses, ignoring earlier ones.
 fn rederived(connection: &rusqlite::Connection, it: &Expression) -> Result<Expression> {
     if it.stored.is_empty() || it.stored.contains(&it.annotation) {
         return Ok(it.clone());
@@ -248,7 +249,7 @@ fn rederived(connection: &rusqlite::Connection, it: &Expression) -> Result<Expre
     expressions::derived(connection, it)
 }
 
-/// Returns the address by which an expression is known among all of its recording.
+/// Returns the address that identifies an expression among all of its recording.
 pub(super) fn address_of(it: &Expression, all: &[Expression]) -> String {
     let alike = all
         .iter()

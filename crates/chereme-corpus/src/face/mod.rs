@@ -1,18 +1,18 @@
-//! Faces of recordings: derived from captured channels, milestones of their expressions, scores, and choices among them.
+//! Faces of recordings: derivation from captured channels, milestones of expressions, scores, and choices among them.
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`stage`] | a recording of a face alone as movement of the program's own body |
+//! | [`stage`] | a recording that has only a face, as movement of the program's own body |
 //! | [`captured`] | the captured face of a recording: channels of a face system, or points on film |
-//! | [`fit`] | the weights of a mapping fitted to a signer |
-//! | [`head`] | the turns of head and trunk, from a skeleton or from the face's capture |
-//! | [`expressions`] | where expressions of a function are, with their milestones |
+//! | [`fit`] | the weights of a mapping, fitted to a signer |
+//! | [`head`] | rotations of head and trunk, from a skeleton or from the face's capture |
+//! | [`expressions`] | expressions of a function, with their milestones |
 //! | [`milestones`] | milestones derived from glosses and written as tiers |
-//! | [`performances`] | expressions as numbers at one rate, kept while the corpus does not change |
-//! | [`shelf`] | many performances kept in the corpus file, derived |
-//! | [`onsets`] | when non-manuals begin and end against the signs that they span |
+//! | [`performances`] | expressions as numbers at one rate, cached while the corpus does not change |
+//! | [`shelf`] | a cache of many performances in the corpus file |
+//! | [`onsets`] | begin and end of non-manuals relative to the signs that they span |
 //! | [`propose`] | proposals for brows, lids, gaze, mouth and head |
-//! | [`choose`] | performances ranked for a sentence |
+//! | [`choose`] | ranking of performances for a sentence |
 
 mod captured;
 mod choose;
@@ -52,7 +52,7 @@ pub use performances::{CHANNELS, FaceChannel};
 pub(crate) use performances::{Pool, numbers as numbers_of};
 pub use propose::{FaceProposal, FaceProposals};
 
-/// The face of a recording, as its capture gives it.
+/// The face of a recording, derived from its capture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FaceReport {
     /// The recording.
@@ -63,11 +63,11 @@ pub struct FaceReport {
     pub system: String,
     /// How many frames there are.
     pub frames: u64,
-    /// How long they take, in microseconds.
+    /// The length in microseconds.
     pub duration_us: i64,
     /// The numbers of the face, each over all frames.
     pub numbers: Vec<FaceNumber>,
-    /// How many frames had gaps that were bridged.
+    /// The number of frames with gaps that were bridged.
     pub bridged: u64,
     /// The recording on whose take the weights were fitted; `None` if they are those of the mapping.
     pub fitted_on: Option<String>,
@@ -80,7 +80,7 @@ pub struct FaceReport {
 pub struct FaceNumber {
     /// The name, one of [`Face::NAMES`], or `head_pitch`, `head_yaw`, `head_roll` in degrees.
     pub name: String,
-    /// Whether the capture gives it; else it is unknown, not at rest.
+    /// Whether the capture provides it; otherwise it is unknown, not at rest.
     pub known: bool,
     /// The least value; `None` if unknown.
     pub least: Option<f64>,
@@ -90,14 +90,14 @@ pub struct FaceNumber {
     pub most: Option<f64>,
 }
 
-/// Something that a mapping loses, or that is odd in a capture.
+/// A loss of a mapping, or an oddity of a capture.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct FaceFinding {
-    /// How much it matters.
+    /// The severity.
     pub severity: Severity,
-    /// What it is.
+    /// The finding.
     pub message: String,
-    /// What can be done; `None` if nothing.
+    /// A remedy; `None` if there is none.
     pub remedy: Option<String>,
 }
 
@@ -112,7 +112,8 @@ impl From<Finding> for FaceFinding {
 }
 
 impl Corpus {
-    /// Returns what the captured face of a recording gives, and what its mapping to the house's face loses.
+    /// Returns the face derived from the capture of a recording, and the losses of its mapping to the program's own
+    /// face.
     ///
     /// # Errors
     /// If nothing has that address, or it has no captured face.
@@ -169,7 +170,7 @@ impl Corpus {
     }
 }
 
-/// Returns the recording that an address lies in: its own, or that of a token, tier or annotation.
+/// Returns the recording that contains the object at an address: a recording, token, tier or annotation.
 pub(crate) fn recording_of(connection: &Connection, address: &Address) -> Result<i64> {
     use crate::db::tiers;
     Ok(match address {

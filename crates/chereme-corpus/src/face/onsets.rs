@@ -1,4 +1,4 @@
-//! When non-manuals begin and end against the signs that they span, for each construction.
+//! Begin and end of non-manuals relative to the signs that they span, for each construction.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -16,32 +16,32 @@ use crate::error::{Error, Result};
 use crate::picture;
 use crate::progress::{Progress, Step, Unit};
 
-/// Frames a second at which onsets are looked for.
+/// The frames per second at which onsets are determined.
 const RATE: f64 = 60.0;
-/// A channel that departs less than this from its start, in units that count as 1, does nothing in an expression.
+/// The smallest change from its start for which a channel counts as active in an expression, in the channel's unit.
 const LEAST: f64 = 0.8;
-/// Longer expressions are passed over, in seconds.
+/// The longest expressions that are measured, in seconds.
 const LONGEST: f64 = 120.0;
 
-/// When non-manuals begin and end, for each function and channel.
+/// Begin and end of non-manuals, for each function and channel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Onsets {
-    /// How many expressions were looked at.
+    /// The number of expressions that were examined.
     pub expressions: u64,
-    /// How many of them show no face.
+    /// The number of expressions without a face.
     pub without_face: u64,
     /// The statistics, by function and channel.
     pub rows: Vec<OnsetRow>,
 }
 
-/// When one channel begins and ends in the expressions of a function.
+/// Begin and end of one channel in the expressions of a function.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OnsetRow {
     /// The function.
     pub function: Function,
     /// The channel.
     pub channel: &'static str,
-    /// In how many expressions the channel does something.
+    /// The number of expressions in which the channel is active.
     pub n: u64,
     /// Begin minus the begin of the first sign, in seconds; below 0 the channel begins before it.
     pub onset_s: Quartiles,
@@ -79,10 +79,10 @@ impl Quartiles {
 }
 
 impl Corpus {
-    /// Returns when non-manuals begin and end against the manual signs that they span, for each function and channel.
+    /// Returns begin and end of non-manuals relative to the manual signs that they span, for each function and channel.
     ///
-    /// A channel begins when it has gone half of its way from its value half a second before the expression to its
-    /// farthest value in the body, and ends when it comes back to half.
+    /// A channel begins when it has covered half of the distance from its value half a second before the expression to
+    /// its extreme value in the body, and ends when it comes back to half.
     ///
     /// # Errors
     /// If there are no expressions, or `progress` stops the work.
@@ -166,7 +166,7 @@ impl Corpus {
     /// its median.
     ///
     /// # Errors
-    /// If the file is there already and `force` is not set, or it cannot be written.
+    /// If the file exists already and `force` is not set, or it cannot be written.
     pub fn draw_onsets(&self, onsets: &Onsets, to: &Path, force: bool) -> Result<()> {
         let text = svg(onsets);
         let fill = |out: &mut std::io::BufWriter<std::fs::File>| {
@@ -176,7 +176,8 @@ impl Corpus {
     }
 }
 
-/// Returns the frames at which a channel has gone half of its way to its farthest value in the body, and comes back.
+/// Returns the frames at which a channel has covered half of the distance to its extreme value in the body, and at
+/// which it comes back.
 fn reach(column: &[f64], first: usize, last: usize, unit: f64) -> Option<(usize, usize)> {
     let rest = *column.first()?;
     let body = column.get(first..last.min(column.len()))?;

@@ -1,4 +1,4 @@
-//! Expressions as numbers at one rate, cut into phases, kept while the corpus does not change.
+//! Expressions as numbers at one rate, cut into phases, and cached while the corpus does not change.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -19,28 +19,28 @@ use crate::error::{Error, Result};
 use crate::movement::{ChannelGroup, Track};
 use crate::progress::{Progress, Step, Unit};
 
-/// Frames a second at which performances are compared; the window of 10 frames is then a third of a second.
+/// The frames per second at which performances are compared; the window of 10 frames is then a third of a second.
 pub(crate) const RATE: f64 = 30.0;
-/// The stretch that is read before and after the asked moments, in microseconds.
+/// The time that is read before and after the requested moments, in microseconds.
 const AROUND: i64 = 200_000;
-/// Performances with more frames than this are cut short of comparison.
+/// The largest number of frames of a performance that can be compared.
 const LONGEST: usize = 3_600;
 
-/// A channel by which performances are compared.
+/// A channel for comparing performances.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FaceChannel {
     /// The name, one of [`Face::NAMES`], `head_pitch`, `head_yaw`, `head_roll`, or the same of the `trunk`.
     pub name: &'static str,
-    /// What counts as 1: of turns degrees, else a share of the usual reach.
+    /// The unit, a difference that counts as 1: for rotations in degrees, otherwise a share of the usual range.
     pub counts_as_one: f64,
-    /// Whether it is compared if nothing else is asked for.
+    /// Whether it is compared by default.
     pub usual: bool,
 }
 
-/// The turns of the trunk come after head and face.
+/// The index of the trunk's first rotation; they come after head and face.
 const TRUNK: usize = 3 + Face::LEN;
 
-/// The channels, those that the paper compares first: head, brows, and brows drawn together; the trunk comes last.
+/// The channels; those that the paper compares come first: head, brows, and brows drawn together; the trunk comes last.
 pub const CHANNELS: [FaceChannel; 27] = {
     const fn channel(name: &'static str, counts_as_one: f64, usual: bool) -> FaceChannel {
         FaceChannel {
@@ -67,21 +67,21 @@ pub const CHANNELS: [FaceChannel; 27] = {
 #[derive(Debug, Clone)]
 pub(crate) struct Performance {
     pub(crate) expression: Expression,
-    /// The address by which it is named.
+    /// The address of its expression.
     pub(crate) address: String,
     /// The recording's name.
     pub(crate) name: String,
-    /// Numbers of the asked channels at [`RATE`] from M1 on; `None` if unknown.
+    /// Numbers of the requested channels at [`RATE`] from M1 on; `None` if unknown.
     pub(crate) columns: Vec<Option<Vec<f64>>>,
     /// M1 to M5 in frames.
     pub(crate) marks: [usize; 5],
-    /// From M1 to M5.
+    /// The time from M1 to M5, in seconds.
     pub(crate) seconds: f64,
 }
 
 impl Performance {
-    /// Returns it cut into phases: `use_of` are places in its columns, which are of the channels `asked`, each in units that
-    /// count as 1; `one` takes its body as one phase.
+    /// Returns the performance cut into phases, with numbers in their channels' units. `asked` are the channels of its
+    /// columns, and `use_of` the indices of the columns to use; `one` makes its body a single phase.
     pub(crate) fn phased_of(&self, asked: &[usize], use_of: &[usize], one: bool) -> Result<Phased> {
         let mut columns = Vec::with_capacity(use_of.len());
         for &at in use_of {
@@ -102,7 +102,7 @@ impl Performance {
     }
 }
 
-/// The performances of a function, as they were after an operation.
+/// Cache of the performances of a function, valid after one operation.
 #[derive(Default)]
 pub(crate) struct Pool {
     newest: Option<i64>,
@@ -111,7 +111,7 @@ pub(crate) struct Pool {
 }
 
 impl Pool {
-    /// Returns every performance of a function, with the asked channels, in order of recordings.
+    /// Returns every performance of a function, with the requested channels, in order of recordings.
     pub(crate) fn of(
         &mut self,
         connection: &Connection,
@@ -165,7 +165,7 @@ impl Pool {
     }
 }
 
-/// Returns M1 to M5 in frames at [`RATE`] from M1 on; `None` if there is no frame, or too many.
+/// Returns M1 to M5 as frames at [`RATE`] from M1 on; `None` if there is no frame, or too many.
 pub(super) fn cut(milestones: &Milestones) -> Option<[usize; 5]> {
     let times = milestones.times();
     let frame = |at: Instant| ((at.seconds() - times[0].seconds()) * RATE).round() as usize;
@@ -202,7 +202,8 @@ pub(crate) fn of_expression(
     }))
 }
 
-/// Returns numbers of channels of a recording at moments of its clock: in degrees of head and trunk, as they are of the face.
+/// Returns numbers of channels of a recording at moments of its clock: degrees for head and trunk, the face's own
+/// numbers otherwise.
 pub(crate) fn numbers(
     connection: &Connection,
     recording: i64,
@@ -214,7 +215,7 @@ pub(crate) fn numbers(
         return Ok(None);
     };
     let around = Span::between(first.shifted(-AROUND), last.shifted(AROUND));
-    // Whether a head was recorded at all shows in the whole capture only.
+    // Only the whole capture shows whether a head was recorded at all.
     let captured = captured_with(connection, recording, None, fits)?;
     let body = match recordings::body_track(connection, recording)? {
         Some(_) => Some(Track::of(connection, recording)?),
@@ -268,14 +269,14 @@ pub(crate) fn numbers(
     Ok(Some(channels.iter().map(column).collect()))
 }
 
-/// Returns the frame of a track that is nearest to a moment, among those in a span.
+/// Returns the frame of a track within a span that is nearest to a moment.
 fn nearest(track: &Track, frames: &Range<usize>, at: Instant) -> usize {
     let own = at.shifted(-track.row.offset_us).seconds() * track.rate.per_second();
     let last = frames.end.saturating_sub(1).max(frames.start);
     (own.round().max(0.0) as usize).clamp(frames.start, last)
 }
 
-/// Returns the turns of head and trunk of a skeleton at moments.
+/// Returns the rotations of head and trunk of a skeleton at moments.
 fn turns(
     connection: &Connection,
     track: &Track,
@@ -299,7 +300,7 @@ fn turns(
     })
 }
 
-/// Returns the face that a recipe made, at moments.
+/// Returns the face generated by a recipe, at moments.
 fn of_recipe(
     connection: &Connection,
     track: &Track,

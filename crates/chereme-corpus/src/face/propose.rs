@@ -19,9 +19,9 @@ use crate::db::tiers;
 use crate::error::Result;
 use crate::progress::Progress;
 
-/// Frames a second at which proposals are looked for.
+/// The frames per second at which proposals are determined.
 const RATE: f64 = 60.0;
-/// A longer recording is looked at up to here, in seconds.
+/// The part of a recording that is examined, in seconds from its start.
 const LONGEST: f64 = 7_200.0;
 
 /// Proposals for the parts of a face in a recording.
@@ -35,26 +35,27 @@ pub struct FaceProposals {
     pub written: u64,
 }
 
-/// Something that a part of a face seems to do.
+/// A proposed action of a part of a face.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FaceProposal {
-    /// The tier that it belongs on.
+    /// The tier on which it belongs.
     pub tier: String,
-    /// When it begins on the recording's clock, in microseconds.
+    /// Its start on the recording's clock, in microseconds.
     pub start_us: i64,
     /// The first microsecond after it.
     pub end_us: i64,
     /// The value of the part's inventory.
     pub value: String,
-    /// How sure it is, from 0.5 to 1.
+    /// The confidence, from 0.5 to 1.
     pub confidence: f64,
     /// The rule that found it, with its numbers.
     pub why: String,
 }
 
 impl Corpus {
-    /// Proposes what brows, lids, gaze, mouth and head do in a recording with a face; with `store` as annotations of a
-    /// detector on tiers such as `nonmanual.brows (proposed)`, in place of earlier proposals that nobody changed.
+    /// Proposes actions of brows, lids, gaze, mouth and head in a recording with a face. With `store` they become
+    /// annotations of a detector on tiers such as `nonmanual.brows (proposed)`, and replace earlier proposals that
+    /// nobody has changed.
     ///
     /// # Errors
     /// If nothing has that address, it has no face, or the corpus cannot be written.

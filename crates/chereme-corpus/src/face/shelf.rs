@@ -1,7 +1,9 @@
-//! Performances of a function kept in the corpus file column by column, so that choosing among thousands reads one row.
+//! Cache of a function's performances in the corpus file, column by column, so that choosing among thousands reads one
+//! row.
 //!
-//! They stand among the derived files of the search index, under `faces/FUNCTION/CHANNELS`, with the operation after which
-//! they were read: after any other operation they are read from their recordings again. They can be deleted at any time.
+//! The cache is stored with the derived files of the search index, under `faces/FUNCTION/CHANNELS`, and records the
+//! operation after which it was written: after any other operation the performances are read from their recordings
+//! again. It can be deleted at any time.
 
 use chereme_motion::Instant;
 use chereme_sign::milestones::{Function, Milestones};
@@ -14,22 +16,22 @@ use super::expressions::Expression;
 use super::performances::{Performance, cut};
 use crate::db::search as files;
 
-/// The first bytes, whose last one is the version.
+/// The first bytes of the cache; the last of them is the version.
 const MARK: &[u8; 6] = b"faces\x01";
-/// Fewer performances than this are read from their recordings each time.
+/// The fewest performances that are cached; fewer are read from their recordings each time.
 const MANY: usize = 256;
-/// More numbers than this are not kept.
+/// The largest number of numbers in a cache.
 const MOST: usize = 64 << 20;
-/// Stands for a missing M3.
+/// Marks a missing M3.
 const NONE: i64 = i64::MIN;
 
-/// Returns the name under which performances are kept.
+/// Returns the name under which performances are cached.
 fn path(function: &Function, channels: &[usize]) -> String {
     let channels: Vec<String> = channels.iter().map(ToString::to_string).collect();
     format!("faces/{function}/{}", channels.join("-"))
 }
 
-/// Returns the performances as they are kept for the state after an operation; `None` if they are not, or are damaged.
+/// Returns the performances cached for the state after an operation; `None` if there are none, or they are damaged.
 pub(super) fn read(
     connection: &Connection,
     function: &Function,
@@ -40,7 +42,7 @@ pub(super) fn read(
     decode(&data, function, channels.len(), newest)
 }
 
-/// Keeps many performances; a corpus that cannot be written keeps none.
+/// Caches performances if there are many; does nothing if the corpus cannot be written.
 pub(super) fn write(
     connection: &Connection,
     function: &Function,
@@ -51,7 +53,7 @@ pub(super) fn write(
         return;
     }
     if let Some(data) = encode(all, channels.len(), newest) {
-        // The row is a copy: a corpus that is locked or read-only answers without it.
+        // The row is a copy: a corpus that is locked or read-only works without it.
         let _ = files::write_file(connection, &path(function, channels), &data);
     }
 }
@@ -269,7 +271,7 @@ mod tests {
         for at in 0..data.len() {
             let mut damaged = data.clone();
             damaged[at] ^= 0x55;
-            // It may be other numbers, but never a panic.
+            // Damaged data may decode to other numbers, but must not panic.
             let _ = decode(&damaged, &wh, 3, 42);
         }
         let none = encode(&[], 3, 42).expect("bytes");

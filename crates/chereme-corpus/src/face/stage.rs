@@ -1,4 +1,4 @@
-//! A recording of a face alone as movement of the program's own body, whose head turns as in the capture.
+//! Performs a recording that has only a face as movement of the program's own body, whose head turns as in the capture.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::error::{Error, Result};
 use crate::picture::Moving;
 use crate::sources::notation::own_body;
 
-/// The rate of a capture whose frames have times of their own.
+/// The rate for a capture whose frames have individual times.
 const USUAL: u32 = 60;
 /// The most frames that are performed at once.
 const LONGEST: usize = 300_000;
@@ -108,7 +108,7 @@ pub(crate) fn material(connection: &Connection, stretch: &Stretch) -> Result<Opt
     }))
 }
 
-/// Returns the joint by which the trunk leans: the lowest one above the hips.
+/// Returns the joint that bends the trunk: the lowest one above the hips.
 fn trunk_of(body: &Material) -> Option<usize> {
     [Part::Spine, Part::Chest]
         .into_iter()
@@ -116,7 +116,7 @@ fn trunk_of(body: &Material) -> Option<usize> {
         .filter(|joint| Some(*joint) != body.anatomy.joint(Part::Hips))
 }
 
-/// Turns a joint of the body in model space in each frame, on top of the turns of a joint below it.
+/// Rotates a joint of the body in model space in each frame, on top of the rotation of a joint below it.
 fn turn(
     channels: &mut [Channel],
     body: &Material,
@@ -135,8 +135,8 @@ fn turn(
     }
 }
 
-/// Returns a stretch of a recording of a face alone as movement to look at; `None` if the recording has a skeleton, or no
-/// captured face.
+/// Returns a stretch of a recording that has only a face as movement for display; `None` if the recording has a
+/// skeleton, or no captured face.
 pub(crate) fn moving(connection: &Connection, stretch: &Stretch) -> Result<Option<Moving>> {
     if recordings::body_track(connection, stretch.recording.id)?.is_some() {
         return Ok(None);
@@ -149,8 +149,8 @@ pub(crate) fn moving(connection: &Connection, stretch: &Stretch) -> Result<Optio
     }))
 }
 
-/// Returns where the first frame of a recording's movement lies on its clock, in microseconds: of its skeleton, or of its
-/// face if it has none; 0 if it has neither.
+/// Returns the time of the first frame of a recording's movement on its clock, in microseconds: that of its skeleton,
+/// otherwise that of its face; 0 if it has neither.
 pub(crate) fn first_frame(connection: &Connection, recording: i64, span: Span) -> Result<i64> {
     if recordings::body_track(connection, recording)?.is_some() {
         let track = crate::movement::Track::of(connection, recording)?;

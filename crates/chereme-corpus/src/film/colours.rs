@@ -1,28 +1,28 @@
-//! Numbers of a film to colours of a screen, and back (ITU-R BT.601, BT.709, BT.2020).
+//! Conversion between the colour numbers of films and screen colours (ITU-R BT.601, BT.709, BT.2020).
 
 use chereme_figure::Image;
 use chereme_formats::mp4::{Colours, Turn};
 
 use super::FilmPicture;
 
-/// A decoded picture: brightness of each pixel, and two colour differences of each square of four.
+/// A decoded picture: luma of each pixel, and two colour differences of each square of four.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Planes {
-    /// Width in pixels, as it is coded.
+    /// Coded width in pixels.
     pub width: usize,
-    /// Height in pixels, as it is coded.
+    /// Coded height in pixels.
     pub height: usize,
-    /// Brightness, row by row.
+    /// Luma, row by row.
     pub y: Vec<u8>,
     /// The blue difference; rows have half of the width, rounded up.
     pub u: Vec<u8>,
-    /// The red difference.
+    /// The red difference, in the same layout.
     pub v: Vec<u8>,
-    /// How the numbers are colours, if the film says so.
+    /// The meaning of the numbers as colours, if the film states it.
     pub(crate) colours: Option<Colours>,
 }
 
-/// Returns how much red and blue weigh in brightness.
+/// Returns the weights of red and blue in luma.
 fn weights(matrix: u8) -> (f32, f32) {
     match matrix {
         5 | 6 => (0.299, 0.114),
@@ -31,7 +31,7 @@ fn weights(matrix: u8) -> (f32, f32) {
     }
 }
 
-/// Returns the coding of colours of a picture of that height if a film does not name it: that of television.
+/// Returns the coding of colours for a picture of that height if a film does not name it: that of television.
 pub(crate) fn usual(height: usize) -> Colours {
     Colours {
         matrix: if height < 720 { 6 } else { 1 },
@@ -83,19 +83,19 @@ impl Factors {
 }
 
 impl Planes {
-    /// Returns how many bytes it takes.
+    /// Returns its size in bytes.
     pub(crate) fn bytes(&self) -> usize {
         self.y.len() + self.u.len() + self.v.len()
     }
 
-    /// Returns it in colours of a screen, turned, and made smaller to lie within `within`.
+    /// Returns it in screen colours, rotated, and reduced to fit into `within`.
     #[must_use]
     pub fn picture(&self, turn: Turn, within: [usize; 2]) -> FilmPicture {
         let turned = turn.size([self.width, self.height]);
         let [width, height] = fitted(turned, within);
         let factors = Factors::of(self.colours.unwrap_or_else(|| usual(self.height)));
         let chroma = self.width.div_ceil(2);
-        // Where columns and rows of the result lie in the picture as it is coded.
+        // The ranges of the coded picture that correspond to columns and rows of the result.
         let spans = |count: usize, of: usize| -> Vec<(usize, usize)> {
             let edge = |at: usize| at * of / count;
             (0..count)
@@ -134,7 +134,7 @@ impl Planes {
         }
     }
 
-    /// Returns a drawn picture in numbers of a film; an odd width or height is made even by repeating the edge.
+    /// Converts a drawn picture to film colours; an odd width or height is made even by repeating the edge.
     pub(crate) fn of(image: &Image, colours: Colours) -> Self {
         let (wide, high) = (image.width(), image.height());
         let (width, height) = (wide.next_multiple_of(2), high.next_multiple_of(2));
@@ -185,7 +185,7 @@ impl Planes {
     }
 }
 
-/// Returns the largest size of the same shape that lies within another and is no larger than itself.
+/// Returns the largest size of the same proportions that fits into `within` and is not larger than the original.
 fn fitted([width, height]: [usize; 2], within: [usize; 2]) -> [usize; 2] {
     let share = (within[0] as f64 / width.max(1) as f64)
         .min(within[1] as f64 / height.max(1) as f64)

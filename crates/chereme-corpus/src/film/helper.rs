@@ -1,4 +1,4 @@
-//! Films that the program cannot decode itself, through the `ffmpeg` of the computer.
+//! Decoding of other films through the `ffmpeg` of the computer.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ const PROGRAM: &str = "ffmpeg";
 /// The largest side of a picture that is decoded.
 const LARGEST: usize = 8192;
 
-/// Returns whether it is installed.
+/// Returns whether `ffmpeg` is installed.
 pub(super) fn is_there() -> bool {
     let mut command = quiet();
     command.arg("-version").stdout(Stdio::null());
@@ -29,7 +29,7 @@ fn quiet() -> Command {
     command
 }
 
-/// Opens a film, whose index is known if it is an MP4.
+/// Opens a film; its index is given if it is an MP4.
 pub(super) fn open(
     path: &Path,
     known: Option<(mp4::Container, Vec<String>)>,
@@ -82,7 +82,7 @@ pub(super) fn open(
     Ok((facts, times, helper))
 }
 
-/// Asks for the size of a film and the times of its frames, which `ffmpeg` lists without decoding them.
+/// Returns the size of a film and the times of its frames, which `ffmpeg` lists without decoding them.
 fn listed(path: &Path) -> std::result::Result<([usize; 2], FilmTimes), String> {
     let mut command = quiet();
     command.arg("-i").arg(path);
@@ -117,7 +117,7 @@ fn listed(path: &Path) -> std::result::Result<([usize; 2], FilmTimes), String> {
     let Some((last, lasts)) = rows.last().copied() else {
         return Err("it has no frames".to_owned());
     };
-    // Times begin with the film, as in its own index.
+    // Times count from the start of the film, as in its own index.
     let times = FilmTimes {
         starts: rows.iter().map(|row| micros(row.0)).collect(),
         end: micros(last.saturating_add(lasts.max(1))),
@@ -132,7 +132,7 @@ fn listed(path: &Path) -> std::result::Result<([usize; 2], FilmTimes), String> {
     ))
 }
 
-/// A film that `ffmpeg` decodes, from one frame on.
+/// A film that `ffmpeg` decodes from any frame on.
 pub(super) struct Helper {
     path: PathBuf,
     size: [usize; 2],
@@ -141,7 +141,7 @@ pub(super) struct Helper {
     running: Option<Running>,
 }
 
-/// `ffmpeg` at work.
+/// A running `ffmpeg` process.
 struct Running {
     child: Child,
     pictures: ChildStdout,
@@ -155,7 +155,7 @@ impl Drop for Running {
     }
 }
 
-/// So many frames are decoded and dropped before `ffmpeg` is started again instead.
+/// The most frames that are decoded and dropped before `ffmpeg` is started again instead.
 const NEAR: usize = 48;
 
 impl Helper {
@@ -164,7 +164,7 @@ impl Helper {
         let mut command = quiet();
         command.arg("-noautorotate");
         if frame > 0 {
-            // Half of a frame earlier, so that rounding does not lose it.
+            // Seeks half a frame earlier, so that rounding does not skip the frame.
             let (before, start) = (self.starts[frame - 1], self.starts[frame]);
             let from = start - (start - before) / 2 - self.starts[0];
             command.args(["-ss", &format!("{:.6}", from as f64 / 1e6)]);

@@ -1,11 +1,11 @@
-//! Films next to a corpus: their pictures by frame, and films written.
+//! Films beside a corpus: decoding them frame by frame, and writing films.
 //!
 //! | module | holds |
 //! |---|---|
-//! | `own` | H.264 decoded by the program itself |
-//! | `helper` | everything else, through the `ffmpeg` of the computer |
-//! | `colours` | numbers of a film to colours of a screen, and back |
-//! | `write` | pictures to a film |
+//! | `own` | H.264, decoded by the program itself |
+//! | `helper` | all other formats, through the `ffmpeg` of the computer |
+//! | `colours` | conversion between film colours and screen colours |
+//! | `write` | writing pictures as a film |
 
 mod colours;
 mod helper;
@@ -27,17 +27,17 @@ pub(crate) use write::{Shape, write_film};
 
 use crate::error::{Error, Result};
 
-/// Bytes of decoded pictures that an open film keeps, so that steps back are at once there.
+/// The bytes of decoded pictures that an open film caches, so that steps back are immediate.
 const KEPT: usize = 96 << 20;
 
-/// When each frame of a film is shown, in microseconds from its start.
+/// The times of a film's frames, in microseconds from its start.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct FilmTimes {
-    /// When frames begin, in the order in which they are shown; never falling.
+    /// The starts of frames in display order; never descending.
     starts: Vec<i64>,
-    /// When the last one ends.
+    /// The end of the last frame.
     end: i64,
-    /// Whether decoding can begin at a frame.
+    /// For each frame whether decoding can begin there.
     sync: Vec<bool>,
 }
 
@@ -48,26 +48,26 @@ impl FilmTimes {
         self.starts.len()
     }
 
-    /// Returns when a frame begins; beyond the last, when the film ends.
+    /// Returns the start of a frame; for a frame beyond the last, the end of the film.
     #[must_use]
     pub fn start(&self, frame: usize) -> i64 {
         self.starts.get(frame).copied().unwrap_or(self.end)
     }
 
-    /// Returns when the film ends.
+    /// Returns the end of the film.
     #[must_use]
     pub fn end(&self) -> i64 {
         self.end
     }
 
-    /// Returns the frame that is seen at a time; nothing before the first and after the last.
+    /// Returns the frame that is displayed at a time; nothing before the first and after the last.
     #[must_use]
     pub fn frame_at(&self, micros: i64) -> Option<usize> {
         let after = self.starts.partition_point(|start| *start <= micros);
         (micros < self.end).then(|| after.checked_sub(1)).flatten()
     }
 
-    /// Returns the last frame at or before `frame` with which decoding can begin.
+    /// Returns the last frame at or before `frame` where decoding can begin.
     #[must_use]
     pub fn sync_before(&self, frame: usize) -> usize {
         let until = self.sync.get(..=frame).unwrap_or(&self.sync);
@@ -90,27 +90,27 @@ impl FilmTimes {
 /// Facts of a film.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FilmFacts {
-    /// How it is coded, such as `H.264`.
+    /// The coding, such as `H.264`.
     pub coding: String,
-    /// Width in pixels, as it is looked at.
+    /// Width in pixels, as displayed.
     pub width: usize,
-    /// Height in pixels, as it is looked at.
+    /// Height in pixels, as displayed.
     pub height: usize,
-    /// How many frames it shows.
+    /// The number of frames.
     pub frames: usize,
     /// Pictures per second, on average.
     pub rate: f64,
-    /// How long it is, in microseconds.
+    /// The length in microseconds.
     pub duration_us: i64,
-    /// How coded pictures are turned.
+    /// The rotation of coded pictures for display.
     pub turn: Turn,
-    /// Who decodes it: `chereme` or `ffmpeg`.
+    /// The decoder: `chereme` or `ffmpeg`.
     pub decoder: &'static str,
     /// Oddities of the file.
     pub findings: Vec<String>,
 }
 
-/// A picture of a film in colours of a screen.
+/// A picture of a film in screen colours.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FilmPicture {
     /// Width in pixels.
@@ -121,12 +121,12 @@ pub struct FilmPicture {
     pub rgba: Vec<u8>,
 }
 
-/// Decodes the frames of a film, which are counted in the order in which they are shown.
+/// Decodes the frames of a film, which are counted in display order.
 trait Decode: Send {
-    /// Decodes on until `frame` was given to `keep`, with all others on the way.
+    /// Decodes frames until `frame` was passed to `keep`, together with all others on the way.
     ///
     /// # Errors
-    /// If that frame cannot be decoded; [`Error::Stopped`] if `stop` says so in between.
+    /// Fails if that frame cannot be decoded; [`Error::Stopped`] if `stop` returns true in between.
     fn decode(
         &mut self,
         frame: usize,
@@ -135,7 +135,7 @@ trait Decode: Send {
     ) -> Result<()>;
 }
 
-/// A film that is open.
+/// An open film.
 pub struct Film {
     path: PathBuf,
     facts: FilmFacts,
@@ -145,10 +145,11 @@ pub struct Film {
 }
 
 impl Film {
-    /// Opens a film: H.264 in MP4 or QuickTime by itself, everything else through `ffmpeg` if that is installed.
+    /// Opens a film: the program decodes H.264 in MP4 or QuickTime itself, and everything else through `ffmpeg` if that
+    /// is installed.
     ///
     /// # Errors
-    /// If the file is damaged, or nothing here decodes it; the remedy says how to convert it.
+    /// Fails if the file is damaged, or no decoder is available; the remedy describes a conversion.
     pub fn open(path: &Path) -> Result<Self> {
         let mut file = File::open(path).map_err(|error| Error::file(path, error))?;
         let read = mp4::read(&mut file);
@@ -205,7 +206,7 @@ impl Film {
         })
     }
 
-    /// Opens a film through `ffmpeg`, or says why that cannot be.
+    /// Opens a film through `ffmpeg`; if that is not installed, fails with `reason`.
     fn helped(
         path: &Path,
         known: Option<(mp4::Container, Vec<String>)>,
@@ -233,29 +234,29 @@ impl Film {
         })
     }
 
-    /// Returns the file.
+    /// Returns the path of the file.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Returns its facts.
+    /// Returns the film's facts.
     #[must_use]
     pub fn facts(&self) -> &FilmFacts {
         &self.facts
     }
 
-    /// Returns when its frames are shown.
+    /// Returns the times of its frames.
     #[must_use]
     pub fn times(&self) -> &Arc<FilmTimes> {
         &self.times
     }
 
-    /// Returns a frame as it was decoded.
+    /// Returns a frame in the decoded form.
     ///
     /// # Errors
-    /// If there is no such frame or it is damaged; [`Error::Stopped`] if `stop` says so, after which another can be
-    /// asked for.
+    /// Fails if there is no such frame or it is damaged; [`Error::Stopped`] if `stop` returns true, after which another
+    /// frame can be requested.
     pub fn planes(&mut self, frame: usize, stop: &dyn Fn() -> bool) -> Result<Arc<Planes>> {
         if let Some((_, planes)) = self.kept.iter().find(|it| it.0 == frame) {
             return Ok(Arc::clone(planes));
@@ -286,7 +287,7 @@ impl Film {
         })
     }
 
-    /// Returns a frame in colours of a screen, turned to be looked at and no larger than `within` or the film.
+    /// Returns a frame in screen colours, rotated for display and no larger than `within` or the film.
     ///
     /// # Errors
     /// As [`planes`](Self::planes).
@@ -301,7 +302,7 @@ impl Film {
     }
 }
 
-/// Returns when the frames of a film are shown.
+/// Returns the times of a film's frames.
 fn times(container: &mp4::Container) -> FilmTimes {
     let order = container.shown_order();
     let frame = |at: &usize| &container.frames[*at];

@@ -1,4 +1,4 @@
-//! H.264 decoded by the program itself: by `rusty_h264`, which is kept behind [`Decode`].
+//! Decoding of H.264 by the program itself, with `rusty_h264` behind [`Decode`].
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -11,9 +11,9 @@ use rusty_h264::Decoder;
 use super::colours::Planes;
 use super::{Decode, Error, Result};
 
-/// Most bytes of one coded picture.
+/// The largest coded picture in bytes.
 const LARGEST: u32 = 64 << 20;
-/// No frame is shown there.
+/// Marks a decoding position that displays no frame.
 const HIDDEN: usize = usize::MAX;
 
 /// A film of H.264 in a file.
@@ -23,24 +23,24 @@ pub(super) struct Own {
     container: Container,
     configuration: h264::Configuration,
     colours: Option<Colours>,
-    /// The decoding positions of frames in the order in which they are shown.
+    /// The decoding positions of frames in display order.
     order: Vec<usize>,
-    /// Which frame a decoding position shows.
+    /// The frame that each decoding position displays.
     shows: Vec<usize>,
     decoder: Decoder,
-    /// The decoding position that comes next, if the decoder has begun.
+    /// The next decoding position, if the decoder has begun.
     next: Option<usize>,
-    /// Pictures that are shown earlier need others than were decoded.
+    /// Pictures displayed before this point depend on others that were not decoded.
     floor: i64,
     coded: Vec<u8>,
     stream: Vec<u8>,
 }
 
 impl Own {
-    /// Gets ready to decode.
+    /// Prepares the decoder.
     ///
     /// # Errors
-    /// The reason why this decoder cannot.
+    /// The reason why this decoder cannot read the film.
     pub(super) fn new(
         file: File,
         path: &Path,
@@ -55,7 +55,7 @@ impl Own {
             if sequence.profile > 100 {
                 return Err("H.264 of a profile with more than 8 bits, or 4:2:2".to_owned());
             }
-            // The stream goes before the container.
+            // The stream takes precedence over the container.
             let said = sequence.colours.filter(|it| it.matrix != 2);
             let full = sequence.colours.is_some_and(|it| it.full_range);
             colours = said.or(colours).map(|it| Colours {
@@ -87,7 +87,7 @@ impl Own {
         })
     }
 
-    /// Decodes the picture at a decoding position; `fresh` if decoding begins there.
+    /// Decodes the picture at a decoding position; `fresh` means that decoding begins there.
     fn one(&mut self, at: usize, fresh: bool) -> std::result::Result<Option<Planes>, String> {
         let frame = self.container.frames[at];
         if frame.size > LARGEST {
@@ -105,7 +105,7 @@ impl Own {
         let sets = fresh || frame.sync;
         h264::annex_b(&self.configuration, &self.coded, sets, &mut self.stream)
             .map_err(|error| error.to_string())?;
-        // After a panic the decoder is thrown away.
+        // After a panic the decoder is discarded.
         let decoded = catch_unwind(AssertUnwindSafe(|| self.decoder.decode(&self.stream)));
         match decoded {
             Ok(Ok(picture)) => Ok(picture.map(|it| Planes {
@@ -124,7 +124,7 @@ impl Own {
         }
     }
 
-    /// Returns whether no other picture needs the one that was read last.
+    /// Returns whether no other picture depends on the one that was read last.
     fn is_spare(&self) -> bool {
         let mut pieces = h264::pieces(&self.stream);
         let slice = pieces.find(|it| matches!(it.first().map(|first| first & 31), Some(1 | 5)));
@@ -182,7 +182,7 @@ impl Decode for Own {
                 Ok(None) => {}
                 Err(_) if at != target && self.is_spare() => {}
                 Err(reason) => {
-                    // What follows until decoding can begin again is built on it.
+                    // The following pictures depend on it until decoding can begin again.
                     self.next = None;
                     return Err(broken(&reason));
                 }

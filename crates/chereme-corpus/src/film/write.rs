@@ -1,4 +1,4 @@
-//! Pictures to a film: H.264 in MP4, which every player knows.
+//! Writes pictures as a film: H.264 in MP4, which every player supports.
 
 use std::io::Write;
 
@@ -9,11 +9,12 @@ use rusty_h264::{Encoder, EncoderConfig, Preset, YuvFrame};
 use super::colours::{Planes, usual};
 use crate::error::{Error, Result};
 
-/// How finely pictures are coded: 0 is without loss, 51 the coarsest. Lines of drawings stay sharp at 20.
+/// The quantiser of pictures: 0 is lossless, 51 the coarsest. Lines of drawings stay sharp at 20.
 const QUALITY: u8 = 20;
-/// Seconds after which decoding can begin again, so that films are quickly searched through.
+/// The seconds between frames where decoding can begin, so that seeking is fast.
 const REFRESH: u32 = 2;
-/// Levels of H.264 (annex A, table A-1): a name, and how many squares of 16 pixels a picture and a second may have.
+/// Levels of H.264 (annex A, table A-1): a name, and the most macroblocks (16 × 16 pixels) in a picture and in a
+/// second.
 const LEVELS: [(u8, u64, u64); 8] = [
     (30, 1620, 40_500),
     (31, 3600, 108_000),
@@ -32,7 +33,7 @@ pub(crate) struct Shape {
     pub(crate) rate: u32,
 }
 
-/// Writes pictures as a film and returns how many there are; `hear` learns of each and may stop it.
+/// Writes pictures as a film and returns their number; `hear` receives the progress and may stop the work.
 pub(crate) fn write_film(
     pictures: &mut impl Pictures,
     shape: Shape,
@@ -77,7 +78,7 @@ pub(crate) fn write_film(
     Ok(total)
 }
 
-/// Returns what codes pictures of that size one by one.
+/// Returns an encoder for pictures of that size.
 fn coder([width, height]: [usize; 2], rate: u32) -> Result<Encoder> {
     let squares = (width.div_ceil(16) * height.div_ceil(16)) as u64;
     let level = LEVELS

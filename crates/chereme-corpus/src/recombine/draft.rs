@@ -1,4 +1,4 @@
-//! A recipe that is being worked on, made again with every change.
+//! A recipe being drafted, which is evaluated again after every change.
 
 use std::cell::RefCell;
 
@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use crate::sources::CorpusSources;
 
-/// The recipe that is worked on, and the generation of the corpus that it was made from.
+/// The recipe being drafted, and the generation of the corpus for which its results are valid.
 #[derive(Default)]
 pub(crate) struct Drafted {
     draft: Draft,
@@ -18,15 +18,15 @@ pub(crate) struct Drafted {
 }
 
 impl Corpus {
-    /// Makes the movement of a recipe that is worked on, and stores nothing.
+    /// Evaluates a recipe that is being drafted, and stores nothing.
     ///
-    /// Returns the same as [`preview`](Self::preview). Parts that a change of the recipe since the last draft
-    /// leaves alone are not evaluated again while the corpus stays as it is; with `anew` everything is looked up
-    /// again, including files that recipes name.
+    /// Returns the same as [`preview`](Self::preview). Parts of the recipe that have not changed since the last draft
+    /// are not evaluated again as long as the corpus stays the same. With `anew` everything is looked up again,
+    /// including files that recipes name.
     ///
     /// # Errors
-    /// As [`preview`](Self::preview), and [`Error::Stopped`] where the listener says so between two
-    /// steps; those that were taken need not be taken again.
+    /// As [`preview`](Self::preview), and [`Error::Stopped`] if the receiver asks to stop between two steps; the
+    /// results of finished steps are kept.
     pub fn draft(
         &mut self,
         recipe: &str,

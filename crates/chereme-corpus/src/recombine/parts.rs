@@ -1,4 +1,4 @@
-//! The pieces that a made sign was made from, with their time in it.
+//! The pieces from which a generated sign was composed, with their times in it.
 
 use chereme_compose::{About, Note};
 use chereme_motion::{Instant, Span};
@@ -10,14 +10,14 @@ use crate::address::Address;
 use crate::db::tiers;
 use crate::error::Result;
 
-/// A piece that a sign was made from.
+/// A piece of a generated sign.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MadePart {
-    /// Its time in the made sign.
+    /// Its time in the generated sign.
     pub span: Span,
-    /// The gloss of the sign, or the word that is spelled.
+    /// The gloss of the sign, or the spelled word.
     pub gloss: String,
-    /// Where its movement comes from: an address, or the part of the recipe that makes it.
+    /// The source of its movement: an address, or the part of the recipe that generates it.
     pub from: String,
 }
 
@@ -31,11 +31,10 @@ impl MadePart {
 }
 
 impl Corpus {
-    /// Returns the pieces that a stored sign was made from, as its tiers have them; none of a
-    /// recording that was not made.
+    /// Returns the pieces of a stored sign, read from its tiers; none for a recording that was not generated.
     ///
     /// # Errors
-    /// Where the database fails.
+    /// Fails if the database fails.
     pub fn made_parts(&self, recording: i64) -> Result<Vec<MadePart>> {
         let connection = self.store.read();
         let mut parts = Vec::new();
@@ -61,7 +60,7 @@ impl Corpus {
     }
 }
 
-/// Returns the pieces that notes describe.
+/// Returns the pieces described by notes.
 pub(super) fn of(notes: &[Note]) -> Vec<MadePart> {
     let gloss = |note: &&Note| note.about == About::Gloss;
     let part = |note: &Note| {

@@ -1,4 +1,4 @@
-//! The phase of each key of cued speech: milliseconds from the start of its sound to the hand at its target.
+//! The phase of each key in cued speech: milliseconds from the start of its sound to the arrival of the hand.
 
 use chereme_compose::{CuePhases, CueTier};
 use chereme_sign::cue;
@@ -10,12 +10,12 @@ use crate::db::tiers::{self, AnnotationRow};
 use crate::db::{recordings, signs};
 use crate::error::Result;
 
-/// The attribute of a key's token.
+/// The attribute of a key's token that holds its phase.
 pub(crate) const PHASE: &str = "cue-phase";
-/// The fewest keys of a type on which its phase is measured.
+/// The fewest keys of a type that are enough to measure its phase.
 const FEWEST: usize = 8;
 
-/// Gives the tokens of keys of a recording their phase, as its tiers of keys and of the hand's movement have it.
+/// Sets the phases of the key tokens in a recording, computed from its tiers of keys and of the hand's movement.
 pub(crate) fn store(connection: &Connection, recording: i64) -> Result<()> {
     let mut tokens = signs::tokens_of_recording(connection, recording)?;
     tokens.retain(|token| cue::of_gloss(&token.gloss).is_some());
@@ -56,7 +56,7 @@ fn named(connection: &Connection, recording: i64, name: &str) -> Result<Vec<Anno
     Ok(found)
 }
 
-/// Returns the medians of the phases of captured keys by type; nothing if a type has fewer than eight.
+/// Returns the medians of the phases of captured keys by type; nothing if a type has fewer than [`FEWEST`] keys.
 ///
 /// The sounds of a key are the phones that begin within it.
 pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {

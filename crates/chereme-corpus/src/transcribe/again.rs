@@ -1,4 +1,4 @@
-//! Notation made again on the body of a recording that was made of notation.
+//! Re-synthesis of notation on the body of a recording that was generated from notation.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -25,13 +25,13 @@ use crate::recombine::{SOURCE, engine};
 use crate::sources::notation::{OWN_BODY, own_body};
 use crate::sources::standing;
 
-/// The number of postures that each processor makes between two reports of progress.
+/// The number of postures that each processor synthesises between two reports of progress.
 const AT_ONCE: usize = 8;
 
-/// A body that makes notation again as it was made.
+/// A body for re-synthesis of the notation that it performed.
 pub(super) struct Again(Performer);
 
-/// Notation made again on all processors, with word of how far it is.
+/// Re-synthesis on all processors, with progress reports.
 pub(super) struct Proving<'a, 'p> {
     body: &'a Performer,
     progress: RefCell<&'a mut Progress<'p>>,
@@ -40,7 +40,7 @@ pub(super) struct Proving<'a, 'p> {
 }
 
 impl Proving<'_, '_> {
-    /// Reports that this many more were made, and returns whether to go on.
+    /// Reports that `more` postures were synthesised, and returns whether to go on.
     fn goes_on(&self, more: usize) -> bool {
         self.done.set(self.done.get() + more);
         let step = Step {
@@ -54,7 +54,7 @@ impl Proving<'_, '_> {
         !stopped
     }
 
-    /// Returns whether the work was asked to stop, and nothing was made since.
+    /// Returns whether the work was asked to stop.
     pub(super) fn stopped(&self) -> bool {
         self.stopped.get()
     }
@@ -126,7 +126,7 @@ impl Again {
         Ok(Performer::new(stage, settings).ok().map(Self))
     }
 
-    /// Makes the wanted postures, and reports the progress to `progress`.
+    /// Returns a re-synthesis that reports its progress to `progress`.
     pub(super) fn proving<'a, 'p>(&'a self, progress: &'a mut Progress<'p>) -> Proving<'a, 'p> {
         Proving {
             body: &self.0,
@@ -136,13 +136,13 @@ impl Again {
         }
     }
 
-    /// Returns the body language it was made in.
+    /// Returns the body language of the recording.
     pub(super) fn language(&self) -> BodyLanguage {
         self.0.settings().language.clone()
     }
 }
 
-/// The result of re-synthesis, and its source.
+/// The stored document of a generated recording: its recipe and inputs.
 #[derive(Deserialize)]
 struct Document {
     recipe: Recipe,
@@ -150,7 +150,7 @@ struct Document {
 }
 
 impl Document {
-    /// Returns the body language and the body of movement that was made of notation alone.
+    /// Returns the body language and the body of movement that was generated from notation alone.
     fn notation(&self) -> Option<(BodyLanguage, &MaterialInput)> {
         let (Node::Hamnosys(_) | Node::Sigml(_)) = self.recipe.root() else {
             return None;
