@@ -1,4 +1,4 @@
-//! Synchronises two signals of one event: finds the shift at which they are most alike.
+//! Synchronises two signals of one event: finds the shift at which they are most similar.
 
 /// A signal with gaps, by time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -43,8 +43,8 @@ const SHARE: f64 = 0.4;
 /// A pause between two points that is longer than this is a gap, in seconds.
 const GAP: f64 = 0.25;
 
-/// Returns the shift within `limit` seconds at which `second` is most alike `first`, `None` if they share too little
-/// or one of them never changes.
+/// Returns the shift within `limit` seconds at which `second` is most similar to `first`; `None` if they share too
+/// little or one of them never changes.
 #[must_use]
 pub fn shift(first: &Signal, second: &Signal, limit: f64) -> Option<Shift> {
     let length = |signal: &Signal| Some(signal.points.last()?.0 - signal.points.first()?.0);

@@ -22,29 +22,29 @@ pub trait Detector: Sync {
     /// Returns the name, such as `strokes`.
     fn name(&self) -> &'static str;
 
-    /// Returns the detections, field by field in order of time; empty if what it looks at was not observed.
+    /// Returns the detections, field by field in order of time; empty if the part that it examines was not observed.
     fn detect(&self, observed: &Observed<'_>) -> Vec<Detection>;
 }
 
 /// The observed movement and face of a signer; a missing part is `None`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Observed<'a> {
-    /// The movement of the body, and the joints that are its parts.
+    /// The movement of the body, and the body parts of its joints.
     pub body: Option<(&'a Clip, &'a Anatomy)>,
     /// The curves of the face.
     pub face: Option<Curves<'a>>,
 }
 
-/// A stretch of movement that seems to hold a value.
+/// A stretch of movement in which a value was detected.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Detection {
-    /// Where it holds it, from the first frame of what was observed on.
+    /// The time of the value, counted from the first observed frame.
     pub span: Span,
     /// The field, such as `right.movement.phase` or `nonmanual.brows`.
     pub field: Field,
     /// The value of the field's inventory.
     pub value: String,
-    /// How sure it is, from 0 to 1.
+    /// The confidence, from 0 to 1.
     pub confidence: f64,
     /// The evidence, with its numbers.
     pub why: String,
@@ -56,7 +56,7 @@ pub fn detector(name: &str) -> Option<&'static dyn Detector> {
     DETECTORS.iter().copied().find(|it| it.name() == name)
 }
 
-/// Brows, lids, gaze, mouth and head, by the rules of [`nonmanuals`](crate::nonmanuals).
+/// Detector of actions of brows, lids, gaze, mouth and head, by the rules of [`nonmanuals`](crate::nonmanuals).
 #[derive(Debug, Clone, Copy)]
 pub struct Nonmanuals;
 
@@ -83,11 +83,11 @@ impl Detector for Nonmanuals {
     }
 }
 
-/// Strokes of the wrists, between two minima of their speed: the phase `stroke` of a hand's movement.
+/// Detector of strokes of the wrists, between two minima of their speed: the phase `stroke` of a hand's movement.
 #[derive(Debug, Clone, Copy)]
 pub struct Strokes;
 
-/// Confidence of a stroke: the minima of speed say that the wrist moves, but not whether it signs.
+/// The confidence of a stroke: minima of speed show that the wrist moves, but not whether it signs.
 const STROKE: f64 = 0.5;
 
 impl Detector for Strokes {

@@ -2,16 +2,16 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`align`](mod@align) | the shift at which two signals of one event are most alike |
+//! | [`align`](mod@align) | the shift at which two signals of one event are most similar |
 //! | [`cue`](mod@cue) | captured cued speech: models, restoration, recognisers, targets, generated sessions |
 //! | [`detect`] | detectors behind one trait: spans, fields, values and confidences |
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
-//! | [`kinematics`](mod@kinematics) | how hands move, frame by frame |
-//! | [`map`] | a map of things by likeness |
+//! | [`kinematics`](mod@kinematics) | speed, aperture and palm direction of the hands, frame by frame |
+//! | [`map`] | a map of things by similarity |
 //! | [`measure`](mod@measure) | the size and duration of movements of a known kind |
 //! | [`nonmanuals`] | proposals for brows, lids, gaze, mouth and head from curves of a face |
-//! | [`phases`] | how alike two expressions of the face are, phase by phase |
-//! | [`score`](mod@score) | how alike two performances are, component by component, with their alignment |
+//! | [`phases`] | similarity of two expressions of the face, phase by phase |
+//! | [`score`](mod@score) | similarity of two performances, component by component, with their alignment |
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
 //! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |
 

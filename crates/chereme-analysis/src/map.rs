@@ -1,4 +1,4 @@
-//! A map of things by likeness: things that are alike lie near each other in a plane.
+//! A map of things by similarity: similar things lie near each other in a plane.
 //!
 //! [`neighbours`] finds the nearest neighbours by the cosine of sparse features. [`lay_out`] places the things from those
 //! neighbours alone: two eigenvectors of the neighbour graph are the start (Belkin and Niyogi, *Laplacian eigenmaps*, 2003), and
@@ -7,29 +7,29 @@
 
 use std::cmp::Ordering;
 
-/// The features of a thing: numbers of features with weights above 0, each number once.
+/// The features of a thing: indices of features with weights above 0, each index once.
 pub type Features = Vec<(u32, f32)>;
 
-/// The neighbours of a thing: the index of each and its likeness from 0 to 1, the nearest first.
+/// The neighbours of a thing: the index of each and its similarity from 0 to 1, nearest first.
 pub type Neighbours = Vec<(usize, f32)>;
 
-/// Rounds of refinement.
+/// The number of rounds of refinement.
 const ROUNDS: usize = 200;
-/// Random others that push a thing away at each step along an edge.
+/// The number of random others that push a thing away at each step along an edge.
 const OTHERS: usize = 5;
 /// The curve of closeness 1 / (1 + a d^2b) for neighbours that lie at 0.1 or nearer (UMAP, section 3.2).
 const CURVE: (f32, f32) = (1.577, 0.895);
 /// The longest step along one axis.
 const STEP: f32 = 4.0;
-/// The spread of the start.
+/// The spread of the initial positions.
 const SPREAD: f32 = 10.0;
-/// Rounds of power iteration for the start.
+/// The number of rounds of power iteration for the initial positions.
 const ITERATIONS: usize = 150;
 
-/// Returns the nearest `count` neighbours of each thing by the cosine of their features; a thing that shares no feature with
-/// others has no neighbour. Those of equal likeness come in the order of their indices.
+/// Returns the nearest `count` neighbours of each thing by the cosine of their features; a thing that shares no feature
+/// with others has no neighbour. Neighbours of equal similarity are in the order of their indices.
 ///
-/// `goes_on` receives the number of finished things every now and then. Returns `None` if it returns false.
+/// `goes_on` is called from time to time with the number of finished things. Returns `None` if it returns false.
 pub fn neighbours(
     things: &[Features],
     count: usize,
@@ -90,9 +90,9 @@ pub fn neighbours(
     Some(all)
 }
 
-/// Returns a place for each thing in a square from 0 to 1, so that neighbours lie near each other.
+/// Returns a position for each thing in a square from 0 to 1, so that neighbours lie near each other.
 ///
-/// `goes_on` receives the share of the work done. Returns `None` if it returns false.
+/// `goes_on` is called with the share of the work done. Returns `None` if it returns false.
 pub fn lay_out(
     neighbours: &[Neighbours],
     mut goes_on: impl FnMut(f32) -> bool,
@@ -101,7 +101,7 @@ pub fn lay_out(
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut places = start(neighbours.len(), &edges, &mut random);
     let heaviest = edges.iter().map(|edge| edge.weight).fold(0.0, f32::max);
-    // An edge takes part as often as its weight says.
+    // An edge takes part with a frequency proportional to its weight.
     let mut due: Vec<f32> = edges.iter().map(|edge| heaviest / edge.weight).collect();
     for round in 0..ROUNDS {
         let share = round as f32 / ROUNDS as f32;
@@ -134,8 +134,9 @@ struct Edge {
     weight: f32,
 }
 
-/// Returns the edges of the neighbour graph. An edge weighs the likeness relative to that of the nearest neighbour, so that
-/// things in sparse regions hold on to their neighbours too; the two directions are joined as UMAP does (section 3.1).
+/// Returns the edges of the neighbour graph. The weight of an edge is its similarity relative to that of the nearest
+/// neighbour, so that things in sparse regions are attracted to their neighbours too; the two directions are combined
+/// as in UMAP (section 3.1).
 fn edges(neighbours: &[Neighbours]) -> Vec<Edge> {
     let mut directed: Vec<(usize, usize, f32)> = Vec::new();
     for (index, near) in neighbours.iter().enumerate() {
@@ -159,7 +160,7 @@ fn edges(neighbours: &[Neighbours]) -> Vec<Edge> {
     edges
 }
 
-/// Returns the start: the second and third eigenvectors of the graph's random walk, with a little noise.
+/// Returns the initial positions: the second and third eigenvectors of the graph's random walk, with a little noise.
 fn start(count: usize, edges: &[Edge], random: &mut Random) -> Vec<[f32; 2]> {
     let mut degrees = vec![1e-6_f32; count];
     for edge in edges {
@@ -171,7 +172,7 @@ fn start(count: usize, edges: &[Edge], random: &mut Random) -> Vec<[f32; 2]> {
     for _ in 0..2 {
         let mut axis: Vec<f32> = (0..count).map(|_| random.signed()).collect();
         for _ in 0..ITERATIONS {
-            // Half the vector itself keeps the iteration away from negative eigenvalues.
+            // Adding half of the vector itself keeps the iteration away from negative eigenvalues.
             let mut next: Vec<f32> = axis.iter().map(|value| 0.5 * value).collect();
             for edge in edges {
                 let weight = 0.5 * edge.weight / (roots[edge.a] * roots[edge.b]);
@@ -238,7 +239,7 @@ fn between(a: [f32; 2], b: [f32; 2]) -> ([f32; 2], f32) {
     (away, away[0] * away[0] + away[1] * away[1])
 }
 
-/// Scales and moves places into the square from 0 to 1, without changing their proportions.
+/// Scales and moves positions into the square from 0 to 1, without changing their proportions.
 fn fitted(mut places: Vec<[f32; 2]>) -> Vec<[f32; 2]> {
     let range = |axis: usize| {
         let values = places.iter().map(|place| place[axis]);

@@ -1,10 +1,11 @@
-//! Proposals for what brows, lids, gaze, mouth and head do, from curves of a face by simple rules.
+//! Proposals for actions of brows, lids, gaze, mouth and head, derived from curves of a face by simple rules.
 //!
-//! Each rule is a threshold with hysteresis against the recording's own median: something begins where its curve passes the
-//! threshold, lasts while it stays above seven tenths of it, and counts if it lasts long enough; pauses of less than a
-//! tenth of a second do not end it. A blink is lids that close for less than 0.4 s, and a shake or nod is a head that
-//! turns back and forth at least twice, by three degrees and more, one to six times a second. The confidence is 0.5 at the
-//! threshold and 1 at twice the threshold; of shakes and nods it grows with the number of turns.
+//! Each rule is a threshold with hysteresis relative to the recording's own median: an action begins when its curve
+//! passes the threshold, lasts while the curve stays above seven tenths of it, and counts if it lasts long enough;
+//! pauses of less than a tenth of a second do not end it. A blink is a closing of the lids for less than 0.4 s. A shake
+//! or nod is a head that turns back and forth at least twice, by three degrees or more, one to six times per second.
+//! The confidence is 0.5 at the threshold and 1 at twice the threshold; for shakes and nods it grows with the number of
+//! turns.
 //!
 //! ```
 //! use chereme_analysis::nonmanuals::{Curves, proposals};
@@ -19,7 +20,7 @@ use std::ops::Range;
 
 use serde::Serialize;
 
-/// The thresholds: shares of the usual reach, seconds, degrees.
+/// The thresholds: shares of the usual range, seconds, degrees.
 const BROWS: f64 = 0.3;
 const SIDE: f64 = 0.4;
 const SQUEEZE: f64 = 0.35;
@@ -30,16 +31,16 @@ const BLINK: f64 = 0.4;
 const LEAST: f64 = 0.15;
 const PAUSE: f64 = 0.1;
 const SWING: f64 = 3.0;
-/// Half a swing of a head takes from a twelfth of a second to half a second.
+/// The shortest and the longest half swing of a head, in seconds.
 const HALF_SWING: [f64; 2] = [1.0 / 12.0, 0.5];
 const SWINGS: usize = 3;
-/// How far a curve stays above its threshold before it ends.
+/// The share of the threshold above which a curve must stay for an action to last.
 const STAYS: f64 = 0.7;
 
-/// Curves of one face, a number a frame; `None` if unknown.
+/// Curves of one face, with a number for each frame; `None` if unknown.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Curves<'a> {
-    /// Frames a second.
+    /// Frames per second.
     pub rate: f64,
     /// Brows raised, right and left; below 0 lowered.
     pub brow_raise: [Option<&'a [f64]>; 2],
@@ -61,7 +62,7 @@ pub struct Curves<'a> {
     pub head_yaw: Option<&'a [f64]>,
 }
 
-/// Something that a part of the face seems to do.
+/// A proposed action of a part of the face.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Proposal {
     /// The part: `brows`, `lids`, `gaze`, `mouth` or `head`.
@@ -70,7 +71,7 @@ pub struct Proposal {
     pub value: &'static str,
     /// The frames.
     pub frames: Range<usize>,
-    /// How sure it is, from 0.5 to 1.
+    /// The confidence, from 0.5 to 1.
     pub confidence: f64,
     /// The rule that found it, with its numbers.
     pub why: String,
@@ -105,7 +106,7 @@ pub fn proposals(curves: &Curves<'_>) -> Vec<Proposal> {
     kept
 }
 
-/// Returns a curve counted from its own median; empty if unknown.
+/// Returns a curve relative to its own median; empty if unknown.
 fn from_median(curve: Option<&[f64]>) -> Vec<f64> {
     let Some(curve) = curve.filter(|curve| !curve.is_empty()) else {
         return Vec::new();
@@ -202,7 +203,7 @@ fn head(curves: &Curves<'_>) -> Vec<Proposal> {
     all
 }
 
-/// Returns runs in which a curve passes a threshold, for `least` seconds and longer.
+/// Returns the runs in which a curve passes a threshold for at least `least` seconds.
 fn found(
     curve: &[f64],
     rate: f64,
@@ -250,7 +251,7 @@ fn found(
     .collect()
 }
 
-/// Returns stretches in which a head swings back and forth.
+/// Returns the stretches in which a head swings back and forth.
 fn swings(curve: &[f64], rate: f64, value: &'static str) -> Vec<Proposal> {
     let turns = turning_points(curve);
     let is_swing = |pair: &[usize]| {
@@ -287,7 +288,7 @@ fn swings(curve: &[f64], rate: f64, value: &'static str) -> Vec<Proposal> {
     all
 }
 
-/// Returns the frames of the greatest and least values in turn; smaller ups and downs than a third of a swing are passed over.
+/// Returns the frames of alternating maxima and minima; fluctuations smaller than a third of a swing are ignored.
 fn turning_points(curve: &[f64]) -> Vec<usize> {
     let mut points: Vec<usize> = Vec::new();
     let Some(_) = curve.first() else {

@@ -1,9 +1,9 @@
-//! Scores of performances phase by phase: how alike two expressions of the face are whatever their tempo.
+//! Scores performances phase by phase: the similarity of two expressions of the face, independently of their tempo.
 //!
 //! Each of the four phases of one performance is aligned with the same phase of the other by dynamic time warping; the
-//! costs, each divided by the frames of the query's phase, add up and are multiplied by the ratio of lengths. Source: the
-//! fourth founding paper (facial expressions for animations of American Sign Language), section 5.1, algorithm 1; R's
-//! `dtw` with the step pattern `asymmetric` and a Sakoe-Chiba window of 10 frames.
+//! costs, each divided by the number of frames in the query's phase, are added and multiplied by the ratio of lengths.
+//! Source: the fourth founding paper (facial expressions for animations of American Sign Language), section 5.1,
+//! algorithm 1; R's `dtw` with the step pattern `asymmetric` and a Sakoe-Chiba window of 10 frames.
 //!
 //! ```
 //! use chereme_analysis::phases::{Options, Phased, score};
@@ -29,7 +29,7 @@ pub struct Phased {
     seconds: f64,
 }
 
-/// Why performances cannot be compared phase by phase.
+/// The reason why performances cannot be compared phase by phase.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PhasedError {
     /// Milestones decrease or lie beyond the last frame.
@@ -37,7 +37,7 @@ pub enum PhasedError {
     Milestones {
         /// The milestones, in frames.
         milestones: [usize; 5],
-        /// The frames there are.
+        /// The number of frames.
         frames: usize,
     },
     /// A length is not a positive number of seconds.
@@ -57,11 +57,12 @@ pub enum PhasedError {
 }
 
 impl Phased {
-    /// Returns a performance: channels in units whose 1 counts alike, milestones M1 to M5 in frames, and its length in
-    /// seconds. A frame on a milestone belongs to the phase that begins there.
+    /// Returns a performance: channels scaled so that 1 means the same difference in all of them, milestones M1 to M5
+    /// in frames, and its length in seconds. A frame on a milestone belongs to the phase that begins there.
     ///
     /// # Errors
-    /// [`PhasedError::Milestones`], [`PhasedError::Length`], and [`PhasedError::Phase`] if a channel holds what is no number.
+    /// [`PhasedError::Milestones`], [`PhasedError::Length`], and [`PhasedError::Phase`] if a channel contains an
+    /// invalid number.
     pub fn new(
         channels: &[Vec<f64>],
         milestones: [usize; 5],
@@ -102,32 +103,32 @@ impl Phased {
     }
 }
 
-/// What happens to a phase whose lengths no path connects.
+/// The treatment of a phase whose lengths no path connects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum NoPath {
     /// The score is refused, as dtw-python and R do.
     Refuse,
-    /// The window becomes a slanted band; if the step pattern still forbids a path, the candidate's phase is resampled to
-    /// the query's length. The result says so.
+    /// The window becomes a slanted band; if the step pattern still forbids a path, the candidate's phase is resampled
+    /// to the query's length. [`PhaseScore::made`] reports this.
     #[default]
     Adapt,
 }
 
-/// How performances are scored.
+/// Options of a score.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
     /// Half the window's width in frames.
     pub window: usize,
-    /// What happens to a phase without a path.
+    /// The treatment of a phase without a path.
     pub no_path: NoPath,
     /// The factor of each phase's cost.
     pub weights: [f64; 4],
 }
 
 impl Default for Options {
-    /// A window of 10 frames, a third of a second at 30 frames a second; all phases count alike.
+    /// A window of 10 frames, a third of a second at 30 frames per second; all phases have equal weight.
     fn default() -> Self {
         Self {
             window: 10,
@@ -137,24 +138,24 @@ impl Default for Options {
     }
 }
 
-/// How alike two performances are.
+/// The score of two performances.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhasedScore {
-    /// The sum over phases times the ratio of lengths; 0 is alike, there is no upper end and no unit.
+    /// The sum over phases times the ratio of lengths; 0 means equal. It has no upper limit and no unit.
     pub score: f64,
     /// The sum over phases, without the ratio.
     pub unstretched: f64,
-    /// The length of the target over that of the candidate.
+    /// The ratio of the target's length to that of the candidate.
     pub stretch: f64,
-    /// The size of the natural logarithm of that ratio: how much is stretched or squeezed, both alike.
+    /// The absolute value of that ratio's natural logarithm: stretching and compression count alike.
     pub log_stretch: f64,
-    /// Whether a phase was left out because one of the two does not have it.
+    /// Whether a phase was left out because one of the two lacks it.
     pub partial: bool,
     /// The phases, in order.
     pub phases: Vec<PhaseScore>,
 }
 
-/// How alike two performances are in one phase.
+/// The score of two performances in one phase.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhaseScore {
     /// The phase.
@@ -167,12 +168,12 @@ pub struct PhaseScore {
     pub normalized: Option<f64>,
     /// How the alignment was computed; `None` without one.
     pub made: Option<Made>,
-    /// For each channel the mean difference of aligned frames, in the units of the channels; only if asked for.
+    /// For each channel the mean difference of aligned frames, in the units of the channels; only on request.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub channels: Vec<f64>,
 }
 
-/// Returns how alike a candidate is to a query, whose expression lasts `seconds` in the target.
+/// Returns the score of a candidate against a query whose expression lasts `seconds` in the target.
 ///
 /// # Errors
 /// [`PhasedError::Phase`] if channels differ or, by [`NoPath::Refuse`], if no path exists; [`PhasedError::Nothing`];
@@ -186,10 +187,10 @@ pub fn score(
     scored(query, candidate, seconds, options, false)
 }
 
-/// Returns what [`score`] returns, with the differences of each channel.
+/// Returns the same as [`score`], with the differences of each channel.
 ///
 /// # Errors
-/// As there.
+/// As [`score`].
 pub fn explained(
     query: &Phased,
     candidate: &Phased,
@@ -333,7 +334,7 @@ mod tests {
         assert!(it.phases[1].channels.iter().all(|mean| *mean > 0.0));
     }
 
-    /// The numbers were computed by a program of a few lines that fills the table of the recursion cell by cell.
+    /// The expected numbers were computed by a short program that fills the table of the recursion cell by cell.
     #[test]
     fn scores_equal_those_of_the_recursion_written_out() {
         let wave = |frames: u32, tempo: f64, shift: f64| -> Vec<Vec<f64>> {

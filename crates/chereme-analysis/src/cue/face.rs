@@ -1,5 +1,5 @@
-//! The face: the head's motion, guided components of the rest, and how much of the head's motion each marker of
-//! the throat follows (section 3.1 of the paper).
+//! The face model: the head's motion, guided components of the remaining motion, and the share of the head's motion
+//! that each marker of the throat follows (section 3.1 of the paper).
 
 use glam::{DQuat, DVec3};
 
@@ -9,12 +9,12 @@ use super::linear::Matrix;
 use super::pca::guided;
 use super::rigid::Rigid;
 
-/// The places of the face's markers in one frame, in millimetres; nothing for a hidden one.
+/// The positions of the face's markers in one frame, in millimetres; nothing for a hidden marker.
 pub type Frame = Vec<Option<DVec3>>;
 
-/// How many components a face has.
+/// The number of components of a face.
 pub const COMPONENTS: usize = 7;
-/// Rounds in which the weights of the throat and the components are found.
+/// The number of rounds in which the weights of the throat and the components are determined.
 const ROUNDS: usize = 5;
 
 /// A model of one person's face.
@@ -24,14 +24,14 @@ pub struct FaceModel {
     mean: Vec<DVec3>,
     /// The change of all 189 coordinates by one unit of each component.
     pub directions: Vec<Vec<f64>>,
-    /// How much of the head's motion each marker follows: 1 but for the throat.
+    /// The share of the head's motion that each marker follows: 1 except for the throat.
     pub weights: Vec<f64>,
-    /// The error of each marker on the frames of the learning: mean square of an axis.
+    /// The error of each marker on the training frames: mean square along one axis.
     missed: Vec<f64>,
 }
 
-/// Returns the coordinates that lead each component: jaw, rounding, upper lip, lower lip, corners, throat, and the
-/// rest of the cheeks.
+/// Returns the coordinates that lead each component: jaw, rounding, upper lip, lower lip, corners, throat, and the rest
+/// of the cheeks.
 #[must_use]
 pub fn subsets() -> Vec<Vec<usize>> {
     let of = |markers: std::ops::Range<usize>, axes: &[usize]| -> Vec<usize> {
@@ -51,7 +51,7 @@ pub fn subsets() -> Vec<Vec<usize>> {
     ]
 }
 
-/// Returns a share of a motion: of the turn about its own axis, and of the shift.
+/// Returns a share of a motion: of the rotation about its own axis, and of the translation.
 #[must_use]
 pub fn share_of(motion: &Rigid, weight: f64) -> Rigid {
     if weight == 1.0 {
@@ -64,7 +64,7 @@ pub fn share_of(motion: &Rigid, weight: f64) -> Rigid {
 }
 
 impl FaceModel {
-    /// Learns a model; frames in which a marker is hidden count for the head's motion only.
+    /// Learns a model; frames with a hidden marker count only for the head's motion.
     ///
     /// # Errors
     /// [`ModelError`] if fewer than 20 frames show every marker.
@@ -99,7 +99,7 @@ impl FaceModel {
                 mean_shift += motion.translation;
                 motions.push(motion);
             }
-            // The rigid set takes its mean place, so that motions are about the session's mean.
+            // The rigid set takes its mean position, so that motions are relative to the session's mean.
             let count = whole.len() as f64;
             let usual = Rigid {
                 rotation: DQuat::from_scaled_axis(mean_turn / count),
@@ -140,7 +140,7 @@ impl FaceModel {
             let found = guided(&free, &subsets())?;
             mean = points(&found.mean);
             directions = found.directions;
-            // The weight of each marker of the throat: its motion along what the whole motion would do.
+            // The weight of each marker of the throat: its motion projected onto the effect of the whole head motion.
             let factor = products(&directions).ok_or(ModelError::Singular)?;
             let parameters: Vec<Vec<f64>> = free
                 .iter()
@@ -186,8 +186,8 @@ impl FaceModel {
         Ok(model)
     }
 
-    /// Returns the head's motion and the parameters of a frame, from what is visible of it; nothing if fewer than
-    /// three markers of the rigid set are.
+    /// Returns the head's motion and the parameters of a frame, estimated from its visible markers; nothing if fewer
+    /// than three markers of the rigid set are visible.
     #[must_use]
     pub fn invert(&self, frame: &Frame) -> Option<(Rigid, Vec<f64>)> {
         let motion = Rigid::fit(&self.rigid, frame.get(RIGID)?).ok()?;
@@ -212,14 +212,14 @@ impl FaceModel {
             }
         }
         for k in 0..keep {
-            // Parameters have the variance 1; markers are weighed as if 1 mm off.
+            // Parameters have variance 1; markers are weighted as if their error were 1 mm.
             left[(k, k)] += 1.0;
         }
         Some((motion, left.cholesky()?.solve_factored(&right)))
     }
 
-    /// Returns the head's motion, where the model has each marker of a frame, and the standard deviation that is
-    /// predicted for it in millimetres along one axis; nothing if fewer than three markers of the rigid set are seen.
+    /// Returns the head's motion, the model's position of each marker in a frame, and its predicted standard deviation
+    /// in millimetres along one axis; nothing if fewer than three markers of the rigid set are visible.
     #[must_use]
     pub fn restore(&self, frame: &Frame) -> Option<(Rigid, Vec<DVec3>, Vec<f64>)> {
         let (motion, parameters) = self.invert(frame)?;
@@ -257,7 +257,7 @@ impl FaceModel {
         self.directions.iter().map(|d| d[coordinate]).collect()
     }
 
-    /// Returns where the markers of a face are.
+    /// Returns the positions of a face's markers.
     #[must_use]
     pub fn place(&self, motion: &Rigid, parameters: &[f64]) -> Vec<DVec3> {
         (0..FACE)
@@ -279,7 +279,7 @@ fn points(row: &[f64]) -> Vec<DVec3> {
         .collect()
 }
 
-/// Returns the factor of the products of all directions.
+/// Returns the Cholesky factor of the directions' inner products.
 fn products(directions: &[Vec<f64>]) -> Option<Matrix> {
     let keep = directions.len();
     let mut left = Matrix::zeros(keep, keep);
@@ -292,7 +292,7 @@ fn products(directions: &[Vec<f64>]) -> Option<Matrix> {
     left.cholesky()
 }
 
-/// Returns the parameters of a whole row by least squares; `factor` is that of [`products`].
+/// Returns the parameters of a complete row by least squares; `factor` is that of [`products`].
 fn fitted(mean: &[f64], directions: &[Vec<f64>], factor: &Matrix, row: &[f64]) -> Vec<f64> {
     let apart: Vec<f64> = row.iter().zip(mean).map(|(x, m)| x - m).collect();
     let right: Vec<f64> = directions

@@ -1,10 +1,10 @@
-//! Recognisers: one Gaussian a class, and the tables of what they confuse.
+//! Recognisers with one Gaussian for each class, and their confusion tables.
 
 use super::ModelError;
 use super::linear::Matrix;
 use super::pca::covariance;
 
-/// A Gaussian a class.
+/// A recogniser with one Gaussian for each class.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recogniser {
     classes: Vec<Class>,
@@ -18,7 +18,7 @@ struct Class {
     log_norm: f64,
 }
 
-/// The fewest examples from which a class gets a covariance of its own; others share one.
+/// The fewest examples for which a class gets a covariance of its own; other classes share one.
 const OWN: usize = 20;
 
 impl Recogniser {
@@ -74,7 +74,7 @@ impl Recogniser {
         Ok(Self { classes })
     }
 
-    /// Returns the log of the a-posteriori probability of each class, with equal priors, in order of their numbers.
+    /// Returns the logarithm of the posterior probability of each class, with equal priors, in order of their numbers.
     #[must_use]
     pub fn posteriors(&self, row: &[f64]) -> Vec<(u8, f64)> {
         let score = |class: &Class| {
@@ -90,7 +90,7 @@ impl Recogniser {
         numbers.zip(scores).map(|(n, s)| (n, s - sum)).collect()
     }
 
-    /// Returns the most probable class; of equals the lower number.
+    /// Returns the most probable class; in a tie that with the lower number.
     #[must_use]
     pub fn best(&self, row: &[f64]) -> u8 {
         let all = self.posteriors(row).into_iter();
@@ -98,7 +98,7 @@ impl Recogniser {
             .map_or(0, |(number, _)| number)
     }
 
-    /// Returns the log of the probability of one class; minus infinity if it was never learned.
+    /// Returns the logarithm of the probability of one class; minus infinity if it was never learned.
     #[must_use]
     pub fn log_of(&self, row: &[f64], number: u8) -> f64 {
         let found = self
@@ -109,15 +109,15 @@ impl Recogniser {
     }
 }
 
-/// How often each class was recognised as which.
+/// Confusion table: how often each class was recognised as each.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Confusion {
-    /// Produced, recognised, how often; in order.
+    /// The number of examples by produced and recognised class, in order.
     pub counts: std::collections::BTreeMap<(u8, u8), usize>,
 }
 
 impl Confusion {
-    /// Recognises examples and counts.
+    /// Recognises examples and counts the results.
     #[must_use]
     pub fn of(recogniser: &Recogniser, examples: &[(u8, Vec<f64>)]) -> Self {
         let mut confusion = Self::default();
@@ -130,7 +130,7 @@ impl Confusion {
         confusion
     }
 
-    /// Returns the share that was recognised as what it is.
+    /// Returns the share of correct recognitions.
     #[must_use]
     pub fn rate(&self) -> f64 {
         let all: usize = self.counts.values().sum();

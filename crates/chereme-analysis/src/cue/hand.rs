@@ -1,8 +1,8 @@
-//! The hand: joint angles from markers, their components, markers from angles, and hidden markers restored.
+//! The hand model: joint angles from markers, their components, markers from angles, and restoration of hidden markers.
 //!
-//! `markers = Xᵀ · [1, cos(angles), sin(angles)]` (section 3.2 of the paper): when one joint turns, a point of the
-//! skin moves on an ellipse. The angles are those between each segment and the hand and between successive ones, and
-//! the wrist turns the hand as a whole in the space of the forearm.
+//! `markers = Xᵀ · [1, cos(angles), sin(angles)]` (section 3.2 of the paper): if one joint rotates, a point of the skin
+//! moves on an ellipse. The angles are those between each segment and the hand and between successive segments; the
+//! wrist rotates the hand as a whole in the space of the forearm.
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -13,49 +13,49 @@ use super::pca::Pca;
 use super::rigid::Rigid;
 use super::terms::Terms;
 
-/// The places of the hand's markers in one frame, in millimetres; nothing for a hidden one.
+/// The positions of the hand's markers in one frame, in millimetres; nothing for a hidden marker.
 pub type Frame = Vec<Option<DVec3>>;
 
-/// How many angles are read off the markers: 3 of the back of the hand, 4 of each finger, 6 of the thumb.
+/// The number of angles computed from the markers: 3 of the back of the hand, 4 of each finger, 6 of the thumb.
 pub const ANGLES: usize = 25;
-/// The least mean square with which a marker is weighed, in square millimetres an axis.
+/// The smallest mean square error used to weight a marker, in square millimetres along one axis.
 const LEAST_ERROR: f64 = 0.3;
-/// Steps of Gauss and Newton from the posture of the frame before, and from one that is read off the markers.
+/// The number of Gauss-Newton steps from the posture of the previous frame, and from one computed from the markers.
 const STEPS: usize = 5;
 const FIRST_STEPS: usize = 12;
-/// The share of the mean diagonal that is added to the equations of the regression.
+/// The share of the mean diagonal that is added to the regression's equations.
 const RIDGE: f64 = 1e-4;
-/// From this marker on, markers turn with the wrist.
+/// The first of the markers that rotate with the wrist.
 const TURNED: usize = BACK.start;
 
 /// A model of one person's hand.
 #[derive(Debug, Clone)]
 pub struct HandModel {
-    /// The mean places of the forearm's markers.
+    /// The mean positions of the forearm's markers.
     forearm: Vec<DVec3>,
-    /// The mean places of the markers of the back, in the space of the forearm.
+    /// The mean positions of the markers on the back of the hand, in the space of the forearm.
     back: Vec<DVec3>,
-    /// The point about which the hand turns, in the space of the forearm.
+    /// The point about which the hand rotates, in the space of the forearm.
     wrist: DVec3,
-    /// By how many millimetres one radian of each angle moves all markers.
+    /// The displacement of all markers by one radian of each angle, in millimetres.
     levers: Vec<f64>,
-    /// Components of the angles, each in millimetres of movement.
+    /// Components of the angles, which are scaled to millimetres of displacement.
     pub components: Pca,
     terms: Terms,
-    /// For each term the 150 coordinates that it moves, in the space of the hand.
+    /// The coefficients of the 150 marker coordinates for each term, in the space of the hand.
     moved: Matrix,
-    /// The error of each marker on the frames of the learning: mean square of an axis.
+    /// The error of each marker on the training frames: mean square along one axis.
     missed: Vec<f64>,
 }
 
-/// A frame whose markers were all read off the model.
+/// A frame with the positions of all markers computed by the model.
 #[derive(Debug, Clone)]
 pub struct Restored {
-    /// Where the model has each marker.
+    /// The model's position of each marker.
     pub points: Vec<DVec3>,
-    /// The standard deviation that is predicted for each, in millimetres along one axis.
+    /// The predicted standard deviation of each position, in millimetres along one axis.
     pub sd: Vec<f64>,
-    /// Whether the marker was seen: a seen place is kept, this one only stands next to it.
+    /// Whether the marker was visible: then its captured position is used, and `points` serves only for comparison.
     pub seen: Vec<bool>,
     /// The parameters of the components.
     pub parameters: Vec<f64>,
@@ -63,17 +63,17 @@ pub struct Restored {
     pub forearm: Rigid,
 }
 
-/// The places of a posture in the space of the forearm, and how each coordinate changes with each parameter.
+/// The marker positions of a posture in the space of the forearm, and the derivative of each by each parameter.
 type Linear = (Vec<DVec3>, Vec<Vec<DVec3>>);
 
 impl HandModel {
-    /// Learns a model of `keep` components from frames of a hand that nothing hides, such as one in free space.
+    /// Learns a model of `keep` components from frames of an unobstructed hand, such as one in free space.
     ///
-    /// Components are those of the angles, each angle counting by how far it moves the markers; the wrist turns the
-    /// hand as a whole, so that no product of rotations is left to the regression.
+    /// The components are those of the angles, each scaled by how far it moves the markers. The wrist rotates the hand
+    /// as a whole, so that the regression contains no product of rotations.
     ///
     /// # Errors
-    /// [`ModelError`] if too few frames show the forearm, or a marker is seen in none.
+    /// [`ModelError`] if too few frames show the forearm, or a marker is visible in none.
     pub fn learn(frames: &[Frame], keep: usize) -> Result<Self, ModelError> {
         let forearm = mean_rigid(frames, FOREARM)?;
         let mut local: Vec<Frame> = Vec::new();
@@ -93,7 +93,7 @@ impl HandModel {
         let angles: Vec<Vec<f64>> = local.iter().map(|frame| angles(frame, &back)).collect();
         let wrist = wrist(&local, &back)?;
         let terms = Terms::of_a_hand();
-        // A first regression on the angles themselves says how far each of them moves the markers.
+        // A first regression on the angles themselves shows how far each of them moves the markers.
         let first = Pca::fit(&angles, 12, 6)?;
         let step = (local.len() / 1500).max(1);
         let some: Vec<usize> = (0..local.len()).step_by(step).collect();
@@ -149,16 +149,16 @@ impl HandModel {
         })
     }
 
-    /// Returns the share of the variance of the angles that the components have, each angle counting by how far it
-    /// moves the markers.
+    /// Returns the share of the angles' variance that the components explain, each angle scaled by how far it moves the
+    /// markers.
     #[must_use]
     pub fn explained(&self) -> f64 {
         self.components.variances.iter().sum::<f64>() / self.components.total.max(1e-12)
     }
 
-    /// Restores a frame from its visible markers, starting from the frame before; hidden places are not looked at.
+    /// Restores a frame from its visible markers, starting from the previous frame; hidden positions are not read.
     ///
-    /// Nothing if fewer than three markers of the forearm are seen and no frame before gives its place.
+    /// Returns nothing if fewer than three markers of the forearm are visible and no previous frame gives its position.
     #[must_use]
     pub fn restore(&self, frame: &Frame, before: Option<&Restored>) -> Option<Restored> {
         if frame.len() != HAND {
@@ -245,7 +245,8 @@ impl HandModel {
         })
     }
 
-    /// Returns the parameters of the angles that can be read off a frame; hidden ones get their usual values.
+    /// Returns the component parameters of the angles that can be computed from a frame; hidden angles get their usual
+    /// values.
     fn read_off(&self, frame: &Frame) -> Vec<f64> {
         let angles = self.angles_of(frame);
         let scaled: Vec<f64> = angles
@@ -256,7 +257,7 @@ impl HandModel {
         self.components.project(&whole(&scaled, &self.components))
     }
 
-    /// Returns the seven numbers by which shapes are distinguished, of markers in any space.
+    /// Returns the seven distances that distinguish shapes, from markers in any space.
     #[must_use]
     pub fn distances(points: &[DVec3]) -> Option<[f64; 7]> {
         if points.len() != HAND {
@@ -266,7 +267,7 @@ impl HandModel {
         Self::distances_seen(&frame)
     }
 
-    /// Returns the same of a frame whose other markers may be hidden.
+    /// Returns the seven distances for a frame in which other markers may be hidden.
     #[must_use]
     pub fn distances_seen(frame: &Frame) -> Option<[f64; 7]> {
         let at = |marker: usize| frame.get(marker).copied().flatten();
@@ -287,14 +288,15 @@ impl HandModel {
         ])
     }
 
-    /// Returns the tip that points for a shape, if it is seen.
+    /// Returns the fingertip that points for a shape, if it is visible.
     #[must_use]
     pub fn tip_seen(frame: &Frame, shape: u8) -> Option<DVec3> {
         let own = usize::from(!matches!(shape, 1 | 6));
         frame.get(finger(own) + 7).copied().flatten()
     }
 
-    /// Returns the tip that points: of the index finger for shapes 1 and 6, else of the middle finger.
+    /// Returns the fingertip that points: that of the index finger for shapes 1 and 6, otherwise that of the middle
+    /// finger.
     #[must_use]
     pub fn tip(points: &[DVec3], shape: u8) -> Option<DVec3> {
         let own = usize::from(!matches!(shape, 1 | 6));
@@ -334,7 +336,7 @@ impl HandModel {
         (points, slopes)
     }
 
-    /// Returns how each marker moves when the angles change by `way`.
+    /// Returns the derivative of each marker's position if the angles change in the direction `way`.
     fn slope(&self, angles: &[f64], way: &[f64], (turn, local): (DMat3, &[DVec3])) -> Vec<DVec3> {
         const STEP: f64 = 1e-6;
         let later: Vec<f64> = (0..3).map(|k| angles[k] + STEP * way[k]).collect();
@@ -351,7 +353,7 @@ impl HandModel {
             .collect()
     }
 
-    /// Returns how a marker moves with the forearm's turn and shift and with each parameter.
+    /// Returns the derivatives of a marker's position by the forearm's rotation and translation, and by each parameter.
     fn ways(
         &self,
         forearm: &Rigid,
@@ -366,7 +368,7 @@ impl HandModel {
         ways
     }
 
-    /// Returns the angles of a frame as the model reads them off visible markers; NaN if they cannot be read.
+    /// Returns the angles of a frame computed from visible markers; NaN for those that cannot be computed.
     #[must_use]
     pub fn angles_of(&self, frame: &Frame) -> Vec<f64> {
         match Rigid::fit(&self.forearm, &frame[FOREARM]) {
@@ -379,7 +381,7 @@ impl HandModel {
     }
 }
 
-/// Fills what is missing of a row of angles with what the components say of the rest.
+/// Fills missing angles of a row with the values that the components predict from the others.
 fn whole(row: &[f64], components: &Pca) -> Vec<f64> {
     let mut own: Vec<f64> = row
         .iter()
@@ -400,7 +402,7 @@ fn whole(row: &[f64], components: &Pca) -> Vec<f64> {
     own
 }
 
-/// Returns the mean places of the markers of a rigid set: two rounds of fitting and averaging.
+/// Returns the mean positions of the markers of a rigid set, by two rounds of fitting and averaging.
 fn mean_rigid(frames: &[Frame], set: std::ops::Range<usize>) -> Result<Vec<DVec3>, ModelError> {
     let all =
         |frame: &&Frame| frame.len() == HAND && frame[set.clone()].iter().all(Option::is_some);
@@ -425,14 +427,14 @@ fn mean_rigid(frames: &[Frame], set: std::ops::Range<usize>) -> Result<Vec<DVec3
     Ok(mean)
 }
 
-/// Returns the turn of the hand in the space of the forearm.
+/// Returns the rotation of the hand in the space of the forearm.
 fn turn_of(angles: &[f64]) -> DMat3 {
     DMat3::from_quat(DQuat::from_scaled_axis(DVec3::new(
         angles[0], angles[1], angles[2],
     )))
 }
 
-/// Returns where a point of the hand's space is in that of the forearm.
+/// Converts a point from hand space to the space of the forearm.
 fn placed(at: DVec3, marker: usize, turn: DMat3, wrist: DVec3) -> DVec3 {
     if marker < TURNED {
         at
@@ -441,7 +443,7 @@ fn placed(at: DVec3, marker: usize, turn: DMat3, wrist: DVec3) -> DVec3 {
     }
 }
 
-/// Returns the point about which the back of the hand turns: `t = c − R c` in the sense of least squares.
+/// Returns the point about which the back of the hand rotates: the least-squares solution of `t = c − R c`.
 fn wrist(local: &[Frame], back: &[DVec3]) -> Result<DVec3, ModelError> {
     let (mut left, mut right) = (Matrix::zeros(3, 3), vec![0.0; 3]);
     for frame in local {
@@ -458,7 +460,7 @@ fn wrist(local: &[Frame], back: &[DVec3]) -> Result<DVec3, ModelError> {
         }
     }
     for k in 0..3 {
-        // A wrist that hardly turns stays near the origin of the forearm's space.
+        // If the wrist hardly rotates, the point stays near the origin of the forearm's space.
         left[(k, k)] += 1e-6 * local.len() as f64;
     }
     let solved = left
@@ -468,7 +470,8 @@ fn wrist(local: &[Frame], back: &[DVec3]) -> Result<DVec3, ModelError> {
     Ok(DVec3::new(solved[0], solved[1], solved[2]))
 }
 
-/// Returns the coordinates that each term moves, by ridge regression on the frames in which each marker is seen.
+/// Returns the coefficients of the coordinates for each term, by ridge regression on the frames in which each marker is
+/// visible.
 fn regress(
     terms: &Terms,
     angles: &[Vec<f64>],
@@ -520,7 +523,7 @@ fn regress(
     Ok(found)
 }
 
-/// Returns the factor of a matrix of products with the ridge added.
+/// Returns the Cholesky factor of a matrix of inner products with the ridge added.
 fn ridged(mut gram: Matrix) -> Result<Matrix, ModelError> {
     let count = gram.rows();
     let diagonal = (0..count).map(|i| gram[(i, i)]).sum::<f64>() / count as f64;
@@ -530,7 +533,7 @@ fn ridged(mut gram: Matrix) -> Result<Matrix, ModelError> {
     gram.cholesky().ok_or(ModelError::Singular)
 }
 
-/// Returns by how many millimetres one radian of each angle moves all markers together: root of the sum of squares.
+/// Returns the displacement of all markers by one radian of each angle, in millimetres: the root of the sum of squares.
 fn levers(terms: &Terms, moved: &Matrix, angles: &[Vec<f64>], wrist: DVec3) -> Vec<f64> {
     let some: Vec<&Vec<f64>> = angles.iter().step_by((angles.len() / 60).max(1)).collect();
     (0..ANGLES)
@@ -564,7 +567,7 @@ fn point(terms: &Matrix, input: &[f64], marker: usize) -> DVec3 {
     at
 }
 
-/// Reads the angles off a frame in the space of the forearm; NaN if the markers for one are hidden.
+/// Computes the angles of a frame in the space of the forearm; NaN if the markers for an angle are hidden.
 fn angles(frame: &Frame, back: &[DVec3]) -> Vec<f64> {
     let mut row = vec![f64::NAN; ANGLES];
     let Ok(hand) = Rigid::fit(back, &frame[BACK]) else {
@@ -582,7 +585,7 @@ fn angles(frame: &Frame, back: &[DVec3]) -> Vec<f64> {
             way.dot(axes[2]),
         ))
     };
-    // Seen in the hand: forward is x, towards the thumb y, to the back z.
+    // In hand space: x is forward, y towards the thumb, z out of the back of the hand.
     let bend = |way: DVec3| (-way.z).atan2(way.x);
     for n in 0..4 {
         let first = finger(n);
@@ -620,7 +623,7 @@ fn palm_axes(back: &[DVec3]) -> [DVec3; 3] {
     [forward, thumb, forward.cross(thumb)]
 }
 
-/// Returns an angle from −90 to 270 degrees: fingers bend one way.
+/// Wraps an angle to the range from −90 to 270 degrees: fingers bend in one direction.
 fn wrapped(angle: f64) -> f64 {
     use std::f64::consts::{FRAC_PI_2, TAU};
     (angle + FRAC_PI_2).rem_euclid(TAU) - FRAC_PI_2

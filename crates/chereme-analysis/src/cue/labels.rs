@@ -4,13 +4,13 @@
 pub const FOREARM: std::ops::Range<usize> = 0..5;
 /// The back of the hand: HB1-HB4 on the knuckles from index to little finger, HB5-HB7 between them and the wrist.
 pub const BACK: std::ops::Range<usize> = 5..12;
-/// How many markers the hand has, the forearm included.
+/// The number of hand markers, including those of the forearm.
 pub const HAND: usize = 50;
-/// How many markers the face has.
+/// The number of face markers.
 pub const FACE: usize = 63;
 
-/// Returns the first marker of a finger, 0 for the index to 3 for the little finger: 3 on the first phalange, 3 on
-/// the middle one, 2 on the last; the second of these is the tip.
+/// Returns the index of a finger's first marker; fingers count from 0 (index) to 3 (little finger). There are 3 markers
+/// on the first phalange, 3 on the middle one and 2 on the last; the second of the last two is the tip.
 #[must_use]
 pub fn finger(finger: usize) -> usize {
     12 + 8 * finger
@@ -64,8 +64,8 @@ fn named(groups: &[(&str, usize)]) -> Vec<String> {
         .collect()
 }
 
-/// Returns the place of each wanted name among the labels of a file; case, blanks and the subject's name before a
-/// colon do not count. A name that the file lacks is nothing.
+/// Returns the index of each wanted name among the labels of a file, or nothing if the file lacks it. Case, blanks and
+/// a subject's name before a colon are ignored.
 #[must_use]
 pub fn mapped(wanted: &[String], labels: &[&str]) -> Vec<Option<usize>> {
     let plain = |label: &str| {

@@ -34,13 +34,13 @@ impl Matrix {
         }
     }
 
-    /// Returns how many rows it has.
+    /// Returns the number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Returns how many columns it has.
+    /// Returns the number of columns.
     #[must_use]
     pub fn cols(&self) -> usize {
         self.cols
@@ -64,7 +64,7 @@ impl Matrix {
         }
     }
 
-    /// Returns the lower triangle of its Cholesky factor; nothing if it is not positive definite.
+    /// Returns the lower triangle of the Cholesky factor; nothing if the matrix is not positive definite.
     #[must_use]
     pub fn cholesky(&self) -> Option<Self> {
         let n = self.rows;
@@ -103,9 +103,9 @@ impl Matrix {
     }
 }
 
-/// Returns eigenvalues, the greatest first, and their unit eigenvectors, one a row, of a symmetric matrix.
+/// Returns the eigenvalues of a symmetric matrix, greatest first, and their unit eigenvectors as rows.
 ///
-/// Cyclic Jacobi rotations. The largest entry of each vector is positive, the first of equals counting.
+/// Uses cyclic Jacobi rotations. The largest entry of each vector is positive; in a tie the first counts.
 #[must_use]
 pub fn eigen(symmetric: &Matrix) -> (Vec<f64>, Matrix) {
     let n = symmetric.rows;
@@ -151,7 +151,7 @@ pub fn eigen(symmetric: &Matrix) -> (Vec<f64>, Matrix) {
     (values, vectors)
 }
 
-/// Turns rows and columns `p` and `q` so that they do not mix; the rows of `v` turn with them.
+/// Rotates rows and columns `p` and `q` so that their off-diagonal entry vanishes; the rows of `v` are rotated too.
 fn rotate(a: &mut Matrix, v: &mut Matrix, p: usize, q: usize) {
     let mixed = a[(p, q)];
     if mixed.abs() < 1e-300 {

@@ -8,12 +8,12 @@
 //! | [`labels`] | the names of the markers of hand and face |
 //! | [`rigid`] | the motion of head and forearm |
 //! | [`pca`] | components, plain and guided |
-//! | [`hand`] | angles to markers, and hidden markers restored with their error |
+//! | [`hand`] | markers from angles, and restoration of hidden markers with a predicted error |
 //! | [`face`] | seven guided components, and the weights of the throat |
-//! | [`gauss`] | recognisers of shapes and placements, confusion tables |
-//! | [`session`] | takes of one cuer: restored, recognised, with the targets and phases of their keys |
-//! | [`targets`](mod@targets) | where keys are shown, when the hand arrives, quartiles |
-//! | [`generate`] | seeded sessions with known truth |
+//! | [`gauss`] | recognisers of shapes and placements, with confusion tables |
+//! | [`session`] | takes of one cuer: fingertips, gestures of keys, recognition and phases |
+//! | [`targets`](mod@targets) | target frames of keys, arrival of the hand, quartiles |
+//! | [`generate`] | generated sessions with known truth, from a seed |
 
 pub mod face;
 pub mod gauss;
@@ -29,21 +29,21 @@ mod terms;
 #[cfg(test)]
 mod tests;
 
-/// Why no model can be made.
+/// The reason why a model cannot be learned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum ModelError {
-    /// There is too little to learn from.
+    /// There are too few frames.
     #[error("{found} frames or examples can be used; {least} are needed, all of one length")]
     FewFrames {
-        /// How many there are.
+        /// The number of frames.
         found: usize,
-        /// How many are needed.
+        /// The number of frames needed.
         least: usize,
     },
     /// A number is missing in every frame, or does not exist.
     #[error("number {0} of the frames is seen in none of them")]
     NeverSeen(usize),
-    /// Equations have no one solution.
+    /// The equations have no unique solution.
     #[error("the frames do not differ enough: the equations have no one solution")]
     Singular,
 }

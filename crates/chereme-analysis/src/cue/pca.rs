@@ -1,9 +1,9 @@
-//! Principal components, plain, with values missing, and guided by subsets of the numbers.
+//! Principal components: plain, with missing values, and guided by subsets of the numbers.
 
 use super::ModelError;
 use super::linear::{Matrix, eigen};
 
-/// A mean and the directions in which rows differ from it most.
+/// A mean and the directions of greatest variance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pca {
     /// The mean of each number.
@@ -19,7 +19,7 @@ pub struct Pca {
 impl Pca {
     /// Finds the first `keep` components of rows of equal length; a NaN is a missing number.
     ///
-    /// Missing numbers are filled with the mean, then with what the components say, in `rounds` rounds.
+    /// Missing numbers are filled with the mean, then with the values predicted by the components, in `rounds` rounds.
     ///
     /// # Errors
     /// [`ModelError`] if there are fewer than two rows, or a number is missing in all of them.
@@ -80,7 +80,7 @@ impl Pca {
         }
     }
 
-    /// Returns how far a row lies along each direction.
+    /// Returns the coordinates of a row along each direction.
     #[must_use]
     pub fn project(&self, row: &[f64]) -> Vec<f64> {
         let along = |direction: &Vec<f64>| {
@@ -90,7 +90,7 @@ impl Pca {
         self.directions.iter().map(along).collect()
     }
 
-    /// Returns the row that lies so far along each direction.
+    /// Returns the row with these coordinates along the directions.
     #[must_use]
     pub fn rebuild(&self, parameters: &[f64]) -> Vec<f64> {
         let mut row = self.mean.clone();
@@ -103,7 +103,7 @@ impl Pca {
     }
 }
 
-/// Returns the mean and the covariance of whole rows, divided by their count.
+/// Returns the mean and the covariance of complete rows; the covariance is divided by their number.
 #[must_use]
 pub fn covariance(rows: &[Vec<f64>]) -> (Vec<f64>, Matrix) {
     let width = rows.first().map_or(0, Vec::len);
@@ -125,7 +125,7 @@ pub fn covariance(rows: &[Vec<f64>]) -> (Vec<f64>, Matrix) {
     (mean, matrix)
 }
 
-/// Components that a subset of the numbers leads, one after another (section 3.1 of the paper).
+/// Components that are each led by a subset of the numbers, one after another (section 3.1 of the paper).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guided {
     /// The mean of each number.
@@ -134,11 +134,11 @@ pub struct Guided {
     pub directions: Vec<Vec<f64>>,
 }
 
-/// Finds guided components: each predictor is the first component of its subset of the residual, and its part of
-/// all numbers is subtracted before the next.
+/// Finds guided components: each predictor is the first principal component of its subset of the residual, and its
+/// contribution to all numbers is subtracted before the next.
 ///
 /// # Errors
-/// [`ModelError`] if there are fewer rows than two, or a subset names a number that rows do not have.
+/// [`ModelError`] if there are fewer than two rows, or a subset contains an index that rows do not have.
 pub fn guided(rows: &[Vec<f64>], subsets: &[Vec<usize>]) -> Result<Guided, ModelError> {
     let width = rows.first().map_or(0, Vec::len);
     if rows.len() < 2 || rows.iter().flatten().any(|x| !x.is_finite()) {

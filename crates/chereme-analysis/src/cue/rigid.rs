@@ -4,12 +4,12 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::linear::{Matrix, eigen};
 
-/// A turn and a shift: `x` goes to `rotation · x + translation`.
+/// A rotation and a translation: `x` is moved to `rotation · x + translation`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rigid {
-    /// The turn.
+    /// The rotation.
     pub rotation: DQuat,
-    /// The shift, in the unit of the points.
+    /// The translation, in the unit of the points.
     pub translation: DVec3,
 }
 
@@ -22,38 +22,37 @@ impl Default for Rigid {
     }
 }
 
-/// Why no motion can be found.
+/// The reason why no motion can be found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum RigidError {
-    /// Fewer than three points are seen.
+    /// Fewer than three points are visible.
     #[error("{0} points are seen; a rigid motion needs 3")]
     Few(usize),
-    /// All points lie on one line, or at one place.
+    /// All points lie on one line, or coincide.
     #[error("the points lie on one line: their turn about it is unknown")]
     Line,
 }
 
 impl Rigid {
-    /// Returns where a point goes.
+    /// Returns the moved position of a point.
     #[must_use]
     pub fn apply(&self, x: DVec3) -> DVec3 {
         self.rotation * x + self.translation
     }
 
-    /// Returns where a point comes from.
+    /// Returns the original position of a moved point.
     #[must_use]
     pub fn undo(&self, x: DVec3) -> DVec3 {
         self.rotation.inverse() * (x - self.translation)
     }
 
-    /// Returns the motion that brings `from` nearest to `to` in the sense of least squares; unseen points count
-    /// for nothing.
+    /// Returns the motion that brings `from` nearest to `to` by least squares; hidden points are ignored.
     ///
-    /// Horn's method: the turn is the eigenvector of the greatest eigenvalue of a 4 × 4 matrix, so that it is never
-    /// a reflection.
+    /// Uses Horn's method: the rotation is the eigenvector of the greatest eigenvalue of a 4 × 4 matrix, so that it is
+    /// never a reflection.
     ///
     /// # Errors
-    /// [`RigidError`] if fewer than three points are seen, or all of them lie on one line.
+    /// [`RigidError`] if fewer than three points are visible, or all of them lie on one line.
     pub fn fit(from: &[DVec3], to: &[Option<DVec3>]) -> Result<Self, RigidError> {
         let seen: Vec<(DVec3, DVec3)> = from
             .iter()
@@ -103,7 +102,7 @@ impl Rigid {
     }
 }
 
-/// Returns whether points with this scatter lie on one line: the second eigenvalue is next to nothing.
+/// Returns whether points with this scatter lie on one line: the second eigenvalue is nearly zero.
 fn is_line(scatter: &DMat3) -> bool {
     let mut matrix = Matrix::zeros(3, 3);
     for i in 0..3 {

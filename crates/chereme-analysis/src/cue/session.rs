@@ -1,4 +1,4 @@
-//! Takes of one cuer: followed through their markers, with the targets, scores and phases of their keys.
+//! Takes of one cuer: fingertips and distances from markers, with targets, scores and phases of keys.
 
 use glam::DVec3;
 
@@ -10,14 +10,14 @@ use super::labels::RIGID;
 use super::rigid::Rigid;
 use super::targets::{Quartiles, Sought, TargetOptions, Way, targets, way};
 
-/// A take as it is read off its markers.
+/// Measurements of a take, computed from its markers.
 #[derive(Debug, Clone, Default)]
 pub struct Followed {
-    /// Frames a second.
+    /// Frames per second.
     pub rate: f64,
-    /// The motion of the head in each frame; nothing for a frame that shows too little of it.
+    /// The motion of the head in each frame; nothing if a frame shows too few of its markers.
     pub head: Vec<Option<Rigid>>,
-    /// The seven distances by which shapes are distinguished.
+    /// The seven distances that distinguish shapes.
     pub seven: Vec<Option<[f64; 7]>>,
     /// The tip of the index finger in the space of the head.
     pub index: Vec<Option<DVec3>>,
@@ -26,7 +26,7 @@ pub struct Followed {
 }
 
 impl Followed {
-    /// Returns the take of markers whose places are all known, in the head's motion of each frame.
+    /// Returns the measurements for markers whose positions are all known, given the head's motion in each frame.
     #[must_use]
     pub fn of_truth(points: &[Vec<DVec3>], heads: &[Rigid], rate: f64) -> Self {
         let mut followed = Self {
@@ -40,10 +40,12 @@ impl Followed {
         followed
     }
 
-    /// Returns a take read off its markers alone, whose hidden ones may have been restored before: a tip or a distance
-    /// whose markers are missing is unknown, and gaps of at most a quarter of a second are bridged by straight lines.
+    /// Returns the measurements computed from markers alone; hidden ones may have been restored before. A tip or a
+    /// distance with missing markers is unknown, and gaps of at most a quarter of a second are bridged by straight
+    /// lines.
     ///
-    /// `rigid` is where the rigid markers of the head usually are; without them the room is the space of the head.
+    /// `rigid` gives the usual positions of the head's rigid markers; without them the room is used as the space of the
+    /// head.
     #[must_use]
     pub fn of_seen(
         hand: &[hand::Frame],
@@ -93,13 +95,13 @@ impl Followed {
         self.middle.push(middle);
     }
 
-    /// Returns how many frames there are.
+    /// Returns the number of frames.
     #[must_use]
     pub fn frames(&self) -> usize {
         self.seven.len()
     }
 
-    /// Returns the tip that points for a shape, in the space of the head.
+    /// Returns the fingertip that points for a shape, in the space of the head.
     #[must_use]
     pub fn tip(&self, shape: u8, frame: usize) -> Option<DVec3> {
         let tips = if points_with_index(shape) {
@@ -110,7 +112,8 @@ impl Followed {
         tips.get(frame).copied().flatten()
     }
 
-    /// Returns all that a dictionary keeps of a frame: the seven distances, then both tips in the space of the head.
+    /// Returns the numbers that a dictionary stores for a frame: the seven distances, then both tips in the space of
+    /// the head.
     #[must_use]
     pub fn parameters(&self, frame: usize) -> Option<Vec<f64>> {
         let mut row = (*self.seven.get(frame)?)?.to_vec();
@@ -123,7 +126,7 @@ impl Followed {
 /// The longest gap that is bridged, in seconds.
 const BRIDGED: f64 = 0.25;
 
-/// Fills gaps of at most `most` frames between two frames that are known.
+/// Fills gaps of at most `most` frames between two known frames.
 pub fn bridge<T: Copy>(rows: &mut [Option<T>], most: usize, between: impl Fn(T, T, f64) -> T) {
     let mut known: Option<usize> = None;
     for at in 0..rows.len() {
@@ -141,8 +144,8 @@ pub fn bridge<T: Copy>(rows: &mut [Option<T>], most: usize, between: impl Fn(T, 
     }
 }
 
-/// Returns where the rigid markers of the head usually are, from frames that show all of them; nothing if fewer than two
-/// frames do.
+/// Returns the usual positions of the head's rigid markers, from frames that show all of them; nothing if fewer than
+/// two frames do.
 #[must_use]
 pub fn rigid_set<'a>(frames: impl Iterator<Item = &'a face::Frame>) -> Option<Vec<DVec3>> {
     let whole: Vec<Vec<Option<DVec3>>> = frames
@@ -171,20 +174,20 @@ pub fn rigid_set<'a>(frames: impl Iterator<Item = &'a face::Frame>) -> Option<Ve
     Some(mean)
 }
 
-/// Returns whether the index finger points for a shape; else the middle finger does.
+/// Returns whether the index finger points for a shape; otherwise the middle finger does.
 #[must_use]
 pub fn points_with_index(shape: u8) -> bool {
     matches!(shape, 1 | 6)
 }
 
-/// The sounds of a key: its type decides where the target is expected.
+/// The sounds of a key: they determine when its target is expected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A consonant and a vowel.
     Pair,
-    /// A vowel alone.
+    /// A single vowel.
     Vowel,
-    /// A consonant alone.
+    /// A single consonant.
     Consonant,
 }
 
@@ -192,7 +195,7 @@ impl Kind {
     /// Every kind.
     pub const ALL: [Self; 3] = [Self::Pair, Self::Vowel, Self::Consonant];
 
-    /// Returns the word for it.
+    /// Returns the name of the kind.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -203,7 +206,7 @@ impl Kind {
     }
 }
 
-/// A key that a take should show, with the times of its sounds in seconds.
+/// A key expected in a take, with the times of its sounds in seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Key {
     /// The sounds of the key.
@@ -220,7 +223,7 @@ pub struct Key {
     pub a3: f64,
 }
 
-/// A gesture of a key: the movement to it, its target, and for how long it is the most probable one.
+/// A gesture of a key: the movement to it, its target, and the time in which it is the most probable one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gesture {
     /// The frame of the target.
@@ -229,16 +232,16 @@ pub struct Gesture {
     pub way: Way,
     /// Whether the movement was long and clear enough to be measured.
     pub measured: bool,
-    /// The class that is most probable at the target.
+    /// The most probable class at the target.
     pub recognised: u8,
-    /// The log of the probability of the right class there.
+    /// The logarithm of the probability of the right class at the target.
     pub log: f64,
-    /// From when until when the right class is more probable than any other, in seconds, around the target; nothing
-    /// if another one is more probable at the target.
+    /// The time around the target in which the right class is more probable than any other, in seconds; nothing if
+    /// another one is more probable at the target.
     pub extent: Option<[f64; 2]>,
 }
 
-/// The evidence of one key in a take.
+/// The gestures of one key in a take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shown {
     /// The hand at its placement.
@@ -250,23 +253,24 @@ pub struct Shown {
 /// The recognisers of one cuer.
 #[derive(Debug, Clone)]
 pub struct Recognisers {
-    /// Of shapes, from the seven distances.
+    /// The recogniser of shapes, from the seven distances.
     pub shapes: Recogniser,
-    /// Of placements, from the pointing tip in the space of the head.
+    /// The recogniser of placements, from the pointing tip in the space of the head.
     pub placements: Recogniser,
 }
 
-/// The addition to every variance of the Gaussians, in square millimetres.
+/// The number added to every variance of the Gaussians, in square millimetres.
 const FLOOR: f64 = 0.25;
-/// Rounds in which recognisers are learned from targets that they found.
+/// The number of rounds in which recognisers learn from targets that they found.
 const ROUNDS: usize = 2;
-/// A hand's way shorter than this, in millimetres, or explained less than this, is not measured.
+/// The shortest movement of the hand that is measured, in millimetres, and the least share of the variance that it must
+/// explain.
 const SHORT: f64 = 12.0;
 const CLEAR: f64 = 0.7;
-/// A log of a probability where there is no frame.
+/// The logarithm of the probability in a frame without measurements.
 const NOTHING: f64 = -50.0;
 
-/// Examples of classes: their numbers and what was measured.
+/// Examples of classes: the class number and the measured numbers.
 pub type Examples = Vec<(u8, Vec<f64>)>;
 
 impl Recognisers {
@@ -281,8 +285,8 @@ impl Recognisers {
         })
     }
 
-    /// Returns the most probable placement and shape of a frame, the placement by the tip that points for the
-    /// shape; nothing for a frame that shows too little.
+    /// Returns the most probable placement and shape in a frame; the placement is that of the tip that points for the
+    /// shape. Nothing if the frame shows too few markers.
     #[must_use]
     pub fn read(&self, take: &Followed, frame: usize) -> Option<(u8, u8)> {
         let shape = self.shapes.best(take.seven.get(frame)?.as_ref()?);
@@ -308,10 +312,10 @@ pub fn examples(takes: &[(&Followed, &[Key])], shown: &[Vec<Shown>]) -> (Example
     (shapes, placements)
 }
 
-/// Finds the gestures of all keys of takes, and the recognisers that they teach: first by speed and sound alone, then
-/// with the recognisers of the round before.
+/// Finds the gestures of all keys in takes, and trains recognisers on them: first by speed and sound alone, then with
+/// the recognisers of the previous round.
 ///
-/// A take whose keys have no room in its frames gets no gestures.
+/// A take with too few frames for its keys gets no gestures.
 ///
 /// # Errors
 /// [`ModelError`] if too few keys were found to learn from.
@@ -334,14 +338,14 @@ pub fn find(takes: &[(&Followed, &[Key])]) -> Result<(Recognisers, Vec<Vec<Shown
     Ok((recognisers, shown))
 }
 
-/// Finds the gestures of the keys of a take with recognisers that are known; empty if the keys have no room.
+/// Finds the gestures of the keys in a take with given recognisers; empty if the take has too few frames for the keys.
 #[must_use]
 pub fn find_known(take: &Followed, keys: &[Key], recognisers: &Recognisers) -> Vec<Shown> {
     let frames = frames_of(take, keys, Some(recognisers));
     gestures(take, keys, &frames, recognisers)
 }
 
-/// The frames of the hand's targets and of the fingers'; nothing if the keys have no room.
+/// The target frames of the hand and of the fingers; nothing if the take has too few frames for the keys.
 type Frames = Option<[Vec<usize>; 2]>;
 
 fn frames_of(take: &Followed, keys: &[Key], recognisers: Option<&Recognisers>) -> Frames {
@@ -389,7 +393,7 @@ fn frames_of(take: &Followed, keys: &[Key], recognisers: Option<&Recognisers>) -
     ])
 }
 
-/// Returns the log of each frame near a key, as `of` says; frames far from it are not looked at.
+/// Returns the logarithms from `of` for the frames near a key; frames far from it get 0.
 fn logs(
     take: &Followed,
     key: &Key,
@@ -412,7 +416,7 @@ fn logs(
         .collect()
 }
 
-/// Returns the speed of a row of numbers in each frame, over the two frames around it; NaN without them.
+/// Returns the speed of a row of numbers in each frame, from the two frames around it; NaN if one of these is missing.
 fn speed(frames: usize, rate: f64, row: impl Fn(usize) -> Option<Vec<f64>>) -> Vec<f64> {
     let rows: Vec<Option<Vec<f64>>> = (0..frames).map(row).collect();
     (0..frames)
@@ -490,7 +494,7 @@ fn gestures(take: &Followed, keys: &[Key], frames: &Frames, known: &Recognisers)
         .collect()
 }
 
-/// How many seconds before its target a movement may begin, for the first key.
+/// The longest time before its target at which the movement to the first key may begin, in seconds.
 const LONGEST: f64 = 0.6;
 
 fn gesture<'a>(
@@ -545,23 +549,23 @@ fn gesture<'a>(
     }
 }
 
-/// The phases of keys of one kind: when the hand or the fingers begin and arrive.
+/// The phases of keys of one kind: begin and arrival of the hand or the fingers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Phases {
     /// The sounds of the keys.
     pub kind: Kind,
-    /// Whether these are the fingers' movements; else the hand's.
+    /// Whether the movements are those of the fingers; otherwise those of the hand.
     pub of_fingers: bool,
     /// The begin of the movement minus the start of the key's sound, in seconds.
     pub begins: Quartiles,
     /// The end of the movement minus the start of the key's sound, in seconds.
     pub arrives: Quartiles,
-    /// The same as a share of the consonant for pairs, and of the key for others.
+    /// The arrival as a share of the consonant for pairs, and of the key for others.
     pub share: Quartiles,
 }
 
-/// Returns the phases of measured keys by kind, for the hand and the fingers; successions of the same placement, or
-/// of the same shape, do not count.
+/// Returns the phases of measured keys by kind, for the hand and the fingers; a key with the same placement, or the
+/// same shape, as the one before does not count.
 #[must_use]
 pub fn phases<'a>(takes: impl Iterator<Item = (&'a [Key], &'a [Shown])> + Clone) -> Vec<Phases> {
     let mut found = Vec::new();

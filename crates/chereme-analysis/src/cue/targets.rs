@@ -1,24 +1,24 @@
-//! The frames at which keys are shown, found by monotone dynamic programming, and the phases that follow.
+//! Finds the target frames of keys by monotone dynamic programming, and the phases that follow from them.
 
 use chereme_motion::Interpolation;
 
-/// A key whose target is looked for.
+/// A key whose target is to be found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sought {
     /// The acoustic start of the key, in seconds.
     pub a1: f64,
-    /// For each frame the log of the probability of this key; empty before a recogniser is there.
+    /// For each frame the logarithm of this key's probability; empty as long as there is no recogniser.
     pub log: Vec<f64>,
 }
 
-/// How targets are looked for.
+/// Options for finding targets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TargetOptions {
-    /// The farthest a target may be from the start of its key, in seconds.
+    /// The largest distance of a target from the start of its key, in seconds.
     pub window: f64,
     /// The least time between two targets, in seconds.
     pub apart: f64,
-    /// How far from the start of the key targets usually are, in seconds.
+    /// The usual distance of targets from the start of the key, in seconds.
     pub spread: f64,
 }
 
@@ -32,9 +32,10 @@ impl Default for TargetOptions {
     }
 }
 
-/// Finds one frame a key, in order: probable, slow, and near the start of its sound.
+/// Finds one target frame for each key, in order: probable, slow, and near the start of its sound.
 ///
-/// `speed` has a number a frame, `frame_time` is in seconds. Nothing if the frames have no room for all keys.
+/// `speed` has a number for each frame, and `frame_time` is in seconds. Returns nothing if there are too few frames for
+/// all keys.
 #[must_use]
 pub fn targets(
     keys: &[Sought],
@@ -65,7 +66,7 @@ pub fn targets(
         let slow = if slow.is_finite() { slow } else { 10.0 };
         log - 0.5 * slow * slow - 0.5 * near * near
     };
-    // For each key: for each frame of its window, the best sum and where the key before is then.
+    // For each key and each frame of its window: the best sum, and the frame of the previous key in that case.
     let mut table: Vec<(usize, Vec<(f64, usize)>)> = Vec::with_capacity(keys.len());
     for key in keys {
         let frames = window(key.a1);
@@ -79,7 +80,7 @@ pub fn targets(
                 row.push((own, 0));
                 continue;
             };
-            // The best of the key before that is early enough; the first of equals.
+            // The best frame of the previous key that is early enough; in a tie the first one.
             while seen < before.len() && start + seen + apart <= frame {
                 if before[seen].0 > best.0 {
                     best = (before[seen].0, seen);
@@ -107,29 +108,30 @@ pub fn targets(
     Some(found)
 }
 
-/// A movement of least jerk that was fitted to numbers of frames.
+/// A minimum-jerk movement fitted to numbers by frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Way {
-    /// When it begins, in seconds.
+    /// Its start, in seconds.
     pub start: f64,
-    /// When it ends, in seconds.
+    /// Its end, in seconds.
     pub end: f64,
-    /// How far it goes, in the unit of the numbers.
+    /// Its length, in the unit of the numbers.
     pub length: f64,
     /// The share of the numbers' variance that it explains, from 0 to 1.
     pub explained: f64,
 }
 
-/// The shortest movement that is believed, in seconds.
+/// The shortest movement that a fit may have, in seconds.
 const SHORTEST: f64 = 0.05;
-/// How far after the last frame a movement may end, in frames.
+/// The longest time after the last frame at which a movement may end, in frames.
 const AFTER: f64 = 3.0;
 
-/// Fits the movement of least jerk that explains most of the change of `row` over the frames `from..=to`: still
-/// before it, still after it. A frame without numbers counts for nothing.
+/// Fits the minimum-jerk movement that explains most of the change of `row` over the frames `from..=to`, with rest
+/// before and after it. A frame without numbers is ignored.
 ///
-/// The two ends of the way follow from its times by least squares; the times are found on a grid and refined to a
-/// twentieth of a frame. Nothing if fewer than six frames have numbers, or they do not change.
+/// The two end points of the movement follow from its times by least squares; the times are searched on a grid and
+/// refined to a twentieth of a frame. Returns nothing if fewer than six frames have numbers, or if the numbers do not
+/// change.
 #[must_use]
 pub fn way<'a>(
     row: impl Fn(usize) -> Option<&'a [f64]>,
@@ -157,7 +159,7 @@ pub fn way<'a>(
     if total.is_nan() || total <= 1e-9 {
         return None;
     }
-    // The variance that a way explains, and the square of its length.
+    // The variance that a movement explains, and the square of its length.
     let gain = |start: f64, end: f64| -> (f64, f64) {
         let share = |time: f64| {
             Interpolation::MinimumJerk.share(((time - start) / (end - start)).clamp(0.0, 1.0))
@@ -234,18 +236,18 @@ pub fn way<'a>(
 /// Median and quartiles of numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quartiles {
-    /// How many.
+    /// The number of values.
     pub n: usize,
-    /// A quarter lies below this.
+    /// The first quartile.
     pub low: f64,
-    /// Half lies below this.
+    /// The median.
     pub median: f64,
-    /// Three quarters lie below this.
+    /// The third quartile.
     pub high: f64,
 }
 
 impl Quartiles {
-    /// Returns those of numbers; nothing without numbers. Between two numbers they are interpolated.
+    /// Returns the quartiles of numbers, interpolated between two values; nothing without numbers.
     #[must_use]
     pub fn of(numbers: &[f64]) -> Option<Self> {
         let mut sorted: Vec<f64> = numbers.iter().copied().filter(|x| x.is_finite()).collect();

@@ -1,8 +1,9 @@
-//! The numbers from which a regression places the hand's markers: cosines and sines of angles and of their sums.
+//! The terms of the regression for the hand's markers: cosines and sines of angles and of their sums.
 
 use super::hand::ANGLES;
 
-/// The first angle of each finger: its bend at the knuckle, its spread, and the bends of its two other joints.
+/// Returns the index of the first angle of a finger: its bend at the knuckle, followed by its spread and the bends of
+/// its two other joints.
 fn of_finger(finger: usize) -> usize {
     3 + 4 * finger
 }
@@ -10,17 +11,17 @@ fn of_finger(finger: usize) -> usize {
 /// The terms of a hand.
 #[derive(Debug, Clone)]
 pub(super) struct Terms {
-    /// Angles that are added: one alone, or several of one finger.
+    /// Sums of angles: a single angle, or several of one finger.
     sums: Vec<Vec<usize>>,
-    /// An angle whose sine and a sum whose cosine are multiplied.
+    /// Products: the angle whose sine, and the sum whose cosine, are multiplied.
     products: Vec<(usize, usize)>,
 }
 
 impl Terms {
-    /// Returns the terms of the angles of a hand: each by itself, those between a segment and the hand as sums of the
-    /// bends before it, and the spread of a finger times the length that its bends leave.
+    /// Returns the terms for the angles of a hand: each angle by itself, the angles between a segment and the hand as
+    /// sums of the preceding bends, and the spread of a finger times the length that its bends leave.
     pub(super) fn of_a_hand() -> Self {
-        // The first three angles are the wrist's, which turns the hand as a whole.
+        // The first three angles are those of the wrist, which rotates the hand as a whole.
         let mut sums: Vec<Vec<usize>> = (3..ANGLES).map(|n| vec![n]).collect();
         let mut products = Vec::new();
         for finger in 0..4 {
@@ -35,12 +36,12 @@ impl Terms {
         Self { sums, products }
     }
 
-    /// Returns how many there are.
+    /// Returns the number of terms.
     pub(super) fn len(&self) -> usize {
         1 + 2 * self.sums.len() + self.products.len()
     }
 
-    /// Returns their values.
+    /// Returns the values of the terms.
     pub(super) fn of(&self, angles: &[f64]) -> Vec<f64> {
         let sums: Vec<f64> = self.added(angles);
         let mut row = Vec::with_capacity(self.len());
@@ -52,7 +53,7 @@ impl Terms {
         row
     }
 
-    /// Returns how they change when the angles change by `way`.
+    /// Returns the derivatives of the terms if the angles change in the direction `way`.
     pub(super) fn slopes(&self, angles: &[f64], way: &[f64]) -> Vec<f64> {
         let (sums, ways) = (self.added(angles), self.added(way));
         let mut row = Vec::with_capacity(self.len());

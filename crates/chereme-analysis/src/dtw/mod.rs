@@ -1,5 +1,5 @@
-//! Dynamic time warping: measures how alike two movements are whatever their tempo, and which of their
-//! frames correspond.
+//! Dynamic time warping: measures the similarity of two movements independently of their tempo, and finds their
+//! corresponding frames.
 //!
 //! Exact, multivariate, in `f64`; the results equal those of dtw-python and R's `dtw`, which the field
 //! uses. [`align`] gives the path, [`distance`] the cost alone in the memory of one row, and [`nearest`]

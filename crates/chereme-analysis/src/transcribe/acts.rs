@@ -23,16 +23,15 @@ use sway::{play, wrist};
 pub(super) use cuts::{LAP, signing};
 pub(super) use sway::{Sway, wrist_name};
 
-/// A hand that turns by at least this angle (rad) during an act ends it in another orientation.
+/// The smallest rotation of a hand during an act that counts as a change of orientation (rad).
 const TURNED: f64 = 0.3;
-/// A hand whose finger angles change by at least this (rad, root of the mean square) ends in another
-/// handshape.
+/// The smallest change of a hand's finger angles that counts as a change of handshape (rad, root of the mean square).
 const RESHAPED: f64 = 0.07;
 /// Changes that are repeated may be smaller than [`TURNED`] and [`RESHAPED`] by this factor.
 const AGAIN: f64 = 1.0 / 3.0;
 /// A hand that turns to and fro does so about a point at most this far away (m per radian of the turn).
 const LEVER: f64 = 0.1;
-/// However far the hand turns, a point it turns about moves by less than this (m).
+/// The largest movement of a point about which the hand rotates, however far it rotates (m).
 const SWAYS: f64 = 0.06;
 /// Seconds in which a part of the hand lets go of its contact at the start of a movement.
 pub(super) const LETS_GO: f64 = 0.15;

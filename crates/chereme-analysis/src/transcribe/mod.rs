@@ -17,7 +17,7 @@
 //! | `way`, `acts` | paths through space; the acts of a hand |
 //! | `hands` | symmetry of the two hands |
 //! | `tree` | the sign's tree and its features |
-//! | `precision` | how exactly the hands keep what they mean |
+//! | `precision` | how exactly the hands hold the intended directions and handshapes |
 //! | `proof` | verification of hand placement by re-synthesis |
 
 mod acts;

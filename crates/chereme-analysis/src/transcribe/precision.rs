@@ -1,8 +1,8 @@
-//! Infers from the movement itself how exactly hands keep what they mean.
+//! Infers from the movement itself how exactly hands hold the intended directions and handshapes.
 //!
-//! Hands of people are some degrees off any direction that has a symbol; hands that a program moved by
-//! notation keep such directions, or such handshapes, exactly. Whoever exported the movement need not say
-//! which it is: a share of frames that chance does not explain shows it.
+//! Human hands are some degrees off any direction that has a symbol; hands that a program moved by notation hold such
+//! directions, or such handshapes, exactly. The exporter of the movement need not state which it is: the share of exact
+//! frames exceeds chance only in synthesised movement.
 
 use chereme_motion::Side;
 
@@ -10,21 +10,22 @@ use super::acts::signing;
 use super::scene::Scene;
 use super::tree::Sight;
 
-/// A direction and a palm are kept exactly if they are off by less than these degrees: one frame in a
+/// The largest error of a direction and of a palm that are held exactly, in degrees: by chance, one frame in a thousand
+/// is this exact.
 /// thousand is, by chance.
 const TURNED: [f64; 2] = [1.2, 1.8];
-/// A handshape is kept exactly if its angles are off by less than this, in degrees.
+/// The largest error of a handshape's angles that is held exactly, in degrees.
 const SHAPED: f64 = 0.5;
-/// Share of the frames of a signing hand in which it keeps something exactly.
+/// The share of a signing hand's frames in which it must hold something exactly.
 const MANY: f64 = 0.2;
-/// The number of frames of each hand that are looked at.
+/// The number of frames of each hand that are examined.
 const LOOKED_AT: usize = 24;
 
 /// Returns whether the hands keep directions or handshapes as exactly as synthesised ones.
 pub(super) fn is_exact(scene: &Scene<'_>, sight: &Sight<'_>) -> bool {
     let (mut exact, mut all) = (0, 0);
     for track in scene.hands.iter().flatten() {
-        // Ways from and to rest show nothing: nothing is meant on them.
+        // Transitions from and to rest have no intended direction.
         let signs: Vec<usize> = signing(scene, track).filter(|&n| !track.rests[n]).collect();
         let step = signs.len().div_ceil(LOOKED_AT).max(1);
         for &frame in signs.iter().step_by(step) {
@@ -35,7 +36,7 @@ pub(super) fn is_exact(scene: &Scene<'_>, sight: &Sight<'_>) -> bool {
     all > 0 && exact as f64 >= MANY * all as f64
 }
 
-/// Returns whether a hand keeps its direction and palm, or its handshape, exactly in a frame.
+/// Returns whether a hand holds its direction and palm, or its handshape, exactly in a frame.
 fn keeps(sight: &Sight<'_>, side: Side, frame: usize) -> bool {
     let Some(track) = sight
         .scene

@@ -1,4 +1,4 @@
-//! The generated face: true parameters of sounds, and where its markers are.
+//! The generated face: true parameters of sounds, and the positions of its markers.
 
 use chereme_motion::Interpolation;
 use glam::DVec3;
@@ -7,7 +7,7 @@ use crate::cue::face::share_of;
 use crate::cue::labels::{CHEEKS, FACE, JAW, LIPS, THROAT};
 use crate::cue::rigid::Rigid;
 
-/// The true weights with which the throat follows the head.
+/// The true weights with which the throat's markers follow the head.
 #[must_use]
 pub fn throat_weights() -> Vec<f64> {
     (0..THROAT.len())
@@ -35,7 +35,7 @@ fn face_direction(parameter: usize, marker: usize) -> DVec3 {
     }
 }
 
-/// Returns where a marker of a face at rest is.
+/// Returns the position of a marker on a face at rest.
 fn face_mean(marker: usize) -> DVec3 {
     let ring = |n: usize, count: usize| std::f64::consts::TAU * n as f64 / count as f64;
     match marker {
@@ -90,7 +90,7 @@ pub(super) fn place_face(motion: &Rigid, parameters: &[f64; 7]) -> Vec<DVec3> {
         .collect()
 }
 
-/// Returns the true parameters of the face at a time: those of the sound, early by 60 ms.
+/// Returns the true parameters of the face at a time: those of the sound, 60 ms early.
 pub(super) fn mouth(phones: &[(String, f64, f64)], time: f64) -> [f64; 7] {
     let at = time + 0.06;
     let n = phones.partition_point(|phone| phone.1 <= at);

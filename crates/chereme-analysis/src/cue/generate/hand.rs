@@ -1,4 +1,4 @@
-//! The generated hand: joint angles of shapes, and where its markers are.
+//! The generated hand: joint angles of shapes, and the positions of its markers.
 
 use glam::{DQuat, DVec3};
 
@@ -44,7 +44,7 @@ pub fn shape_angles(shape: u8) -> [f64; JOINTS] {
     row
 }
 
-/// Returns where the hand's markers are in the space of the forearm, which lies along x and ends at the wrist.
+/// Returns the positions of the hand's markers in the space of the forearm, which lies along x and ends at the wrist.
 pub(super) fn place_hand(angles: &[f64; JOINTS], skin: f64) -> Vec<DVec3> {
     let mut points = Vec::with_capacity(HAND);
     for (x, y, z) in [

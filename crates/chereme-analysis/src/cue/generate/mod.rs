@@ -1,7 +1,9 @@
-//! Seeded sessions of a cuer with known truth: to prove that estimators recover it, and nothing about people.
+//! Generated sessions of a cuer with known truth, from a seed: they test whether estimators recover the truth, and show
+//! nothing about people.
 //!
 //! Millimetres; x to the cuer's left, y up from the tip of the chin, z forward; a right-handed cuer. Sentences are
-//! random syllables. Nothing of a session was captured: whoever writes one to a file says so in it.
+//! random syllables. No part of a session was captured: a program that writes one to a file must state this in the
+//! file.
 
 mod face;
 mod hand;
@@ -19,9 +21,9 @@ use hand::place_hand;
 pub use face::throat_weights;
 pub use hand::shape_angles;
 
-/// Frames a second.
+/// Frames per second.
 pub const RATE: f64 = 120.0;
-/// How many joint angles the generated hand has: 4 of each finger, 4 of the thumb, 2 of the wrist.
+/// The number of joint angles of the generated hand: 4 of each finger, 4 of the thumb, 2 of the wrist.
 pub const JOINTS: usize = 22;
 
 /// Random numbers that are the same on every machine (SplitMix64).
@@ -29,7 +31,7 @@ pub const JOINTS: usize = 22;
 pub struct Random(u64);
 
 impl Random {
-    /// Returns the numbers of a seed.
+    /// Returns the generator for a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
@@ -43,18 +45,18 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Returns a number from 0 to 1.
+    /// Returns a random number from 0 to 1.
     pub fn share(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Returns a number of the normal distribution.
+    /// Returns a random number with a standard normal distribution.
     pub fn normal(&mut self) -> f64 {
         let (a, b) = (self.share().max(1e-300), self.share());
         (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
     }
 
-    /// Returns a whole number below `end`, which is not 0.
+    /// Returns a random whole number below `end`, which must not be 0.
     pub fn below(&mut self, end: usize) -> usize {
         ((self.share() * end as f64) as usize).min(end.saturating_sub(1))
     }
@@ -67,24 +69,24 @@ impl Random {
 /// The settings of a session.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// The seed; the same gives the same session.
+    /// The seed; the same seed gives the same session.
     pub seed: u64,
     /// The scatter of joint angles at targets, in degrees.
     pub scatter: f64,
-    /// How far the skin slides over the bones: 1 as measured, 0 not at all.
+    /// How much the skin slides over the bones: 1 as measured, 0 not at all.
     pub skin: f64,
-    /// Slow noise of soft parts, of hand and face, in millimetres.
+    /// Slow noise of soft tissue, for hand and face, in millimetres.
     pub soft: [f64; 2],
-    /// Noise of measurement, of hand and face, in millimetres.
+    /// Measurement noise, for hand and face, in millimetres.
     pub white: [f64; 2],
-    /// Target − start of the sound: of pairs as a share of the consonant, of vowels and of consonants alone as a
-    /// share of the key.
+    /// The target minus the start of the sound: for pairs as a share of the consonant, for single vowels and for single
+    /// consonants as a share of the key.
     pub phase: [f64; 3],
-    /// The spread of phases in seconds: of pairs, and of vowels and consonants alone.
+    /// The spread of phases in seconds: for pairs, and for single vowels and consonants.
     pub phase_sd: [f64; 2],
-    /// How often markers are hidden: 1 as usual, 0 never.
+    /// The frequency of hidden markers: 1 as usual, 0 never.
     pub hidden: f64,
-    /// The share of frames in which two neighbours of the hand have each other's label.
+    /// The share of frames in which the labels of two neighbouring hand markers are swapped.
     pub swapped: f64,
 }
 
@@ -104,31 +106,31 @@ impl Default for Settings {
     }
 }
 
-/// A key with what is true of it.
+/// A key with its true properties.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrueKey {
-    /// 0 a pair, 1 a vowel alone, 2 a consonant alone.
+    /// The sounds: 0 a pair, 1 a single vowel, 2 a single consonant.
     pub kind: usize,
-    /// 1 side, 2 mouth, 3 chin, 4 cheek, 5 throat.
+    /// The placement: 1 side, 2 mouth, 3 chin, 4 cheek, 5 throat.
     pub placement: u8,
     /// The shape.
     pub shape: u8,
     /// The acoustic start, the start of the vowel and the end, in seconds.
     pub sound: [f64; 3],
-    /// The hand's way, and the fingers', in seconds.
+    /// The start and end of the hand's movement, and of the fingers' movement, in seconds.
     pub times: [f64; 4],
 }
 
 /// A generated take.
 #[derive(Debug, Clone)]
 pub struct Take {
-    /// The hand's markers as a camera system would see them.
+    /// The hand's markers as a camera system would record them.
     pub hand: Vec<Frame>,
-    /// Where they are.
+    /// The true positions of the hand's markers.
     pub true_hand: Vec<Vec<DVec3>>,
-    /// The face's markers as seen.
+    /// The face's markers as recorded.
     pub face: Vec<Frame>,
-    /// Where they are.
+    /// The true positions of the face's markers.
     pub true_face: Vec<Vec<DVec3>>,
     /// The seven true parameters of the face in each frame.
     pub true_parameters: Vec<[f64; 7]>,
@@ -144,7 +146,8 @@ pub struct Take {
 
 /// Names of placements by their numbers.
 pub const PLACES: [&str; 6] = ["rest", "side", "mouth", "chin", "cheek", "throat"];
-/// Where each placement is, to the cuer's right, up and forward, and its spread for one cuer.
+/// The position of each placement (to the cuer's right, up and forward) and its spread for one cuer, in millimetres; and
+/// the angle of the forearm in degrees.
 const SPOTS: [([f64; 3], [f64; 3], f64); 6] = [
     ([95.0, -130.0, 190.0], [10.0, 10.0, 8.0], 45.0),
     ([115.0, 46.0, 95.0], [17.0, 21.0, 8.0], 68.0),
@@ -188,7 +191,7 @@ const CONSONANTS: [(&str, u8, f64, f64); 16] = [
     ("N", 8, 0.8, 110.0),
 ];
 
-/// Returns a sentence of so many syllables; `number` counts the sentences of a session.
+/// Returns a sentence of `syllables` random syllables; `number` is that of the sentence within a session.
 #[must_use]
 pub fn sentence(settings: &Settings, number: u64, syllables: usize) -> Take {
     let mut random = Random::new(settings.seed.wrapping_mul(0x5851_F42D_4C95_7F2D) ^ number);
@@ -197,7 +200,7 @@ pub fn sentence(settings: &Settings, number: u64, syllables: usize) -> Take {
     moved(settings, &mut random, phones, keys, false)
 }
 
-/// Returns a sentence of French text, as the rules of spelling say it; nothing if it has no key.
+/// Returns a sentence of French text, read by the rules of spelling; nothing if it has no key.
 #[must_use]
 pub fn said(settings: &Settings, number: u64, text: &str) -> Option<Take> {
     let mut random = Random::new(settings.seed.wrapping_mul(0x5851_F42D_4C95_7F2D) ^ number);
@@ -241,7 +244,7 @@ pub fn said(settings: &Settings, number: u64, text: &str) -> Option<Take> {
     Some(moved(settings, &mut random, phones, keys, false))
 }
 
-/// Returns the face alone: isolated vowels, and each consonant between equal vowels a, i and u.
+/// Returns a take of the face alone: isolated vowels, and each consonant between two equal vowels a, i and u.
 #[must_use]
 pub fn sounds(settings: &Settings) -> Take {
     let mut random = Random::new(settings.seed ^ 0xFACE);
@@ -268,7 +271,7 @@ pub fn sounds(settings: &Settings) -> Take {
     take
 }
 
-/// Draws when the hand and the fingers move for each key.
+/// Draws the times of the hand's and the fingers' movement for each key.
 fn set_times(settings: &Settings, random: &mut Random, keys: &mut [TrueKey]) {
     let mut late: f64 = 0.0;
     for key in keys {
@@ -284,10 +287,10 @@ fn set_times(settings: &Settings, random: &mut Random, keys: &mut [TrueKey]) {
     }
 }
 
-/// Returns all ordered pairs of the nine shapes in free space, `times` times: the hand alone.
+/// Returns a take of the hand alone in free space: all ordered pairs of the nine shapes, `times` times.
 #[must_use]
 pub fn transitions(settings: &Settings, times: usize) -> Take {
-    // The face is not seen: nothing hides the hand.
+    // The face is not recorded, and nothing hides the hand.
     let mut random = Random::new(settings.seed ^ 0xC0FF_EE00);
     let mut keys = Vec::new();
     let mut at = 0.5;
@@ -312,7 +315,7 @@ pub fn transitions(settings: &Settings, times: usize) -> Take {
     take
 }
 
-/// Phones with their start and end, and the keys of them.
+/// Phones with their start and end, and their keys.
 type Spoken = (Vec<(String, f64, f64)>, Vec<TrueKey>);
 
 fn spoken(random: &mut Random, syllables: usize) -> Spoken {
@@ -349,7 +352,7 @@ fn spoken(random: &mut Random, syllables: usize) -> Spoken {
             });
         }
     }
-    // A coda and the vowel of a syllable without an onset are one key.
+    // A coda and the vowel of a following syllable without onset form one key.
     let mut merged: Vec<TrueKey> = Vec::with_capacity(keys.len());
     for key in keys {
         match merged.last_mut() {
@@ -491,7 +494,7 @@ fn angle_of(placement: u8, random: &mut Random) -> f64 {
     (SPOTS[usize::from(placement).min(5)].2 + 3.0 * random.normal()).to_radians()
 }
 
-/// Returns how the forearm is turned: fingers up and to the left, the back of the hand to the front.
+/// Returns the rotation of the forearm: fingers up and to the left, the back of the hand to the front.
 fn hand_turn(level: f64) -> DQuat {
     let along = DVec3::new(level.cos(), level.sin(), -0.25).normalize();
     let back = DVec3::Z.reject_from_normalized(along).normalize();

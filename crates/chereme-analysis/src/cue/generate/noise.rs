@@ -1,4 +1,4 @@
-//! Generated markers as cameras record them: with noise and with gaps.
+//! Generated markers as recorded by cameras: with noise and gaps.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::{RATE, Random, Take};
 use crate::cue::hand::Frame;
 use crate::cue::labels::{CHEEKS, LIPS, THUMB, finger};
 
-/// Adds slow noise of soft parts and noise of measurement.
+/// Adds slow noise of soft tissue and measurement noise.
 pub(super) fn seen(
     points: &[Vec<DVec3>],
     soft: f64,
@@ -31,7 +31,8 @@ pub(super) fn seen(
         .collect()
 }
 
-/// Hides markers in runs: neighbours of one finger, tips of bent fingers, the face behind the hand, and some at random.
+/// Hides markers for runs of frames: neighbours on one finger, tips of bent fingers, the face behind the hand, and some
+/// at random.
 pub(super) fn hide(take: &mut Take, (often, swapped): (f64, f64), random: &mut Random) {
     let frames = take.hand.len();
     let runs = (frames as f64 / RATE * 1.2 * often) as usize;

@@ -201,7 +201,7 @@ fn is_top(spot: &Spot) -> bool {
     spot.site.at == BodyLocation::ShoulderTop
 }
 
-/// Returns whether annotators rarely write a place, because its neighbours mean nearly the same.
+/// Returns whether annotators rarely write a place, because its neighbours have nearly the same meaning.
 fn is_rare(spot: &Spot) -> bool {
     matches!(
         spot.site.at,
