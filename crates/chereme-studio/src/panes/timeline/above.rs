@@ -1,4 +1,4 @@
-//! The layer above the rows: annotations in their future form, dragged ones, and the field for values.
+//! The layer above the rows: annotations at their future places, dragged ones, and the field for values.
 
 use chereme_corpus::Contents;
 use eframe::egui::{Rangef, Rect, TextStyle, Ui};
@@ -9,7 +9,7 @@ use super::ui::Drawing;
 use super::{Ghost, editor, paint};
 
 impl Drawing<'_, '_> {
-    /// Paints what is not in the snapshot: annotations as they will be, and what is being dragged.
+    /// Paints annotations that are not in the snapshot: those at their future places, and those being dragged.
     pub(super) fn overlay(&mut self, ui: &Ui, contents: &Contents, lane: Rect, sight: &Sight) {
         let painter = ui.painter_at(lane);
         let font = TextStyle::Body.resolve(ui.style());
@@ -41,7 +41,7 @@ impl Drawing<'_, '_> {
         paint::sight(&painter, lane, &self.window, (sight, at), self.seen);
     }
 
-    /// Returns the annotation that is being typed or made while playing.
+    /// Returns the annotation that is being typed, or created during playback.
     fn new_ghost(&self, contents: &Contents) -> Option<Ghost> {
         let scene = Scene {
             contents,

@@ -1,4 +1,4 @@
-//! The tools above the ruler: modes, what times settle on, lanes, tiers.
+//! The tools above the ruler: modes, snapping, lanes, tiers.
 
 use std::collections::BTreeSet;
 
@@ -14,10 +14,10 @@ use crate::context::{Outbox, Seen};
 use crate::words::{Text, fill, timeline as words};
 use crate::work::Work;
 
-/// How high the list of recordings is at most.
+/// The greatest height of the list of recordings, in points.
 const LIKE: f32 = 300.0;
 
-/// How far the tools stand apart.
+/// The gap between tools, in points.
 const GAP: f32 = 3.0;
 
 const MODES: [(Action, Text); 3] = [
@@ -31,7 +31,7 @@ const SNAPS: [(Action, Text); 3] = [
     (Action::SnapMinima, words::MINIMA),
 ];
 
-/// Returns the name of the mode, for the status line.
+/// Returns the name of the current mode, for the status line.
 pub(crate) fn mode_name(ways: &Ways) -> Text {
     let on = MODES.iter().find(|(action, _)| ways.is_on(*action));
     on.map_or(words::NORMAL, |(_, text)| *text)
@@ -77,16 +77,16 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     });
 }
 
-/// Returns how much room the tools want with a button for every switch.
+/// Returns the width that the tools need with a button for every switch, in points.
 fn wanted(ui: &Ui, seen: &Seen<'_>, tiers_title: &str) -> f32 {
     let switches = MODES.iter().chain(&SNAPS).map(|(_, text)| seen.say(*text));
     let all = switches.chain([seen.say(words::LANES), tiers_title]);
     let buttons = all.map(|text| width(ui, text)).sum::<f32>();
-    // Two lines stand between them.
+    // Two separators stand between them.
     buttons + 2.0 * (6.0 + GAP)
 }
 
-/// Returns how wide a button of that text is, with the gap beside it.
+/// Returns the width of a button with that text and of the gap beside it.
 fn width(ui: &Ui, text: &str) -> f32 {
     let font = TextStyle::Button.resolve(ui.style());
     let galley = ui
@@ -147,7 +147,7 @@ fn tiers(ui: &mut Ui, scene: &Scene<'_>, title: String, out: &mut Outbox) {
     });
 }
 
-/// Shows every tier with whether it is shown.
+/// Shows a list of all tiers with their visibility, which can be changed.
 fn shown(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     let ways = &scene.seen.settings.timeline;
     let none = BTreeSet::new();
@@ -168,7 +168,7 @@ fn shown(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     });
 }
 
-/// Shows the menu of recordings whose tiers this one can have.
+/// Shows the menu of recordings whose tiers can be copied to this one.
 pub(super) fn like(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     let here = scene.contents.recording.id;
     let recordings = &scene.seen.snapshot.overview.recordings;

@@ -1,4 +1,4 @@
-//! Annotations made, merged and stretched beside the selected one, and below it.
+//! Annotations created, merged and stretched beside the selected one, and created below it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,7 @@ use crate::context::Outbox;
 use crate::panes::Acted;
 use crate::words::{shell, timeline as words};
 
-/// Does an action about what lies beside or below the selected annotation.
+/// Carries out an action that concerns the annotations beside or below the selected one.
 pub(super) fn act(
     timeline: &mut Timeline,
     action: Action,
@@ -31,14 +31,14 @@ pub(super) fn act(
     }
 }
 
-/// Returns the annotation that is selected alone, or the one of the tier at the playhead.
+/// Returns the annotation that is selected alone, else the one of the tier at the playhead.
 fn found<'a>(scene: &Scene<'a>) -> Option<(&'a TierContents, usize)> {
     let it = scene.seen.snapshot.annotation(edit::alone(scene)?)?;
     Some((it.tier, it.at))
 }
 
-/// Begins an annotation in the gap before or after one, as long as that one where there is room; where
-/// there are no gaps it takes half of it, and on a list the place beside it.
+/// Begins a new annotation in the gap before or after the selected one, of the same length if there is room. On a tier
+/// without gaps it takes half of the selected one; on a tier of lists it is inserted beside it.
 fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox) -> Acted {
     let Some((tier, at)) = found(scene) else {
         return Acted::Cannot(shell::NEEDS_ANNOTATION);
@@ -96,8 +96,8 @@ fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox
     }
 }
 
-/// Returns the free time before or after an annotation: up to its neighbour, the end of the annotation
-/// above, or that of the recording.
+/// Returns the free span before or after an annotation, in microseconds: up to its neighbour, the end of the parent
+/// annotation, or the end of the recording.
 fn gap(scene: &Scene<'_>, tier: &TierContents, at: usize, after: bool) -> (i64, i64) {
     let columns = &tier.annotations;
     let mut limits = hold::limits(scene.contents, scene.frames().is_some());
@@ -123,7 +123,8 @@ fn gap(scene: &Scene<'_>, tier: &TierContents, at: usize, after: bool) -> (i64, 
     }
 }
 
-/// Adds an empty annotation on every tier below the selected ones that has none there, all the way down.
+/// Adds an empty annotation on every tier below the selected annotations that has none there, down to the deepest
+/// tiers.
 fn new_below(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
     let mut chosen = scene.seen.shown.annotations.clone();
     if chosen.is_empty() {
@@ -152,10 +153,10 @@ fn new_below(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Ac
     timeline.change(asked.collect(), then, out)
 }
 
-/// Returns what is missing below annotations, parents first, as `(tier, span)`.
+/// Returns the missing annotations below the chosen ones, parents first, as `(tier, span)`.
 fn below(tiers: &[TierContents], chosen: &BTreeSet<i64>) -> Vec<(i64, (i64, i64))> {
     let mut under: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
-    // Tiers with annotations on them, those that are there by their id.
+    // Tiers with a span of an annotation, and its id if it exists already.
     let mut open: Vec<(i64, (i64, i64), Option<i64>)> = Vec::new();
     for tier in tiers {
         let columns = &tier.annotations;
@@ -217,8 +218,7 @@ fn merge_previous(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) 
     }
 }
 
-/// Brings the starts or ends of the selected annotations to their neighbours, or to the ends of the
-/// annotations above.
+/// Moves the starts or ends of the selected annotations to their neighbours, or to the ends of their parents.
 fn stretch(timeline: &mut Timeline, scene: &Scene<'_>, grip: Grip, out: &mut Outbox) -> Acted {
     let mut chosen = scene.seen.shown.annotations.clone();
     if chosen.is_empty() {

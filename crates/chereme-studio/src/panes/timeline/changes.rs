@@ -1,4 +1,4 @@
-//! Changes of the timeline as the corpus takes them; each list is one operation, undone at once.
+//! Changes of the timeline as requests to the corpus; each list is one operation, undone at once.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ fn moment(micros: i64) -> Moment {
     Moment::Time(Instant::from_micros(micros))
 }
 
-/// Adds an annotation.
+/// Returns the change that adds an annotation.
 pub(crate) fn add(tier: i64, (start, end): (i64, i64), value: &str) -> AnnotationChange {
     let action = AnnotationAction::Add {
         tier: TierName::Number(tier),
@@ -29,7 +29,7 @@ pub(crate) fn add(tier: i64, (start, end): (i64, i64), value: &str) -> Annotatio
     action.into()
 }
 
-/// Gives annotations other times, in this order.
+/// Returns the changes that set the times of annotations, in this order.
 pub(crate) fn respan(items: &[Item]) -> Vec<AnnotationChange> {
     let set = items.iter().map(|item| AnnotationAction::Set {
         annotation: AnnotationName::Number(item.id),
@@ -40,14 +40,14 @@ pub(crate) fn respan(items: &[Item]) -> Vec<AnnotationChange> {
     set.map(AnnotationChange::from).collect()
 }
 
-/// Cuts an annotation in two.
+/// Returns the change that cuts an annotation in two.
 pub(crate) fn split(annotation: i64, at: i64) -> AnnotationChange {
     let annotation = AnnotationName::Number(annotation);
     let at = moment(at);
     AnnotationAction::Split { annotation, at }.into()
 }
 
-/// Gives annotations a value.
+/// Returns the changes that set the value of annotations.
 pub(crate) fn say(annotations: &BTreeSet<i64>, value: &str) -> Vec<AnnotationChange> {
     let set = annotations.iter().map(|id| AnnotationAction::Set {
         annotation: AnnotationName::Number(*id),
@@ -58,7 +58,7 @@ pub(crate) fn say(annotations: &BTreeSet<i64>, value: &str) -> Vec<AnnotationCha
     set.map(AnnotationChange::from).collect()
 }
 
-/// Removes annotations; those below others that go need no word of their own.
+/// Returns the changes that remove annotations; children of removed ones are removed with them.
 pub(crate) fn remove(contents: &Contents, annotations: &BTreeSet<i64>) -> Vec<AnnotationChange> {
     let mut changes = Vec::new();
     for tier in &contents.tiers {
@@ -92,7 +92,7 @@ fn goes_with_another(
     false
 }
 
-/// Returns what an annotation says as one would type it.
+/// Returns the value of an annotation as one would type it.
 pub(crate) fn typed(columns: &AnnotationColumns, at: usize) -> String {
     match columns.states[at] {
         ValueState::Value => columns.values[at].to_string(),
@@ -102,8 +102,8 @@ pub(crate) fn typed(columns: &AnnotationColumns, at: usize) -> String {
     }
 }
 
-/// Puts copies of annotations on another tier at the same times, and with `and_remove` takes them from
-/// their own.
+/// Returns the changes that copy annotations to another tier at the same times; with `and_remove`, also those that
+/// remove the originals.
 pub(crate) fn to_tier(
     contents: &Contents,
     items: &[Item],
@@ -125,8 +125,9 @@ pub(crate) fn to_tier(
     changes
 }
 
-/// Makes one annotation of those of a tier from the first to the last of `chosen`, or of the one and the
-/// next. Different values are joined, `closed` tiers keep the first. Nothing where there is no next.
+/// Returns the changes that merge the annotations of a tier from the first to the last of `chosen`, or a single one
+/// with the next. Different values are joined; `closed` tiers keep the first. Returns `None` if there is no next
+/// annotation.
 pub(crate) fn merge(
     tier: &TierContents,
     chosen: &BTreeSet<i64>,
@@ -159,7 +160,7 @@ pub(crate) fn merge(
     Some(changes)
 }
 
-/// Returns whether anything hangs below any of the annotations.
+/// Returns whether any of the annotations has children.
 pub(crate) fn has_below(contents: &Contents, annotations: &BTreeSet<i64>) -> bool {
     let mut parents = contents.tiers.iter().flat_map(|it| &it.annotations.parents);
     parents.any(|parent| parent.is_some_and(|id| annotations.contains(&id)))

@@ -1,4 +1,4 @@
-//! The list of tiers from which the one is chosen that annotations are copied or moved to.
+//! The list to choose the tier that annotations are copied or moved to.
 
 use chereme_corpus::TierContents;
 use chereme_sign::text::fold;
@@ -17,7 +17,7 @@ use crate::words::{Text, timeline as words};
 /// The list while it is open.
 #[derive(Debug)]
 pub(super) struct Choose {
-    /// Whether the annotations leave their own tier.
+    /// Whether the annotations are moved rather than copied.
     moving: bool,
     text: String,
     chosen: usize,
@@ -35,7 +35,7 @@ impl Choose {
     }
 }
 
-/// Returns the tiers whose names hold what is typed; those of the annotations themselves are left out.
+/// Returns the tiers whose names contain the typed text, without the tiers of the annotations themselves.
 fn fitting<'a>(scene: &Scene<'a>, text: &str) -> Vec<&'a TierContents> {
     let chosen = &scene.seen.shown.annotations;
     let wanted = fold(text.trim());
@@ -45,7 +45,7 @@ fn fitting<'a>(scene: &Scene<'a>, text: &str) -> Vec<&'a TierContents> {
     scene.contents.tiers.iter().filter(fits).collect()
 }
 
-/// Shows the list, and copies or moves what is selected to the tier that is chosen.
+/// Shows the list, and copies or moves the selection to the chosen tier.
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     let Some(mut choose) = timeline.choose.take() else {
         return;
@@ -124,7 +124,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
     }
 }
 
-/// Copies or moves what is selected to a tier; returns why it cannot be done.
+/// Copies or moves the selection to a tier; returns the reason if it cannot be done.
 pub(super) fn put(
     timeline: &mut Timeline,
     scene: &Scene<'_>,
@@ -159,7 +159,7 @@ pub(super) fn put(
     None
 }
 
-/// Returns why annotations with these times cannot be put on a tier.
+/// Returns the reason if annotations with these times cannot be put on a tier.
 pub(super) fn unfit(scene: &Scene<'_>, tier: &TierContents, items: &[Item]) -> Option<Text> {
     let listed = Kind::of(&tier.row) == Kind::Listed;
     let fits = |item: &Item| {

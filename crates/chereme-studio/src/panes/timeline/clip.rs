@@ -1,4 +1,4 @@
-//! Annotations as text for the clipboard: a table with tabs, as spreadsheets give and take it.
+//! Annotations as text on the clipboard: a table with tabs, as spreadsheets write and read it.
 //!
 //! Copied text has the columns `tier`, `start`, `end` and `value`, times in seconds. Pasted text may have them in
 //! any order and by other names, or no titles and two times in each line; a single column is values, and a line
@@ -9,7 +9,7 @@ use chereme_sign::text::fold;
 
 use crate::words::{Text, timeline as words};
 
-/// An annotation that a text asks for.
+/// An annotation in a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Said {
     /// The line of the text, counted from 1.
@@ -21,25 +21,25 @@ pub(crate) struct Said {
     pub(crate) value: String,
 }
 
-/// A line that is not understood, or has no place.
+/// A line that is not understood, or whose annotation has no place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Odd {
     pub(crate) line: usize,
-    /// Why; `{text}` in it is what it is about.
+    /// The reason; it contains `{text}` as a placeholder for `text`.
     pub(crate) why: Text,
     pub(crate) text: String,
 }
 
-/// What a text is.
+/// The contents of a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Clip {
     /// Annotations, and lines that cannot be read.
     Rows(Vec<Said>, Vec<Odd>),
-    /// Values, one below the other, each with its line.
+    /// Values, one below the other, each with its line number.
     Values(Vec<(usize, String)>),
 }
 
-/// Returns annotations, each as `(tier, start, end, value)`, as text.
+/// Writes annotations, each given as `(tier, start, end, value)`, as text.
 pub(crate) fn write<'a>(rows: impl Iterator<Item = (&'a str, i64, i64, String)>) -> String {
     let mut text = String::from("tier\tstart\tend\tvalue\n");
     for (tier, start, end, value) in rows {
@@ -50,7 +50,7 @@ pub(crate) fn write<'a>(rows: impl Iterator<Item = (&'a str, i64, i64, String)>)
     text
 }
 
-/// Returns a time in seconds, to the microsecond if it has any.
+/// Returns a time in seconds, with microseconds if necessary.
 fn seconds(micros: i64) -> String {
     let sign = if micros < 0 { "-" } else { "" };
     let (whole, part) = (micros.abs() / 1_000_000, micros.abs() % 1_000_000);
@@ -67,7 +67,7 @@ fn cell(text: &str) -> String {
     }
 }
 
-/// Reads a text; `frame` returns when a frame is.
+/// Reads a text; `frame` returns the time of a frame in microseconds.
 pub(crate) fn read(text: &str, frame: impl Fn(u64) -> Option<i64>) -> Clip {
     let rows = cells(text);
     if rows.iter().all(|(_, cells)| cells.len() == 1) {
@@ -95,7 +95,7 @@ pub(crate) fn read(text: &str, frame: impl Fn(u64) -> Option<i64>) -> Clip {
     Clip::Rows(said, odd)
 }
 
-/// Which column is what.
+/// The columns of a table, by index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Columns {
     tier: Option<usize>,
@@ -103,12 +103,12 @@ struct Columns {
     end: Option<usize>,
     length: Option<usize>,
     value: Option<usize>,
-    /// Whether plain numbers are milliseconds.
+    /// Whether numbers without a unit are milliseconds.
     millis: bool,
 }
 
 impl Columns {
-    /// Reads a row of names, as this window, ELAN and people write them.
+    /// Reads a row of column titles, as this window, ELAN and people write them.
     fn named(cells: &[String]) -> Option<Self> {
         const NAMES: [&[&str]; 5] = [
             &["tier", "acteur"],
@@ -146,7 +146,7 @@ impl Columns {
         })
     }
 
-    /// Finds two times beside each other: the tier is before them, the value after.
+    /// Finds two times side by side: the tier is before them, and the value after them.
     fn guessed(cells: &[String]) -> Option<Self> {
         let is_time = |cell: &String| moment(cell, false).is_some();
         let start =
@@ -205,7 +205,7 @@ impl Columns {
     }
 }
 
-/// Reads a time, also with a comma before the decimals as French spreadsheets write it.
+/// Reads a time; the decimals may follow a comma, as in French spreadsheets.
 fn moment(text: &str, millis: bool) -> Option<Moment> {
     let text = text.trim().replace(',', ".");
     if millis && text.bytes().all(|it| it.is_ascii_digit()) {

@@ -1,18 +1,18 @@
-//! The content of the timeline, without a window: the place of times, ticks, rows, and bars.
+//! The content of the timeline, without widgets: positions of times, ticks, and bars.
 
 use chereme_corpus::{AnnotationColumns, TierContents, ValueState};
 use chereme_motion::{Instant, Span};
 use serde::{Deserialize, Serialize};
 
-/// How much wider than a recording the widest window is.
+/// Width of the widest window, as a multiple of the recording's length.
 const MARGIN: f64 = 1.02;
 
-/// The part of a recording that is to be seen.
+/// The visible part of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Window {
     /// The time at the left edge, in microseconds.
     pub(crate) start: f64,
-    /// How many microseconds a point is wide.
+    /// Microseconds per point.
     pub(crate) scale: f64,
 }
 
@@ -34,18 +34,18 @@ impl Window {
         Self { start, scale }.within(whole, width)
     }
 
-    /// Returns where a time is, in points from the left edge.
+    /// Returns the position of a time, in points from the left edge.
     pub(crate) fn x(&self, micros: f64) -> f32 {
         ((micros - self.start) / self.scale) as f32
     }
 
-    /// Returns the time that many points from the left edge, in microseconds.
+    /// Returns the time at a position in points from the left edge, in microseconds.
     pub(crate) fn micros(&self, x: f32) -> f64 {
         self.start + f64::from(x) * self.scale
     }
 
-    /// Returns the window with times `factor` as wide, and `around` at its old place; never wider than `whole`,
-    /// never nearer than a tenth of a millisecond a point.
+    /// Returns the window that shows `factor` times as much time, with the time `around` at its old position. It is
+    /// never wider than `whole`, and shows at least 0.1 ms per point.
     pub(crate) fn zoomed(&self, factor: f64, around: f64, whole: Span, width: f32) -> Self {
         let widest = Self::whole(whole, width).scale;
         let scale = (self.scale * factor).clamp(100.0_f64.min(widest), widest);
@@ -53,7 +53,7 @@ impl Window {
         Self { start, scale }.within(whole, width)
     }
 
-    /// Returns the window moved by that many points, no farther than `whole` reaches.
+    /// Returns the window moved by `points`, within `whole`.
     pub(crate) fn panned(&self, points: f32, whole: Span, width: f32) -> Self {
         let start = self.start + f64::from(points) * self.scale;
         Self { start, ..*self }.within(whole, width)
@@ -79,19 +79,19 @@ impl Window {
     }
 }
 
-/// Returns the first window of a recording, with `at` in it: `None` for all of it if annotations can be read then,
-/// else a width at which annotations of usual length can.
+/// Returns the first window of a recording, with `at` in it. Returns `None`, which shows everything, if annotations are
+/// readable then; otherwise a window in which annotations of median length are.
 pub(crate) fn first_window(
     tiers: &[TierContents],
     whole: Span,
     at: f64,
     width: f32,
 ) -> Option<Window> {
-    /// How wide an annotation of usual length is at least where all is to be seen, and how wide it is
-    /// made where not.
+    /// The least width of an annotation of median length, in points, for which everything is shown; and its width in
+    /// the window otherwise.
     const LEAST: f64 = 14.0;
     const WIDE: f64 = 56.0;
-    /// The width of the window without annotations, and its least width.
+    /// Without annotations, the width of the window, and the least width of any window, in microseconds.
     const MINUTE: f64 = 60e6;
     const FEW_SECONDS: f64 = 4e6;
     let all = Window::whole(whole, width);
@@ -126,7 +126,7 @@ pub(crate) fn first_window(
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tick {
     pub(crate) micros: i64,
-    /// What it says; nothing at the small ones.
+    /// Its text; `None` for small marks.
     pub(crate) text: Option<String>,
 }
 
@@ -168,7 +168,7 @@ pub(crate) fn ticks(window: &Window, width: f32) -> Vec<Tick> {
         .collect()
 }
 
-/// Returns a time as people read it: `0:01.250`, `1:02:03.000`.
+/// Returns a time as text: `0:01.250`, `1:02:03.000`.
 pub(crate) fn time_text(at: Instant) -> String {
     let micros = at.micros();
     let sign = if micros < 0 { "-" } else { "" };
@@ -186,28 +186,28 @@ pub(crate) fn time_text(at: Instant) -> String {
     }
 }
 
-/// Returns a length of time as people read it: `0.680 s`.
+/// Returns a duration as text: `0.680 s`.
 pub(crate) fn length_text(micros: i64) -> String {
     let millis = micros.max(0) / 1000;
     format!("{}.{:03} s", millis / 1000, millis % 1000)
 }
 
-/// An annotation on the timeline, or several that are too narrow to be drawn apart.
+/// An annotation on the timeline, or several that are too narrow to be drawn separately.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Bar {
-    /// The place of the first in the tier's columns.
+    /// Index of the first one in the tier's columns.
     pub(crate) at: usize,
-    /// How many there are.
+    /// The number of annotations.
     pub(crate) count: usize,
-    /// Where the first starts and the last ends, in microseconds.
+    /// Start of the first and end of the last, in microseconds.
     pub(crate) start: i64,
     pub(crate) end: i64,
 }
 
-/// Returns the bars of a tier that lie in `from..to`; annotations that would be narrower than
-/// `narrow` microseconds are drawn as one with those beside them.
+/// Returns the bars of a tier that lie in `from..to`; annotations narrower than `narrow` microseconds are joined with
+/// their neighbours.
 ///
-/// The time it takes grows with how many bars there are, not with how many annotations.
+/// The running time depends on the number of bars, not on the number of annotations.
 pub(crate) fn bars(columns: &AnnotationColumns, from: i64, to: i64, narrow: i64) -> Vec<Bar> {
     let (starts, ends) = (&columns.starts, &columns.ends);
     let mut at = starts.partition_point(|start| *start < from);
@@ -237,14 +237,14 @@ pub(crate) fn bars(columns: &AnnotationColumns, from: i64, to: i64, narrow: i64)
     bars
 }
 
-/// Returns the annotation of a tier at a moment, as its place in the columns.
+/// Returns the annotation of a tier at a moment, as its index in the columns.
 pub(crate) fn at(columns: &AnnotationColumns, micros: i64) -> Option<usize> {
     let after = columns.starts.partition_point(|start| *start <= micros);
     let at = after.checked_sub(1)?;
     (columns.ends[at] > micros || columns.starts[at] == micros).then_some(at)
 }
 
-/// Returns what an annotation says, `missing` telling how a value is missing.
+/// Returns the text of an annotation's value; `missing` returns the text for a missing value.
 pub(crate) fn value_text<'a>(
     columns: &'a AnnotationColumns,
     at: usize,

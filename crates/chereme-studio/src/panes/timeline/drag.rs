@@ -1,4 +1,4 @@
-//! The effect of a gesture while the button is held, and when it is released.
+//! The effect of a mouse gesture while the button is held, and when it is released.
 
 use std::collections::BTreeSet;
 
@@ -16,24 +16,24 @@ use super::{Ghost, Then, changes, choose};
 use crate::command::Command;
 use crate::words::timeline as words;
 
-/// From how far a boundary catches, in points.
+/// The distance within which a time snaps, in points.
 const REACH: f64 = 8.0;
 
 /// The visible effect of a gesture.
 #[derive(Debug, Default)]
 pub(super) struct Sight {
     pub(super) ghosts: Vec<Ghost>,
-    /// Whether they cannot be there.
+    /// Whether the annotations cannot be there.
     pub(super) refused: bool,
-    /// The ghost whose times are shown.
+    /// The span whose times are shown beside the pointer.
     pub(super) told: Option<(i64, i64)>,
-    /// Where a time settled.
+    /// The time that snapped, and what it snapped to.
     pub(super) caught: Option<(i64, Catch)>,
     pub(super) band: Option<Rect>,
 }
 
 impl Drawing<'_, '_> {
-    /// Carries a gesture on, ends it when the button is let go, and returns what of it is to be seen.
+    /// Continues a gesture, ends it when the button is released, and returns its visible effect.
     pub(super) fn gesture(&mut self, ui: &Ui, contents: &Contents, area: Rect) -> Sight {
         let Some(mut gesture) = self.timeline.gesture.take() else {
             return Sight::default();
@@ -82,7 +82,7 @@ impl Drawing<'_, '_> {
         sight
     }
 
-    /// Moves time under a pointer that is dragged past the edge.
+    /// Scrolls through time while the pointer is dragged past the edge.
     fn pan_at_edges(&mut self, ui: &Ui, lane: Rect, pointer: Pos2) {
         let past = (pointer.x - lane.right()).max(0.0) - (lane.left() - pointer.x).max(0.0);
         if past != 0.0 && self.timeline.window.is_some() {
@@ -103,7 +103,8 @@ impl Drawing<'_, '_> {
             contents,
             seen: self.seen,
         };
-        // The playhead moves with the drag, and would hold it back.
+        // The playhead moves with the drag, so its old place is a mark instead: the moving one would hold the drag
+        // back.
         let marks = [self.timeline.mark];
         let snaps = self.seen.settings.timeline.snaps;
         let reach = (REACH * self.window.scale) as i64;
@@ -126,7 +127,7 @@ impl Drawing<'_, '_> {
         guides.settle(time)
     }
 
-    /// Has the stage show the moment at which a boundary is, as in ELAN; what plays goes on.
+    /// Shows the moment of a dragged boundary on the stage, as in ELAN, unless something plays.
     fn follow_with(&mut self, at: i64) {
         let player = &self.seen.shown.player;
         if !player.is_playing() && player.playhead().micros() != at {
@@ -195,7 +196,7 @@ impl Drawing<'_, '_> {
         pointer: Pos2,
     ) -> Sight {
         let wanted = time - it.from;
-        // The boundary nearest to something settles, the others go along.
+        // The boundary that is nearest to a mark snaps; the others move along.
         let settled = it.edges.iter().map(|edge| {
             let (at, why) = self.settle(contents, &it.except, edge + wanted);
             (at - edge, at, why)
@@ -259,7 +260,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Returns the other tier that the pointer is on, where whole annotations of one tier are dragged.
+    /// Returns the tier under the pointer, if whole annotations of one other tier are dragged.
     fn other_tier(&self, contents: &Contents, it: &Dragging, pointer: Pos2) -> Option<(i64, bool)> {
         if it.grip != Grip::Whole || it.held.iter().any(|held| held.tier != it.tier) {
             return None;

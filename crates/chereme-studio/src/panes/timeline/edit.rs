@@ -17,10 +17,10 @@ use crate::panes::Acted;
 use crate::pickers;
 use crate::words::{shell, timeline as words};
 
-/// How a frame is stepped where a recording has no movement, in microseconds.
+/// Length of one frame step in recordings without movement, in microseconds.
 const STEP: i64 = 40_000;
 
-/// The actions of the digits, in their order.
+/// The actions of the digits 1 to 9.
 pub(super) const DIGITS: [Action; 9] = [
     Action::Value1,
     Action::Value2,
@@ -33,7 +33,7 @@ pub(super) const DIGITS: [Action; 9] = [
     Action::Value9,
 ];
 
-/// The recording that is shown, with what is selected in it.
+/// The displayed recording, with the selection in it.
 #[derive(Clone, Copy)]
 pub(super) struct Scene<'a> {
     pub(super) contents: &'a Contents,
@@ -46,7 +46,7 @@ impl<'a> Scene<'a> {
         Some(Self { contents, seen })
     }
 
-    /// Returns the tier that edits are about: the selected one, else the first.
+    /// Returns the tier that edits apply to: the selected one, else the first.
     pub(super) fn tier(&self) -> Option<&'a TierContents> {
         let tiers = &self.contents.tiers;
         let chosen = tiers
@@ -63,7 +63,7 @@ impl<'a> Scene<'a> {
         self.seen.shown.player.playhead().micros()
     }
 
-    /// Returns the frames of the recording's movement, if it has any.
+    /// Returns the frame times of the recording's movement, if it has any.
     pub(super) fn frames(&self) -> Option<Frames> {
         let glance = self.seen.snapshot.recording(self.contents.recording.id)?;
         let rate = glance.rate.filter(|_| glance.frames > 0)?;
@@ -73,7 +73,7 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// Returns the start of the frame that lies `by` frames on.
+    /// Returns the start of the frame `by` frames later, in microseconds.
     pub(super) fn stepped(&self, micros: i64, by: i64) -> i64 {
         match self.frames() {
             Some(frames) => frames.stepped(micros, by),
@@ -101,7 +101,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Does an action that changes annotations.
+/// Carries out an action that changes annotations.
 pub(super) fn act(
     timeline: &mut Timeline,
     action: Action,
@@ -152,7 +152,7 @@ pub(super) fn act(
     }
 }
 
-/// Opens a new annotation on the selected time for typing; nothing is stored before it is kept.
+/// Opens the value field for a new annotation on the selected time; nothing is stored until the value is kept.
 fn create(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
     let (Some(tier), Some(wanted)) = (scene.tier(), scene.selection()) else {
         return if scene.contents.tiers.is_empty() {
@@ -170,7 +170,7 @@ fn create(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
     }
 }
 
-/// Opens the value to be chosen by picture; if it is open already, turns to pictures or back.
+/// Opens the value field with pictures; if it is open already, switches between pictures and text.
 fn by_picture(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
     let chosen = &scene.seen.shown.annotations;
     if timeline.editing.is_none() {
@@ -204,7 +204,7 @@ pub(super) fn has_pictures(inventory: &chereme_sign::Inventory) -> bool {
     pickers::data::kind(inventory) != pickers::data::Kind::Names
 }
 
-/// Returns why a tier has no room.
+/// Returns the reason why a tier has no room for an annotation.
 pub(super) fn no_room(tier: &TierContents) -> crate::words::Text {
     match Kind::of(&tier.row) {
         Kind::Root => words::NO_ROOM,
@@ -253,8 +253,8 @@ fn begin_or_end(
     }
 }
 
-/// Gives the selected annotations the value of a digit; while playing on it begins or ends one with that
-/// value, and on a selection it makes one.
+/// Gives the selected annotations the value of a digit. During playback it begins or ends an annotation with that
+/// value; on a selected span it creates one.
 fn by_digit(timeline: &mut Timeline, scene: &Scene<'_>, digit: usize, out: &mut Outbox) -> Acted {
     let Some(tier) = scene.tier() else {
         return Acted::Cannot(words::NEEDS_TIER);
@@ -288,7 +288,7 @@ fn by_digit(timeline: &mut Timeline, scene: &Scene<'_>, digit: usize, out: &mut 
     }
 }
 
-/// Returns the annotation that is selected alone, or else the one of the tier at the playhead.
+/// Returns the annotation that is selected alone, else the one of the tier at the playhead.
 pub(super) fn alone(scene: &Scene<'_>) -> Option<i64> {
     scene.seen.shown.annotation().or_else(|| {
         let tier = scene.tier()?;
@@ -329,7 +329,7 @@ fn merge(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted 
     }
 }
 
-/// Moves a boundary of the selected annotation, or all that are selected, by frames.
+/// Moves a boundary of the selected annotations, or the whole annotations, by frames.
 fn nudge(
     timeline: &mut Timeline,
     scene: &Scene<'_>,
@@ -350,7 +350,7 @@ fn nudge(
     drag(timeline, scene, &all, (grip, by), out)
 }
 
-/// Brings a boundary of the selected annotation to the playhead.
+/// Moves a boundary of the selected annotation to the playhead.
 fn reach(timeline: &mut Timeline, scene: &Scene<'_>, grip: Grip, out: &mut Outbox) -> Acted {
     let chosen: BTreeSet<i64> = alone(scene).into_iter().collect();
     let all = scene.held(&chosen);
@@ -401,7 +401,7 @@ fn drag(
     )
 }
 
-/// Gives the selected annotation the selected time: its boundaries are dragged there one after the other.
+/// Sets the selected annotation to the selected time, by dragging its boundaries one after the other.
 fn to_selection(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
     let Some((start, end)) = scene.selection() else {
         return Acted::Cannot(shell::NEEDS_SELECTION);
@@ -449,7 +449,7 @@ fn to_selection(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) ->
     timeline.change(asked, Then::default(), out)
 }
 
-/// Keeps what was typed: asks for the value or the new annotation. Whether that could be asked for.
+/// Stores a typed value: requests the change of the annotations, or the new annotation.
 pub(super) fn keep(timeline: &mut Timeline, editing: Editing, value: &str, out: &mut Outbox) {
     let (changes, ghosts, select) = match &editing.target {
         Target::Of(annotations) => (changes::say(annotations, value), Vec::new(), false),

@@ -1,4 +1,4 @@
-//! The field for values: typed into a list of what fits, under the annotation.
+//! The field for values, with a list of matching values, below the annotation.
 
 use std::collections::BTreeSet;
 
@@ -21,22 +21,22 @@ use crate::script::edit as edit_text;
 use crate::words::{Text, fill, timeline as words};
 
 const WIDTH: f32 = 260.0;
-/// The height that the field with its list wants.
+/// The height of the field with its list, in points.
 const ROOM: f32 = 260.0;
 
 /// The target of a typed value.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Target {
-    /// Annotations that are there.
+    /// Existing annotations.
     Of(BTreeSet<i64>),
-    /// One that will be there when the value is kept.
+    /// A new annotation, stored when the value is kept.
     New {
-        /// The tier's row.
+        /// The tier's row id.
         tier: i64,
-        /// Its time in microseconds.
+        /// Its start in microseconds.
         start: i64,
-        /// Where it ends.
+        /// Its end in microseconds.
         end: i64,
     },
 }
@@ -44,20 +44,20 @@ pub(crate) enum Target {
 /// A value that is being typed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Editing {
-    /// The recording's row.
+    /// The recording's row id.
     pub(crate) recording: i64,
     pub(crate) target: Target,
     pub(crate) text: String,
-    /// The text at the beginning.
+    /// The text when the field was opened.
     #[serde(default)]
     pub(super) before: String,
-    /// The choice that arrow keys went to.
+    /// The value that arrow keys moved to.
     #[serde(skip)]
     pub(super) marked: Option<usize>,
-    /// Whether the field has had the focus yet.
+    /// Whether the field has had the keyboard focus.
     #[serde(skip)]
     begun: bool,
-    /// Whether the text was put back, so that it is not replaced by the first letter.
+    /// Whether the text was restored, so that the first typed letter does not replace it.
     #[serde(skip)]
     again: bool,
     /// Whether values are shown as pictures.
@@ -66,7 +66,7 @@ pub(crate) struct Editing {
     /// Whether the pictures have been shown yet.
     #[serde(skip)]
     pictured: bool,
-    /// Whether the keyboard is with another pane until the field is clicked.
+    /// Whether another pane has the keyboard until the field is clicked.
     #[serde(skip)]
     aside: bool,
 }
@@ -87,12 +87,12 @@ impl Editing {
         }
     }
 
-    /// Shows values as pictures, or the text again.
+    /// Switches between pictures and text.
     pub(super) fn turn_to_pictures(&mut self) {
         (self.pictures, self.pictured, self.begun) = (!self.pictures, false, false);
     }
 
-    /// Returns it to be opened again, with the text as it was left.
+    /// Returns the same value for a field that opens again with the restored text.
     pub(super) fn again(self) -> Self {
         Self {
             begun: false,
@@ -101,7 +101,7 @@ impl Editing {
         }
     }
 
-    /// Returns the tier it is about.
+    /// Returns the tier of the annotations.
     pub(super) fn tier<'a>(&self, scene: &Scene<'a>) -> Option<&'a TierContents> {
         match &self.target {
             Target::New { tier, .. } => scene.tier_of(*tier),
@@ -112,7 +112,7 @@ impl Editing {
         }
     }
 
-    /// Returns its time, if it is one annotation.
+    /// Returns the span of the first annotation in microseconds.
     pub(super) fn span(&self, scene: &Scene<'_>) -> Option<(i64, i64)> {
         match &self.target {
             Target::New { start, end, .. } => Some((*start, *end)),
@@ -128,7 +128,7 @@ impl Editing {
 /// The key pressed in the field.
 enum Said {
     Nothing,
-    /// Keep this; and go on to the next annotation.
+    /// Keep this value; and whether to go on to the next annotation.
     Keep(String, bool),
     Drop,
 }
@@ -211,7 +211,7 @@ fn done(
     }
 }
 
-/// Returns the place of the annotation after the one that is typed.
+/// Returns the index of the annotation after the edited one.
 fn next(editing: &Editing, tier: &TierContents) -> Option<usize> {
     let columns = &tier.annotations;
     let next = match &editing.target {
@@ -234,9 +234,9 @@ fn field(
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
     let (up, down) = (pressed(Key::ArrowUp), pressed(Key::ArrowDown));
     let (enter, tab, escape) = (pressed(Key::Enter), pressed(Key::Tab), pressed(Key::Escape));
-    // In ELAN it is Ctrl and Enter that keep a value.
+    // ELAN keeps a value with Ctrl and Enter.
     let enter = enter | ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter));
-    // A text as it was opened filters nothing: the whole list is there to choose from.
+    // The original text does not filter: the whole list can be chosen from.
     let filter = if editing.text == editing.before && !editing.again {
         ""
     } else {
@@ -311,7 +311,7 @@ fn pictures(
     }
     let opened = std::mem::replace(&mut editing.pictured, true);
     if !opened {
-        // A digit means the same value among the pictures as in the list.
+        // A digit picks the same value among the pictures as in the list.
         timeline.picker = Picker::fresh();
         timeline.picker.digits = digits.to_vec();
     }
@@ -346,9 +346,9 @@ fn pictures(
     said
 }
 
-/// Returns where the field lies: below the annotation, or above where there is more room.
+/// Returns the area for the field: below the annotation, or above it if there is more room.
 ///
-/// An area that opens upwards and would reach into the stage stands next to its middle, so that the signer stays in
+/// An area above that would reach into the stage is moved aside from the stage's middle, so that the signer stays in
 /// sight.
 fn area(ui: &Ui, below: Rect, size: Vec2) -> (Area, f32) {
     let width = size.x;
@@ -372,10 +372,10 @@ fn area(ui: &Ui, below: Rect, size: Vec2) -> (Area, f32) {
     (area, width)
 }
 
-/// Returns where something begins that shall be `width` wide and begin at `left`, and how wide it is then, so
-/// that it lies beside the middle of the stage, where the signer is; as wished where there is no room for that.
+/// Returns the left edge and the width of an area that does not cover the middle of the stage, where the signer is;
+/// without room for that, returns `left` and `width` unchanged.
 fn beside(left: f32, width: f32, stage: Rect, screen: Rect) -> (f32, f32) {
-    /// Narrower than this nothing is chosen well, and an edge.
+    /// The least useful width, and a margin, in points.
     const LEAST: f32 = 260.0;
     const EDGE: f32 = 18.0;
     let half = (stage.width() * 0.5).min(stage.height() * 0.55).min(150.0);
@@ -398,8 +398,8 @@ fn beside(left: f32, width: f32, stage: Rect, screen: Rect) -> (f32, f32) {
     }
 }
 
-/// Returns whether the mouse was pressed outside. The tap that opened the field may begin and end within the
-/// field's first frame, so only later ones count.
+/// Returns whether the mouse was pressed outside of `rect`. Ignores the field's first frame, since the tap that opened
+/// the field may end within it.
 fn elsewhere(ui: &Ui, rect: Rect) -> bool {
     ui.input(|input| {
         let at = input.pointer.interact_pos();
@@ -407,7 +407,7 @@ fn elsewhere(ui: &Ui, rect: Rect) -> bool {
     })
 }
 
-/// Shows the button that turns to pictures or back.
+/// Shows the button that switches between pictures and text.
 fn switch(ui: &mut Ui, scene: &Scene<'_>, text: Text) -> bool {
     let button = ui.small_button(scene.seen.say(text));
     let keys = scene.seen.keys.text(Action::PictureValue);
@@ -416,7 +416,7 @@ fn switch(ui: &mut Ui, scene: &Scene<'_>, text: Text) -> bool {
 
 fn text_field(ui: &mut Ui, editing: &mut Editing, label: &str) -> Response {
     let id = Id::unique("timeline value field");
-    // The focus comes before the field is shown, so that what is typed in this frame is its own.
+    // The field requests the focus before it is shown, so that it receives the text typed in this frame.
     if !editing.aside {
         ui.memory_mut(|memory| memory.request_focus(id));
     }
@@ -440,8 +440,8 @@ fn text_field(ui: &mut Ui, editing: &mut Editing, label: &str) -> Response {
     response
 }
 
-/// Puts typed text to its new place: under the annotation that was stored meanwhile, or into a notice if its place
-/// is gone. Text that was stored as typed needs nothing.
+/// Finds a place for typed text whose target was removed or stored meanwhile: the stored annotation, or a notice if
+/// there is no place for it. Returns `None` for text that was stored as typed.
 fn find_place(editing: Editing, scene: &Scene<'_>, out: &mut Outbox) -> Option<Editing> {
     if let Target::New { tier, start, end } = editing.target
         && let Some(columns) = scene.tier_of(tier).map(|tier| &tier.annotations)

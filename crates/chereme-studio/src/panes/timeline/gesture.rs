@@ -4,11 +4,11 @@
 //! |---|---|
 //! | drag | selects time on the tier, as in ELAN |
 //! | drag a selected annotation, or any with Alt | moves it, or its edge |
-//! | Alt and drag where nothing is | makes an annotation |
-//! | Shift and drag | selects what is in the frame |
-//! | Ctrl and click, or Alt and click | adds to the selection, or takes out of it |
-//! | Shift and click | selects up to there |
-//! | double click | types the value, or makes an annotation on the selection |
+//! | Alt and drag on a free place | creates an annotation |
+//! | Shift and drag | selects the annotations in the frame |
+//! | Ctrl and click, or Alt and click | adds to the selection, or removes from it |
+//! | Shift and click | selects up to the clicked annotation |
+//! | double click | types the value, or creates an annotation on the selection |
 
 use std::collections::BTreeSet;
 
@@ -24,15 +24,15 @@ use super::{data, edit, select};
 use crate::command::Command;
 use crate::words::{Text, timeline as words};
 
-/// How far around an edge it is taken hold of, in points.
+/// The distance from an edge within which the edge is grabbed, in points.
 const EDGE: f32 = 5.0;
 
 /// The running gesture of the mouse.
 #[derive(Debug)]
 pub(super) enum Gesture {
-    /// Selecting time from there on.
+    /// Selecting time, from this time.
     Select { from: i64 },
-    /// Making an annotation from there on.
+    /// Creating an annotation, from this time.
     Create {
         from: i64,
         tier: i64,
@@ -40,14 +40,14 @@ pub(super) enum Gesture {
     },
     /// Dragging annotations.
     Drag(Box<Dragging>),
-    /// Selecting what is in a frame that began there.
+    /// Selecting the annotations in a frame that began at this point and time.
     Band { from: Pos2, time: i64 },
-    /// Nothing any more, until the button is let go.
+    /// Nothing until the button is released.
     Off,
 }
 
 impl Gesture {
-    /// Returns the annotations that are drawn elsewhere meanwhile.
+    /// Returns the annotations that are drawn at another place meanwhile.
     pub(super) fn moving(&self) -> Vec<i64> {
         match self {
             Self::Drag(it) => it.changed.iter().flatten().map(|item| item.id).collect(),
@@ -61,23 +61,23 @@ impl Gesture {
 pub(super) struct Dragging {
     pub(super) held: Vec<Held>,
     pub(super) grip: Grip,
-    /// The boundaries that settle on others: one, or both of a whole one.
+    /// The boundaries that snap: one, or both of a whole annotation.
     pub(super) edges: Vec<i64>,
     /// The time where the mouse was pressed.
     pub(super) from: i64,
     /// The tier of the annotation under the mouse.
     pub(super) tier: i64,
-    /// The tier they are moved to, and whether they fit there.
+    /// The tier that they would move to, and whether they fit there.
     pub(super) to: Option<(i64, bool)>,
-    /// What changes, for each of `held`.
+    /// The changed annotations, for each of `held`.
     pub(super) changed: Vec<Vec<Item>>,
     /// The annotation under the mouse.
     pub(super) id: i64,
-    /// The dragged annotations and all below them: a drag never snaps to them.
+    /// The dragged annotations and their descendants, which are no snapping targets.
     pub(super) except: BTreeSet<i64>,
 }
 
-/// Returns by what an annotation drawn from `left` to `right` is held at `x`.
+/// Returns the part of an annotation, drawn from `left` to `right`, that is grabbed at `x`.
 pub(super) fn grip_at(left: f32, right: f32, x: f32) -> Grip {
     let edge = EDGE.min((right - left) / 4.0);
     if x < left + edge {
@@ -90,7 +90,7 @@ pub(super) fn grip_at(left: f32, right: f32, x: f32) -> Grip {
 }
 
 impl Drawing<'_, '_> {
-    /// Begins what the mouse begins on a lane, and does what a click there does.
+    /// Begins the mouse gestures of a lane, and handles its clicks.
     pub(super) fn lane_mouse(
         &mut self,
         ui: &Ui,
@@ -123,7 +123,7 @@ impl Drawing<'_, '_> {
         let columns = &contents.tiers[at].annotations;
         let chosen = &self.seen.shown.annotations;
         let time = |x: f32| self.window.micros(x - lane.left()) as i64;
-        // An edge of a selected one can be taken hold of from just outside it.
+        // An edge of a selected annotation can be grabbed from just outside it.
         let near = [x, x - EDGE * 0.6, x + EDGE * 0.6]
             .into_iter()
             .find_map(|near| {
@@ -316,7 +316,7 @@ impl Drawing<'_, '_> {
     }
 }
 
-/// Returns a span with the side nearer to a time brought there.
+/// Returns the span with its nearer side moved to a time.
 fn nearest_side(span: Span, at: Instant) -> Span {
     let (start, end) = (span.start(), span.end());
     let to = |it: Instant| (it.micros() - at.micros()).abs();

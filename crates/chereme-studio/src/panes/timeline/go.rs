@@ -1,4 +1,4 @@
-//! Going to a time that is typed.
+//! The field that goes to a typed time.
 
 use chereme_corpus::Moment;
 use chereme_motion::{Instant, Span};
@@ -20,8 +20,8 @@ pub(super) struct GoBox {
     text: String,
 }
 
-/// Returns the time that a text means: a time, `f512` for a frame as the stage counts it, `+2` and `-0.5` from
-/// `now`, `50%` of the whole. Returns `None` for other text.
+/// Returns the time that a text describes, in microseconds: a time, `f512` for a frame as the stage counts frames, `+2`
+/// and `-0.5` relative to `now` in seconds, `50%` of the whole. Returns `None` for other text.
 fn target(text: &str, now: i64, whole: Span, frames: Option<Frames>) -> Option<i64> {
     let text = text.trim().to_lowercase().replace(',', ".");
     let (from, end) = (whole.start().micros(), whole.end().micros());
@@ -57,7 +57,7 @@ fn target(text: &str, now: i64, whole: Span, frames: Option<Frames>) -> Option<i
     }
 }
 
-/// Shows the field, and goes where it says.
+/// Shows the field, and moves the playhead to the entered time.
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     let Some(mut shown) = timeline.go_box.take() else {
         return;
@@ -128,7 +128,7 @@ fn drop_label(ui: &mut Ui, text: &str) {
     ui.add(Label::new(text).wrap());
 }
 
-/// Returns a time in the stage's format.
+/// Returns a time in the format of the stage.
 fn there(scene: &Scene<'_>, at: i64) -> String {
     let time = time_text(Instant::from_micros(at));
     let Some(frames) = scene.frames() else {

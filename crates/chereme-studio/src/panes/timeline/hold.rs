@@ -1,4 +1,4 @@
-//! The annotations that move in a drag; the library decides them.
+//! Changes of annotations in a drag, as the library computes them.
 
 pub(crate) use chereme_corpus::hold::*;
 #[cfg(test)]

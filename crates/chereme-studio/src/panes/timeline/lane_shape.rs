@@ -1,4 +1,4 @@
-//! The looks of lanes, without a window: their height, their scale, and the line through their frames.
+//! The geometry of lanes, without widgets: their height, their scale, and the line through their frames.
 
 use super::lanes::Lane;
 use crate::words::{Language, timeline as words};
@@ -7,29 +7,29 @@ use crate::words::{Language, timeline as words};
 const HIGH: f32 = 28.0;
 const LOW: f32 = 18.0;
 pub(super) const FOLDED: f32 = 16.0;
-/// How high the lane of a stored curve is.
+/// Height of the lane of a stored curve, in points.
 pub(super) const FACE: f32 = 18.0;
-/// The share of the pane that all lanes take at most, and the height that stays for tiers.
+/// The greatest share of the pane for all lanes, and the height that is left for tiers.
 const SHARE: f32 = 0.5;
 const TIERS: f32 = 3.5 * 26.0;
 /// Frames narrower than this, in points, are thinned to the columns of the screen instead.
 const NARROW: f32 = 1.5;
-/// How far apart the points of a line are at most, in points of the screen.
+/// The greatest distance between points of a drawn line, in points.
 const STEP: f32 = 2.0;
 
-/// Lanes that want to be shown.
+/// The lanes to show.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Wanted {
-    /// Open ones with a curve of their own.
+    /// Open lanes of measured movement.
     pub(super) open: usize,
-    /// Folded ones.
+    /// Folded lanes.
     pub(super) folded: usize,
     /// Lanes of stored curves.
     pub(super) face: usize,
 }
 
-/// Returns how high each open lane is, and how high all of them are together at most, in points: lanes get
-/// lower and are scrolled at last, so that tiers stay in sight in a pane of that height.
+/// Returns the height of each open lane, and the greatest height of all together, in points. In a low pane, lanes
+/// become lower and finally scroll, so that tiers stay in sight.
 pub(super) fn room(wanted: Wanted, height: f32) -> (f32, f32) {
     let most = (height - TIERS).min(height * SHARE).max(FOLDED);
     let rest = wanted.folded as f32 * FOLDED + wanted.face as f32 * FACE;
@@ -39,7 +39,7 @@ pub(super) fn room(wanted: Wanted, height: f32) -> (f32, f32) {
     (each, all.min(most))
 }
 
-/// Returns the next round number that is not below `value`: 1, 1.5, 2, 3 or 5 times a power of ten.
+/// Returns the smallest round number of at least `value`: 1, 1.5, 2, 3 or 5 times a power of ten.
 fn round(value: f32) -> f32 {
     let power = 10.0_f32.powf(value.max(1e-6).log10().floor());
     let steps = [1.0, 1.5, 2.0, 3.0, 5.0, 10.0];
@@ -47,7 +47,7 @@ fn round(value: f32) -> f32 {
     found.unwrap_or(10.0) * power
 }
 
-/// Returns what the lower and upper edge of a lane stand for, given the largest number there is.
+/// Returns the numbers at the lower and upper edge of a lane, given its largest number.
 pub(super) fn range(lane: Lane, largest: f32) -> (f32, f32) {
     match lane {
         Lane::Speed => (0.0, round(largest.max(0.5))),
@@ -58,7 +58,7 @@ pub(super) fn range(lane: Lane, largest: f32) -> (f32, f32) {
     }
 }
 
-/// Returns the marks of a lane's scale, each with its unit, the upper one last.
+/// Returns the two marks of a lane's scale with their units, the upper one last.
 pub(super) fn marks(lane: Lane, largest: f32, language: Language) -> [(f32, String); 2] {
     let (low, high) = range(lane, largest);
     let zero = (low, "0".to_owned());
@@ -74,13 +74,13 @@ pub(super) fn marks(lane: Lane, largest: f32, language: Language) -> [(f32, Stri
     }
 }
 
-/// Returns whether frames that wide, in points, have a line through them.
+/// Returns whether frames of that width, in points, are drawn as a line.
 pub(super) fn is_wide(frame: f32) -> bool {
     frame >= NARROW
 }
 
-/// Returns the points of a smooth line through `frames`, from left to right: it goes through each of them, and
-/// between two of them it is never above nor below both (monotone cubic, Fritsch and Carlson 1980).
+/// Returns the points of a smooth line through `frames`, from left to right. It goes through each frame, and stays
+/// between the values of neighbouring frames (monotone cubic, Fritsch and Carlson 1980).
 pub(super) fn smooth(frames: &[(f32, f32)]) -> Vec<(f32, f32)> {
     let slopes = slopes(frames);
     let mut points = Vec::new();
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn tiers_stay_in_sight_however_many_lanes_there_are() {
-        // The rows below the ruler at 1280x800 and 1024x640, and in a pane that is very low.
+        // Heights of the rows below the ruler at 1280x800 and 1024x640, and in a very low pane.
         for height in [250.0_f32, 180.0, 150.0] {
             for open in 0..5 {
                 for face in [0, 12] {

@@ -1,5 +1,5 @@
-//! Movement as lanes under the ruler: measured piece by piece beside the window, kept, and thinned to the
-//! columns of the screen.
+//! Movement as lanes below the ruler: measured piece by piece in the background, stored, and thinned to the columns of
+//! the screen.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,10 +14,10 @@ use crate::context::Outbox;
 use crate::words::{Text, timeline as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// Frames of a piece, and of a summary within one.
+/// Frames of a piece, and of a summary within it.
 const PIECE: usize = 1200;
 const ROUGH: usize = 16;
-/// How much of a stored curve is as good as nothing.
+/// Values of a stored curve up to this count as zero.
 const LITTLE: f64 = 1e-3;
 
 /// A lane.
@@ -28,7 +28,7 @@ pub(crate) enum Lane {
     Aperture,
     Palm,
     Distance,
-    /// The curves that are stored beside the movement, each in a lane of its own.
+    /// The curves stored with the movement, each in its own lane.
     Face,
 }
 
@@ -42,7 +42,7 @@ impl Lane {
         (Self::Face, Action::LaneFace, words::LANE_FACE),
     ];
 
-    /// Returns how many curves it has: one for each hand, or one of both.
+    /// Returns the number of curves: one for each hand, or one for both.
     pub(crate) fn curves(self) -> usize {
         match self {
             Self::Distance => 1,
@@ -52,7 +52,7 @@ impl Lane {
     }
 }
 
-/// The frames of a recording.
+/// The frames of a recording's movement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Source {
     pub(crate) recording: i64,
@@ -61,10 +61,10 @@ pub(crate) struct Source {
     pub(crate) offset: i64,
 }
 
-/// Frames beside each other: where each is, in points from the left edge, and its number.
+/// Neighbouring frames: the position of each in points from the left edge, and its number.
 pub(super) type Run = Vec<(f32, f32)>;
 
-/// A number for each frame of a piece, with the least and largest of every few.
+/// A number for each frame of a piece, with the least and largest of every [`ROUGH`] frames.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Series {
     values: Vec<f32>,
@@ -78,7 +78,7 @@ impl Series {
         Self { values, rough }
     }
 
-    /// Returns the least and largest number from one frame up to another.
+    /// Returns about the least and largest number of the frames `from..to`.
     fn ends(&self, from: usize, to: usize) -> Option<(f32, f32)> {
         let to = to.min(self.values.len());
         if from >= to {
@@ -107,26 +107,26 @@ fn ends(values: &[f32]) -> (f32, f32) {
 struct Piece {
     /// By lane and hand.
     series: BTreeMap<(Lane, usize), Series>,
-    /// By the names of stored curves; those that are nothing throughout are left out.
+    /// By name of the stored curve; curves that are zero throughout are left out.
     stored: BTreeMap<String, Series>,
     palms: [Vec<[f32; 3]>; 2],
-    /// Times of the minima of speed.
+    /// Times of the minima of speed, in microseconds.
     minima: Vec<i64>,
 }
 
-/// Movement as far as it is measured.
+/// The movement that has been measured so far.
 #[derive(Debug, Default)]
 pub(crate) struct Curves {
     source: Option<Source>,
     pieces: BTreeMap<usize, Piece>,
-    /// The running measurement; one at a time, so that the next visible one comes next.
+    /// The running measurement and its piece; one at a time, so that a newly visible piece is next.
     asked: Option<(WorkId, usize)>,
-    /// Pieces that could not be measured.
+    /// Whether a piece could not be measured.
     failed: bool,
 }
 
 impl Curves {
-    /// Turns to a recording, and has the piece measured that is in sight and nearest to the playhead.
+    /// Switches to a recording, and requests the missing visible piece that is nearest to the playhead.
     pub(super) fn want(
         &mut self,
         source: Option<Source>,
@@ -190,7 +190,7 @@ impl Curves {
         all.copied().filter(|at| (from..=to).contains(at)).collect()
     }
 
-    /// Returns the largest number of a lane as far as it is measured.
+    /// Returns the largest measured number of a lane.
     pub(super) fn largest(&self, lane: Lane) -> f32 {
         let all = self.pieces.values().flat_map(|piece| &piece.series);
         let own = all.filter(|((of, _), _)| *of == lane);
@@ -199,7 +199,7 @@ impl Curves {
             .fold(0.0, f32::max)
     }
 
-    /// Returns for each column of the screen the least and largest number of a curve, `None` if it is not measured.
+    /// Returns for each column of the screen the least and largest number of a curve; `None` if not measured.
     pub(super) fn columns(
         &self,
         of: (Lane, usize),
@@ -209,14 +209,14 @@ impl Curves {
         self.ends(|piece| piece.series.get(&of), window, width)
     }
 
-    /// Returns the names of the stored curves that are something as far as they are known.
+    /// Returns the names of the stored curves that are not zero, as far as they are known.
     pub(super) fn stored(&self) -> Vec<&str> {
         let all = self.pieces.values().flat_map(|piece| piece.stored.keys());
         let all: BTreeSet<&str> = all.map(String::as_str).collect();
         all.into_iter().collect()
     }
 
-    /// Returns the same as [`columns`](Self::columns) of a stored curve, and its number at a time.
+    /// Returns the same as [`columns`](Self::columns) for a stored curve.
     pub(super) fn stored_columns(
         &self,
         name: &str,
@@ -226,7 +226,7 @@ impl Curves {
         self.ends(|piece| piece.stored.get(name), window, width)
     }
 
-    /// Returns the number of a stored curve at a time; `None` if it is not known yet.
+    /// Returns the number of a stored curve at a time; `None` if it is not measured.
     pub(super) fn stored_at(&self, name: &str, micros: i64) -> Option<f32> {
         let frame = self.source?.frame(micros);
         let piece = self.pieces.get(&(frame / PIECE))?;
@@ -238,13 +238,13 @@ impl Curves {
         )
     }
 
-    /// Returns the frames of a curve in sight as runs without a gap, each from left to right: the place of each
-    /// frame, in points, and its number. Returns an empty list if frames are too narrow to be drawn apart.
+    /// Returns the visible frames of a curve as runs without gaps, each from left to right. Returns an empty list if
+    /// frames are too narrow to be drawn separately.
     pub(super) fn runs(&self, of: (Lane, usize), window: &Window, width: f32) -> Option<Vec<Run>> {
         self.through(|piece| piece.series.get(&of), window, width)
     }
 
-    /// Returns the same of a stored curve.
+    /// Returns the same for a stored curve.
     pub(super) fn stored_runs(&self, name: &str, window: &Window, width: f32) -> Option<Vec<Run>> {
         self.through(|piece| piece.stored.get(name), window, width)
     }
@@ -279,7 +279,7 @@ impl Curves {
         Some(runs)
     }
 
-    /// Returns whether nothing was measured yet.
+    /// Returns whether nothing has been measured yet.
     pub(super) fn is_bare(&self) -> bool {
         self.pieces.is_empty()
     }
@@ -323,7 +323,7 @@ impl Curves {
             .copied()
     }
 
-    /// Returns where a palm points at a time.
+    /// Returns the direction of a palm at a time, in words.
     pub(super) fn palm(&self, hand: usize, micros: i64) -> Option<Text> {
         let frame = self.source?.frame(micros);
         let piece = self.pieces.get(&(frame / PIECE))?;
@@ -338,7 +338,7 @@ impl Source {
     }
 }
 
-/// Returns the way that a direction `[left, up, forward]` is nearest to.
+/// Returns the name of the main direction that is nearest to `[left, up, forward]`.
 fn direction([left, up, forward]: [f32; 3]) -> Text {
     let ways = [
         (left, words::TO_LEFT),
@@ -386,7 +386,7 @@ impl Piece {
     }
 }
 
-/// Returns the time that is seen in a window of that width.
+/// Returns the time span in a window of that width, in microseconds.
 pub(super) fn seen(window: &Window, width: f32, whole: Span) -> (i64, i64) {
     let (start, end) = (whole.start().micros(), whole.end().micros());
     let at = |micros: f64| (micros as i64).clamp(start, end);

@@ -1,4 +1,4 @@
-//! The lanes of movement: their names with what they say at the playhead, and their curves.
+//! The widgets of lanes: their names with the values at the playhead, and their curves.
 
 use eframe::egui::{
     Align2, Color32, FontId, Mesh, Painter, Rect, Response, Role, ScrollArea, Sense, Shape, Stroke,
@@ -14,7 +14,7 @@ use crate::context::Seen;
 use crate::theme;
 use crate::words::{fill, timeline as words};
 
-/// Returns what a stored curve such as `brows.RB` is called: as the inventory of its feature says.
+/// Returns the name of a stored curve such as `brows.RB`, from the inventory of its feature.
 fn face_name(seen: &Seen<'_>, name: &str) -> String {
     let Some((part, code)) = name.split_once('.') else {
         return name.to_owned();
@@ -27,7 +27,7 @@ fn face_name(seen: &Seen<'_>, name: &str) -> String {
     })
 }
 
-/// Returns the colours of the right hand and of the left, as the figure on the stage has them.
+/// Returns the colours of the right hand and of the left, like those of the figure on the stage.
 fn hands(seen: &Seen<'_>) -> [Color32; 2] {
     theme::hands(seen.dark)
 }
@@ -54,7 +54,7 @@ impl Drawing<'_, '_> {
             return;
         }
         if source.is_none() {
-            // Without movement they would be as many empty lines.
+            // Without movement, they would be empty lines.
             ui.small(self.seen.say(words::NO_LANES));
             return;
         }
@@ -95,7 +95,7 @@ impl Drawing<'_, '_> {
             });
     }
 
-    /// Shows the fold before a lane's name, and folds or unfolds it.
+    /// Shows the fold mark before a lane's name, and folds or unfolds the lane.
     fn fold_of_lane(&mut self, ui: &Ui, lane: Lane, name: &str, rect: Rect) {
         let seen = self.seen;
         let ways = &seen.settings.timeline;
@@ -235,7 +235,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Shows a lane's name, and what it says at the playhead below it where there is room for two lines.
+    /// Shows a lane's name, and its value at the playhead below it if there is room for two lines.
     fn lane_name(&self, ui: &Ui, rect: Rect, name: &str, says: &str, lane: Lane) {
         let line = ui.text_style_height(&TextStyle::Small);
         let left = rect.left() + 16.0;
@@ -265,7 +265,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Returns what a lane says at the playhead, the hands on lines of their own.
+    /// Returns the value of a lane at the playhead; the hands are on separate lines.
     fn says(&self, scene: &Scene<'_>, lane: Lane) -> String {
         self.says_at(scene, lane, scene.playhead())
     }
@@ -341,7 +341,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Says what the scale's marks stand for, at the right end of a lane; the lower only where there is room.
+    /// Shows the scale's marks at the right end of a lane; the lower one only if there is room.
     fn scale(
         &self,
         ui: &Ui,
@@ -375,7 +375,7 @@ fn cut(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
     ui.painter().galley(at, galley, colour);
 }
 
-/// Returns the surface below a line through frames.
+/// Returns the area below a line through frames.
 fn hill(runs: &[Run], area: Rect, y: impl Fn(f32) -> f32, colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
     for run in runs {
@@ -396,7 +396,7 @@ fn hill(runs: &[Run], area: Rect, y: impl Fn(f32) -> f32, colour: Color32) -> Me
     mesh
 }
 
-/// Returns the same where frames are narrower than columns.
+/// Returns the same area for frames that are narrower than columns.
 fn steps(
     columns: &[Option<(f32, f32)>],
     area: Rect,
@@ -414,7 +414,7 @@ fn steps(
     mesh
 }
 
-/// Returns a curve as one column of colour beside the other, each reaching the one before.
+/// Returns a curve as a sequence of vertical bars, each of which touches the one before.
 fn curve(
     columns: &[Option<(f32, f32)>],
     left: f32,

@@ -1,4 +1,4 @@
-//! The actions on a lane, behind the other button of the mouse.
+//! The context menu of a lane.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::words::timeline as words;
 
-/// The part of the window's height that the menu leaves free.
+/// The part of the window's height that the menu leaves free, in points.
 const MARGIN: f32 = 30.0;
 
 const VALUE: [Action; 2] = [Action::EditValue, Action::PictureValue];
@@ -43,8 +43,8 @@ const AWAY: [Action; 3] = [
 ];
 
 impl Drawing<'_, '_> {
-    /// Shows the menu for the annotation under the pointer, or for all selected ones if it is among them; without
-    /// one, the playhead moves there.
+    /// Shows the menu for the annotation under the pointer, or for all selected ones if it is among them. If there is
+    /// no annotation, moves the playhead there.
     pub(super) fn lane_menu(
         &mut self,
         response: &Response,

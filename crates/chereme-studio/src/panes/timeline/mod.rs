@@ -2,20 +2,20 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | `data` | which time is where, ticks, bars |
-//! | `rows` | which tier stands in which row |
-//! | `spans`, `hold`, `snap` | where annotations go when they are dragged |
-//! | `changes` | what is asked of the corpus |
-//! | `values` | what can be said on a tier, and the digits |
+//! | `data` | positions of times, ticks, bars |
+//! | `rows` | the tier of each row |
+//! | `spans`, `hold`, `snap` | times of annotations in a drag |
+//! | `changes` | requests to the corpus |
+//! | `values` | the possible values of a tier, and the digits |
 //! | `lanes`, `lane_shape`, `lanes_ui` | movement as lanes |
 //! | `overview` | the whole recording in a strip |
-//! | `ways` | modes and switches that are remembered |
-//! | `edit`, `select`, `tiers`, `beside` | what actions do |
-//! | `clip`, `paste`, `paste_box` | the clipboard: its text, where that goes, what of it has no place |
-//! | `ui`, `names`, `above`, `paint` | rows, the names of tiers, what lies above them, painting |
-//! | `gesture`, `drag`, `menu` | what the mouse begins, and does while it is held; its other button |
-//! | `editor`, `value_list` | the field for values, and what fits below it |
-//! | `choose`, `tier_box`, `go`, `bar` | the list of tiers, one tier, a time, the tools |
+//! | `ways` | stored modes and switches |
+//! | `edit`, `select`, `tiers`, `beside` | effects of actions |
+//! | `clip`, `paste`, `paste_box` | the clipboard: its text, places for pasted annotations, lines without a place |
+//! | `ui`, `names`, `above`, `paint` | rows, the names of tiers, the layer above them, painting |
+//! | `gesture`, `drag`, `menu` | mouse gestures: their begin, their course, the context menu |
+//! | `editor`, `value_list` | the field for values, and the list of matching values below it |
+//! | `choose`, `tier_box`, `go`, `bar` | boxes that choose a tier, edit a tier, or go to a time; the tools |
 
 mod above;
 pub(crate) mod bar;
@@ -70,7 +70,7 @@ use edit::Scene;
 use editor::{Editing, Target};
 pub(crate) use ways::Ways;
 
-/// Returns a recording with one tier of annotations, each by its row, start and end.
+/// Returns a recording with one tier of annotations, each given as id, start and end.
 #[cfg(test)]
 pub(crate) fn contents_of(annotations: &[(i64, i64, i64)]) -> chereme_corpus::Contents {
     let with_parents = annotations
@@ -85,51 +85,51 @@ pub(crate) fn contents_of(annotations: &[(i64, i64, i64)]) -> chereme_corpus::Co
 pub(crate) struct Timeline {
     /// The visible part of the recording; the whole by default.
     window: Option<Window>,
-    /// The recording the window is of, and the windows of those that were shown before.
+    /// The recording of the window, and the windows of other recordings.
     of: Option<i64>,
     windows: BTreeMap<i64, Option<Window>>,
-    /// How wide the part with annotations was last, in points.
+    /// The width of the annotation area in the last frame, in points.
     width: f32,
-    /// Where the playhead was last.
+    /// The playhead in the last frame, in microseconds.
     playhead: i64,
-    /// Whether the selected tier shall be brought into sight.
+    /// Whether to bring the selected tier into sight.
     reveal: bool,
-    /// Whether it was in sight in this frame, or the last.
+    /// Whether the pane was in sight in this frame, or the last.
     drawn: bool,
     /// The running gesture of the mouse, and the playhead at its beginning.
     gesture: Option<gesture::Gesture>,
     mark: i64,
-    /// Requests that the snapshot does not show yet.
+    /// Requested changes that the snapshot does not show yet.
     pending: BTreeMap<WorkId, Then>,
-    /// Annotations as they will be, until the snapshot has them.
+    /// Annotations at their future places, until the snapshot has them.
     ghosts: Vec<Ghost>,
-    /// The snapshot that the ghosts stand over.
+    /// The address of the snapshot that the ghosts complement.
     over: usize,
-    /// Annotations to be selected as soon as they are there.
+    /// New annotations to select as soon as they exist.
     to_select: BTreeSet<i64>,
-    /// Whether the value of what is to be selected is to be typed.
+    /// Whether to type the value of an annotation as soon as it is selected.
     to_edit: bool,
-    /// The annotation that was begun and not ended.
+    /// An annotation that was begun and not ended.
     begun: Option<Begun>,
     /// The value that is being typed.
     editing: Option<Editing>,
-    /// Another pane was turned to while a value was typed.
+    /// Whether another pane was brought to the front while a value was typed.
     left: bool,
     picker: Picker,
     digits: values::Digits,
     choose: Option<choose::Choose>,
     paste_box: Option<paste_box::PasteBox>,
     go_box: Option<go::GoBox>,
-    /// The text that is to be pasted.
+    /// The text to paste.
     clip: Option<String>,
     tier_box: Option<tier_box::TierBox>,
-    /// A requested tier, described again if it is refused.
+    /// A requested tier, whose box opens again if it is refused.
     tier_asked: Option<(WorkId, tier_box::TierBox)>,
-    /// The name of a tier to be selected as soon as it is there.
+    /// The name of a tier to select as soon as it exists.
     tier_named: Option<String>,
-    /// Whether what was typed was put back, and its tier is to be turned to.
+    /// Whether typed text was restored, whose tier must be shown.
     restored: bool,
-    /// The tier that is held by its name, to be put elsewhere.
+    /// The tier that is being dragged by its name.
     tier_held: Option<i64>,
     curves: lanes::Curves,
     overview: overview::Overview,
@@ -145,11 +145,11 @@ pub(crate) struct Begun {
     pub(crate) value: String,
 }
 
-/// An annotation as it will be.
+/// An annotation at its future place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Ghost {
     tier: i64,
-    /// Nothing for a new one.
+    /// `None` for a new one.
     id: Option<i64>,
     start: i64,
     end: i64,
@@ -166,16 +166,16 @@ impl Ghost {
     }
 }
 
-/// The action after work has ended.
+/// What to do after a requested change.
 #[derive(Debug, Clone, Default)]
 struct Then {
-    /// Select what was added.
+    /// Select the added annotations.
     select: bool,
-    /// Have its value typed.
+    /// Open the value field of the added annotation.
     edit: bool,
-    /// Its future look.
+    /// The annotations at their future places.
     ghosts: Vec<Ghost>,
-    /// The text typed for it; put back if it is refused.
+    /// The text typed for the change; restored if the change is refused.
     typed: Option<Editing>,
 }
 
@@ -194,7 +194,7 @@ impl Then {
     }
 }
 
-/// What is half done: put back when the corpus is opened again.
+/// Unfinished work, which is restored when the corpus is opened again.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Draft {
@@ -203,19 +203,19 @@ pub(crate) struct Draft {
 }
 
 impl Timeline {
-    /// Returns what of `whole` is to be seen in `width` points.
+    /// Returns the visible part of `whole` in `width` points.
     fn window(&self, whole: Span, width: f32) -> Window {
         self.window.unwrap_or_else(|| Window::whole(whole, width))
     }
 
-    /// Turns to a recording; returns whether it is shown for the first time.
+    /// Switches to a recording; returns whether it is shown for the first time.
     fn turn_to(&mut self, recording: i64) -> bool {
         if self.of == Some(recording) {
             return false;
         }
         match self.of.replace(recording) {
             Some(before) => drop(self.windows.insert(before, self.window)),
-            // How far the tiers of another corpus were scrolled says nothing about these.
+            // The scroll offset for the tiers of another corpus is meaningless here.
             None => self.layout.scroll_to = Some(0.0),
         }
         self.gesture = None;
@@ -231,14 +231,14 @@ impl Timeline {
         self.window = Some(window.zoomed(factor, around, player.whole, self.width));
     }
 
-    /// Moves through time by that share of what is to be seen; the playhead stays.
+    /// Scrolls through time by a share of the visible span; the playhead stays.
     fn page(&mut self, share: f32, seen: &Seen<'_>) {
         let whole = seen.shown.player.whole;
         let window = self.window(whole, self.width);
         self.window = Some(window.panned(share * self.width, whole, self.width));
     }
 
-    /// Asks for changes as one operation.
+    /// Requests changes as one operation.
     fn change(
         &mut self,
         changes: Vec<chereme_corpus::AnnotationChange>,
@@ -262,26 +262,26 @@ impl Timeline {
         self.editing = Some(Editing::new(recording, target, text.unwrap_or_default()));
     }
 
-    /// Opens the value of the annotation at that place of a tier.
+    /// Opens the value of the annotation at that index of a tier.
     fn edit_at(&mut self, tier: &TierContents, at: usize) {
         let text = changes::typed(&tier.annotations, at);
         let target = Target::Of(BTreeSet::from([tier.annotations.ids[at]]));
         self.editing = Some(Editing::new(tier.row.recording_id, target, text));
     }
 
-    /// Opens the value of an annotation that is not there yet.
+    /// Opens the value of an annotation that does not exist yet.
     fn edit_new(&mut self, scene: &Scene<'_>, tier: i64, (start, end): (i64, i64)) {
         let recording = scene.contents.recording.id;
         let target = Target::New { tier, start, end };
         self.editing = Some(Editing::new(recording, target, String::new()));
     }
 
-    /// Has the selected tier brought into sight.
+    /// Brings the selected tier into sight.
     pub(crate) fn show_tier(&mut self) {
         self.reveal = true;
     }
 
-    /// Returns whether a value is being typed, so that letters are no keys.
+    /// Returns whether a value is being typed, so that letters are not shortcuts.
     pub(crate) fn is_typing(&self) -> bool {
         self.is_open() && self.drawn
     }
@@ -295,12 +295,12 @@ impl Timeline {
             || self.go_box.is_some()
     }
 
-    /// Takes the text that is to be pasted.
+    /// Takes the text to paste.
     pub(crate) fn hold_clip(&mut self, text: String) {
         self.clip = Some(text);
     }
 
-    /// Returns the visible part of each recording, if that is not the whole.
+    /// Returns the visible part of each recording that is not shown as a whole.
     pub(crate) fn windows(&self) -> BTreeMap<i64, Window> {
         let now = self.of.map(|of| (of, self.window));
         let all = self
@@ -311,7 +311,7 @@ impl Timeline {
         all.filter_map(|(of, window)| Some((of, window?))).collect()
     }
 
-    /// Takes what of each recording was seen before.
+    /// Sets the visible part of each recording from the settings.
     pub(crate) fn remember(&mut self, windows: &BTreeMap<i64, Window>) {
         let sane = windows
             .iter()
@@ -319,12 +319,12 @@ impl Timeline {
         self.windows = sane.map(|(of, window)| (*of, Some(*window))).collect();
     }
 
-    /// A frame begins, in which the pane may or may not be in sight.
+    /// Begins a frame, in which the pane may or may not be drawn.
     pub(crate) fn next_frame(&mut self) {
         self.drawn = false;
     }
 
-    /// Returns what is half done, or was typed and is not stored yet.
+    /// Returns the unfinished work, including typed text that is not stored yet.
     pub(crate) fn draft(&self) -> Option<Draft> {
         let typed = self.pending.values().rev().find_map(|it| it.typed.clone());
         let draft = Draft {
@@ -334,20 +334,20 @@ impl Timeline {
         (draft != Draft::default()).then_some(draft)
     }
 
-    /// Returns the recording in which something is half done.
+    /// Returns the recording with unfinished work.
     pub(crate) fn wants(&self) -> Option<i64> {
         let typed = self.editing.as_ref().map(|it| it.recording);
         typed.or(self.begun.as_ref().map(|it| it.recording))
     }
 
-    /// Puts what was half done back.
+    /// Restores unfinished work.
     pub(crate) fn restore(&mut self, draft: Draft) {
         self.editing = draft.editing.map(Editing::again);
         self.begun = draft.begun;
         self.restored = self.editing.is_some();
     }
 
-    /// Forgets the ghosts when the snapshot has what they stood for.
+    /// Forgets the ghosts once a newer snapshot is there.
     fn settle(&mut self, open: Option<&Arc<Opened>>) {
         let now = open.map_or(0, |open| Arc::as_ptr(open) as usize);
         if self.over != now && self.pending.is_empty() {

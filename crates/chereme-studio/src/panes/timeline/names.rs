@@ -1,4 +1,4 @@
-//! The names of tiers, with their folds and menus.
+//! The names of tiers, with their fold marks and menus.
 
 use chereme_corpus::Contents;
 use eframe::egui::{
@@ -15,7 +15,7 @@ use crate::command::Command;
 use crate::words::{fill, timeline as words};
 
 impl Drawing<'_, '_> {
-    /// The name of a tier, with the fold before it and a menu behind the other button.
+    /// Shows the name of a tier, with its fold mark and a context menu.
     pub(super) fn header(&mut self, ui: &mut Ui, contents: &Contents, row: &Row, name: Rect) {
         let tier = &contents.tiers[row.tier];
         let scene = Scene {
@@ -82,7 +82,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Goes on through the rows while something is held above or below them.
+    /// Scrolls through the rows while something is held above or below them.
     pub(super) fn scroll_held(&mut self, ui: &Ui, y: f32, area: Rect) {
         const EDGE: f32 = 14.0;
         let beyond = if y < area.top() + EDGE {
@@ -140,7 +140,7 @@ impl Drawing<'_, '_> {
         });
     }
 
-    /// Shows where the tier goes that is held by its name, and lets it go there.
+    /// Shows the new place of the tier that is dragged by its name, and drops it there.
     pub(super) fn held_tier(&mut self, ui: &Ui, contents: &Contents, area: Rect) {
         let Some(id) = self.timeline.tier_held else {
             return;

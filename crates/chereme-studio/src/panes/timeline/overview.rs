@@ -1,5 +1,5 @@
-//! The whole recording in a strip: how much is annotated where, and what of it is to be seen, which can be
-//! dragged.
+//! The strip that shows the whole recording: the density of annotations, and a box around the visible part, which can
+//! be dragged.
 
 use std::sync::Arc;
 
@@ -16,32 +16,32 @@ use super::ui::Drawing;
 use crate::words::{fill, timeline as words};
 
 const HEIGHT: f32 = 26.0;
-/// How far around an edge of the box it is taken hold of.
+/// The distance from an edge of the box within which the edge is grabbed, in points.
 const EDGE: f32 = 5.0;
-/// The least width at which the box is drawn and held.
+/// The least width of the box, in points.
 const LEAST: f32 = 12.0;
 
-/// How much is annotated, column by column.
+/// The density of annotations, column by column.
 #[derive(Debug, Default)]
 pub(super) struct Overview {
     /// The snapshot, the width and the tier it was built for.
     of: Option<(usize, usize, Option<i64>)>,
-    /// From 0 to 1, over all tiers.
+    /// Density over all tiers, from 0 to 1.
     all: Vec<f32>,
-    /// Where the selected tier has something.
+    /// Whether the selected tier has an annotation.
     own: Vec<bool>,
-    /// By what the box is held, and how far from the pointer.
+    /// How the box is being dragged.
     held: Option<Hold>,
 }
 
-/// By what the box is held.
+/// The dragged part of the box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Hold {
-    /// By its left edge; the time of the right one.
+    /// The left edge; the time of the right one in microseconds.
     Start(f64),
-    /// By its right edge; the time of the left one.
+    /// The right edge; the time of the left one in microseconds.
     End(f64),
-    /// Whole; how far its start lies before the pointer, in microseconds.
+    /// The whole box; the distance from its start to the pointer, in microseconds.
     Whole(f64),
 }
 
@@ -54,7 +54,7 @@ fn density<'a>(
     let start = whole.start().micros();
     let scale = width as f64 / whole.micros().max(1) as f64;
     let column = |at: i64| (((at - start) as f64 * scale).max(0.0) as usize).min(width);
-    // The begins and ends at each column; their sum from the left is the number of annotations.
+    // Annotations that begin minus those that end at each column; the sum from the left is the number of annotations.
     let mut change = vec![0_i64; width + 1];
     for tier in tiers {
         let columns = &tier.annotations;
@@ -93,7 +93,7 @@ impl Overview {
 }
 
 impl Drawing<'_, '_> {
-    /// Shows the strip, where only a part of the recording is to be seen.
+    /// Shows the strip if only a part of the recording is visible.
     pub(super) fn overview(&mut self, ui: &mut Ui, scene: &Scene<'_>) {
         let whole = self.seen.shown.player.whole;
         if self.timeline.window.is_none()
@@ -192,7 +192,7 @@ impl Drawing<'_, '_> {
         let pressed = ui.input(|input| input.pointer.press_origin());
         let held = *self.timeline.overview.held.get_or_insert_with(|| {
             let origin = pressed.map_or(pointer.x, |it| it.x);
-            // A click beside the box brings its middle there.
+            // A click beside the box moves its middle there.
             let middle = || Hold::Whole((to - from) / 2.0);
             match near(origin) {
                 Some(edge) => edge,
@@ -275,7 +275,7 @@ mod tests {
         let of = |tiers: &[TierContents], width| density(tiers.iter(), whole, width);
         assert_eq!(of(&all.tiers, 10), [1, 1, 2, 0, 0, 0, 0, 0, 0, 1]);
         assert_eq!(of(&all.tiers[..1], 2), [2, 0]);
-        // An annotation shorter than a column is shown too, and one beyond the end at the end.
+        // An annotation shorter than a column is shown too; one beyond the end is shown at the end.
         let odd = contents(&[(1, None, "", &[(1, 500, 501, None), (2, 5000, 6000, None)])]);
         assert_eq!(of(&odd.tiers, 4), [0, 0, 1, 1]);
         assert_eq!(of(&[], 0), [] as [u32; 0]);

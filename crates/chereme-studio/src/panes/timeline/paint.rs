@@ -1,4 +1,4 @@
-//! The parts of the timeline that are painted: ruler, bars, selection, playhead.
+//! Painting of the timeline: ruler, bars, selection, playhead.
 
 use chereme_corpus::{TierContents, ValueState, proposed_for};
 use chereme_motion::{Instant, Span};
@@ -15,7 +15,7 @@ use crate::context::Seen;
 use crate::pickers::data as pickers;
 use crate::words::{Language, timeline as words};
 
-/// Narrower bars hold no text.
+/// The least width of a bar with text, in points.
 const TEXT: f32 = 14.0;
 
 /// Paints the ruler into `rect`.
@@ -45,7 +45,7 @@ pub(super) fn ruler(
     }
 }
 
-/// Returns where a bar is in the row `row`.
+/// Returns the rectangle of a bar in the row `row`.
 pub(super) fn bar_rect(row: Rect, window: &Window, bar: &Bar) -> Rect {
     let left = row.left() + window.x(bar.start as f64);
     let right = (row.left() + window.x(bar.end as f64)).max(left + 1.5);
@@ -53,7 +53,7 @@ pub(super) fn bar_rect(row: Rect, window: &Window, bar: &Bar) -> Rect {
     rect.intersect(row.expand2(vec2(8.0, 0.0)))
 }
 
-/// Returns what a bar says.
+/// Returns the text on a bar.
 pub(super) fn bar_text(tier: &TierContents, bar: &Bar, seen: &Seen<'_>) -> String {
     if bar.count > 1 {
         return format!("×{}", bar.count);
@@ -134,7 +134,7 @@ fn inside(painter: &Painter, rect: Rect, text: String, font: &FontId, ink: Color
     job.wrap = TextWrapping::truncate_at_width((room.right() - left).max(0.0));
     let galley = painter.layout_job(job);
     let at = pos2(left, rect.center().y - galley.size().y / 2.0);
-    // Text with an edge of its own is cut and drawn by itself.
+    // Clipped text is cut and drawn separately.
     if left + galley.size().x <= room.right() {
         painter.galley(at, galley, ink);
     } else {
@@ -142,7 +142,7 @@ fn inside(painter: &Painter, rect: Rect, text: String, font: &FontId, ink: Color
     }
 }
 
-/// Paints slanting lines over what nobody has accepted yet.
+/// Paints slanting lines over proposals that nobody has accepted yet.
 fn hatch(painter: &Painter, rect: Rect, colour: Color32) {
     const STEP: f32 = 7.0;
     let seen = rect.shrink(1.0).intersect(painter.clip_rect());
@@ -162,7 +162,7 @@ fn hatch(painter: &Painter, rect: Rect, colour: Color32) {
     }
 }
 
-/// Paints where the edges of a selected annotation are taken hold of.
+/// Paints marks on the edges of a selected annotation, where they can be grabbed.
 fn grips(painter: &Painter, rect: Rect, colour: Color32) {
     for side in [rect.left() + 1.5, rect.right() - 4.5] {
         let grip = Rect::from_x_y_ranges(side..=side + 3.0, rect.top() + 5.0..=rect.bottom() - 5.0);
@@ -170,13 +170,13 @@ fn grips(painter: &Painter, rect: Rect, colour: Color32) {
     }
 }
 
-/// Paints which annotation has the focus of the keyboard.
+/// Paints a frame around the annotation with the keyboard focus.
 pub(super) fn focus(painter: &Painter, rect: Rect, seen: &Seen<'_>) {
     let stroke = Stroke::new(2.0, seen.colours().accent);
     painter.rect_stroke(rect.expand(1.0), 3.0, stroke, StrokeKind::Outside);
 }
 
-/// Paints an annotation as it will be, in the row `row`.
+/// Paints an annotation at its future place in the row `row`.
 pub(super) fn ghost(
     painter: &Painter,
     row: Rect,
@@ -207,7 +207,7 @@ pub(super) fn ghost(
     }
 }
 
-/// Paints the frame of a selection, where a time settled, and the times of what is dragged.
+/// Paints the frame of a selection, the snapping line, and the times of a drag.
 pub(super) fn sight(
     painter: &Painter,
     lane: Rect,
@@ -242,7 +242,7 @@ pub(super) fn sight(
     }
 }
 
-/// Paints from when to when, and how long, above the pointer.
+/// Paints start, end and duration of a drag above the pointer.
 fn times(painter: &Painter, lane: Rect, (start, end): (i64, i64), at: Pos2, seen: &Seen<'_>) {
     let visuals = painter.ctx().global_style().visuals.clone();
     let time = |micros| data::time_text(Instant::from_micros(micros));
@@ -274,7 +274,7 @@ fn times(painter: &Painter, lane: Rect, (start, end): (i64, i64), at: Pos2, seen
     painter.galley(rect.min + vec2(6.0, 3.0), galley, visuals.text_color());
 }
 
-/// Paints the fold before a tier that others hang below.
+/// Paints the fold mark of a tier with children.
 pub(super) fn fold(ui: &Ui, rect: Rect, folded: bool, response: &Response) {
     let colour = ui.style().interact(response).fg_stroke.color;
     let (centre, r) = (rect.center(), 3.5);

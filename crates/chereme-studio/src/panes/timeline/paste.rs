@@ -16,7 +16,7 @@ use crate::context::Outbox;
 use crate::panes::Acted;
 use crate::words::{Text, fill, shell, timeline as words};
 
-/// Does an action of the clipboard.
+/// Carries out an action of the clipboard.
 pub(super) fn act(
     timeline: &mut Timeline,
     action: Action,
@@ -51,7 +51,7 @@ pub(super) fn act(
     }
 }
 
-/// Returns the annotations that are selected, or else the one at the playhead.
+/// Returns the selected annotations, else the one at the playhead.
 fn chosen(scene: &Scene<'_>) -> BTreeSet<i64> {
     let chosen = &scene.seen.shown.annotations;
     if chosen.is_empty() {
@@ -60,7 +60,7 @@ fn chosen(scene: &Scene<'_>) -> BTreeSet<i64> {
     chosen.clone()
 }
 
-/// Returns annotations as the text of the clipboard gives them, tier by tier.
+/// Returns annotations as lines of the clipboard's text, tier by tier.
 fn said_of(contents: &Contents, chosen: &BTreeSet<i64>) -> Vec<Said> {
     let mut all = Vec::new();
     for tier in &contents.tiers {
@@ -121,7 +121,7 @@ fn paste(
     if plan.odd.is_empty() {
         return put(timeline, &plan.adds, out);
     }
-    // Text copied here that has no room needs no list of lines.
+    // Text that was copied here and has no free place needs no list of lines.
     let taken = plan.odd.iter().all(|it| it.why == words::ODD_TAKEN);
     if plan.adds.is_empty() && taken {
         let why = if here.is_some() {
@@ -135,7 +135,7 @@ fn paste(
     Acted::Yes
 }
 
-/// Adds annotations as one operation, and selects them.
+/// Adds annotations as one operation, and selects the new ones.
 pub(super) fn put(timeline: &mut Timeline, adds: &[Add], out: &mut Outbox) -> Acted {
     if adds.is_empty() {
         return Acted::Cannot(words::NOTHING_TO_PASTE);
@@ -158,8 +158,8 @@ pub(super) fn put(timeline: &mut Timeline, adds: &[Add], out: &mut Outbox) -> Ac
     timeline.change(asked, then, out)
 }
 
-/// Gives values to the selected annotations, one after the other; where one is selected to those after it
-/// too, and where none is the first of them to a new one on the selected time.
+/// Gives values to the selected annotations, one after the other. If only one is selected, the values go to it and
+/// those after it; if none is selected, the first value goes to a new annotation on the selected time.
 fn say(
     timeline: &mut Timeline,
     scene: &Scene<'_>,
@@ -219,7 +219,8 @@ fn say(
     timeline.change(asked, Then::default(), out)
 }
 
-/// Copies to the selected tier what lies on others; on the same tier behind itself, where there is room.
+/// Copies selected annotations on other tiers to the selected tier; those on the selected tier are copied behind
+/// themselves if there is room.
 fn duplicate(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
     let chosen = chosen(scene);
     let (Some(tier), false) = (scene.tier(), chosen.is_empty()) else {
@@ -251,7 +252,7 @@ fn duplicate(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Ac
     }
 }
 
-/// An annotation to be added.
+/// An annotation to add.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Add {
     pub(super) tier: i64,
@@ -259,16 +260,16 @@ pub(super) struct Add {
     pub(super) value: String,
 }
 
-/// The annotations to add from a text, and the lines that cannot be added.
+/// The plan of a paste: annotations to add, and lines that cannot be added.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Plan {
-    /// In an order in which they can be added.
+    /// In an order in which they can be added: parents before children.
     pub(super) adds: Vec<Add>,
     pub(super) odd: Vec<Odd>,
 }
 
 impl Scene<'_> {
-    /// Returns whether a tier can say a value.
+    /// Returns whether a tier allows a value.
     fn knows(&self, tier: &TierContents, value: &str) -> bool {
         const MISSING: [&str; 5] = ["", "unset", "n/a", "unclear", "?"];
         let value = value.trim();
@@ -283,9 +284,9 @@ impl Scene<'_> {
     }
 }
 
-/// Says where annotations go: at their own times, or the first of them at `here`; on the tiers they name.
-/// Those that name none go to the tier `to`, and so do all of one tier with `here`, or where the
-/// recording does not have that tier.
+/// Plans where annotations go: at their own times, or with the first of them at `here`; on the tiers that they name.
+/// Those without a tier name go to the tier `to`. So do all if they name only one tier, and `here` is given or the
+/// recording lacks that tier.
 pub(super) fn plan(
     contents: &Contents,
     to: &TierContents,
@@ -342,7 +343,7 @@ pub(super) fn plan(
     plan
 }
 
-/// Returns how many tiers stand above one.
+/// Returns the number of ancestors of a tier.
 fn depth(contents: &Contents, at: usize) -> usize {
     let mut above = contents.tiers[at].row.parent_id;
     let tiers = &contents.tiers;
@@ -355,7 +356,7 @@ fn depth(contents: &Contents, at: usize) -> usize {
         .count()
 }
 
-/// Where annotations of a tier lie: their ends by their starts.
+/// The occupied spans of a tier: their ends by their starts, in microseconds.
 type Taken = BTreeMap<i64, i64>;
 
 fn taken_by(tier: &TierContents) -> Taken {
@@ -364,7 +365,7 @@ fn taken_by(tier: &TierContents) -> Taken {
     pairs.map(|(start, end)| (*start, *end)).collect()
 }
 
-/// Returns the time to ask for so that an annotation has that time, and takes it; or why it cannot have it.
+/// Returns the times to request for an annotation, and marks them as occupied; or the reason why it cannot be added.
 fn fit(
     contents: &Contents,
     tier: &TierContents,
@@ -412,7 +413,7 @@ fn fit(
     Ok(asked)
 }
 
-/// Returns whether a tier has one annotation for each of the tier above.
+/// Returns whether a tier has at most one annotation for each annotation of its parent tier.
 pub(super) fn is_association(tier: &TierContents) -> bool {
     tier.row.stereotype == Some(Stereotype::SymbolicAssociation)
 }
@@ -442,7 +443,7 @@ mod tests {
         ])
     }
 
-    /// Returns `(tier, start, end)` of what is added, and why the others are not.
+    /// Returns `(tier, start, end)` of the planned annotations, and the reasons for the refused lines.
     fn planned(to: usize, rows: Vec<Said>, here: Option<i64>) -> (Vec<(i64, i64, i64)>, Vec<Text>) {
         let all = recording();
         let plan = plan(&all, &all.tiers[to], rows, (here, 1000), |_, _| true);

@@ -1,4 +1,4 @@
-//! The lines of a pasted text without a place: listed before anything is pasted.
+//! The list of pasted lines without a place, shown before anything is pasted.
 
 use eframe::egui::{Align2, Id, Key, Label, Modifiers, ScrollArea, Ui, Window, vec2};
 
@@ -17,7 +17,7 @@ pub(super) struct PasteBox {
     pub(super) plan: Plan,
 }
 
-/// Shows the list, and pastes the other lines if the user confirms.
+/// Shows the list, and pastes the other lines if the user agrees.
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     let Some(shown) = timeline.paste_box.take() else {
         return;

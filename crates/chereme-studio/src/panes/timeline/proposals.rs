@@ -27,7 +27,7 @@ struct Proposal {
     doubtful: bool,
 }
 
-/// Does what keys and menus ask for.
+/// Carries out an action on proposals.
 pub(super) fn act(
     timeline: &mut Timeline,
     action: Action,
@@ -64,7 +64,7 @@ pub(super) fn act(
     Acted::Yes
 }
 
-/// Has values proposed for the selected sign, the selected time, or else the recording.
+/// Requests proposals for the selected sign, the selected time, or else the recording.
 fn propose(scene: &Scene<'_>, out: &mut Outbox) {
     let shown = scene.seen.shown;
     let recording = Name::Number(scene.contents.recording.id);
@@ -117,7 +117,8 @@ fn chosen(scene: &Scene<'_>) -> BTreeSet<i64> {
     }
 }
 
-/// Returns where one is: the start of the selected annotation and its tier, else the playhead before every tier.
+/// Returns the present place in the order of proposals: the start of the selected annotation with its tier and id, else
+/// the playhead.
 fn here(scene: &Scene<'_>) -> (i64, i64, i64) {
     let found = scene.seen.shown.annotations.last().and_then(|id| {
         let found = scene.seen.snapshot.annotation(*id)?;
@@ -127,7 +128,7 @@ fn here(scene: &Scene<'_>) -> (i64, i64, i64) {
     found.unwrap_or((scene.playhead(), i64::MIN, i64::MIN))
 }
 
-/// Returns the next doubtful proposal after a place, around the end too; the next of all if none is doubtful.
+/// Returns the next doubtful proposal after a place, cyclically; if none is doubtful, the next proposal.
 fn next(all: &[Proposal], here: (i64, i64, i64)) -> Option<Proposal> {
     let after = |it: &&Proposal| (it.start, it.tier, it.id) > here;
     let doubtful = || all.iter().filter(|it| it.doubtful);
@@ -136,7 +137,7 @@ fn next(all: &[Proposal], here: (i64, i64, i64)) -> Option<Proposal> {
     found.or_else(|| all.first()).copied()
 }
 
-/// Selects a proposal, and shows its moment.
+/// Selects a proposal, and moves the playhead to it.
 fn go(timeline: &mut Timeline, to: Proposal, out: &mut Outbox) {
     let micros = Instant::from_micros;
     out.send(Command::Tier(Some(to.tier)));

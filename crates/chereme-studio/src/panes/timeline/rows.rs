@@ -1,4 +1,4 @@
-//! Which tiers stand in which row: children below their parents, folded and hidden ones left out.
+//! The tier of each row: children below their parents, without folded and hidden ones.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,17 +7,17 @@ use chereme_corpus::TierContents;
 /// A row of the timeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Row {
-    /// The place of the tier in the recording's list.
+    /// Index of the tier in the recording's list.
     pub(crate) tier: usize,
-    /// How deep it hangs below others.
+    /// The number of its ancestors.
     pub(crate) depth: usize,
-    /// Whether tiers hang below it.
+    /// Whether the tier has children.
     pub(crate) has_below: bool,
-    /// Whether these are folded away.
+    /// Whether its children are folded.
     pub(crate) folded: bool,
 }
 
-/// Returns the rows, tiers named in `hidden` left out with all below them, those below `folded` ones too.
+/// Returns the rows, without tiers named in `hidden` and their descendants, and without descendants of `folded` ones.
 pub(crate) fn rows(
     tiers: &[TierContents],
     folded: &BTreeSet<String>,
@@ -25,7 +25,7 @@ pub(crate) fn rows(
 ) -> Vec<Row> {
     let known: BTreeSet<i64> = tiers.iter().map(|tier| tier.row.id).collect();
     let mut below: BTreeMap<Option<i64>, Vec<usize>> = BTreeMap::new();
-    // ELAN's settings may show tiers in another order than their file has.
+    // ELAN's settings may order tiers differently than their file.
     let mut order: Vec<usize> = (0..tiers.len()).collect();
     order.sort_by_key(|at| tiers[*at].row.shown().order.unwrap_or(usize::MAX));
     for at in order {

@@ -1,4 +1,4 @@
-//! Moving among tiers and annotations, and selecting time, by keys.
+//! Keyboard selection of tiers, annotations and time.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use crate::words::timeline as words;
 
 const SECOND: i64 = 1_000_000;
 
-/// Does an action that only selects.
+/// Carries out an action that only changes the selection.
 pub(super) fn act(
     timeline: &mut Timeline,
     action: Action,
@@ -70,7 +70,7 @@ pub(super) fn act(
     Acted::Yes
 }
 
-/// Selects an annotation with its tier and span, and goes to its start, as ELAN does.
+/// Selects an annotation with its tier and span, and moves the playhead to its start, as ELAN does.
 pub(super) fn select(tier: &TierContents, at: usize, out: &mut Outbox) {
     let span = tier.annotations.span(at);
     out.send(Command::Tier(Some(tier.row.id)));
@@ -81,14 +81,14 @@ pub(super) fn select(tier: &TierContents, at: usize, out: &mut Outbox) {
     out.seek(span.start());
 }
 
-/// Returns the rows that are shown.
+/// Returns the visible rows.
 pub(super) fn shown_rows(contents: &Contents, seen: &Seen<'_>) -> Vec<Row> {
     let ways = &seen.settings.timeline;
     rows(&contents.tiers, &ways.folded, &ways.hidden)
 }
 
-/// Selects the annotation after or before the selected one, or the playhead, on the selected tier; in a loop
-/// after the last the first. Returns whether there is one.
+/// Selects the annotation after or before the selected one, or after or before the playhead, on the selected tier;
+/// while looping, goes on from the last to the first. Returns whether there is one.
 fn walk(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) -> bool {
     let Some(tier) = scene.tier() else {
         return false;
@@ -122,7 +122,7 @@ fn walk(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) -> bool {
     found.is_some()
 }
 
-/// Adds the annotation after or before those that are selected to them.
+/// Adds the annotation after or before the selected ones to the selection.
 fn also(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) {
     let chosen = &scene.seen.shown.annotations;
     let Some(tier) = scene.tier() else { return };
@@ -144,7 +144,7 @@ fn also(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) {
     }
 }
 
-/// Returns the tier of the row that lies `by` rows from the selected one.
+/// Returns the tier `by` rows below the selected one.
 fn neighbour<'a>(scene: &Scene<'a>, by: isize) -> Option<&'a TierContents> {
     let rows = shown_rows(scene.contents, scene.seen);
     let tier = |row: &Row| &scene.contents.tiers[row.tier];
@@ -156,7 +156,7 @@ fn neighbour<'a>(scene: &Scene<'a>, by: isize) -> Option<&'a TierContents> {
     rows.get(next).map(tier)
 }
 
-/// Selects the tier below or above, and what it has at the playhead.
+/// Selects the tier below or above, and its annotation at the playhead.
 fn step_tier(scene: &Scene<'_>, out: &mut Outbox, by: isize) {
     let Some(tier) = neighbour(scene, by) else {
         return;
@@ -192,7 +192,8 @@ fn span(from: i64, to: i64) -> Span {
     Span::between(Instant::from_micros(from), Instant::from_micros(to))
 }
 
-/// Selects from the playhead to the end of what was selected, or up to it from its start.
+/// With `starts`, selects from the playhead to the end of the selection or the recording; otherwise from the start of
+/// the selection or the recording to the playhead.
 fn select_to(scene: &Scene<'_>, out: &mut Outbox, starts: bool) {
     let (at, whole) = (scene.playhead(), scene.seen.shown.player.whole);
     let old = scene.seen.shown.span;
@@ -210,8 +211,8 @@ fn select_to(scene: &Scene<'_>, out: &mut Outbox, starts: bool) {
     out.send(Command::Span(Some(new).filter(|it| !it.is_empty())));
 }
 
-/// Moves the playhead and takes the end of the selection that it lies on along; where it lies on none a
-/// selection begins there.
+/// Returns the selection after the playhead moves to `to`. The end of the selection at the playhead moves along; if
+/// neither end is there, a new selection begins at the playhead.
 pub(super) fn extended(old: Option<Span>, playhead: i64, to: i64) -> Option<Span> {
     let anchor = match old.map(|it| (it.start().micros(), it.end().micros())) {
         Some((start, end)) if playhead == end => start,
@@ -231,7 +232,7 @@ fn extend(scene: &Scene<'_>, out: &mut Outbox, to: i64) {
     out.seek(Instant::from_micros(to));
 }
 
-/// Returns annotations from `anchor` to `at` on a tier, as Shift and a click select them.
+/// Returns the annotations from the first selected one to index `at` on a tier, as Shift and a click select them.
 pub(super) fn range(tier: &TierContents, chosen: &BTreeSet<i64>, at: usize) -> BTreeSet<i64> {
     let mut places = hold::places(tier, chosen);
     let anchor = places.next().unwrap_or(at);

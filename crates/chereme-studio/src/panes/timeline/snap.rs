@@ -1,4 +1,4 @@
-//! Where times settle: boundaries of annotations, minima of wrist speed, starts of frames.
+//! Snapping of times: to boundaries of annotations, minima of wrist speed, starts of frames.
 
 use std::collections::BTreeSet;
 
@@ -25,7 +25,7 @@ impl Default for Snaps {
     }
 }
 
-/// The reason for the place of a time.
+/// What a time snapped to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Catch {
     Boundary,
@@ -33,7 +33,7 @@ pub(crate) enum Catch {
     Frame,
 }
 
-/// Frames of a recording: their rate, and where the first lies on its clock.
+/// Frame times of a recording: the rate, and the offset of the first frame on the recording's clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Frames {
     pub(crate) rate: Rate,
@@ -48,7 +48,7 @@ impl Frames {
         self.rate.instant(frame).micros() + self.offset
     }
 
-    /// Returns the start of the frame that lies `by` frames on from the one nearest to a time.
+    /// Returns the start of the frame `by` frames after the one nearest to a time.
     pub(crate) fn stepped(&self, micros: i64, by: i64) -> i64 {
         let own = (self.nearest(micros) - self.offset).max(0);
         let frame = self.rate.frame_at(Instant::from_micros(own)) as i64 + by;
@@ -57,18 +57,18 @@ impl Frames {
     }
 }
 
-/// The times that a drag can snap to now.
+/// The snapping targets of a drag.
 pub(crate) struct Guides<'a> {
     pub(crate) snaps: Snaps,
     pub(crate) tiers: &'a [TierContents],
-    /// Annotations that are being dragged, whose boundaries do not count.
+    /// The dragged annotations, whose boundaries are no targets.
     pub(crate) except: &'a BTreeSet<i64>,
-    /// Other times that count as boundaries, such as the playhead.
+    /// Further times that are treated as boundaries, such as the playhead.
     pub(crate) marks: &'a [i64],
-    /// Minima of wrist speed, in order.
+    /// Minima of wrist speed, in order, in microseconds.
     pub(crate) minima: &'a [i64],
     pub(crate) frames: Option<Frames>,
-    /// From how far a boundary or minimum catches, in microseconds.
+    /// The distance within which a time snaps to a boundary or minimum, in microseconds.
     pub(crate) reach: i64,
 }
 

@@ -1,4 +1,4 @@
-//! The box in which a tier is described, added, changed, or removed.
+//! The box that describes a tier, and adds, changes or removes it.
 
 use chereme_corpus::{
     Contents, Copied, Hands, Name, NewTier, Stereotype, TierChange, TierContents, TierName,
@@ -18,10 +18,10 @@ use crate::script::edit;
 use crate::words::{Text, fill, shell, timeline as words};
 use crate::work::Work;
 
-/// The field for the name.
+/// The id of the name field.
 const NAME_FIELD: &str = "timeline tier name";
 
-/// The planned change of a tier.
+/// The purpose of the box.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum What {
     Add,
@@ -30,20 +30,20 @@ pub(super) enum What {
     Copy(i64),
 }
 
-/// A tier as it is described in the box.
+/// The description of a tier in the box.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TierBox {
     what: What,
     name: String,
-    /// The role as a query spells it.
+    /// The role as queries spell it.
     role: String,
     hand: Option<Hands>,
-    /// The tier above, and how this one hangs below it.
+    /// The parent tier, and the relation to it.
     parent: Option<(String, Stereotype)>,
     fresh: bool,
-    /// The name that was proposed for it.
+    /// The last proposed name.
     proposed: String,
-    /// The parts that are copied with it.
+    /// The parts of a tier that a copy includes.
     copied: Copied,
 }
 
@@ -56,7 +56,7 @@ enum Pressed {
 }
 
 impl TierBox {
-    /// Returns one that adds a tier like the selected one.
+    /// Returns a box that adds a tier similar to the selected one.
     pub(super) fn add(scene: &Scene<'_>) -> Self {
         let like = scene
             .tier()
@@ -81,7 +81,7 @@ impl TierBox {
         }
     }
 
-    /// Returns one that describes a tier as it is.
+    /// Returns a box with the present description of a tier.
     pub(super) fn of(contents: &Contents, tier: &TierContents, what: What) -> Self {
         let row = &tier.row;
         let above = contents
@@ -100,7 +100,7 @@ impl TierBox {
         }
     }
 
-    /// Proposes what follows from the role: a component stands below the chosen glosses and is of their hand.
+    /// Proposes parent and name for the role: a component belongs below the selected glosses, and has their hand.
     fn fit(&mut self, scene: &Scene<'_>) {
         let gloss = scene.tier().filter(|it| it.row.role == TierRole::Gloss);
         let component = !PLAIN.iter().any(|(role, _)| *role == self.role);
@@ -130,7 +130,7 @@ impl TierBox {
         self.name.clone_from(&self.proposed);
     }
 
-    /// Returns one that copies a tier under another name.
+    /// Returns a box that copies a tier under another name.
     pub(super) fn copy(scene: &Scene<'_>, tier: &TierContents) -> Self {
         let name = scene.seen.say(words::COPY_TIER_NAME);
         Self {
@@ -139,13 +139,13 @@ impl TierBox {
         }
     }
 
-    /// Returns the name of the tier that it adds.
+    /// Returns the name of the tier to add, if the box adds one.
     pub(super) fn added(self) -> Option<String> {
         let adds = matches!(self.what, What::Add | What::Copy(_));
         adds.then(|| self.name.trim().to_owned())
     }
 
-    /// Returns the work to do; `None` if the role cannot be read.
+    /// Returns the work to request; `None` if the role cannot be read.
     fn work(&self, recording: i64, before: Option<&Self>) -> Option<Work> {
         if let What::Copy(id) = self.what {
             let name = self.name.trim().to_owned();
@@ -188,7 +188,7 @@ const PLAIN: [(&str, Text); 4] = [
     ("free", words::ROLE_FREE),
 ];
 
-/// Returns a role such as `right.configuration` in people's words.
+/// Returns the name of a role such as `right.configuration`.
 pub(crate) fn role_text(role: &str, seen: &Seen<'_>) -> String {
     let (hand, rest) = match role.split_once('.') {
         Some((hand, rest)) => (HANDS.iter().find(|(id, _)| *id == hand), rest),
@@ -207,7 +207,7 @@ pub(crate) fn role_text(role: &str, seen: &Seen<'_>) -> String {
     }
 }
 
-/// Returns the roles that a tier can have: the four without components, then what inventories are for.
+/// Returns the possible roles of a tier: the four without components, then those with inventories.
 fn roles(seen: &Seen<'_>) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = PLAIN
         .iter()
@@ -223,7 +223,7 @@ fn roles(seen: &Seen<'_>) -> Vec<(String, String)> {
     all
 }
 
-/// Returns how one tier hangs below another in words, with the name by which ELAN knows it.
+/// Returns the name of a relation between tiers, with ELAN's name for it.
 pub(crate) fn how_text(how: Stereotype, seen: &Seen<'_>) -> String {
     let text = match how {
         Stereotype::TimeSubdivision => words::HOW_FILLED,
@@ -235,7 +235,7 @@ pub(crate) fn how_text(how: Stereotype, seen: &Seen<'_>) -> String {
     format!("{} ({elan})", seen.say(text))
 }
 
-/// Returns the names of the tiers that one can hang below: not itself, nor what hangs below it.
+/// Returns the names of the possible parents of a tier: not itself, nor its descendants.
 fn parents(contents: &Contents, what: &What) -> Vec<String> {
     let own = match what {
         What::Change(id) => Some(*id),
@@ -262,7 +262,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
         return;
     };
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
-    // An open list has these keys first, and Enter is that of the list or button which has the focus.
+    // An open list has these keys first; Enter belongs to the list or button with the focus.
     let open = Popup::is_any_open(ui.ctx());
     let focused = ui.memory(|memory| memory.focused());
     let own = focused.is_none_or(|it| it == Id::unique(NAME_FIELD));
@@ -310,7 +310,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
     }
 }
 
-/// Says what goes with a tier.
+/// Reports which tiers and annotations would be removed with a tier.
 fn about(ui: &mut Ui, scene: &Scene<'_>, id: i64, name: &str) {
     let mut family = vec![id];
     let mut at = 0;
@@ -440,7 +440,7 @@ const HANDS: [(&str, Text); 5] = [
     ("both", words::HAND_BOTH),
 ];
 
-/// Shows a list to choose from.
+/// Shows a drop-down list.
 fn choice<T>(ui: &mut Ui, name: &str, now: &str, all: &[(T, String)], mut choose: impl FnMut(&T)) {
     let label = ui.label(name);
     let combo = ComboBox::from_id_salt(name)

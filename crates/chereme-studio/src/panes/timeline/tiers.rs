@@ -1,4 +1,4 @@
-//! The effect of actions on tiers.
+//! The effects of actions on tiers.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ use crate::panes::Acted;
 use crate::words::timeline as words;
 use crate::work::Work;
 
-/// Does an action that is about tiers.
+/// Carries out an action on tiers.
 pub(super) fn act(
     timeline: &mut Timeline,
     action: Action,
@@ -49,7 +49,7 @@ pub(super) fn act(
     }
     if action == Action::UsualTiers {
         let recording = Name::Number(scene.contents.recording.id);
-        // Where hands have glosses of their own, each has its components.
+        // If both hands have glosses, each has its own components.
         let glosses = scene.contents.tiers.iter();
         let several = glosses.filter(|it| it.row.role == TierRole::Gloss).count() > 1;
         let chosen = scene
@@ -103,7 +103,7 @@ pub(super) fn act(
     Acted::Yes
 }
 
-/// Requests an order of the tiers, if it differs from theirs.
+/// Requests an order of the tiers, if it differs from the present one.
 pub(super) fn order(scene: &Scene<'_>, order: Vec<i64>, out: &mut Outbox) -> Acted {
     let tiers = &scene.contents.tiers;
     if tiers.iter().map(|it| it.row.id).eq(order.iter().copied()) {
@@ -124,7 +124,7 @@ fn sort(scene: &Scene<'_>, by_name: bool, out: &mut Outbox) -> Acted {
     order(scene, tiers.iter().map(|it| it.row.id).collect(), out)
 }
 
-/// Returns what a name is sorted by: its words, and its numbers as numbers.
+/// Returns the sort key of a name: its words, and its numbers by value.
 fn natural(name: &str) -> Vec<(String, u64)> {
     let mut parts = vec![(String::new(), 0_u64)];
     let mut counting = false;
@@ -144,7 +144,7 @@ fn natural(name: &str) -> Vec<(String, u64)> {
     parts
 }
 
-/// Returns where a tier stands by what it says: glosses, translations, components hand by hand, the rest.
+/// Returns the rank of a tier by its role: glosses, translations, components hand by hand, the rest.
 fn rank(row: &TierRow) -> (usize, usize, usize) {
     let role = match row.role {
         TierRole::Gloss => 0,
@@ -166,7 +166,7 @@ fn rank(row: &TierRow) -> (usize, usize, usize) {
     (role, hand, place(component).unwrap_or(Component::ALL.len()))
 }
 
-/// Hides every tier that says nothing and has nothing below it that does.
+/// Hides every tier that has no annotations, and whose descendants have none.
 fn hide_empty(scene: &Scene<'_>, out: &mut Outbox) -> Acted {
     let mut ways = scene.seen.settings.timeline.clone();
     let before = ways.hidden.len();
@@ -188,7 +188,7 @@ fn hide_empty(scene: &Scene<'_>, out: &mut Outbox) -> Acted {
     Acted::Yes
 }
 
-/// Returns whether a tier is `above` or hangs below it.
+/// Returns whether a tier is `above` or a descendant of it.
 pub(super) fn is_within(tiers: &[(i64, Option<i64>)], id: i64, above: i64) -> bool {
     let mut at = Some(id);
     for _ in 0..tiers.len() {
@@ -200,8 +200,8 @@ pub(super) fn is_within(tiers: &[(i64, Option<i64>)], id: i64, above: i64) -> bo
     false
 }
 
-/// Returns the order in which a tier stands before its sibling `before`, or behind all of them; tiers are
-/// `(id, parent)` in their order.
+/// Returns the order in which a tier comes before its sibling `before`, or after all its siblings; tiers are `(id,
+/// parent)` in their order.
 pub(super) fn moved(
     tiers: &[(i64, Option<i64>)],
     id: i64,
@@ -221,8 +221,7 @@ pub(super) fn moved(
     Some(order)
 }
 
-/// Returns the place that brings a tier beyond its next or previous sibling, from tiers as
-/// `(id, parent)` in their order.
+/// Returns the position that moves a tier past its next or previous sibling; tiers are `(id, parent)` in their order.
 fn beside(tiers: &[(i64, Option<i64>)], id: i64, down: bool) -> Option<u32> {
     let here = tiers.iter().position(|it| it.0 == id)?;
     let sibling = |at: &usize| tiers[*at].1 == tiers[here].1;

@@ -19,50 +19,50 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{fill, timeline as words};
 
-/// The least width of the names of tiers; at most they take this share of the pane.
+/// The least width of the column of tier names in points, and its greatest share of the pane.
 const NAMES: f32 = 96.0;
 const NAMES_SHARE: f32 = 0.35;
-/// How long the rows lie still before the column of names grows for what came into sight, in seconds.
+/// How long the rows must rest before the column of names grows for newly visible names, in seconds.
 const RESTS: f64 = 0.25;
 pub(super) const INDENT: f32 = 12.0;
 const ROW: f32 = 26.0;
 const RULER: f32 = 22.0;
-/// Annotations at least this wide are widgets of their own, for the keyboard and for assistive tools.
+/// Annotations at least this wide, in points, are separate widgets for the keyboard and assistive technology.
 const NAMED: f32 = 8.0;
 
-/// Where rows are, kept from frame to frame.
+/// The layout of the rows, kept between frames.
 #[derive(Debug, Default)]
 pub(super) struct Layout {
-    /// The tiers in sight, by their index in the recording's list, and their places.
+    /// The visible tiers, by index in the recording's list, with their vertical ranges.
     pub(super) rows: Vec<(usize, Rangef)>,
-    /// The rows that there are, for a snapshot and the names that are folded and hidden.
+    /// All rows, and the inputs that they were computed from.
     all: Vec<Row>,
     of: Option<(usize, BTreeSet<String>, BTreeSet<String>)>,
-    /// How wide the column of names is, how wide each tier's name would like it, and when that was more last.
+    /// The width of the column of names, the width of each tier's name, and the time when names last became wider.
     names: f32,
     widths: Vec<f32>,
     rests: Option<(f32, f64)>,
-    /// How far the rows are scrolled.
+    /// The scroll offset of the rows, in points.
     pub(super) top: f32,
-    /// Whether there are other rows since the last frame.
+    /// Whether the rows changed since the last frame.
     grown: bool,
-    /// Whether these are to be seen.
+    /// Whether the new rows must be scrolled into sight.
     fresh: bool,
-    /// How far they are to be scrolled next.
+    /// The next scroll offset, in points.
     pub(super) scroll_to: Option<f32>,
-    /// The tier that was selected last, and how high the rows were while it was in sight.
+    /// The tier that was selected last, and the height of the rows while it was in sight.
     seen: Option<i64>,
     height: Option<f32>,
 }
 
 impl Layout {
-    /// Returns the tier whose row holds `y`.
+    /// Returns the index of the tier whose row contains `y`.
     pub(super) fn tier_at(&self, y: f32) -> Option<usize> {
         let found = self.rows.iter().find(|(_, range)| range.contains(y));
         found.map(|(tier, _)| *tier)
     }
 
-    /// Builds the rows and the width of names again if the snapshot, the settings or the pane changed; returns
+    /// Computes the rows and the width of names again if the snapshot, the settings or the pane changed; returns
     /// whether the rows are new.
     fn update(&mut self, ui: &Ui, contents: &Contents, seen: &Seen<'_>) -> bool {
         let ways = &seen.settings.timeline;
@@ -95,8 +95,8 @@ impl Layout {
         false
     }
 
-    /// Makes room for names that were scrolled into sight, once the scrolling rests: a column that changes all the
-    /// time would move every annotation.
+    /// Widens the column for names that were scrolled into sight, once the scrolling rests: a column that changes all
+    /// the time would move every annotation.
     fn widen(&mut self, ui: &Ui) {
         let widths = self.rows.iter().map(|(tier, _)| self.widths.get(*tier));
         let wanted = fitting(widths.flatten().copied());
@@ -117,7 +117,7 @@ impl Layout {
     }
 }
 
-/// Returns how wide the column of names is that holds names of those widths.
+/// Returns the width of a column that contains names of those widths.
 fn fitting(widths: impl Iterator<Item = f32>) -> f32 {
     widths.fold(NAMES, f32::max)
 }
@@ -148,7 +148,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
         ui.add(label.truncate());
         ui.multiply_opacity(0.55);
     }
-    // The rows are scrolled to when the area knows how many there are.
+    // The rows can be scrolled to after the area knows how many there are.
     if std::mem::take(&mut timeline.layout.grown) {
         (timeline.reveal, timeline.layout.fresh) = (true, true);
     }
@@ -189,7 +189,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     go::show(timeline, ui, &scene, out);
 }
 
-/// Says where to go in a corpus that has no recordings.
+/// Shows the next steps in a corpus without recordings.
 fn no_recordings(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     let empty = seen.snapshot.overview.signs.is_empty();
     let (text, actions): (_, &[Action]) = if empty {
@@ -210,7 +210,7 @@ fn no_recordings(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     });
 }
 
-/// Selects what was added, and lets go of what the snapshot has.
+/// Selects added annotations, and forgets ghosts that the snapshot contains.
 fn follow_up(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) {
     timeline.settle(scene.seen.snapshot.open.as_ref());
     let first = timeline.to_select.first();
@@ -247,7 +247,7 @@ fn follow_up(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) {
     timeline.begun.take_if(|it| it.recording != recording);
 }
 
-/// Returns what of the recording is to be seen: a page on, where the playhead left it.
+/// Returns the visible part of the recording; it moves by a page when the playhead leaves it.
 fn follow(timeline: &mut Timeline, scene: &Scene<'_>, width: f32) -> Window {
     let player = &scene.seen.shown.player;
     let (whole, playhead) = (player.whole, scene.playhead());
@@ -309,7 +309,7 @@ impl Drawing<'_, '_> {
             );
             response.clone().on_hover_text(text);
         }
-        // Times are read over what marks places.
+        // The times of the ruler are painted over the playhead, so that they stay readable.
         paint::playhead(&painter, lane, &self.window, self.seen);
         paint::ruler(&painter, lane, &self.window, self.seen, &font);
         if response.dragged() && ui.input(|input| input.modifiers.alt) {
@@ -334,7 +334,8 @@ impl Drawing<'_, '_> {
         if let Some(gesture) = &self.timeline.gesture {
             moving.extend(gesture.moving());
         }
-        // Things selected elsewhere, such as a hit, come into sight, and stay there if the pane changes.
+        // A tier selected elsewhere, such as by a search result, comes into sight, and stays there if the pane changes
+        // size.
         let selected = self.seen.shown.tier;
         if selected != self.timeline.layout.seen && !ui.input(|input| input.pointer.any_down()) {
             self.timeline.layout.seen = selected;
@@ -388,7 +389,7 @@ impl Drawing<'_, '_> {
         let number = all.iter().position(is)?;
         let at = number as f32 * ROW;
         let top = self.timeline.layout.top;
-        // Tiers below it are shown as well, if there is room for both.
+        // Its children are shown as well if there is room for both.
         let below = all[number + 1..].iter();
         let family = below
             .take_while(|row| row.depth > all[number].depth)
@@ -486,7 +487,7 @@ impl Drawing<'_, '_> {
         self.lane_menu(&response, contents, at, lane);
     }
 
-    /// Ctrl and wheel zoom around the pointer; Shift and wheel, or a wheel sideways, pan.
+    /// Zooms around the pointer with Ctrl and the wheel; pans with Shift and the wheel, or a sideways wheel.
     fn wheel(&mut self, ui: &Ui, lane: Rect) {
         let Some(pointer) = ui.input(|input| input.pointer.hover_pos()) else {
             return;

@@ -1,4 +1,4 @@
-//! The list under the field for values: what fits, with pictures where values have some, and digits.
+//! The list below the field for values: matching values, with pictures if values have them, and digits.
 
 use chereme_corpus::StoredInventory;
 use eframe::egui::{
@@ -13,13 +13,13 @@ use crate::panes::list_row_after;
 use crate::pickers;
 use crate::words::{fill, timeline as words};
 
-/// How high the list is, of names and of pictures.
+/// Greatest height of the list, of names and of pictures, in points.
 const LIST: f32 = 196.0;
 const PICTURES: f32 = 252.0;
-/// Height of a row with a picture.
+/// Height of a row with a picture, in points.
 const PICTURE: f32 = 42.0;
 
-/// Returns about how high the field is with the list below it.
+/// Returns the approximate height of the field with the list below it, in points.
 pub(super) fn height(ui: &Ui, fitting: usize, pictured: bool) -> f32 {
     let row = ui.spacing().interact_size.y;
     let (each, room) = match pictured {
@@ -30,7 +30,7 @@ pub(super) fn height(ui: &Ui, fitting: usize, pictured: bool) -> f32 {
     row + 32.0 + (fitting.max(1) as f32 * each).min(room)
 }
 
-/// Shows what fits; returns what was clicked.
+/// Shows the matching values; returns the one that was clicked.
 pub(super) fn show(
     ui: &mut Ui,
     scene: &Scene<'_>,
@@ -57,7 +57,7 @@ pub(super) fn show(
         None => (ui.spacing().interact_size.y, LIST),
     };
     ui.spacing_mut().item_spacing.y = 0.0;
-    // The box remembers the height of the list before, which may have been a short one.
+    // The area remembers the height of the last list, which may have been a short one.
     let mut scroll = ScrollArea::vertical()
         .max_height(room)
         .min_scrolled_height(room);
@@ -138,7 +138,7 @@ fn by_picture(
     response
 }
 
-/// Returns the value of a digit that was typed into the empty field, where digits pick there.
+/// Returns the value of a digit that was typed into the empty field, if digits pick values there.
 pub(super) fn picked<'a>(
     before: &str,
     typed: &str,
@@ -155,7 +155,7 @@ pub(super) fn picked<'a>(
         .filter(|_| !choices.types_digit(digit))
 }
 
-/// Moves the mark among those that fit.
+/// Moves the mark among the matching values.
 pub(super) fn step(editing: &mut Editing, fitting: &[usize], up: bool, down: bool) {
     let here = fitting.iter().position(|at| Some(*at) == editing.marked);
     let next = match (up, down, here) {

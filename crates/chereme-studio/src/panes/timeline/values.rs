@@ -5,31 +5,31 @@ use std::collections::BTreeMap;
 use chereme_corpus::{StoredInventory, TierContents, ValueState};
 use chereme_sign::text::fold;
 
-/// A value that can be given.
+/// A possible value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Choice {
-    /// What is stored.
+    /// The stored text.
     pub(crate) value: String,
-    /// Its name in the window's language, if that adds something.
+    /// Its name in the window's language, if it differs from the value.
     pub(crate) name: Option<String>,
-    /// How often the tier says it.
+    /// How often the tier has it.
     pub(crate) used: usize,
-    /// Its other names, folded, to filter by.
+    /// Its other names, folded, for filtering.
     known: Vec<String>,
 }
 
-/// The values of a tier, most used first, then in the inventory's order.
+/// The values of a tier, the most used first, then in the inventory's order.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Choices {
     pub(crate) all: Vec<Choice>,
-    /// Whether nothing else may be said.
+    /// Whether other values are forbidden.
     pub(crate) closed: bool,
 }
 
-/// How a value can be missing on a coded tier, as it is typed.
+/// Special values of coded tiers for a missing value, as they are typed.
 const MISSING: [&str; 2] = ["n/a", "unclear"];
 
-/// Returns what can be said on a tier.
+/// Returns the possible values of a tier.
 pub(crate) fn choices(
     tier: &TierContents,
     inventory: Option<&StoredInventory>,
@@ -77,8 +77,8 @@ pub(crate) fn choices(
 }
 
 impl Choices {
-    /// Returns the places of those that fit what is typed: equal ones first, then those that begin so,
-    /// then those that hold it anywhere.
+    /// Returns the indices of the values that match the typed text: equal ones first, then those that begin with it,
+    /// then those that contain it.
     pub(crate) fn fitting(&self, text: &str) -> Vec<usize> {
         let wanted = fold(text.trim());
         let rank = |choice: &Choice| {
@@ -102,8 +102,8 @@ impl Choices {
         ranked.into_iter().map(|(_, at)| at).collect()
     }
 
-    /// Returns what Enter keeps: the marked one, else what was typed where that may be said, else on a
-    /// closed tier the one that fits best. Nothing where none fits.
+    /// Returns the value that Enter stores: the marked one; else the typed text, if it is allowed; else, on a closed
+    /// tier, the best match. Returns `None` if nothing matches.
     pub(crate) fn kept(&self, text: &str, marked: Option<usize>) -> Option<String> {
         let text = text.trim();
         if let Some(choice) = marked.and_then(|at| self.all.get(at)) {
@@ -116,7 +116,7 @@ impl Choices {
         Some(self.all[best].value.clone())
     }
 
-    /// Returns whether a value begins with that digit, so that it is typed and does not pick.
+    /// Returns whether a value begins with that digit, so that the digit is typed and does not pick.
     pub(crate) fn types_digit(&self, digit: char) -> bool {
         !self.closed
             || self
@@ -126,8 +126,7 @@ impl Choices {
     }
 }
 
-/// Which digit gives which value, tier by tier: once given it stays for the sitting, so that hands can
-/// learn it.
+/// The values of the digits, tier by tier. An assignment stays for the session, so that users can learn it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Digits {
     given: BTreeMap<i64, Vec<String>>,

@@ -1,4 +1,4 @@
-//! How the timeline works and what it shows: remembered, and switched by actions.
+//! Settings of the timeline: stored, and changed by actions.
 
 use std::collections::BTreeSet;
 
@@ -11,23 +11,23 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 
-/// How the timeline works and what it shows.
+/// Settings of the timeline.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Ways {
-    /// The treatment of the neighbours.
+    /// How an edit treats neighbouring annotations.
     pub(crate) mode: Mode,
     /// The kinds of times that drags snap to.
     pub(crate) snaps: Snaps,
-    /// Which lanes of movement are shown.
+    /// The visible lanes of movement.
     pub(crate) lanes: BTreeSet<Lane>,
-    /// Which of them are folded to their names.
+    /// The lanes that are folded to their names.
     pub(crate) folded_lanes: BTreeSet<Lane>,
-    /// Whether the whole recording is shown in a strip while only a part is to be seen.
+    /// Whether a strip shows the whole recording while only a part is visible.
     pub(crate) overview: bool,
-    /// Names of tiers whose children are folded away.
+    /// Names of tiers whose children are folded.
     pub(crate) folded: BTreeSet<String>,
-    /// Names of tiers that are not shown.
+    /// Names of hidden tiers.
     pub(crate) hidden: BTreeSet<String>,
 }
 
@@ -46,7 +46,7 @@ impl Default for Ways {
 }
 
 impl Ways {
-    /// Returns the settings after an action; `None` if the action is not about them.
+    /// Returns the settings after an action; `None` if the action does not change them.
     pub(crate) fn after(&self, action: Action) -> Option<Self> {
         let mut ways = self.clone();
         match action {
@@ -66,7 +66,7 @@ impl Ways {
         Some(ways)
     }
 
-    /// Returns whether an action's switch is on.
+    /// Returns whether the switch of an action is on.
     pub(crate) fn is_on(&self, action: Action) -> bool {
         match action {
             Action::ModeNormal => self.mode == Mode::Normal,
@@ -83,14 +83,14 @@ impl Ways {
     }
 }
 
-/// Puts a thing into a set, or takes it out.
+/// Adds a thing to a set, or removes it.
 pub(crate) fn toggle<T: Ord>(set: &mut BTreeSet<T>, it: T) {
     if !set.remove(&it) {
         set.insert(it);
     }
 }
 
-/// Has the ways changed.
+/// Changes the timeline's settings.
 pub(crate) fn change(seen: &Seen<'_>, out: &mut Outbox, ways: Ways) {
     let mut settings = seen.settings.clone();
     settings.timeline = ways;
