@@ -398,8 +398,8 @@ fn beside(left: f32, width: f32, stage: Rect, screen: Rect) -> (f32, f32) {
     }
 }
 
-/// Returns whether the mouse was pressed outside of `rect`. Ignores the field's first frame, since the tap that opened
-/// the field may end within it.
+/// Returns whether the mouse was pressed outside of `rect`. Callers ignore the field's first frame, since the tap that
+/// opened the field may end within it.
 fn elsewhere(ui: &Ui, rect: Rect) -> bool {
     ui.input(|input| {
         let at = input.pointer.interact_pos();

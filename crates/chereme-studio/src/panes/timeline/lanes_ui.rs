@@ -414,7 +414,7 @@ fn steps(
     mesh
 }
 
-/// Returns a curve as a sequence of vertical bars, each of which touches the one before.
+/// Returns a curve as a sequence of vertical bars, each long enough to touch the one before.
 fn curve(
     columns: &[Option<(f32, f32)>],
     left: f32,

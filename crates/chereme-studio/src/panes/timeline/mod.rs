@@ -166,7 +166,7 @@ impl Ghost {
     }
 }
 
-/// What to do after a requested change.
+/// Steps that follow a requested change.
 #[derive(Debug, Clone, Default)]
 struct Then {
     /// Select the added annotations.

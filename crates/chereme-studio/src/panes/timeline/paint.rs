@@ -162,7 +162,7 @@ fn hatch(painter: &Painter, rect: Rect, colour: Color32) {
     }
 }
 
-/// Paints marks on the edges of a selected annotation, where they can be grabbed.
+/// Paints handles on the edges of a selected annotation.
 fn grips(painter: &Painter, rect: Rect, colour: Color32) {
     for side in [rect.left() + 1.5, rect.right() - 4.5] {
         let grip = Rect::from_x_y_ranges(side..=side + 3.0, rect.top() + 5.0..=rect.bottom() - 5.0);

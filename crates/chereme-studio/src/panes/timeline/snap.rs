@@ -25,7 +25,7 @@ impl Default for Snaps {
     }
 }
 
-/// What a time snapped to.
+/// The kind of target that a time snapped to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Catch {
     Boundary,
