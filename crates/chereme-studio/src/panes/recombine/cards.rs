@@ -1,4 +1,4 @@
-//! The stack's widgets: a frame for each card, with what it says and what became of it.
+//! The stack's widgets: a frame for each card, with its settings and its results.
 
 use eframe::egui::{
     Button, CursorIcon, DragAndDrop, Frame, Id, Key, Modifiers, Rect, Response, RichText, Role,
@@ -14,18 +14,18 @@ use crate::context::Seen;
 use crate::panes::meant::meant;
 use crate::words::{fill, recombine as words, search, spoken};
 
-/// Residuals above this are worth a look, in metres.
+/// Residuals above this are reported as a warning, in metres.
 const FAR: f64 = 0.005;
-/// How near the edge a dragged card makes the list scroll.
+/// Distance from the edge within which a dragged card scrolls the list, in points.
 const EDGE: f32 = 28.0;
 
-/// The pause in typing before an error is shown, in seconds.
+/// Time without typing before an error is shown, in seconds.
 const TYPING: f64 = 1.2;
 
-/// What is dragged: a card of the stack.
+/// The payload of a drag: the id of a card.
 struct Dragged(u64);
 
-/// The action of the user on the stack in this frame.
+/// An action of the user on the stack in this frame.
 enum Did {
     Choose(u64),
     Change(u64, What),
@@ -33,26 +33,26 @@ enum Did {
     Move(u64, usize),
 }
 
-/// A card with its results.
+/// A card with its results, for display.
 struct Shown<'a> {
     card: &'a Card,
     first: bool,
     counts: bool,
     chosen: bool,
-    /// Whether what is typed shall go to it.
+    /// Whether the card takes the keyboard.
     focus: bool,
-    /// Whether it is new, and what is typed shall go to its first field.
+    /// Whether the card is new, so that its first field takes the keyboard.
     fresh: bool,
     note: Option<&'a Note>,
     trouble: Option<&'a Trouble>,
 }
 
-/// Shows every card; whether any was changed.
+/// Shows every card; returns whether any was changed.
 pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &Seen<'_>) -> bool {
     let mut did = Vec::new();
     let (focus, fresh) = (pane.focus.take(), pane.fresh.take());
     let mut places = Vec::new();
-    // A name that is still being typed is no mistake yet.
+    // An unfinished name is not an error yet.
     let now = ui.input(|input| input.time);
     let typing = ui.ctx().text_edit_focused() && now - pane.changed.1 < TYPING;
     if typing {
@@ -161,7 +161,7 @@ fn frame(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &m
     }
 }
 
-/// The line above a card: its name, its switch, and its actions.
+/// Shows the line above a card: its name, its switch, and its actions.
 fn header(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &mut Vec<Did>) {
     let card = shown.card;
     let title = seen.say(catalogue::title(&card.what));
@@ -199,12 +199,12 @@ fn header(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &
     });
 }
 
-/// Returns what a button does, with its key.
+/// Returns the tooltip of a button: its effect, and its key.
 fn tip(seen: &Seen<'_>, text: crate::words::Text, action: Action) -> String {
     format!("{} ({})", seen.say(text), seen.keys.text(action))
 }
 
-/// The title, by which a card is chosen and dragged.
+/// Shows the title, which selects a card and is the handle for dragging it.
 fn handle(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, title: &str, width: f32) -> Response {
     let size = vec2(width, ui.spacing().interact_size.y);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
@@ -263,7 +263,7 @@ fn menu(ui: &mut Ui, seen: &Seen<'_>, id: u64, did: &mut Vec<Did>) {
     }
 }
 
-/// The outcome of a card: its effects, its residual, or why it is impossible; returns the corrected card if the
+/// Shows the results of a card: its effects, its residual, or why it is impossible; returns the corrected card if the
 /// user accepts a proposed correction.
 fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) -> Option<What> {
     if let Some(trouble) = shown.trouble {
@@ -311,7 +311,7 @@ fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) -> Option<What> {
     None
 }
 
-/// Shows at the pointer which card is dragged.
+/// Shows the dragged card at the pointer.
 fn carried(ui: &Ui, seen: &Seen<'_>, stack: &Stack, (id, at): (u64, eframe::egui::Pos2)) {
     let Some(place) = stack.position(id) else {
         return;
@@ -334,7 +334,7 @@ fn carried(ui: &Ui, seen: &Seen<'_>, stack: &Stack, (id, at): (u64, eframe::egui
     );
 }
 
-/// Shows where a dragged card would go, and lets it go there.
+/// Shows the place where a dragged card would go, and drops it there.
 fn drop_between(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -361,7 +361,7 @@ fn drop_between(
     let stroke = Stroke::new(3.0, seen.colours().accent);
     ui.painter().hline(first.x_range(), y, stroke);
     carried(ui, seen, stack, (dragged.0, at));
-    // Near the edge, what is beyond it comes.
+    // Near the edge, the list scrolls.
     let clip = ui.clip_rect();
     let beyond = (clip.top() + EDGE - at.y).max(0.0) - (at.y - clip.bottom() + EDGE).max(0.0);
     if beyond != 0.0 {

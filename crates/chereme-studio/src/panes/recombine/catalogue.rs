@@ -1,4 +1,4 @@
-//! Every source and operator with what it is called, what it does, and one to begin with.
+//! Every source and operator, with its title, its description, and an initial card.
 
 use chereme_corpus::recipe::{
     Cue, Direction, Hands, Node, Notation, PhaseRule, Point, Spell, Spot, Step, Transition,
@@ -7,7 +7,7 @@ use chereme_corpus::recipe::{
 use super::stack::What;
 use crate::words::{Text, recombine as words};
 
-/// Returns what each kind of source is called, with an empty one.
+/// Returns the title of each kind of source, with an empty one.
 pub(super) fn sources() -> [(Text, Node); 6] {
     let notation = || Notation {
         of: String::new(),
@@ -56,7 +56,7 @@ pub(super) fn sources() -> [(Text, Node); 6] {
     ]
 }
 
-/// Returns the title of each operator, what it does, and one to begin with.
+/// Returns the title and the description of each operator, with an initial one.
 pub(super) fn operators() -> Vec<(Text, Text, Step)> {
     let described = |step: Step| {
         let (title, does) = described(&step);
@@ -65,14 +65,14 @@ pub(super) fn operators() -> Vec<(Text, Text, Step)> {
     Step::usual().into_iter().map(described).collect()
 }
 
-/// Returns the title of an operator and what it does.
+/// Returns the title and the description of an operator.
 fn described(step: &Step) -> (Text, Text) {
     let mut all = words::OPERATORS.into_iter();
     let found = all.find(|(name, ..)| *name == step.name());
     found.map_or((words::TEXT, words::TEXT), |(_, title, does)| (title, does))
 }
 
-/// Returns what a card is called.
+/// Returns the title of a card.
 pub(super) fn title(what: &What) -> Text {
     match what {
         What::Source { node, .. } => match node {

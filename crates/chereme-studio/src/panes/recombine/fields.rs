@@ -1,6 +1,6 @@
-//! Widgets for what recipes are made of: hands, lengths, times, directions, places, names.
+//! Widgets for the parts of recipes: hands, lengths, times, directions, places, names.
 //!
-//! Each returns whether the person changed it.
+//! Each returns whether the user changed its value.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -22,17 +22,17 @@ use crate::panes::library::data;
 use crate::pickers::{self, Picker};
 use crate::words::{Text, recombine as words};
 
-/// Where a picker leaves what it asks about.
+/// Key under which a picker stores the value whose details are requested.
 const ASKED: &str = "asked of a card";
-/// Where the focus waits for the first field of a new card.
+/// Key of the pending focus request for the first field of a new card.
 const GIVEN: &str = "focus of a new card";
 
-/// Has the first field that takes it get the focus.
+/// Requests the focus for the next field that takes it.
 pub(super) fn give_focus(ui: &Ui) {
     ui.data_mut(|data| data.insert_temp(Id::unique(GIVEN), ()));
 }
 
-/// Returns whether a field is the first one since the focus was given, or all were asked.
+/// Returns whether the focus was requested, and clears the request: the first field that asks gets it.
 pub(super) fn takes_focus(ui: &Ui) -> bool {
     ui.data_mut(|data| {
         let given = data.get_temp::<()>(Id::unique(GIVEN)).is_some();
@@ -41,12 +41,12 @@ pub(super) fn takes_focus(ui: &Ui) -> bool {
     })
 }
 
-/// Shows a name before what follows it.
+/// Shows a name before a field.
 pub(super) fn caption(ui: &mut Ui, seen: &Seen<'_>, text: Text) -> Response {
     ui.weak(seen.say(text))
 }
 
-/// Shows a list to choose one of `all` from.
+/// Shows a drop-down list of `all`.
 pub(super) fn choose<T: PartialEq + Copy>(
     ui: &mut Ui,
     name: &str,
@@ -77,7 +77,7 @@ pub(super) fn hands_text(hands: Hands) -> Text {
     }
 }
 
-/// Shows which hands are meant.
+/// Shows the choice of hands.
 pub(super) fn hands(ui: &mut Ui, seen: &Seen<'_>, value: &mut Hands, both: bool) -> bool {
     let all: Vec<(Hands, &str)> = Hands::ALL
         .into_iter()
@@ -87,7 +87,7 @@ pub(super) fn hands(ui: &mut Ui, seen: &Seen<'_>, value: &mut Hands, both: bool)
     choose(ui, seen.say(words::HAND), value, &all)
 }
 
-/// Shows a number with a slider; a typed number may lie beyond it.
+/// Shows a number with a slider; a typed number may lie beyond the slider's range.
 pub(super) fn slide(
     ui: &mut Ui,
     name: &str,
@@ -106,7 +106,7 @@ pub(super) fn slide(
     response.changed()
 }
 
-/// Shows how often something is done.
+/// Shows a number of repetitions.
 pub(super) fn count(
     ui: &mut Ui,
     name: &str,
@@ -160,7 +160,7 @@ pub(super) fn tidy(number: f64) -> f64 {
     (number * 1e6).round() / 1e6
 }
 
-/// Shows a time that may be left to the operator.
+/// Shows a time; `None` leaves it to the operator.
 pub(super) fn time(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -187,7 +187,7 @@ pub(super) fn time(
     changed
 }
 
-/// Shows a factor that may be left at one.
+/// Shows a factor; `None` means one.
 pub(super) fn factor(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -225,7 +225,7 @@ fn profile_text(profile: Option<Profile>) -> Text {
     }
 }
 
-/// Shows how one posture leads to the next.
+/// Shows a transition from one posture to the next.
 pub(super) fn transition(ui: &mut Ui, seen: &Seen<'_>, value: &mut Transition) -> bool {
     ui.horizontal_wrapped(|ui| {
         caption(ui, seen, words::VIA);
@@ -251,7 +251,7 @@ pub(super) fn direction_text(direction: Direction) -> Text {
     }
 }
 
-/// Shows the six directions of the signer, those chosen pressed in; opposite ones give way.
+/// Shows the signer's six directions as switches; opposite ones exclude each other.
 pub(super) fn directions(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -280,7 +280,7 @@ pub(super) fn directions(
     changed
 }
 
-/// Shows three lengths of a point: to the left, up from the floor, forward.
+/// Shows a point as three lengths: to the left, up from the floor, forward.
 pub(super) fn point(ui: &mut Ui, seen: &Seen<'_>, value: &mut [Length; 3]) -> bool {
     let rows = [
         (words::TO_THE_LEFT, -80.0..=80.0),
@@ -321,7 +321,7 @@ enum SpotKind {
     Point,
 }
 
-/// Shows a place that signs refer to.
+/// Shows a place in the signing space.
 pub(super) fn spot(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, value: &mut Spot) -> bool {
     let mut kind = match value {
         Spot::Me => SpotKind::Me,
@@ -356,7 +356,7 @@ pub(super) fn spot(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, value: &mut
     changed
 }
 
-/// Returns what a value of an inventory is called, after its id.
+/// Returns the name of a value of an inventory, if it differs from its id.
 fn called(value: &InventoryValue, seen: &Seen<'_>) -> Option<String> {
     let code = match seen.language {
         crate::words::Language::English => "en",
@@ -365,7 +365,7 @@ fn called(value: &InventoryValue, seen: &Seen<'_>) -> Option<String> {
     value.names.get(code).cloned()
 }
 
-/// Shows a value of the inventories of a component: typed, with what it could be.
+/// Shows a value from the inventories of a component: a text field with completion.
 pub(super) fn of_inventory(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -420,7 +420,7 @@ pub(super) fn of_inventory(
         && let Some(name) = called(value, seen)
         && name != *text
     {
-        // A second line would push the card's other settings out of sight.
+        // A second line would move the card's other settings out of sight.
         let called = RichText::new(&name).weak();
         ui.add(Label::new(called).truncate()).on_hover_text(&name);
     }
@@ -441,7 +441,7 @@ pub(super) fn asked(ui: &Ui) -> Option<Thing> {
     })
 }
 
-/// Returns the address of the selected token, where one is selected.
+/// Returns the id and the gloss of the token that is selected or under the playhead.
 pub(crate) fn selected_token(seen: &Seen<'_>) -> Option<(i64, String)> {
     let contents = seen.snapshot.contents(seen.shown.recording?)?;
     let by = |annotation: i64| {
@@ -476,7 +476,7 @@ pub(super) fn selected_recipe(seen: &Seen<'_>) -> Option<(String, String)> {
         let gloss = showing.made.name.clone();
         let signs = &seen.snapshot.overview.signs;
         let only = |gloss: &String| signs.iter().any(|it| it.gloss == *gloss && it.tokens == 1);
-        // A gloss is easier to read, where it says which token is meant.
+        // A gloss is easier to read, if it identifies the token.
         let recipe = match gloss.contains('"') || !only(&gloss) {
             true => format!("sigml \"token:{token}\""),
             false => format!("sigml \"{gloss}\""),
@@ -487,12 +487,12 @@ pub(super) fn selected_recipe(seen: &Seen<'_>) -> Option<(String, String)> {
     Some((recipe_of(&seen.snapshot.overview, token, &gloss), gloss))
 }
 
-/// Returns the recipe that is a token as it is.
+/// Returns the recipe that consists of a token without changes.
 pub(crate) fn recipe_of(overview: &Overview, token: i64, gloss: &str) -> String {
     quoted(&address(overview, token, gloss))
 }
 
-/// Returns how a recipe names a token: by its gloss where that means it, as people say it, else by its number.
+/// Returns the name of a token in recipes: its gloss if that means this token, else `token:` and its id.
 pub(super) fn address(overview: &Overview, token: i64, gloss: &str) -> String {
     let mut named = overview.signs.iter().filter(|it| it.gloss == gloss);
     let means = named.next().is_some_and(|it| it.citation == Some(token));
@@ -507,12 +507,12 @@ pub(super) fn address(overview: &Overview, token: i64, gloss: &str) -> String {
     }
 }
 
-/// Returns a sign as a recipe writes it.
+/// Returns a sign's name in the notation of recipes.
 fn quoted(name: &str) -> String {
     Node::Sign(name.to_owned()).to_string()
 }
 
-/// Shows a sign by its gloss: typed with completion, the selected token, or a hit dropped on it.
+/// Shows the choice of a sign by gloss: typed with completion, the selected token, or a result dropped on it.
 pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut String) -> bool {
     let inner = ui.horizontal_wrapped(|ui| {
         let signs = &seen.snapshot.overview.signs;
@@ -573,8 +573,8 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
     inner.inner
 }
 
-/// Shows a token by its gloss, as nobody knows signs by numbers; a click has another sign typed instead. Returns
-/// whether that was clicked; nothing if the text names no token that is known.
+/// Shows a token by its gloss, as nobody remembers signs by numbers; a click lets the user type another sign. Returns
+/// whether it was clicked; `None` if the text is not a known token.
 fn token_chip(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut String) -> Option<bool> {
     let gloss = gloss_of(seen, text).filter(|_| text.starts_with("token:"))?;
     if ui.memory(|memory| memory.has_focus(id)) {
@@ -593,7 +593,8 @@ fn token_chip(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut Strin
     Some(clicked)
 }
 
-/// Returns the gloss of a `token:…` of the open recording, or of what the stage shows that was made of it.
+/// Returns the gloss of a `token:…`: of the open recording, of a piece of the movement on the stage, or of a citation
+/// form.
 pub(super) fn gloss_of(seen: &Seen<'_>, text: &str) -> Option<String> {
     token_of(seen, text)
         .map(|token| token.gloss.clone())
@@ -621,7 +622,7 @@ fn part_of<'a>(seen: &Seen<'a>, text: &str) -> Option<&'a MadePart> {
     made.parts.iter().find(|part| part.from == text)
 }
 
-/// Returns when a token of the open recording is, or how long that of another one lasts.
+/// Returns the time of a token in the open recording, or the duration of a piece of the movement on the stage.
 fn time_of(seen: &Seen<'_>, text: &str) -> Option<String> {
     let seconds = |micros: i64| format!("{:.2}", micros as f64 / 1e6);
     if let Some((start, end)) = token_of(seen, text).and_then(|it| it.start_us.zip(it.end_us)) {
@@ -631,7 +632,7 @@ fn time_of(seen: &Seen<'_>, text: &str) -> Option<String> {
     Some(format!("{} s", seconds(span.micros())))
 }
 
-/// Shows whose body signs, where somebody is named.
+/// Shows the choice of the signer whose body is used, if the corpus has signers.
 pub(super) fn signer(ui: &mut Ui, seen: &Seen<'_>, value: &mut Option<String>) -> bool {
     let signers = &seen.snapshot.overview.signers;
     if signers.is_empty() && value.is_none() {

@@ -1,5 +1,5 @@
-//! The preview: the current recipe is evaluated, one at a time, the newest next. Slow evaluations that are no
-//! longer wanted are stopped, but never twice in a row: during a drag, the user sees a result.
+//! The preview: evaluates the current recipe, one evaluation at a time, the newest next. Slow evaluations that are
+//! outdated are stopped, but never twice in a row, so that the user sees results during a drag.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,50 +12,50 @@ use crate::command::Command;
 use crate::context::Outbox;
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// The subject of a preview.
+/// The input of an evaluation.
 #[derive(Debug, Clone, PartialEq)]
 struct Wish {
     text: String,
-    /// The generation of the corpus: the sources may change.
+    /// The generation of the corpus, as the sources may change.
     generation: i64,
 }
 
-/// The report's part about one card.
+/// The part of the report about one card.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Note {
     pub(super) did: Vec<String>,
-    /// The largest distance in metres between where a wrist should have come and where it came.
+    /// The largest distance between the intended and the actual position of a wrist, in metres.
     pub(super) residual: Option<f64>,
-    /// The way by which a placement moved the hands: metres to the left, up and forward.
+    /// The offset by which a placement moved the hands, in metres to the left, up and forward.
     pub(super) moved: Option<[f64; 3]>,
 }
 
-/// Why nothing can be made.
+/// Why the recipe cannot be evaluated.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Trouble {
     pub(super) text: String,
     pub(super) remedy: Option<String>,
-    /// The card that cannot be done.
+    /// The card with the problem.
     pub(super) card: Option<u64>,
 }
 
-/// How long what is not wanted any more may still take, in seconds.
+/// How long an outdated evaluation may still take, in seconds.
 const PATIENCE: f64 = 0.15;
 
 /// The preview.
 #[derive(Default)]
 pub(super) struct Live {
-    /// Whether everything is to be looked up again.
+    /// Whether to look everything up again.
     anew: bool,
-    /// Whether the one that is being made was stopped, and whether the one before it was.
+    /// Whether the running evaluation was stopped, and whether the one before it was.
     stopped: [bool; 2],
-    /// The running evaluation, with the card of each path of its report.
+    /// The running evaluation, with the stack that maps the paths of its report to cards.
     running: Option<(WorkId, Wish, Stack)>,
-    /// When it was asked for, in seconds of the window's clock.
+    /// When it was requested, in seconds of the window's clock.
     since: f64,
-    /// Whether it ended and nobody saw it yet.
+    /// Whether it ended and its result has not been followed up yet.
     fresh: bool,
-    /// How long the last one took, in seconds, until it was seen.
+    /// How long the last one took until it was followed up, in seconds.
     pub(super) took: f64,
     /// The last evaluation, which may have failed.
     of: Option<Wish>,
@@ -106,22 +106,22 @@ impl Live {
         self.since = now;
     }
 
-    /// Looks everything up again, even if the recipe is the same.
+    /// Makes the next evaluation look everything up again, even if the recipe is the same.
     pub(super) fn reload(&mut self) {
         self.anew = true;
     }
 
-    /// Returns whether something ended that was not followed up yet.
+    /// Returns whether an evaluation ended that has not been followed up yet.
     pub(super) fn has_news(&self) -> bool {
         self.fresh
     }
 
-    /// Returns whether something newer is being made.
+    /// Returns whether an evaluation is running.
     pub(super) fn is_making(&self) -> bool {
         self.running.is_some()
     }
 
-    /// Hears what came of work; whether it was the preview.
+    /// Handles the result of work; returns whether it was the preview.
     pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) -> bool {
         let Some((_, wish, stack)) = self.running.take_if(|(running, ..)| *running == id) else {
             return false;
@@ -147,7 +147,7 @@ impl Live {
     }
 }
 
-/// Returns what a report says of each card, by its number.
+/// Returns the report's note about each card, by the card's id.
 pub(super) fn notes(report: &Report, stack: &Stack) -> BTreeMap<u64, Note> {
     let mut notes: BTreeMap<u64, Note> = BTreeMap::new();
     for step in &report.steps {

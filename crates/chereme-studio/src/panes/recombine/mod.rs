@@ -1,4 +1,4 @@
-//! Recombination: a recipe as text and as a stack of cards, made while it changes, stored as a new sign.
+//! Recombination: a recipe as text and as a stack of cards, evaluated while it changes, stored as a new sign.
 
 mod cards;
 mod catalogue;
@@ -34,46 +34,46 @@ pub(crate) use path::{draw_on_stage, drawing, lengths, offset_legs, points_of, p
 use stack::{Card, Stack, What};
 use steps::Steps;
 
-/// Changes that follow each other faster than this, in seconds, are one step.
+/// Changes that follow each other within this time, in seconds, are one step of undo.
 const SETTLES: f64 = 0.4;
 
 /// The pane.
 #[derive(Default)]
 pub(crate) struct Recombine {
     stack: Stack,
-    /// The recipe as typed; that of the cards if it can be read.
+    /// The recipe as typed; the cards show the same recipe if the text can be read.
     text: String,
     /// Why the text cannot be read.
     wrong: Option<String>,
-    /// The card that keys are about.
+    /// The card that keyboard actions apply to.
     chosen: Option<u64>,
-    /// The card that what is typed shall go to.
+    /// The card that takes the keyboard next.
     focus: Option<u64>,
-    /// The card that was just added, whose first field is to have it.
+    /// A card that was just added, whose first field takes the keyboard.
     fresh: Option<u64>,
     live: Live,
     suggest: suggest::Suggest,
     gloss: String,
-    /// The name of the stored sign whose recipe this is.
+    /// The name of the stored sign whose recipe was opened.
     opened: Option<String>,
     storing: Option<WorkId>,
     /// The sign that was stored last: its gloss and recording.
     stored: Option<(String, i64)>,
-    /// Whether the stage shows the result, and not the recording.
+    /// Whether the stage shows the result instead of the recording.
     on_stage: bool,
     /// The movement that was last given to the stage.
     given: Option<Arc<Recombination>>,
     come: bool,
-    /// The gloss shall be typed next.
+    /// Whether the gloss takes the keyboard next.
     naming: bool,
     steps: Steps<Page>,
-    /// The recipe as it was when it was last left alone.
+    /// The recipe after the last step of undo.
     settled: Page,
-    /// The text as it became last, and when, in seconds of the window's clock.
+    /// The text after its last change, and the time of that change in seconds of the window's clock.
     changed: (String, f64),
 }
 
-/// The recipe as it is taken back to.
+/// The state of the recipe that undo restores.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Page {
     stack: Stack,
@@ -82,14 +82,14 @@ struct Page {
     gloss: String,
 }
 
-/// Reads a recipe as text, or as JSON where it begins with a brace.
+/// Reads a recipe as text, or as JSON if it begins with a brace.
 fn read(text: &str) -> Result<Recipe, String> {
     if text.trim_start().starts_with('{') {
         return serde_json::from_str(text).map_err(|error| error.to_string());
     }
     text.parse().map_err(|error: RecipeError| match &error {
         RecipeError::Text(at) => {
-            // Shows the text at the error, since counting letters is no work for people.
+            // The message shows the text at the error, so that nobody has to count letters.
             let start = at.at.saturating_sub(24);
             let letters = |from: usize, count: usize| -> String {
                 at.text.chars().skip(from).take(count).collect()
@@ -102,7 +102,7 @@ fn read(text: &str) -> Result<Recipe, String> {
 }
 
 impl Recombine {
-    /// Turns to a recipe, that of the stored sign of that name where there is one.
+    /// Opens a recipe; `opened` is the name of the stored sign that it comes from, if any.
     pub(crate) fn open(&mut self, recipe: &str, opened: Option<String>, gloss: Option<String>) {
         self.stack = Stack::default();
         self.type_in(recipe.to_owned());
@@ -123,7 +123,7 @@ impl Recombine {
         }
     }
 
-    /// Takes in what was changed since as one step.
+    /// Makes the changes since the last step one step of undo.
     fn settle(&mut self) {
         let same = self.settled.text == self.text && self.settled.stack == self.stack;
         if !same {
@@ -133,7 +133,7 @@ impl Recombine {
         }
     }
 
-    /// Counts the operations on the corpus; a change of the recipe before them is a step before them.
+    /// Counts the new operations on the corpus; unsettled changes of the recipe become a step before them.
     fn count(&mut self, operations: &[OperationRow]) {
         if self.steps.is_behind(operations) {
             self.settle();
@@ -141,8 +141,8 @@ impl Recombine {
         }
     }
 
-    /// Makes a change a step when nothing is dragged or typed, and no other change has followed at once; a change
-    /// before the mouse is pressed is a step of its own.
+    /// Makes changes one step of undo when nothing is dragged or typed, and no change has followed for a while. Changes
+    /// before a press of the mouse are a separate step.
     fn settle_in_time(&mut self, ui: &Ui) {
         let (now, held) = ui.input(|input| (input.time, input.pointer.any_down()));
         if ui.input(|input| input.pointer.any_pressed()) {
@@ -160,7 +160,7 @@ impl Recombine {
         }
     }
 
-    /// Takes a step of the recipe back, or does it again; whether it was its turn.
+    /// Undoes or redoes a step of the recipe; returns whether a step of the recipe was next.
     pub(crate) fn walk(&mut self, back: bool, operations: &[OperationRow]) -> bool {
         self.count(operations);
         self.settle();
@@ -180,7 +180,7 @@ impl Recombine {
         true
     }
 
-    /// Puts the placement of a card elsewhere.
+    /// Changes the goal of a card's placement.
     pub(crate) fn place(&mut self, card: u64, goal: Goal) {
         if let Some(Card {
             what: What::Step(Step::Place(place)),
@@ -192,7 +192,7 @@ impl Recombine {
         }
     }
 
-    /// Has a card carry the hands along a curve through points, in metres to the left, up and forward.
+    /// Makes a card move the hands along a curve through points, given as lengths to the left, up and forward.
     pub(crate) fn travel(&mut self, card: u64, points: &[[Length; 3]]) {
         if let Some(Card {
             what: What::Step(Step::Travel(travel)),
@@ -236,7 +236,7 @@ impl Recombine {
         })
     }
 
-    /// Takes a sign in: where the chosen card, or any, waits for one, else as a source of its own.
+    /// Adds a sign: to the chosen card, or any, that lacks one, else as a separate source.
     pub(crate) fn take_in(&mut self, carried: &Carried, overview: &Overview) {
         let name = fields::address(overview, carried.token, &carried.gloss);
         let waiting = |card: &stack::Card| matches!(&card.what, What::Source { node: Node::Sign(name), .. } if name.trim().is_empty());
@@ -264,8 +264,8 @@ impl Recombine {
         self.live.has_news()
     }
 
-    /// Evaluates the current recipe, and gives the stage the result and its handle; `now` is the time on the
-    /// window's clock.
+    /// Evaluates the current recipe, and passes the result, its handle and its path to the stage; `now` is the time on
+    /// the window's clock.
     pub(crate) fn keep_up(&mut self, seen: &Seen<'_>, now: f64, out: &mut Outbox) {
         let generation = seen.snapshot.overview.generation;
         if self.wrong.is_none() {
@@ -283,7 +283,7 @@ impl Recombine {
         }
     }
 
-    /// Gives the stage the result if it shows results, and else the recording.
+    /// Passes the result to the stage, or returns the stage to the recording.
     fn show_on_stage(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
         let made = self.live.made.as_ref().filter(|_| self.on_stage);
         let same = match (made, &self.given) {
@@ -292,7 +292,7 @@ impl Recombine {
             _ => false,
         };
         if same {
-            // Whatever shows a place in a recording takes the stage back.
+            // Any command that shows something in a recording ends the display of the result.
             if self.given.is_some() && seen.shown.made.is_none() {
                 (self.given, self.on_stage) = (None, false);
             }
@@ -303,7 +303,7 @@ impl Recombine {
         out.send(Command::Made(shown));
     }
 
-    /// Takes typed text: the cards follow if it can be read.
+    /// Sets the text to typed text; the cards follow if it can be read.
     fn type_in(&mut self, text: String) {
         self.text = text;
         if self.text.trim().is_empty() {
@@ -320,7 +320,7 @@ impl Recombine {
         }
     }
 
-    /// Takes a change of the cards: the text follows.
+    /// Updates the text after a change of the cards.
     fn follow_cards(&mut self) {
         self.wrong = None;
         self.on_stage = true;
@@ -332,7 +332,7 @@ impl Recombine {
         self.text = self.stack.text();
     }
 
-    /// Adds a card after the chosen one, and turns to it.
+    /// Adds a card after the chosen one, and chooses it.
     fn add(&mut self, what: What) {
         let after = self.chosen.filter(|_| !what.is_source());
         let id = self.stack.add(after, what);
@@ -340,7 +340,7 @@ impl Recombine {
         self.follow_cards();
     }
 
-    /// Does what a key or menu asks for to a card.
+    /// Carries out an action of keys or menus on a card.
     fn change(&mut self, id: u64, action: Action) {
         let at = self.stack.position(id);
         match action {
@@ -367,7 +367,7 @@ impl Recombine {
         self.follow_cards();
     }
 
-    /// Returns the sign that the stack begins with, as an address.
+    /// Returns the address of the sign that the stack begins with.
     fn source(&self) -> Option<&str> {
         match &self.stack.cards().first()?.what {
             What::Source {
@@ -409,7 +409,7 @@ impl Recombine {
             response.request_focus();
         }
         if response.changed() {
-            // The same text pasted again asks for what it means by now.
+            // The same text pasted again is evaluated again, as its meaning may have changed.
             if text == self.text {
                 self.live.reload();
             }
@@ -421,7 +421,7 @@ impl Recombine {
         }
     }
 
-    /// The page before there is a recipe.
+    /// Shows the page without a recipe.
     fn beginning(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
         ui.add_space(8.0);
         ui.strong(seen.say(words::EMPTY));
@@ -498,7 +498,7 @@ impl Pane for Recombine {
             {
                 report::show(ui, seen, &made.report);
             }
-            // A name that is half typed means nothing yet.
+            // An unfinished name has no suggestions.
             let known = self.live.trouble.is_none();
             if let Some(source) = self.source().filter(|_| known).map(str::to_owned) {
                 let name = match fields::gloss_of(seen, &source) {

@@ -1,4 +1,4 @@
-//! The settings of the operators that have several, as widgets.
+//! Widgets for the settings of operators with several settings.
 
 use chereme_corpus::recipe::{
     Choice, Configure, Degrees, Direction, Factor, Goal, HandPoint, Indicate, Length, Orient, Pace,

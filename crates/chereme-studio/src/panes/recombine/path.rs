@@ -1,4 +1,4 @@
-//! Ways of the hands: an offset as three lengths, and a path drawn with the pointer.
+//! Offsets and paths of the hands: an offset as three lengths, and a path drawn with the pointer.
 
 use chereme_corpus::recipe::{Direction, Leg, Length, Spline, Travel, towards};
 use chereme_motion::glam::DVec3;
@@ -11,9 +11,9 @@ use super::fields::{self, caption, choose, tidy};
 use crate::context::Seen;
 use crate::words::{fill, recombine as words};
 
-/// How many metres the drawing board shows from edge to edge.
+/// Width of the space that the drawing board shows, in metres.
 const BOARD: f32 = 0.8;
-/// A drawn line smaller than this in metres is no path.
+/// A drawn line smaller than this, in metres, is ignored.
 const LEAST: f64 = 0.02;
 /// The most points of a drawn path.
 const MOST: usize = 24;
@@ -34,7 +34,7 @@ pub(super) fn legs_of(offset: [f64; 3]) -> Vec<Leg> {
     all.filter(|(metres, _)| *metres != 0.0).map(leg).collect()
 }
 
-/// Returns the legs of an offset, one of length zero for a zero offset: that is an offset still.
+/// Returns the legs of an offset; one leg of length zero for a zero offset, so that it remains an offset.
 pub(crate) fn offset_legs(offset: [f64; 3]) -> Vec<Leg> {
     let mut legs = legs_of(offset);
     if legs.is_empty() {
@@ -47,7 +47,7 @@ pub(crate) fn offset_legs(offset: [f64; 3]) -> Vec<Leg> {
     legs
 }
 
-/// Returns the sum of ways in metres to the left, up and forward, where each goes along one axis.
+/// Returns the sum of legs in metres to the left, up and forward; `None` if a leg does not follow one axis.
 pub(super) fn offset_of(legs: &[Leg]) -> Option<[f64; 3]> {
     let mut sum = DVec3::ZERO;
     for leg in legs {
@@ -61,7 +61,7 @@ pub(super) fn offset_of(legs: &[Leg]) -> Option<[f64; 3]> {
     Some(sum.to_array().map(|metres| tidy(metres * 100.0) / 100.0))
 }
 
-/// Shows an offset as three lengths, or as legs if it needs more than that.
+/// Shows an offset as three lengths, or as legs if they do not follow the axes.
 pub(super) fn offset(ui: &mut Ui, seen: &Seen<'_>, legs: &mut Vec<Leg>) -> bool {
     let Some(mut offset) = offset_of(legs) else {
         return rows(ui, seen, legs, false);
@@ -87,7 +87,7 @@ pub(super) fn offset(ui: &mut Ui, seen: &Seen<'_>, legs: &mut Vec<Leg>) -> bool 
     changed
 }
 
-/// Shows each way with its directions, length and time.
+/// Shows each leg with its directions, length and time.
 fn rows(ui: &mut Ui, seen: &Seen<'_>, legs: &mut Vec<Leg>, timed: bool) -> bool {
     let mut changed = false;
     let mut gone = None;
@@ -125,7 +125,7 @@ fn rows(ui: &mut Ui, seen: &Seen<'_>, legs: &mut Vec<Leg>, timed: bool) -> bool 
     changed
 }
 
-/// From where the drawing board is seen.
+/// The direction of view of the drawing board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Board {
     /// From the front: the signer's left is to the right.
@@ -162,21 +162,23 @@ impl Board {
         }
     }
 
-    /// Returns where a way goes on the board, in metres to the right and down.
+    /// Projects an offset onto the board, in metres to the right and down.
     fn flat(self, way: DVec3) -> Vec2 {
         let [right, up, ..] = self.axes();
         vec2(way.dot(right.vector()) as f32, -way.dot(up.vector()) as f32)
     }
 
-    /// Returns the way of metres to the right and down on the board in space: to the left, up and forward.
+    /// Returns the offset in space (to the left, up and forward) of an offset on the board, in metres to the right and
+    /// down.
     fn deep(self, way: Vec2) -> DVec3 {
         let [right, up, ..] = self.axes();
         right.vector() * f64::from(way.x) - up.vector() * f64::from(way.y)
     }
 }
 
-/// Returns the points of a drawn line, in metres to the left, up and forward of its beginning: as few as let the curve
-/// through them lie within a thirtieth of its size of the line; nothing for one that is too short.
+/// Returns points of a drawn line, in metres to the left, up and forward of its beginning: just enough that the curve
+/// through them is nowhere farther from the line than a thirtieth of its size or 5 mm. Returns an empty list if the
+/// line is too short.
 pub(crate) fn points_of_line(line: &[DVec3]) -> Vec<[Length; 3]> {
     let Some(first) = line.first() else {
         return Vec::new();
@@ -207,7 +209,7 @@ pub(crate) fn points_of_line(line: &[DVec3]) -> Vec<[Length; 3]> {
     knots.iter().map(|&at| lengths(line[at])).collect()
 }
 
-/// Returns a place as lengths in whole millimetres, which are written in centimetres.
+/// Returns a position as lengths rounded to millimetres, which recipes write in centimetres.
 pub(crate) fn lengths(place: DVec3) -> [Length; 3] {
     let cm = |value: f64| (value * 1000.0).round() / 10.0 + 0.0;
     place
@@ -215,8 +217,8 @@ pub(crate) fn lengths(place: DVec3) -> [Length; 3] {
         .map(|value| Length::Metres(cm(value) / 100.0))
 }
 
-/// Returns where the path of a movement of the hands goes, in metres to the left, up and forward: its points, or where
-/// each of its legs ends.
+/// Returns the points of a path, in metres to the left, up and forward of its beginning: those of its curve, or the
+/// ends of its legs.
 pub(crate) fn points_of(travel: &Travel, arm: f64) -> Vec<DVec3> {
     if !travel.through.is_empty() {
         let point = |at: &[Length; 3]| DVec3::from(at.map(|it| it.metres(arm)));
@@ -231,12 +233,12 @@ pub(crate) fn points_of(travel: &Travel, arm: f64) -> Vec<DVec3> {
     .collect()
 }
 
-/// Whether the next drag on the stage draws the path of a card, by its number.
+/// Returns the id of the card whose path the next drag on the stage draws.
 pub(crate) fn drawing(ctx: &Context) -> Option<u64> {
     ctx.data(|data| data.get_temp(Id::unique(DRAWING)))
 }
 
-/// Has the next drag on the stage draw the path of a card, or nothing.
+/// Makes the next drag on the stage draw the path of a card; `None` ends that.
 pub(crate) fn draw_on_stage(ctx: &Context, card: Option<u64>) {
     ctx.data_mut(|data| match card {
         Some(card) => drop(data.insert_temp(Id::unique(DRAWING), card)),
@@ -246,7 +248,7 @@ pub(crate) fn draw_on_stage(ctx: &Context, card: Option<u64>) {
 
 const DRAWING: &str = "path drawn on the stage";
 
-/// Shows a path: a board to draw it on, and its legs or the points of its curve below.
+/// Shows a path: a board to draw it on, and below it its legs or the points of its curve.
 pub(super) fn show(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -297,7 +299,7 @@ pub(super) fn show(
     changed
 }
 
-/// Shows the board; returns the points of the path that was drawn on it.
+/// Shows the board; returns the points of a newly drawn path.
 fn draw(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -325,7 +327,7 @@ fn draw(
         painter.hline(rect.x_range(), y, Stroke::new(1.0, colours.stripe));
     }
     if !response.dragged() {
-        // In the picture, for a tip beside the pointer would lie over the ways below.
+        // The text is in the picture, as a tooltip beside the pointer would cover the legs below.
         let font = TextStyle::Small.resolve(ui.style());
         let at = rect.center_bottom() - vec2(0.0, 4.0);
         let weak = ui.visuals().weak_text_color();

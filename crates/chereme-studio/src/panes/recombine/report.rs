@@ -6,10 +6,10 @@ use eframe::egui::{CollapsingHeader, Grid, RichText, Ui};
 use crate::context::Seen;
 use crate::words::{Text, fill, recombine as words};
 
-/// Velocities at a join that change by more than this are seen, in metres per second.
+/// Changes of velocity at a join above this are visible, in metres per second.
 const JOLT: f64 = 0.5;
 
-/// Returns what a join is like: its place, and how far position and speed are off.
+/// Returns texts about a join: its place, and the jumps of position and velocity.
 pub(super) fn join_text(join: &JoinReport) -> (String, String) {
     let place = format!(
         "{:.2}–{:.2} s",
@@ -70,7 +70,7 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, report: &Report) {
     });
 }
 
-/// Shows a part of the report that can be folded away, where it holds anything.
+/// Shows a foldable part of the report, if it is not empty.
 fn section(ui: &mut Ui, seen: &Seen<'_>, text: Text, count: usize, content: impl FnOnce(&mut Ui)) {
     if count == 0 {
         return;

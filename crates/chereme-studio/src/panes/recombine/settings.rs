@@ -1,4 +1,4 @@
-//! The settings of each source and operator as widgets; a setting without a widget is a line of its text.
+//! Widgets for the settings of each source and operator; a setting without a widget is a line of its text.
 
 use chereme_corpus::recipe::{
     Cue, Factor, Field, FieldSetting, Goal, Hands, Node, PhaseRule, Recipe, Spell, Step, Transition,
@@ -13,20 +13,20 @@ use crate::pickers::{board, hamnosys};
 use crate::script::edit;
 use crate::words::recombine as words;
 
-/// Where settings are shown.
+/// The card whose settings are shown.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct At {
-    /// The card.
+    /// The widget id of the card.
     pub(super) id: Id,
-    /// Its number.
+    /// The id of the card in the stack.
     pub(super) card: u64,
     /// Whether it is the first card.
     pub(super) first: bool,
-    /// Whether all of them are shown, not only those that matter most.
+    /// Whether to show all settings, not only the important ones.
     pub(super) whole: bool,
 }
 
-/// Shows the settings of a card; returns whether the person changed one.
+/// Shows the settings of a card; returns whether the user changed one.
 pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, at: At, what: &mut What) -> bool {
     match what {
         What::Source { via, node } => {
@@ -38,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, at: At, what: &mut What) -> boo
     }
 }
 
-/// Shows a transition where one is asked for, or all settings are shown.
+/// Shows a transition if it differs from the default, or if all settings are shown.
 pub(super) fn transition(ui: &mut Ui, seen: &Seen<'_>, at: At, via: &mut Transition) -> bool {
     (at.whole || !via.is_default()) && fields::transition(ui, seen, via)
 }
@@ -181,7 +181,7 @@ fn spell(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Spell) -> bool {
     changed | transition(ui, seen, at, &mut it.via)
 }
 
-/// Shows a part as its text; `take` receives typed text that can be read.
+/// Shows a part of a recipe as text; `take` receives typed text that can be read.
 fn as_text(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -209,7 +209,7 @@ fn as_text(
     changed
 }
 
-/// Shows a step as its text.
+/// Shows a step as text.
 fn step_as_text(ui: &mut Ui, seen: &Seen<'_>, id: Id, step: &mut Step) -> bool {
     let text = step.to_string();
     as_text(ui, seen, id, &text, |typed| {
@@ -227,8 +227,8 @@ fn step_as_text(ui: &mut Ui, seen: &Seen<'_>, id: Id, step: &mut Step) -> bool {
     })
 }
 
-/// Shows an operator: those with a form of their own by it, others by the usual fields of their settings, and those
-/// whose settings have no fields as text.
+/// Shows the settings of an operator: in a special form if it has one, else as the usual fields of its settings, else
+/// as text.
 fn operator(ui: &mut Ui, seen: &Seen<'_>, at: At, step: &mut Step) -> bool {
     match step {
         Step::Configure(it) => return operators::configure(ui, seen, at, it),

@@ -1,8 +1,7 @@
 //! A recipe as a stack of cards: sources, and the operators on each, in order.
 //!
-//! Text and cards are the same recipe. A part that cards cannot show, such as an utterance in parentheses, is one
-//! card with its text. Cards that are switched off, or not filled in yet, stay in the stack and are left out of the
-//! text.
+//! Text and cards are the same recipe. A part that cards cannot show, such as an utterance in parentheses, is one card
+//! with its text. Cards that are switched off or incomplete stay in the stack and are left out of the text.
 
 use std::collections::BTreeMap;
 
@@ -10,12 +9,12 @@ use chereme_corpus::recipe::{
     Choice, Joined, Node, Pipe, Recipe, RecipeError, Spot, Step, Then, Transition,
 };
 
-/// What a card says.
+/// The contents of a card.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum What {
-    /// Where movement comes from; the cards after it, up to the next source, are done to it.
+    /// A source of movement; the operators up to the next source apply to it.
     Source {
-        /// How the movement before leads into it; of the first nothing is said.
+        /// The transition from the movement before; ignored for the first source.
         via: Transition,
         /// A sign, spelling, pointing, notation, or an utterance in parentheses.
         node: Node,
@@ -27,7 +26,7 @@ pub(crate) enum What {
 /// A card of the stack.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Card {
-    /// Its number, which stays when it moves.
+    /// Its id, which stays the same when the card moves.
     pub(crate) id: u64,
     /// Whether it is switched on.
     pub(crate) on: bool,
@@ -42,7 +41,7 @@ pub(crate) struct Stack {
 }
 
 impl What {
-    /// Returns a source that nothing leads into.
+    /// Returns a source with the default transition.
     pub(crate) fn source(node: Node) -> Self {
         let via = Transition::default();
         Self::Source { via, node }
@@ -52,7 +51,7 @@ impl What {
         matches!(self, Self::Source { .. })
     }
 
-    /// Returns whether every name that it needs is there.
+    /// Returns whether every necessary name is filled in.
     pub(crate) fn is_complete(&self) -> bool {
         let there = |name: &str| !name.trim().is_empty();
         let chosen = |choice: &Choice| match choice {
@@ -77,7 +76,7 @@ impl What {
         }
     }
 
-    /// Returns the card with a name in it put right, where it holds the wrong one.
+    /// Returns the card with `right` in place of the name `wrong`, if the card contains that name.
     pub(crate) fn mended(&self, wrong: &str, right: &str) -> Option<Self> {
         let name = |name: &str| Node::Sign(name.to_owned()).to_string();
         let (wrong_text, right_text) = (name(wrong), name(right));
@@ -105,7 +104,7 @@ impl What {
         }
     }
 
-    /// Returns whether both are of one kind, so that one can have become the other.
+    /// Returns whether both are of the same kind, so that an edit can turn one into the other.
     fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Source { .. }, Self::Source { .. }) => true,
@@ -140,13 +139,13 @@ impl Stack {
         self.cards.iter_mut().find(|card| card.id == id)
     }
 
-    /// Returns whether the card at `at` counts: it is on and complete, and so is its source.
+    /// Returns whether the card at `at` is used: it is switched on and complete, and so is its source.
     pub(crate) fn counts(&self, at: usize) -> bool {
         let counts = |card: &Card| card.on && card.what.is_complete();
         counts(&self.cards[at]) && counts(&self.cards[self.piece_of(at).start])
     }
 
-    /// Returns the places of the source that the card at `at` belongs to and of its operators.
+    /// Returns the index range of the source that the card at `at` belongs to, with its operators.
     pub(crate) fn piece_of(&self, at: usize) -> std::ops::Range<usize> {
         let is_source = |at: &usize| self.cards[*at].what.is_source();
         let start = (0..=at).rev().find(is_source).unwrap_or(0);
@@ -154,7 +153,7 @@ impl Stack {
         start..end.unwrap_or(self.cards.len())
     }
 
-    /// Returns how many sources there are.
+    /// Returns the number of sources.
     pub(crate) fn pieces(&self) -> usize {
         self.cards
             .iter()
@@ -162,7 +161,7 @@ impl Stack {
             .count()
     }
 
-    /// Returns the tree of the cards that count, whether or not it can be made.
+    /// Returns the tree of the used cards, whether or not it is a valid recipe.
     pub(crate) fn node(&self) -> Option<Node> {
         let mut pieces: Vec<(Transition, Node, Vec<Step>)> = Vec::new();
         for (at, card) in self.cards.iter().enumerate() {
@@ -195,20 +194,20 @@ impl Stack {
         })
     }
 
-    /// Returns the recipe of the cards that count; nothing where none does.
+    /// Returns the recipe of the used cards; `None` if no card is used.
     ///
     /// # Errors
-    /// Where a setting is outside of what can be made.
+    /// Fails if a setting is out of range.
     pub(crate) fn recipe(&self) -> Option<Result<Recipe, RecipeError>> {
         self.node().map(Recipe::new)
     }
 
-    /// Returns the recipe's text; empty where no card counts.
+    /// Returns the recipe's text; empty if no card is used.
     pub(crate) fn text(&self) -> String {
         self.node().map_or(String::new(), |node| node.to_string())
     }
 
-    /// Returns where each card that counts stands in the recipe's JSON, as reports name it.
+    /// Returns the index of each used card by its path in the recipe's JSON, as in reports.
     pub(crate) fn paths(&self) -> BTreeMap<String, usize> {
         let counting: Vec<usize> = (0..self.cards.len())
             .filter(|at| self.counts(*at))
@@ -248,7 +247,7 @@ impl Stack {
         paths
     }
 
-    /// Returns the card that a report means by `path`: the one there, or the one that holds it.
+    /// Returns the index of the card at `path` in a report, or of the card that contains it.
     pub(crate) fn card_at(&self, path: &str) -> Option<usize> {
         let inside = |(at, _): &(String, usize)| {
             path.strip_prefix(at.as_str())
@@ -258,8 +257,8 @@ impl Stack {
         held.max_by_key(|(at, _)| at.len()).map(|(_, card)| card)
     }
 
-    /// Takes a recipe: cards that are in it stay what they are, those that do not count stay where
-    /// they were.
+    /// Replaces the stack with a recipe: cards that are in the recipe keep their ids, and unused cards keep their
+    /// places.
     pub(crate) fn take(&mut self, recipe: &Recipe) {
         let new = whats(recipe.root());
         let old: Vec<(Card, bool)> = self
@@ -289,7 +288,7 @@ impl Stack {
         self.put_back(&old);
     }
 
-    /// Puts the cards of `old` that did not count after those that they stood after.
+    /// Inserts the unused cards of `old` after the cards that they followed.
     fn put_back(&mut self, old: &[(Card, bool)]) {
         for (at, (card, counts)) in old.iter().enumerate() {
             if *counts {
@@ -310,8 +309,8 @@ impl Stack {
         }
     }
 
-    /// Adds a card after the one of `after`, or at the end, and returns its number; a source goes to
-    /// the end of the piece, a first card is a source.
+    /// Adds a card after the card `after`, or at the end, and returns its id. A source goes to the end of the piece,
+    /// and the first card must be a source.
     pub(crate) fn add(&mut self, after: Option<u64>, what: What) -> Option<u64> {
         let after = after.and_then(|id| self.position(id));
         if self.cards.is_empty() && !what.is_source() {
@@ -328,7 +327,7 @@ impl Stack {
         Some(id)
     }
 
-    /// Removes a card; its operators go with a source, unless it is the only one.
+    /// Removes a card; removing a source removes its operators too, unless it is the only source.
     pub(crate) fn remove(&mut self, id: u64) {
         let Some(at) = self.position(id) else { return };
         if self.cards[at].what.is_source() {
@@ -338,7 +337,7 @@ impl Stack {
         }
     }
 
-    /// Puts a copy after a card, of a source with its operators, and returns its number.
+    /// Inserts a copy after a card, of a source with its operators, and returns the copy's id.
     pub(crate) fn duplicate(&mut self, id: u64) -> Option<u64> {
         let at = self.position(id)?;
         let range = if self.cards[at].what.is_source() {
@@ -363,8 +362,8 @@ impl Stack {
         }
     }
 
-    /// Moves a card to stand before the one that is at `to` now; a source takes its operators along and lands
-    /// between pieces. Returns whether anything moved.
+    /// Moves a card before the one at index `to`; a source moves with its operators to a boundary between pieces.
+    /// Returns whether anything moved.
     pub(crate) fn move_to(&mut self, id: u64, to: usize) -> bool {
         let Some(from) = self.position(id) else {
             return false;
@@ -417,7 +416,7 @@ impl Stack {
     }
 }
 
-/// Returns the cards of a tree.
+/// Returns the contents of the cards for a tree.
 fn whats(root: &Node) -> Vec<What> {
     let mut all = Vec::new();
     let mut piece = |via: Transition, node: &Node| match node {
@@ -443,8 +442,8 @@ fn whats(root: &Node) -> Vec<What> {
     all
 }
 
-/// Returns for each of `new` the number of the card that it was: equal ones from both ends, and
-/// between them those of one kind in order.
+/// Returns for each of `new` the id of the corresponding old card: equal ones are matched from both ends, and those
+/// between by kind, in order.
 fn matched(old: &[Card], new: &[What]) -> Vec<Option<u64>> {
     let same = |(card, what): &(&Card, &What)| card.what == **what;
     let front = old.iter().zip(new).take_while(same).count();

@@ -1,22 +1,22 @@
-//! Changes of the recipe, to be undone and redone in order with operations on the corpus.
+//! Undo and redo for the recipe, in one order with the operations on the corpus.
 
 use chereme_corpus::{OperationKind, OperationRow};
 
-/// Steps that are remembered.
+/// How many steps are kept.
 const MOST: usize = 200;
 
-/// The steps of pages of type `T`.
+/// The history of pages of type `T` and operations.
 #[derive(Debug)]
 pub(super) struct Steps<T> {
     done: Vec<Entry<T>>,
     undone: Vec<Entry<T>>,
-    /// The newest operation of the corpus that is counted.
+    /// The id of the newest operation of the corpus that is counted.
     newest: Option<i64>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 enum Entry<T> {
-    /// The page was the first, and became the second.
+    /// A change from the first page to the second.
     Page(T, T),
     /// An operation of the corpus.
     Corpus,
@@ -33,7 +33,7 @@ impl<T> Default for Steps<T> {
 }
 
 impl<T: Clone> Steps<T> {
-    /// Takes in that the page became another.
+    /// Records a change of the page.
     pub(super) fn did(&mut self, before: T, after: T) {
         self.done.push(Entry::Page(before, after));
         self.undone.clear();
@@ -42,12 +42,12 @@ impl<T: Clone> Steps<T> {
         }
     }
 
-    /// Returns whether something was done to the corpus that is not counted.
+    /// Returns whether the corpus has operations that are not counted yet.
     pub(super) fn is_behind(&self, operations: &[OperationRow]) -> bool {
         self.newest.is_none() || operations.first().map(|it| it.id) > self.newest
     }
 
-    /// Takes in the operations on the corpus since; `operations` are the newest first.
+    /// Counts the new operations on the corpus; `operations` are the newest first.
     pub(super) fn follow(&mut self, operations: &[OperationRow]) {
         let newest = operations.first().map(|it| it.id);
         let Some(known) = self.newest else {
@@ -101,7 +101,7 @@ fn go_over<T>(from: &mut Vec<Entry<T>>, to: &mut Vec<Entry<T>>) {
 mod tests {
     use super::*;
 
-    /// Returns operations of these kinds, the newest first; numbers count up from 1.
+    /// Returns operations of these kinds, the newest first; ids count up from 1.
     fn operations(kinds: &[OperationKind]) -> Vec<OperationRow> {
         let row = |(at, kind): (usize, &OperationKind)| OperationRow {
             id: at as i64 + 1,

@@ -10,7 +10,7 @@ use crate::words::{fill, recombine as words};
 use crate::work::Work;
 
 impl Recombine {
-    /// The bar below: the gloss, and storing.
+    /// Shows the bar with the gloss and the button that stores the sign.
     pub(super) fn storing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let made = self.live.made.is_some() && self.live.trouble.is_none() && self.wrong.is_none();
         if let Some(made) = &self.live.made {
@@ -72,7 +72,7 @@ impl Recombine {
         });
         self.storing_again(ui, seen, out, made);
         let stored = self.stored.as_ref();
-        // One that was taken back is not there any more.
+        // After an undo the stored sign does not exist any more.
         let stored = stored.filter(|it| seen.snapshot.recording(it.1).is_some());
         if let Some((gloss, recording)) = stored {
             ui.horizontal_wrapped(|ui| {
@@ -89,7 +89,7 @@ impl Recombine {
         }
     }
 
-    /// The button that stores in the place of the sign whose recipe was opened.
+    /// Shows the button that replaces the sign whose recipe was opened.
     fn storing_again(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, made: bool) {
         let opened = self.opened.as_deref();
         let opened = opened.and_then(|name| seen.snapshot.recording_named(name));

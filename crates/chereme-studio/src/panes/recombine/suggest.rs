@@ -1,4 +1,4 @@
-//! Suggestions from a sign: partners that differ in one component, and values that no sign has.
+//! Suggestions for a sign: partners that differ in one component, and values that no sign has.
 
 use chereme_corpus::{Address, Origin, Suggestions};
 use eframe::egui::{RichText, Ui};
@@ -9,18 +9,18 @@ use crate::panes::list_row;
 use crate::words::{Text, fill, recombine as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// A recipe that is proposed.
+/// A proposed recipe.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Proposal {
     pub(super) recipe: String,
     /// The gloss of the partner, if it has no movement yet.
     pub(super) gloss: Option<String>,
-    /// The partner and what differs, or the value.
+    /// The partner and the difference, or the value.
     pub(super) name: String,
     pub(super) about: String,
 }
 
-/// The list of what could be made.
+/// The list of proposals.
 #[derive(Default)]
 pub(super) struct Suggest {
     of: String,
@@ -29,8 +29,7 @@ pub(super) struct Suggest {
     wrong: Option<String>,
 }
 
-/// Returns the recipes that a corpus proposes: partners first, those that have no movement before
-/// the others.
+/// Returns the recipes for partners of a sign; partners without movement come first.
 pub(super) fn partners(found: &Suggestions, field: impl Fn(&str) -> String) -> Vec<Proposal> {
     let mut all: Vec<(bool, Proposal)> = Vec::new();
     for partner in found.partners.iter().chain(&found.possible) {
@@ -58,7 +57,7 @@ pub(super) fn partners(found: &Suggestions, field: impl Fn(&str) -> String) -> V
     all.into_iter().map(|(_, proposal)| proposal).collect()
 }
 
-/// Returns the recipes that give a token a value that no sign has with the rest of its coding.
+/// Returns the recipes that give a token a value that no sign has with the rest of the coding.
 pub(super) fn unused(found: &Suggestions, field: &str) -> Vec<Proposal> {
     let values = found.unused.get(field).into_iter().flatten();
     let operator = match field {
@@ -82,7 +81,7 @@ pub(super) fn unused(found: &Suggestions, field: &str) -> Vec<Proposal> {
         .collect()
 }
 
-/// Returns what a field of a coding is called.
+/// Returns the name of a field of a coding.
 pub(super) fn field_text(field: &str) -> Option<Text> {
     match field {
         "dominant.configuration" => Some(words::HANDSHAPE),
@@ -93,7 +92,7 @@ pub(super) fn field_text(field: &str) -> Option<Text> {
 }
 
 impl Suggest {
-    /// Requests suggestions for a sign, if it is another than the last.
+    /// Requests suggestions for a sign, if it differs from the last one.
     fn follow(&mut self, of: &str, out: &mut Outbox) {
         if self.of == of {
             return;
@@ -121,7 +120,7 @@ impl Suggest {
         }
     }
 
-    /// Shows what could be made from `of`; returns what was chosen.
+    /// Shows the proposals for `of`; returns the chosen one.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
