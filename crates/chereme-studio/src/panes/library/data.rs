@@ -66,7 +66,7 @@ pub(crate) fn kind_text(kind: TrackKind) -> Text {
     }
 }
 
-/// Returns the names of the track kinds other than skeletal movement; `None` if there are none.
+/// Returns the names of the track kinds other than skeletal movement; `None` if it has no others.
 fn others(glance: &RecordingGlance, kind: impl Fn(TrackKind) -> String) -> Option<String> {
     let own = glance.kinds.iter().filter(|it| **it != TrackKind::Skeleton);
     let names: Vec<String> = own.map(|it| kind(*it)).collect();

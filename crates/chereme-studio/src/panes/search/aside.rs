@@ -1,4 +1,4 @@
-//! The column next to the query: earlier queries, help by examples, and advice for empty results.
+//! The column next to the query: recent queries, help by examples, and advice for empty results.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,7 +16,7 @@ use crate::context::{Outbox, Seen};
 use crate::words::{Text, fill, search as words, spoken};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// What the help shows: a query, and what it finds.
+/// The examples of the help: a query, and a description of its results.
 const EXAMPLES: [(&str, Text); 9] = [
     ("right.configuration=U placement=chin", words::EXAMPLE_BOTH),
     ("gloss:BO*", words::EXAMPLE_GLOSS),
@@ -36,17 +36,17 @@ const EXAMPLES: [(&str, Text); 9] = [
 #[derive(Debug, Default)]
 pub(super) struct Aside {
     kept: Kept,
-    /// For an empty result: the results without each condition.
+    /// For an empty result: the numbers of results without each condition.
     without: Option<Without>,
     leaving: BTreeMap<WorkId, usize>,
-    /// How many tokens have a component that was asked for, and which of them is proposed from movement now.
+    /// How many tokens have each requested component, and the component that is being proposed from movement.
     coded: Coded,
-    /// A hit that is being opened, and where it turned out to be.
+    /// A result that is being opened, and its place once it is known.
     pub(super) opening: Option<WorkId>,
     pub(super) opened: Option<Around>,
 }
 
-/// Whether components that a query asks for are coded at all.
+/// Whether the components in a query are coded at all.
 #[derive(Debug, Default)]
 struct Coded {
     counting: BTreeMap<WorkId, Component>,
@@ -75,7 +75,7 @@ impl Coded {
         self.proposing.take_if(|it| *it == id);
     }
 
-    /// Says which components nobody has coded yet, and offers to read them from movement.
+    /// Reports which components nobody has coded yet, and offers to infer them from movement.
     fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let moving = seen.snapshot.overview.recordings.iter();
         let moving = moving.filter(|it| it.frames > 0).count();
@@ -107,7 +107,7 @@ impl Coded {
     }
 }
 
-/// Returns the components that a query asks for a value of.
+/// Returns the components in the conditions of a query.
 fn components(query: &str) -> BTreeSet<Component> {
     let Ok(query) = Query::parse(query) else {
         return BTreeSet::new();
@@ -127,17 +127,17 @@ fn uncoded(counts: &BTreeMap<Component, usize>) -> Vec<Component> {
     none.map(|(component, _)| *component).collect()
 }
 
-/// The results of an empty query without each of its conditions.
+/// For a query without results: the results without each of its conditions.
 #[derive(Debug, Clone, PartialEq)]
 struct Without {
     query: String,
-    /// Another meaning that its words may have.
+    /// Another query that was probably meant.
     meant: Option<String>,
-    /// The condition, the query without it, and how many that finds.
+    /// Each condition, the query without it, and the number of results of that query.
     parts: Vec<(String, String, Option<usize>)>,
 }
 
-/// Returns each condition of a query with the query that is left without it.
+/// Returns each condition of a query, with the query without that condition.
 pub(super) fn parts(query: &str) -> Vec<(String, String)> {
     let Ok(query) = Query::parse(query) else {
         return Vec::new();
@@ -162,7 +162,7 @@ impl Aside {
         self.without = None;
     }
 
-    /// Stops what is counted for a query that is no longer the one.
+    /// Stops the counts for an outdated query.
     pub(super) fn stop(&mut self, out: &mut Outbox) {
         let left = std::mem::take(&mut self.leaving).into_keys();
         left.for_each(|id| out.send(Command::Stop(id)));
@@ -189,7 +189,7 @@ impl Aside {
         }
     }
 
-    /// Keeps a query among those that were asked.
+    /// Adds a query to the recent ones.
     pub(super) fn remember(&mut self, query: &str, seen: &Seen<'_>, out: &mut Outbox) {
         let mut searches = seen.settings.searches.clone();
         if Query::parse(query).is_ok() && searches.asked(query) {
@@ -197,7 +197,7 @@ impl Aside {
         }
     }
 
-    /// Draws the menus; returns the query that was chosen.
+    /// Draws the menus; returns the chosen query.
     pub(super) fn menus(
         &mut self,
         ui: &mut Ui,
@@ -238,8 +238,7 @@ impl Aside {
         chosen
     }
 
-    /// Says that nothing was found, and which condition leaves everything out; returns the query that
-    /// was chosen instead.
+    /// Reports that nothing was found, and which condition excludes everything; returns the query chosen instead.
     pub(super) fn nothing(
         &mut self,
         ui: &mut Ui,
@@ -297,10 +296,10 @@ impl Aside {
     }
 }
 
-/// Shows the findings of an answer: conditions that count more than they name, or match nothing; returns the query
-/// with a name that could match if a person chose one.
+/// Shows the findings of an answer: conditions that match more than they name, or nothing. Returns the query with
+/// another name, if the user chose one.
 pub(super) fn findings(ui: &mut Ui, seen: &Seen<'_>, found: &Found, query: &str) -> Option<String> {
-    /// The most names that are offered instead.
+    /// The most alternative names.
     const NAMES: usize = 6;
     let mut chosen = None;
     let told = |it: &&Finding| !matches!(it.kind, FindingKind::NotCoded { .. });
@@ -326,7 +325,7 @@ pub(super) fn findings(ui: &mut Ui, seen: &Seen<'_>, found: &Found, query: &str)
     chosen
 }
 
-/// Draws queries to begin with; returns the one that was chosen.
+/// Draws example queries; returns the chosen one.
 pub(super) fn examples(ui: &mut Ui, seen: &Seen<'_>) -> Option<String> {
     let mut chosen = None;
     ui.label(RichText::new(seen.say(words::EXAMPLES)).strong());

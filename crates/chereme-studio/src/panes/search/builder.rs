@@ -1,6 +1,6 @@
-//! The query as rows of conditions, which is the same query: every term that must hold is a row.
+//! The query as rows of conditions: every term of its conjunction is a row.
 //!
-//! A [`Condition`] is what the builder can show and change; any other term stays as it is written.
+//! A [`Condition`] can be shown and changed in the builder; any other term stays as it is written.
 
 use chereme_sign::query::{
     Comparison, Example, Expr, Like, Missing, Operator, Pattern, Property, Query, Test, TextField,
@@ -17,15 +17,15 @@ pub(crate) enum Subject {
     Text(TextField),
 }
 
-/// How what it is about stands to the values.
+/// The relation between a subject and the values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum How {
     Is,
     Exactly,
     IsNot,
-    /// It is not, and may as well have no value.
+    /// It is not, or has no value.
     NotAtAll,
-    /// It has a value, whichever.
+    /// It has any value.
     Has,
     Missing(Missing),
 }
@@ -33,15 +33,16 @@ pub(crate) enum How {
 /// A row of the builder.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Condition {
-    /// Something has one of the values.
+    /// A subject with some of the values.
     Values(Subject, How, Vec<Pattern>),
-    /// A text holds one of the words.
+    /// A text that contains one of the words.
     Words(TextField, Vec<Pattern>),
-    /// A length or a moment.
+    /// A condition on a length or a moment.
     Time(TimeField, TimeTest),
-    /// It is like an example: how much each component counts, in the order of [`Component::ALL`].
+    /// Similarity to an example: the weight of each component in the order of [`Component::ALL`], and the least
+    /// similarity.
     Like(Example, [f64; 5], Option<f64>),
-    /// A part that the builder cannot change, as it is written.
+    /// A term that the builder cannot change.
     Written(Expr),
 }
 
@@ -169,7 +170,7 @@ pub(crate) fn expr(row: &Condition) -> Expr {
     }
 }
 
-/// Returns the components that count; none where all count alike, which says the same.
+/// Returns the weights of the components; an empty list if all are 1, which means the same.
 fn weighted(weights: &[f64; 5]) -> Vec<Weighted> {
     if weights.iter().all(|weight| *weight == 1.0) {
         return Vec::new();
@@ -205,14 +206,14 @@ fn comparison(how: How, values: &[Pattern]) -> Comparison {
     Comparison { operator, values }
 }
 
-/// Returns a pattern as people write it.
+/// Returns a pattern as text.
 pub(crate) fn written(pattern: &Pattern) -> String {
     let segments = pattern.segments().iter();
     let escaped: Vec<String> = segments.map(|it| it.replace('*', "\\*")).collect();
     escaped.join("*")
 }
 
-/// Returns the query that wants `value` of `field` too, as text; `field` may be any that takes values.
+/// Returns the text of a query with `value` of `field` as a further condition; `field` may be any that takes values.
 pub(crate) fn with_value(query: &str, field: &str, value: &str) -> String {
     let quote = |value: &str| format!("\"{}\"", value.replace('\\', "\\\\").replace('"', "\\\""));
     let plain = value
@@ -349,7 +350,7 @@ mod tests {
             if let Ok(query) = text.parse::<Query>() {
                 let again = self::text(&rows(&query));
                 prop_assert_eq!(again.parse::<Query>().expect("a query"), query, "{}", again);
-                // A row that was taken in and written out is the same row.
+                // Reading and writing does not change a row.
                 for row in rows(&text.parse().expect("a query")) {
                     prop_assert_eq!(condition(&expr(&row)), row);
                 }

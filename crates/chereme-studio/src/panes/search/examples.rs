@@ -1,4 +1,4 @@
-//! The signs that a query gives as examples, by the tokens that it names: their glosses, and where they move.
+//! The signs that a query names as examples by token: their glosses, and where they move.
 
 use std::collections::BTreeMap;
 
@@ -12,14 +12,14 @@ use crate::model::Known;
 use crate::panes::inspector::Thing;
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// The examples that are known; the others are looked up.
+/// The known examples; others are looked up.
 #[derive(Debug, Default)]
 pub(super) struct Examples {
     known: BTreeMap<i64, Known>,
     looking: BTreeMap<WorkId, i64>,
 }
 
-/// Returns the tokens that a query gives as examples.
+/// Returns the tokens that a query names as examples.
 fn tokens(query: &str) -> Vec<i64> {
     let Ok(query) = query.parse() else {
         return Vec::new();
@@ -33,7 +33,7 @@ fn tokens(query: &str) -> Vec<i64> {
 }
 
 impl Examples {
-    /// Looks up what a query names and is not known.
+    /// Looks up the unknown tokens of a query.
     pub(super) fn follow(&mut self, query: &str, seen: &Seen<'_>, out: &mut Outbox) {
         if !query.contains("token:") {
             return;
@@ -68,7 +68,7 @@ impl Examples {
         self.known.insert(token, known);
     }
 
-    /// Returns the sign of an example, once it was looked up.
+    /// Returns the sign of an example, once it has been looked up.
     pub(super) fn get(&self, example: &Example, seen: &Seen<'_>) -> Option<Known> {
         match example {
             Example::Token(number) => self.known.get(&number.parse().ok()?).cloned(),

@@ -1,4 +1,4 @@
-//! Facets: how often each value occurs among what was found.
+//! Facets: how often each value occurs among the results.
 
 use std::collections::BTreeMap;
 
@@ -28,8 +28,8 @@ const PARTS: [(&str, Text); 6] = [
     ("final", words::FINAL),
 ];
 
-/// Returns whether a query wants a value of a facet, and the query that a click on it gives: narrowed by the value
-/// as a whole, or without it if the query wants it already. Returns `None` for a field that no query names.
+/// Returns whether a query has a facet's value as a condition, and the query after a click on it: narrowed by the value
+/// as a whole, or without that condition. Returns `None` for a field that queries cannot name.
 fn clicked(query: &str, field: &str, value: &str) -> Option<(bool, String)> {
     let condition = facet_condition(field, value)?;
     let on = wants(query, &condition);
@@ -40,7 +40,8 @@ fn clicked(query: &str, field: &str, value: &str) -> Option<(bool, String)> {
     Some((on, turned))
 }
 
-/// Draws how often each value occurs; returns the query that wants the one that was chosen too, or no longer.
+/// Draws how often each value occurs; a click returns the query with a condition for that value, or without it if the
+/// query has it already.
 pub(super) fn show(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -84,7 +85,7 @@ pub(super) fn show(
     chosen
 }
 
-/// Returns the fields of facets in the order of the components, the others after them.
+/// Returns the fields of facets in the order of the components; other fields come last.
 pub(super) fn order<'a>(fields: impl Iterator<Item = &'a String>) -> Vec<&'a String> {
     let mut all: Vec<&String> = fields.collect();
     let place = |field: &&String| {
@@ -132,7 +133,7 @@ fn facet_name(field: &str, seen: &Seen<'_>) -> String {
     name
 }
 
-/// Offers the details of a value behind the other button.
+/// Offers the details of a value in a context menu.
 fn menu(seen: &Seen<'_>, response: &Response, thing: Thing, out: &mut Outbox) {
     response.context_menu(|ui| {
         if ui.button(seen.say(library::INSPECT)).clicked() {
@@ -142,7 +143,7 @@ fn menu(seen: &Seen<'_>, response: &Response, thing: Thing, out: &mut Outbox) {
     });
 }
 
-/// Draws one value with its picture, its count, and a bar of a length proportional to the count; returns the row of
+/// Draws one value with its picture, its count, and a bar of a length proportional to the count; returns the row id of
 /// its inventory too, if it has one.
 fn facet(
     ui: &mut Ui,
@@ -195,7 +196,7 @@ fn facet(
         let at = rect.right_center() - vec2(6.0, 0.0);
         let weak = ui.visuals().weak_text_color();
         let counted = painter.text(at, Align2::RIGHT_CENTER, count, font.clone(), weak);
-        // A long value ends in an ellipsis before its count.
+        // A long value is shortened before its count.
         let mut job = LayoutJob::simple_singleline(said.to_owned(), font, text);
         job.wrap = TextWrapping::truncate_at_width((counted.left() - 6.0 - left).max(0.0));
         let line = painter.layout_job(job);

@@ -16,18 +16,18 @@ use crate::context::Seen;
 use crate::script::edit;
 use crate::words::{fill, search as words, spoken};
 
-/// The text of the query, and what is offered for it.
+/// The text of the query, and the state of its completions.
 #[derive(Debug, Default)]
 pub(crate) struct Field {
     pub(crate) text: String,
-    /// The offer that the keys are at.
+    /// The index of the completion at the keyboard cursor.
     at: Option<usize>,
-    /// Offers were put away with Escape, for this text.
+    /// The text for which Escape closed the completions.
     away: Option<String>,
-    /// The pointer was over the offers.
+    /// Whether the pointer was over the completions.
     over: bool,
     focus: bool,
-    /// Where the cursor shall be.
+    /// The new place of the cursor, as a character index.
     cursor: Option<usize>,
 }
 
@@ -36,9 +36,9 @@ pub(crate) struct Field {
 pub(crate) struct Typed {
     pub(crate) changed: bool,
     pub(crate) entered: bool,
-    /// The hits shall get the keys.
+    /// Whether the results take the keyboard.
     pub(crate) down: bool,
-    /// A word is still being written.
+    /// Whether a word is still being written.
     pub(crate) unfinished: bool,
 }
 
@@ -48,14 +48,15 @@ impl Field {
         self.cursor = Some(self.text.chars().count());
     }
 
-    /// Writes another query, for which nothing is offered until it is changed.
+    /// Sets another query; completions open again when it is changed.
     pub(crate) fn set(&mut self, text: String) {
         self.cursor = Some(text.chars().count());
         self.away = Some(text.clone());
         self.text = text;
     }
 
-    /// Draws the field with its offers; `wrong` is what the corpus says is wrong, from a character on.
+    /// Draws the field with its completions; `wrong` is the index of the first character of an error that the corpus
+    /// reports.
     pub(crate) fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, wrong: Option<usize>) -> Typed {
         let id = ui.scope_id().with("query");
         let here = ui.memory(|memory| memory.has_focus(id));
@@ -115,7 +116,7 @@ impl Field {
         range.map_or(self.text.chars().count(), |range| range.primary.index.0)
     }
 
-    /// Returns what is offered now.
+    /// Returns the present completions.
     fn offers(&self, seen: &Seen<'_>, cursor: usize, here: bool) -> Option<Offers> {
         let put_away = self.away.as_deref() == Some(self.text.as_str());
         if !(here || self.over) || put_away || self.text.is_empty() {
@@ -155,7 +156,7 @@ impl Field {
             Some(at) => {
                 let only = enter && self.at.is_none();
                 typed.changed = self.take(offers, at);
-                // No further choice is left if this is the whole query.
+                // This is the whole query, with no further choice left.
                 typed.entered = only && Query::parse(&self.text).is_ok();
             }
             None => typed.entered = enter,
@@ -178,7 +179,7 @@ impl Field {
         true
     }
 
-    /// Draws the offers below the field; returns whether one was taken.
+    /// Draws the completions below the field; returns whether one was taken.
     fn list(&mut self, field: &Response, seen: &Seen<'_>, offers: &Option<Offers>) -> bool {
         let Some(offers) = offers else {
             self.over = false;
@@ -211,7 +212,7 @@ impl Field {
         taken.is_some_and(|at| self.take(offers, at))
     }
 
-    /// Says what cannot be understood, and mends it where one thing was meant.
+    /// Shows the error, and offers a correction if there is only one likely meaning.
     fn error(
         &mut self,
         ui: &mut Ui,
@@ -225,7 +226,7 @@ impl Field {
         let Some(error) = error else { return };
         ui.horizontal_wrapped(|ui| {
             let end = self.text.trim_end().chars().count();
-            // Where something is still to come nothing is wrong yet.
+            // If the text is incomplete, nothing is wrong yet.
             let colour = if error.at.start >= end {
                 ui.visuals().weak_text_color()
             } else {
@@ -253,7 +254,7 @@ impl Field {
 }
 
 impl Field {
-    /// Says that no search is kept under a name, and offers the one that was meant.
+    /// Reports that there is no saved search with that name, and offers the likeliest one.
     fn unkept(&mut self, ui: &mut Ui, seen: &Seen<'_>, name: String, typed: &mut Typed) {
         if name.is_empty() || suggest::kept_query(&self.text, seen.snapshot).is_some() {
             return;
@@ -275,7 +276,7 @@ impl Field {
     }
 }
 
-/// Returns the characters that are wrong.
+/// Returns the range of characters with an error.
 pub(super) fn mark(
     text: &str,
     error: Option<&QueryError>,
@@ -293,7 +294,7 @@ pub(super) fn mark(
     Some(start..start + word.max(1))
 }
 
-/// Lays a query out, with a line under what is wrong.
+/// Lays out a query, with a line below the error.
 fn marked(ui: &Ui, text: &str, mark: Option<Range<usize>>, trouble: Color32) -> Arc<Galley> {
     let font = TextStyle::Body.resolve(ui.style());
     let plain = TextFormat::simple(font, ui.visuals().text_color());

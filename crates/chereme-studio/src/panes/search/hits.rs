@@ -1,4 +1,4 @@
-//! What was found: pages of hits, what stands around them, in which order they are shown.
+//! The results: pages of hits, their neighbours, and their order.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -10,12 +10,12 @@ use serde_json::Value;
 
 use super::super::timeline::data::time_text;
 
-/// How many hits are asked for at once.
+/// How many hits are requested at once.
 pub(crate) const PAGE: usize = 500;
-/// How many neighbours are asked for to each side.
+/// How many neighbours are requested on each side.
 pub(crate) const NEIGHBOURS: usize = 3;
 
-/// How hits are sorted.
+/// The order of hits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Sort {
     #[default]
@@ -28,7 +28,7 @@ pub(crate) enum Sort {
 }
 
 impl Sort {
-    /// Returns the order that the corpus is asked for.
+    /// Returns the order to request from the corpus.
     pub(crate) fn order(self) -> Order {
         match self {
             Self::Rank => Order::Rank,
@@ -38,7 +38,7 @@ impl Sort {
         }
     }
 
-    /// Returns whether hits are put in order here: the corpus does not know what stands around them.
+    /// Returns whether hits are sorted here, as the corpus does not know their neighbours.
     pub(crate) fn is_local(self) -> bool {
         matches!(self, Self::Before | Self::After)
     }
@@ -55,7 +55,7 @@ pub(crate) struct Found {
     pub(crate) findings: Vec<Finding>,
     pages: BTreeMap<usize, Vec<Hit>>,
     around: BTreeMap<i64, Around>,
-    /// The order of hits, if they are sorted here.
+    /// The order of hits as indices, if they are sorted here.
     sorted: Option<Vec<usize>>,
 }
 
@@ -81,7 +81,7 @@ impl Found {
         self.around.extend(pairs);
     }
 
-    /// Returns the hit at that place, if it was read already.
+    /// Returns the hit at a position, if it has been read.
     pub(crate) fn hit(&self, at: usize) -> Option<&Hit> {
         let at = self
             .sorted
@@ -94,7 +94,7 @@ impl Found {
         self.around.get(&token)
     }
 
-    /// Returns the first page of a range that is not there.
+    /// Returns the first missing page of a range.
     pub(crate) fn missing(&self, range: Range<usize>) -> Option<usize> {
         let end = range.end.min(self.total);
         if range.start >= end || self.sorted.is_some() {
@@ -103,7 +103,7 @@ impl Found {
         (range.start / PAGE..=(end - 1) / PAGE).find(|page| !self.pages.contains_key(page))
     }
 
-    /// Returns the tokens of a range whose neighbours are not known.
+    /// Returns the tokens of a range whose neighbours are unknown.
     pub(crate) fn lonely(&self, range: Range<usize>) -> Vec<i64> {
         range
             .filter_map(|at| Some(self.hit(at)?.token))
@@ -111,12 +111,12 @@ impl Found {
             .collect()
     }
 
-    /// Returns whether every hit is here, so that they can be sorted here.
+    /// Returns whether every hit has been read, so that they can be sorted here.
     pub(crate) fn is_whole(&self) -> bool {
         self.pages.values().map(Vec::len).sum::<usize>() == self.total
     }
 
-    /// Puts the hits in order by what stands around them, or back in their own order.
+    /// Sorts the hits by their neighbours, or restores their own order.
     pub(crate) fn sort(&mut self, sort: Sort) {
         self.sorted = None;
         if !sort.is_local() || !self.is_whole() {
@@ -130,7 +130,7 @@ impl Found {
             }
         };
         let mut all: Vec<usize> = (0..self.total).collect();
-        // Those with nothing there come last.
+        // Hits without that neighbour come last.
         all.sort_by_key(|at| (word(at).is_none(), word(at).cloned()));
         self.sorted = Some(all);
     }
@@ -143,7 +143,7 @@ pub(crate) fn place(hit: &Hit) -> Option<(&str, Span)> {
     Some((hit.recording.as_deref()?, span))
 }
 
-/// Returns where a hit is in words; `lexicon` is what an entry without movement is called.
+/// Returns the place of a hit as text; `lexicon` is the text for an entry without movement.
 pub(crate) fn place_text(hit: &Hit, lexicon: &str) -> String {
     match place(hit) {
         Some((name, span)) => format!("{name} · {}", time_text(span.start())),
@@ -151,15 +151,15 @@ pub(crate) fn place_text(hit: &Hit, lexicon: &str) -> String {
     }
 }
 
-/// Returns how long a hit lasts, in words.
+/// Returns the duration of a hit as text.
 pub(crate) fn duration_text(hit: &Hit) -> String {
     place(hit).map_or(String::new(), |(_, span)| {
         format!("{:.2} s", span.seconds())
     })
 }
 
-/// Returns the values of a hit as component, feature and value, the dominant hand before the weak one, component by
-/// component, each value once: the values in its picture.
+/// Returns the values of a hit, which its picture shows, as component, feature and value. The dominant hand comes
+/// before the weak one, component by component, each value once.
 pub(crate) fn coding(hit: &Hit) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = Vec::new();
     for hand in ["right", "dominant", "left", "weak", ""] {
@@ -201,7 +201,7 @@ pub(crate) fn coding(hit: &Hit) -> Vec<(String, String)> {
     all
 }
 
-/// Returns the place that the arrow keys go to in a grid of `columns`, one for a table.
+/// Returns the index that arrow keys go to in a grid of `columns`; a table has one column.
 pub(crate) fn walk(at: usize, total: usize, columns: usize, [x, y]: [isize; 2]) -> usize {
     let step = x + y * columns as isize;
     let to = at as isize + step;

@@ -1,5 +1,5 @@
-//! Kept searches: a list to choose from, with how many each finds. They are in the corpus; those that
-//! were kept on this computer before can be taken over.
+//! The saved searches: a list with the number of hits of each. They are stored in the corpus; those that were stored on
+//! this computer before can be taken over.
 
 use std::collections::BTreeMap;
 
@@ -14,18 +14,18 @@ use crate::settings::Searches;
 use crate::words::{fill, search as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// The list.
+/// The list of saved searches.
 #[derive(Debug, Default)]
 pub(super) struct Kept {
-    /// The name under which the query is to be kept, and the search that gets another name.
+    /// The name for the query to save, and the search that is being renamed.
     name: String,
     renaming: Option<(String, String)>,
-    /// The list was just opened: typed text is a name.
+    /// Whether the list was just opened, so that the name takes the keyboard.
     opened: bool,
-    /// The number of hits of each saved search, if it was counted.
+    /// The number of hits of each saved search, if counted.
     counts: BTreeMap<String, Option<usize>>,
     counting: BTreeMap<WorkId, String>,
-    /// Those of this computer while they are taken over, and whether they are.
+    /// The work that takes over the searches of this computer, and whether that has been done.
     taking: Option<WorkId>,
     taken: bool,
 }
@@ -48,7 +48,7 @@ impl Kept {
         }
     }
 
-    /// Draws the button with the list behind it; returns the query that was chosen.
+    /// Draws the button with the list behind it; returns the chosen query.
     pub(super) fn menu(
         &mut self,
         ui: &mut Ui,
@@ -77,7 +77,7 @@ impl Kept {
         chosen
     }
 
-    /// Draws the field in which the query gets a name.
+    /// Draws the field that saves the query under a name.
     fn keep(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, query: &str) {
         ui.horizontal(|ui| {
             let hint = seen.say(words::SAVE_NAME);
@@ -106,7 +106,7 @@ impl Kept {
         });
     }
 
-    /// Draws the kept searches; returns the one that was chosen.
+    /// Draws the saved searches; returns the chosen one.
     fn list(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) -> Option<String> {
         let mut chosen = None;
         let all = &seen.snapshot.overview.searches;
@@ -143,7 +143,7 @@ impl Kept {
         chosen
     }
 
-    /// Draws the field in which a saved search gets another name, if it is this one.
+    /// Draws the field that renames a saved search, if it is this one.
     fn rename(&mut self, ui: &mut Ui, seen: &Seen<'_>, name: &str, out: &mut Outbox) -> bool {
         let Some((of, text)) = self.renaming.as_mut().filter(|(of, _)| of == name) else {
             return false;
@@ -203,7 +203,7 @@ impl Kept {
     }
 }
 
-/// Returns the options of a search for the number of hits alone.
+/// Returns the options of a search that only counts hits.
 pub(super) fn only_counted() -> SearchOptions {
     SearchOptions {
         limit: Some(0),
@@ -212,7 +212,7 @@ pub(super) fn only_counted() -> SearchOptions {
     }
 }
 
-/// Draws a small button with a sign, called `name`; returns whether it was pressed.
+/// Draws a small button with the accessible name `name`; returns whether it was clicked.
 fn named(ui: &mut Ui, sign: &str, name: &str) -> bool {
     let response = ui.small_button(sign).on_hover_text(name);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));

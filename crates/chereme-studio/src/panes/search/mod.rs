@@ -1,16 +1,16 @@
-//! The search: a query as text and as rows, what answers it, and how often each value occurs.
+//! The search: a query as text and as rows, its results, and facets.
 //!
 //! | module | holds |
 //! |---|---|
 //! | `builder`, `rows` | the query as conditions: the data, and the rows |
-//! | `symbols` | what a notation asks for |
-//! | `suggest`, `field` | the query as text: what could be written next, and the field |
-//! | `hits`, `results` | what was found: pages and order, and the grid and the table |
+//! | `symbols` | the query for a notation |
+//! | `suggest`, `field` | the query as text: completions, and the field |
+//! | `hits`, `results` | the results: pages and order; grid and table |
 //! | `page` | the pane from top to bottom |
 //! | `examples` | the signs that a query names as examples |
-//! | `tiles` | what a search begins with: a hand, the body, a movement |
-//! | `facets` | how often each value occurs |
-//! | `aside`, `kept` | recent queries, help, and what is said where nothing is found; kept queries |
+//! | `tiles` | the first choice of a search: a hand, the body, a movement |
+//! | `facets` | the number of results with each value |
+//! | `aside`, `kept` | recent queries, help, advice for empty results; saved searches |
 
 mod aside;
 pub(crate) mod builder;
@@ -50,14 +50,14 @@ use hits::{Found, NEIGHBOURS, PAGE, Sort};
 use rows::Rows;
 pub(crate) use rows::{feature_text, field_text};
 
-/// How long nothing is typed before what was typed is searched for, in seconds.
+/// How long the text must rest before it is searched for, in seconds.
 const PAUSE: f64 = 0.35;
-/// How high hits are at least below the query; where they have less, all is scrolled.
+/// The least height of the results below the query, in points; with less, the whole pane scrolls.
 const LOW: f32 = 170.0;
 /// The most hits whose neighbours are requested together.
 const MOST_AROUND: usize = 64;
 
-/// How hits are shown.
+/// The form in which results are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum View {
     #[default]
@@ -71,51 +71,51 @@ pub(crate) struct Search {
     rows: Rows,
     /// The symbols picked from the board of HamNoSys.
     symbols: String,
-    /// Whether the rows are shown.
+    /// Whether the rows of conditions are shown.
     built: bool,
     view: View,
     sort: Sort,
-    /// Figures loop without being pointed at, and show the hand from near.
+    /// Whether figures loop without the pointer over them; and whether they show the hand from near.
     playing: bool,
     close: bool,
-    /// Whether facets are shown; as there is room where nobody said so.
+    /// Whether facets are shown; if `None`, that depends on the width of the pane.
     counted: Option<bool>,
-    /// How high the query was drawn last, with what stands below it.
+    /// The height of the query in the last frame, with everything between it and the results.
     head: f32,
-    /// Whether that left too little for the hits.
+    /// Whether that left too little room for the results.
     low: bool,
-    /// When the text changed that is not searched for yet.
+    /// The time of a change of the text that has not been searched for.
     changed: Option<f64>,
     asked: Option<WorkId>,
-    /// Pages that are asked for.
+    /// The requested pages.
     pages: BTreeMap<WorkId, usize>,
     around: Option<WorkId>,
     found: Option<Found>,
-    /// The query that was asked for last, as it was written.
+    /// The last requested query, as it was written.
     query: String,
     /// The error that the corpus reports.
     wrong: Option<Wrong>,
-    /// It was stopped before there was an answer.
+    /// Whether the search was stopped before there was an answer.
     stopped: bool,
     aside: aside::Aside,
     examples: examples::Examples,
     tiles: tiles::Tiles,
-    /// The moment of the corpus that was searched.
+    /// The corpus generation that was searched.
     generation: i64,
-    /// The hit that the keys are at, the one that they go to, and the one that was opened.
+    /// The index of the hit at the keyboard cursor, of the one to give the focus, and of the one that was opened.
     at: usize,
     reach: Option<usize>,
     opened: Option<usize>,
-    /// How far the hits are scrolled.
+    /// The scroll offset of the hits, in points.
     scrolled: f32,
-    /// How wide the columns of the table are.
+    /// The widths of the table's columns.
     shares: results::Shares,
-    /// Signs made of their notation.
+    /// Signs animated from their notation.
     notated: Notated,
     come: bool,
 }
 
-/// The error of a query, and its first character.
+/// An error in a query, and the index of its first character.
 struct Wrong {
     from: Option<usize>,
     error: String,
@@ -123,7 +123,7 @@ struct Wrong {
 }
 
 impl Wrong {
-    /// Returns what was most likely meant, and the query with it.
+    /// Returns the likeliest intended name, and the query with it.
     fn mended(&self, query: &str) -> Option<(String, String)> {
         let told = [Some(self.error.as_str()), self.remedy.as_deref()];
         let meant = told.into_iter().flatten().find_map(meant)?;
@@ -173,12 +173,12 @@ impl Default for Search {
 }
 
 impl Search {
-    /// Finds what this query asks for.
+    /// Searches with a query from another pane.
     pub(crate) fn find(&mut self, query: String, out: &mut Outbox) {
         self.turn_to(query, out);
     }
 
-    /// Searches for what is written.
+    /// Searches with the present text.
     fn ask(&mut self, out: &mut Outbox) {
         let old = self.asked.take().into_iter();
         let old = old.chain(std::mem::take(&mut self.pages).into_keys());
@@ -200,7 +200,7 @@ impl Search {
         }
     }
 
-    /// Writes another query, and searches for it.
+    /// Sets another query, and searches with it.
     fn turn_to(&mut self, query: String, out: &mut Outbox) {
         self.field.set(query);
         self.rows = Rows::default();
@@ -216,7 +216,7 @@ impl Search {
         }
     }
 
-    /// Asks for what comes in sight and is not there.
+    /// Requests the missing data of the visible hits.
     fn sight(&mut self, range: Range<usize>, out: &mut Outbox) {
         let Some(found) = &self.found else { return };
         if self.asked.is_none()
@@ -240,13 +240,13 @@ impl Search {
         }
     }
 
-    /// Goes to a hit with the keys.
+    /// Moves the keyboard cursor to a hit.
     fn reach(&mut self, at: usize) {
         self.at = at;
         self.reach = Some(at);
     }
 
-    /// Opens a hit at its place; one that is only notated is made, and shown on the stage.
+    /// Opens a hit at its place; one that has only a notation is animated and shown on the stage.
     fn open(&mut self, at: usize, seen: &Seen<'_>, out: &mut Outbox) {
         let Some(found) = &self.found else { return };
         let Some(hit) = found.hit(at) else { return };
@@ -279,12 +279,12 @@ impl Search {
         }
     }
 
-    /// Shows on the stage what was opened and is made now, also where another pane is before this one.
+    /// Shows the opened notated sign on the stage once it is animated, even if another pane covers this one.
     pub(crate) fn show_made(&mut self, out: &mut Outbox) {
         self.notated.show(out);
     }
 
-    /// Returns the hit that the keys are at, to be taken elsewhere.
+    /// Returns the hit at the keyboard cursor, for use in another pane.
     pub(crate) fn carried(&self) -> Option<Carried> {
         self.found.as_ref()?.hit(self.at).map(results::carried)
     }
@@ -308,7 +308,7 @@ impl Search {
         }
     }
 
-    /// Searches for what resembles the selected token, or the one at the selected time.
+    /// Searches for signs similar to the selected token, or to the token at the selected time.
     fn like_selected(&mut self, seen: &Seen<'_>, out: &mut Outbox) -> bool {
         let Some(contents) = seen
             .shown
@@ -346,7 +346,7 @@ impl Search {
         true
     }
 
-    /// Searches again where the corpus is another.
+    /// Searches again if the corpus changed.
     fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
         let now = seen.snapshot.overview.generation;
         if self.generation == now {
@@ -362,7 +362,7 @@ impl Search {
     }
 }
 
-/// Returns the query for what resembles a token, which it names by its gloss if that means it.
+/// Returns the query for signs similar to a token, named by its gloss if that means this token.
 pub(crate) fn like_query(overview: &Overview, token: i64, gloss: &str) -> String {
     let mut named = overview.signs.iter().filter(|it| it.gloss == gloss);
     if named.next().is_some_and(|it| it.citation == Some(token)) {
@@ -378,7 +378,7 @@ pub(crate) fn like_query(overview: &Overview, token: i64, gloss: &str) -> String
     format!("like token:{token}")
 }
 
-/// Selects the annotation that a token is, and its tier.
+/// Selects the annotation of a token, and its tier.
 fn select(around: &chereme_corpus::Around, out: &mut Outbox) {
     if let Some((annotation, tier)) = around.annotation.zip(around.tier) {
         out.send(Command::Tier(Some(tier)));
@@ -402,7 +402,7 @@ impl Pane for Search {
         let room = ui.available_height();
         let left = room - self.head - 1.0;
         self.low = left < LOW;
-        // All of it is always scrolled, as what is typed into must not become another widget.
+        // The whole pane is always in a scroll area, as otherwise the text field would become another widget.
         let area = ScrollArea::vertical().id_salt("page").auto_shrink(false);
         let high = if self.low { room.max(LOW) } else { left };
         area.show(ui, |ui| self.page(ui, seen, out, high));
@@ -459,7 +459,7 @@ impl Pane for Search {
 impl Search {
     fn answered(&mut self, ended: &Ended) {
         if matches!(ended, Err(error) if !matches!(error, Error::Stopped)) {
-            // The answer to another query does not answer this one.
+            // The old answer does not belong to the new query.
             self.found = None;
             (self.at, self.opened, self.scrolled) = (0, None, 0.0);
         }
@@ -485,7 +485,7 @@ impl Search {
                     .and_then(|it| it.strip_prefix("character "));
                 self.wrong = Some(Wrong {
                     from: number.and_then(|it| it.parse::<usize>().ok()?.checked_sub(1)),
-                    // The first lines draw the query, which is on the screen.
+                    // The first lines repeat the query, which is on the screen.
                     error: message.lines().last().unwrap_or_default().to_owned(),
                     remedy: remedy.clone(),
                 });

@@ -1,4 +1,4 @@
-//! The page: the query, how many were found and how they are shown, what answers, and facets.
+//! The page: the query, the number of results and their form, the results, and facets.
 
 use chereme_corpus::meant;
 use chereme_sign::query::Query;
@@ -10,13 +10,13 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{Language, fill, search as words, spoken};
 
-/// A pane wider than this has room for facets beside its hits.
+/// A pane wider than this, in points, has room for facets beside its results.
 const WIDE: f32 = 520.0;
-/// With so much left of its line there is room for every switch beside how many were found.
+/// If this much of the line is left, in points, all switches fit beside the number of results.
 const SPACIOUS: f32 = 340.0;
 
 impl Search {
-    /// Draws all of it, the hits as high as `high`.
+    /// Draws the page, with the results `high` points high.
     pub(super) fn page(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, high: f32) {
         let top = ui.cursor().top();
         self.question(ui, seen, out);
@@ -25,7 +25,7 @@ impl Search {
             if let Some(query) = self.tiles.show(ui, seen, out) {
                 self.turn_to(query, out);
             }
-            // The wall of all signs stands below.
+            // The wall of all signs is shown below.
             if self.found.is_none() && self.asked.is_none() && self.wrong.is_none() && !self.stopped
             {
                 self.ask(out);
@@ -44,7 +44,7 @@ impl Search {
         });
     }
 
-    /// Draws the query: its text, its rows, and what there is to do with it.
+    /// Draws the query: its text, its rows, and the buttons for it.
     fn question(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let now = ui.input(|input| input.time);
         let wrong = self.wrong.as_ref().and_then(|wrong| wrong.from);
@@ -71,7 +71,7 @@ impl Search {
                 self.rows = rows::Rows::default();
             }
             self.field.take_focus();
-            // Who types needs no rows where there is room for them or for hits only.
+            // While the user types, the rows are hidden if there is not enough room for them and the results.
             self.built &= !self.low;
             self.aside.remember(&self.field.text, seen, out);
             self.ask(out);
@@ -79,7 +79,7 @@ impl Search {
         if typed.down && self.found.as_ref().is_some_and(|found| found.total > 0) {
             self.reach(self.at);
         }
-        // The field itself reports text that is not a query.
+        // The field itself reports text that is not a valid query.
         let told = Query::parse(&self.field.text).is_err();
         if let Some(wrong) = self
             .wrong
@@ -118,7 +118,7 @@ impl Search {
         if settled && !typed.unfinished && error.is_none() {
             self.ask(out);
         } else if settled && error.is_some_and(|error| error.at.start < end) {
-            // The answer to another query does not answer this one.
+            // The old answer does not belong to the new query.
             (self.found, self.changed) = (None, None);
         } else if self.changed.is_some() {
             ui.ctx().request_repaint_after_secs(PAUSE as f32);
@@ -128,7 +128,7 @@ impl Search {
     fn tools(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         ui.horizontal_wrapped(|ui| {
             if ui.available_width() < WIDE {
-                // All of them stand in one line where the pane is narrow.
+                // All tiles are in one line, even in a narrow pane.
                 ui.spacing_mut().item_spacing.x = 3.0;
                 ui.spacing_mut().button_padding.x = 5.0;
             }
@@ -144,7 +144,7 @@ impl Search {
         });
     }
 
-    /// Draws how many were found, and how they are shown.
+    /// Draws the number of results, and the switches for their form.
     fn status(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let mut counted = self.counts(ui);
         ui.horizontal_wrapped(|ui| {
@@ -178,7 +178,7 @@ impl Search {
             if wide {
                 self.ways(ui, seen, &mut counted);
             } else {
-                // A second line would take its height from the hits.
+                // A second line would take its height from the results.
                 ui.menu_button(seen.say(words::WAYS), |ui| {
                     self.ways(ui, seen, &mut counted)
                 });
@@ -186,7 +186,7 @@ impl Search {
         });
     }
 
-    /// Draws the switches for how hits are shown.
+    /// Draws the switches for the form of the results.
     fn ways(&mut self, ui: &mut Ui, seen: &Seen<'_>, counted: &mut bool) {
         if self.view == View::Grid {
             ui.checkbox(&mut self.playing, seen.say(words::LOOPING));
@@ -198,7 +198,7 @@ impl Search {
         }
     }
 
-    /// Returns whether facets are shown: next to the hits as usual, above them only on request.
+    /// Returns whether facets are shown: by default beside the results if there is room, above them only on request.
     fn counts(&self, ui: &Ui) -> bool {
         self.counted.unwrap_or(ui.available_width() > WIDE)
     }

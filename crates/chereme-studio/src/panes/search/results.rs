@@ -1,4 +1,4 @@
-//! Hits as looping little figures, and as a table with what stands around each.
+//! Hits as looping little figures, and as a table with their neighbours.
 
 use chereme_corpus::Hit;
 use chereme_motion::Side;
@@ -17,15 +17,15 @@ use crate::panes::{Carried, carry, scrolled_to};
 use crate::pickers;
 use crate::words::{Text, fill, search as words};
 
-/// Height of a row of the table.
+/// Height of a row of the table, in points.
 const ROW: f32 = 26.0;
-/// Height of what stands under a figure.
+/// Height of the text below a figure, in points.
 const FOOT: f32 = 36.0;
-/// The least width of a figure.
+/// The least width of a figure, in points.
 const FIGURE: f32 = 132.0;
 const GAP: f32 = 6.0;
 
-/// A column of the table: its name, and how it sorts.
+/// The columns of the table: the title of each, and the order that it sorts by.
 const COLUMNS: [(Text, Sort); 5] = [
     (words::BEFORE, Sort::Before),
     (words::GLOSS, Sort::Gloss),
@@ -33,13 +33,13 @@ const COLUMNS: [(Text, Sort); 5] = [
     (words::PLACE, Sort::Place),
     (words::DURATION, Sort::Duration),
 ];
-/// How much of the width each column has as usual, and the least that one has.
+/// The usual widths of columns as shares of the table's width, and the least share of a column.
 const SHARES: [f32; 5] = [0.21, 0.22, 0.21, 0.23, 0.13];
 const LEAST: f32 = 0.05;
-/// How wide the place is at which a column is made wider.
+/// The width of the area at a column's edge in which the edge can be dragged, in points.
 const EDGE: f32 = 8.0;
 
-/// How much of the width of the table each column has.
+/// The widths of the table's columns, as shares of its width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Shares([f32; 5]);
 
@@ -50,7 +50,7 @@ impl Default for Shares {
 }
 
 impl Shares {
-    /// Makes a column wider by a share of the width, and the next as much narrower; none vanishes.
+    /// Widens a column by a share of the table's width, and narrows the next as much; neither becomes too narrow.
     fn widen(&mut self, column: usize, by: f32) {
         if let [own, next] = &mut self.0[column..column + 2] {
             let by = by.clamp((LEAST - *own).min(0.0), (*next - LEAST).max(0.0));
@@ -172,7 +172,7 @@ fn figure(
     }
 }
 
-/// Returns a hit to be taken elsewhere.
+/// Returns a hit as the payload of a drag.
 pub(super) fn carried(hit: &Hit) -> Carried {
     Carried {
         token: hit.token,
@@ -190,7 +190,7 @@ fn menu(response: &Response, seen: &Seen<'_>, hit: &Hit, out: &mut Outbox) {
     response.context_menu(|ui| carry::menu(ui, seen, (hit.token, &hit.gloss, recording), out));
 }
 
-/// Returns the recording that a hit lies in.
+/// Returns the recording that contains a hit.
 fn recording(hit: &Hit, seen: &Seen<'_>) -> Option<i64> {
     let name = hit.recording.as_deref()?;
     Some(seen.snapshot.recording_named(name)?.row.id)
@@ -211,7 +211,7 @@ fn motion(hit: &Hit, seen: &Seen<'_>) -> Option<Motion> {
     (recording.frames > 0).then_some(Motion::Span(recording.row.id, span))
 }
 
-/// Paints what is coded of a sign that has no movement: its handshape large, the rest beside.
+/// Paints the coding of a sign without movement: a large picture of its handshape, the rest beside it.
 fn coded(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect) {
     ui.painter()
         .rect_filled(rect, 6.0, ui.visuals().extreme_bg_color);
@@ -231,8 +231,8 @@ fn coded(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect) {
     ui.painter().galley(at.min, galley, weak);
 }
 
-/// Paints pictures of what is coded along the right edge, all of them `small` or the first large at
-/// the left; returns how many there are.
+/// Paints pictures of the coding along the right edge: all of them `small`, or the first one large at the left. Returns
+/// how many there are.
 fn codes(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect, small: bool) -> usize {
     let side = if small {
         rect.height().min(rect.width()) * 0.25
@@ -316,7 +316,7 @@ fn head(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     }
 }
 
-/// Makes the right edge of a column something that can be dragged.
+/// Makes the right edge of a column draggable.
 fn edge(search: &mut Search, ui: &Ui, seen: &Seen<'_>, place: Rect, width: f32, column: usize) {
     let at = Rect::from_center_size(place.right_center(), vec2(EDGE, ROW));
     let key = ui.scope_id().with(("edge", column));
@@ -350,7 +350,7 @@ fn table(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         return;
     };
     keys(search, ui, 1, total);
-    // As wide as the head, so that its edges are those of the columns.
+    // As wide as the table's head, so that the edges of the columns are aligned.
     let width = ui.available_width() - 12.0;
     let area = scroll(search, ui, "rows", 1, ROW);
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -412,7 +412,7 @@ fn line(
         let mut place =
             Rect::from_min_size(pos2(left, rect.top()), vec2(rect.width() * share, ROW));
         left = place.right();
-        // How alike it is stands at the end of its gloss, which is cut before it.
+        // The similarity is at the end of the gloss, which is shortened before it.
         if let Some(score) = hit.score.filter(|_| sort == Sort::Gloss) {
             let share = format!("{} %", percent(score));
             let font = TextStyle::Small.resolve(ui.style());
@@ -429,7 +429,7 @@ fn line(
     }
 }
 
-/// Paints what is coded of a lexicon entry in a row.
+/// Paints the coding of a lexicon entry in a row.
 fn strip(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect) {
     let side = rect.height();
     let mut place = Rect::from_min_size(rect.min, Vec2::splat(side));
@@ -447,7 +447,7 @@ fn strip(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect) {
     }
 }
 
-/// Puts text into a column; the words before a hit end at its side, and are cut at the far end.
+/// Puts text into a column; the words before a hit are aligned to the hit, and shortened at their far end.
 fn put(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: eframe::egui::Color32, end: bool) {
     let rect = rect.shrink2(vec2(5.0, 0.0));
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
@@ -463,7 +463,7 @@ fn put(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: eframe::egui::Colo
     };
     let mut galley = lay_out(text.to_owned());
     if end && galley.elided {
-        // The words farthest from the hit go first.
+        // The words farthest from the hit are left out first.
         let rests = text.char_indices().filter(|(_, letter)| *letter == ' ');
         for (at, _) in rests {
             galley = lay_out(format!("…{}", &text[at..]));
@@ -476,7 +476,7 @@ fn put(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: eframe::egui::Colo
     painter.galley(at.min, galley, colour);
 }
 
-/// Returns what a hit is that lies in no recording.
+/// Returns the text for a hit outside of recordings.
 fn lexicon(seen: &Seen<'_>, hit: &Hit) -> &'static str {
     let notated = seen.snapshot.is_notated(&hit.gloss);
     seen.say(if notated {
@@ -486,7 +486,7 @@ fn lexicon(seen: &Seen<'_>, hit: &Hit) -> &'static str {
     })
 }
 
-/// Makes a hit something that can be clicked, and that the keys can be at.
+/// Makes a hit clickable and focusable.
 fn cell(
     search: &mut Search,
     ui: &Ui,
@@ -533,7 +533,7 @@ fn frame(search: &Search, ui: &Ui, seen: &Seen<'_>, response: &Response, rect: R
         .rect_stroke(rect, 5.0, stroke, StrokeKind::Inside);
 }
 
-/// Takes the arrow keys where a hit has the focus.
+/// Takes the arrow keys if a hit has the focus.
 fn keys(search: &mut Search, ui: &Ui, columns: usize, total: usize) {
     let focus = ui.memory(|memory| memory.focused());
     if focus != Some(Id::unique("hits").with(search.at)) || total == 0 {
@@ -565,7 +565,7 @@ fn keys(search: &mut Search, ui: &Ui, columns: usize, total: usize) {
     }
 }
 
-/// Returns the scrolled area, scrolled so that the hit that the keys go to is in sight.
+/// Returns the scroll area, scrolled to the hit that takes the focus.
 fn scroll(search: &mut Search, ui: &Ui, name: &str, columns: usize, height: f32) -> ScrollArea {
     let area = ScrollArea::vertical().id_salt(name).auto_shrink(false);
     let Some(at) = search.reach else {
@@ -575,7 +575,7 @@ fn scroll(search: &mut Search, ui: &Ui, name: &str, columns: usize, height: f32)
     area.vertical_scroll_offset(offset)
 }
 
-/// Returns what of the signer figures show: the hand that the query is about, or all.
+/// Returns the part of the signer that figures show: the hand named in the query, or the whole signer.
 fn focus(close: bool, query: &str) -> Focus {
     match (close, query.contains("left.")) {
         (false, _) => Focus::Signing,

@@ -1,4 +1,4 @@
-//! The builder: each condition of the query as a row that is changed by looking.
+//! The builder: each condition of the query as a row that can be changed by looking and clicking.
 
 use std::collections::BTreeMap;
 
@@ -18,22 +18,22 @@ use crate::pickers::{self, Picker};
 use crate::script::edit;
 use crate::words::{Text, fill, search as words};
 
-/// The builder's data besides the query.
+/// The state of the builder besides the query.
 #[derive(Debug, Default)]
 pub(crate) struct Rows {
-    /// The picker of each value, by row and place.
+    /// The picker of each value, by the index of its row and its index there.
     pub(super) pickers: BTreeMap<(usize, usize), Picker>,
-    /// A row that says nothing yet.
+    /// An added row that is not complete yet.
     draft: Option<Condition>,
     /// Texts that are being typed, by row.
     typing: BTreeMap<usize, String>,
-    /// The row that gets another value.
+    /// The row that gets a further value.
     more: Option<usize>,
-    /// The row that was just added, whose text is typed next.
+    /// The row that was just added, whose text takes the keyboard next.
     begun: Option<usize>,
 }
 
-/// How large the figure of an example is.
+/// Side of an example's figure, in points.
 const PICTURE: f32 = 72.0;
 
 /// Draws the rows of `text` and changes it; returns whether it changed.
@@ -54,7 +54,7 @@ pub(super) fn show(
     let stated = all.len();
     let drafted = rows.draft.take();
     all.extend(drafted);
-    // It stands behind the last row, so that hits have the room.
+    // The button that adds a row stands behind the last row, so that the results have more room.
     let (last, mut added) = (all.len().checked_sub(1), None);
     let offers = all.len() == stated;
     for (at, condition) in all.iter_mut().enumerate() {
@@ -87,7 +87,7 @@ pub(super) fn show(
         rows.draft = all.pop();
     }
     if let Some(row) = added {
-        // The object of the search comes next.
+        // The value is chosen next.
         let pictures = match &row {
             Condition::Values(Subject::Component(field), ..) => inventory(seen, field).is_some(),
             _ => false,
@@ -106,7 +106,7 @@ pub(super) fn show(
     true
 }
 
-/// Returns whether a row shows a picture, and so is higher than others.
+/// Returns whether a row shows pictures, and so is higher than others.
 fn has_pictures(seen: &Seen<'_>, row: &Condition) -> bool {
     match row {
         Condition::Values(Subject::Component(field), how, values) => {
@@ -117,7 +117,7 @@ fn has_pictures(seen: &Seen<'_>, row: &Condition) -> bool {
     }
 }
 
-/// Returns whether a row says something.
+/// Returns whether a row has all its values.
 fn is_complete(row: &Condition) -> bool {
     match row {
         Condition::Values(_, how, values) => {
@@ -128,7 +128,7 @@ fn is_complete(row: &Condition) -> bool {
     }
 }
 
-/// Offers to add a row; returns one that says nothing yet.
+/// Draws the button that adds a row; returns the new, incomplete row.
 fn add(ui: &mut Ui, seen: &Seen<'_>) -> Option<Condition> {
     let mut added = None;
     ui.menu_button(seen.say(words::ADD), |ui| {
@@ -187,7 +187,7 @@ const PROPERTIES: [(Property, Text); 8] = [
     (Property::Token, words::TOKEN),
 ];
 
-/// Returns what a component is called.
+/// Returns the name of a component.
 pub(crate) fn component_text(component: Component) -> Text {
     match component {
         Component::Configuration => words::CONFIGURATION,
@@ -220,13 +220,13 @@ const FEATURES: [(&str, Text); 18] = [
     ("size", words::FEATURE_SIZE),
 ];
 
-/// Returns what a feature of a component is called; as it is written where there is no word for it.
+/// Returns the name of a feature of a component; the feature itself if it has no translation.
 pub(crate) fn feature_text<'a>(feature: &'a str, seen: &Seen<'_>) -> &'a str {
     let known = FEATURES.iter().find(|(it, _)| *it == feature);
     known.map_or(feature, |(_, text)| seen.say(*text))
 }
 
-/// Returns what a field is called, its hand and phase left out.
+/// Returns the name of a field without its hand and phase.
 pub(crate) fn field_text(field: &Field, seen: &Seen<'_>) -> String {
     let component = seen.say(component_text(field.component));
     match &field.feature {
@@ -279,7 +279,7 @@ fn row(
     }
 }
 
-/// Draws what a row is about, with its hand and phase; returns its name.
+/// Draws the subject of a row with its hand and phase; returns the subject's name.
 fn subject_ui(ui: &mut Ui, seen: &Seen<'_>, subject: &mut Subject) -> String {
     let field = match subject {
         Subject::Component(field) => field,
@@ -450,7 +450,7 @@ fn choice_ui(ui: &mut Ui, seen: &Seen<'_>, offered: &[&str], values: &mut Vec<Pa
         });
 }
 
-/// Draws values as text that is taken when it is entered or left.
+/// Draws values as text, which is read when it is entered or left.
 fn text_ui(ui: &mut Ui, rows: &mut Rows, at: usize, values: &mut Vec<Pattern>, name: &str) {
     let now: Vec<String> = values.iter().map(written).collect();
     let now = now.join(", ");
@@ -525,7 +525,7 @@ fn time_ui(ui: &mut Ui, test: &mut TimeTest) {
     };
 }
 
-/// Draws how much each component of an example counts.
+/// Draws the weight of each component of an example.
 fn like_ui(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -557,11 +557,11 @@ fn like_ui(
         let slider = Slider::new(&mut least, 0.0..=95.0).step_by(5.0);
         let slider = slider.suffix(" %").text(seen.say(words::LEAST_ALIKE));
         if ui.add(slider).changed() {
-            // Nothing is alike by less than nothing.
+            // A least similarity of zero is no condition.
             *above = (least > 0.0).then_some(least / 100.0);
         }
         if weights.iter().all(|weight| *weight == 0.0) {
-            // Something must count.
+            // At least one component must have a weight.
             *weights = before;
         }
     });

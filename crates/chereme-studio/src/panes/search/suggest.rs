@@ -9,19 +9,19 @@ use crate::model::Snapshot;
 use crate::panes::library::data::origin_named;
 use crate::words::{Language, Text, library};
 
-/// How many are offered at most.
+/// The most completions.
 const MOST: usize = 10;
 
-/// Something that could be written.
+/// A possible completion.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Offer {
     /// The text to write, in quotes if it needs them.
     pub(crate) text: String,
-    /// Its meaning, if it differs.
+    /// Its meaning, if it differs from the text.
     pub(crate) about: String,
 }
 
-/// Offers, and the characters that each would replace.
+/// Completions, and the range of characters that each replaces.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Offers {
     pub(crate) replace: std::ops::Range<usize>,
@@ -29,7 +29,7 @@ pub(crate) struct Offers {
 }
 
 impl Offers {
-    /// Returns the query with an offer taken, and where the cursor is after it.
+    /// Returns the query with a completion, and the index of the cursor after it.
     pub(crate) fn take(&self, query: &str, offer: &Offer) -> (String, usize) {
         let before: String = query.chars().take(self.replace.start).collect();
         let after: String = query.chars().skip(self.replace.end).collect();
@@ -38,8 +38,7 @@ impl Offers {
     }
 }
 
-/// Returns what could be written in `query` at the character `cursor`; nothing where all that could is
-/// there already.
+/// Returns the completions in `query` at the character index `cursor`; none if the present word is already complete.
 pub(crate) fn offers(
     query: &str,
     cursor: usize,
@@ -74,12 +73,12 @@ pub(crate) fn offers(
     }
 }
 
-/// Returns the name of a kept search, where a query is nothing but one: `@NAME`.
+/// Returns the name of a saved search, if a query consists of one: `@NAME`.
 pub(super) fn kept_name(query: &str) -> Option<&str> {
     query.trim().strip_prefix('@')
 }
 
-/// Returns the query that a kept search stands for, where a query is the name of one.
+/// Returns the query of a saved search, if `query` is its name.
 pub(crate) fn kept_query<'a>(query: &str, snapshot: &'a Snapshot) -> Option<&'a str> {
     let name = fold(kept_name(query)?.trim());
     let mut all = snapshot.overview.searches.iter();
@@ -87,7 +86,7 @@ pub(crate) fn kept_query<'a>(query: &str, snapshot: &'a Snapshot) -> Option<&'a 
     found.map(|it| it.query.as_str())
 }
 
-/// Returns the kept searches whose name holds what is written of it; each is offered as its query.
+/// Returns the saved searches whose name contains the typed text; each completes to its query.
 fn kept(query: &str, name: &str, snapshot: &Snapshot) -> Offers {
     let wanted = fold(name.trim());
     let searches = snapshot.overview.searches.iter();
@@ -102,7 +101,7 @@ fn kept(query: &str, name: &str, snapshot: &Snapshot) -> Offers {
     }
 }
 
-/// Returns a query in which the window's names of origins become those of queries; a merely notated sign is a
+/// Returns a query with the window's names of origins replaced by those of queries; a sign with only a notation is a
 /// lexicon entry.
 pub(super) fn with_origins(query: &str) -> Option<String> {
     let error = Query::parse(query).err()?;
@@ -125,7 +124,7 @@ pub(super) fn with_origins(query: &str) -> Option<String> {
         .or_else(|| called(library::NOTATED).then_some("lexicon"))?;
     let after: String = query.chars().skip(error.at.end).collect();
     let mended = format!("{before}{id}{after}");
-    // Another word may still need a correction.
+    // Further words may still need a correction.
     match Query::parse(&mended) {
         Ok(_) => Some(mended),
         Err(next) if next.at.start > error.at.start => with_origins(&mended),
@@ -133,7 +132,7 @@ pub(super) fn with_origins(query: &str) -> Option<String> {
     }
 }
 
-/// A field is written with its operator: nobody wants to stop before it.
+/// Appends the operator to a field's name, as a field without it is useless.
 fn with_operator(word: &str, expected: &Expected) -> String {
     let field = matches!(expected, Expected::Term | Expected::Annotation)
         && (word.parse::<Field>().is_ok()
@@ -273,7 +272,7 @@ fn names(completion: &Completion, snapshot: &Snapshot, language: Language) -> Ve
     all
 }
 
-/// Returns a value as it is written, in quotes where it needs them.
+/// Returns a value in the notation of queries, in quotes if necessary.
 pub(super) fn quoted(text: &str) -> String {
     super::builder::with_value("", "", text)[1..].to_owned()
 }

@@ -1,4 +1,4 @@
-//! The query for a notation: signs that have its values.
+//! The query for a notation: signs with the same values.
 
 use chereme_sign::hamnosys::components::Mapper;
 use chereme_sign::hamnosys::{Class, Notated, Symbol, parse_lenient, to_names};
@@ -11,10 +11,10 @@ use crate::context::Seen;
 use crate::pickers::{board, hamnosys};
 use crate::words::search as words;
 
-/// How high the symbols are.
+/// Height of the symbols, in points.
 const EM: f32 = 22.0;
 
-/// Draws the board and what was picked from it; returns the query that this asks for, where it changed.
+/// Draws the board and the picked symbols; returns the corresponding query if it changed.
 pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, text: &mut String) -> Option<String> {
     let mut changed = board::button(ui, seen, text);
     if !text.is_empty() {
@@ -36,7 +36,7 @@ fn inventories<'a>(seen: &Seen<'a>) -> impl Iterator<Item = &'a Inventory> {
     all.map(|it| &it.inventory)
 }
 
-/// Returns the query for signs with the values that a notation means; empty where it means none yet.
+/// Returns the query for signs with the values of a notation; empty if it has none yet.
 fn query<'i>(text: &str, inventories: impl Iterator<Item = &'i Inventory>) -> String {
     let sign = Notated {
         text: Some(text.to_owned()),
@@ -59,7 +59,7 @@ fn query<'i>(text: &str, inventories: impl Iterator<Item = &'i Inventory>) -> St
     builder::text(&rows)
 }
 
-/// Returns whether a notation writes a component; defaults are not searched for.
+/// Returns whether a notation writes a component explicitly; defaults are not searched for.
 fn is_written(text: &str, component: Component) -> bool {
     let classes: &[Class] = match component {
         Component::Placement => &[Class::Location],

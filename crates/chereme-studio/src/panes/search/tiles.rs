@@ -1,4 +1,4 @@
-//! Three tiles that a search begins with: a hand, the body, a movement; each opens the pictures of its values.
+//! The three tiles that begin a search: a hand, the body, a movement; each opens the pictures of its values.
 
 use chereme_sign::{Component, Inventory};
 use eframe::egui::{
@@ -12,12 +12,12 @@ use crate::little;
 use crate::pickers::{self, Picker};
 use crate::words::{Text, search as words};
 
-/// The height of a tile, and how long it shows one value before the next, in seconds.
+/// The height of a tile in points, and the time for which it shows each value, in seconds.
 const HIGH: f32 = 92.0;
 const TURN: f64 = 1.6;
 const GAP: f32 = 8.0;
 
-/// A tile: its component, its name, and values that stand for it, one after the other.
+/// A tile: its component, its name, and sample values, which are shown one after the other.
 const TILES: [(Component, Text, [&str; 4]); 3] = [
     (
         Component::Configuration,
@@ -43,7 +43,7 @@ pub(super) struct Tiles {
 }
 
 impl Tiles {
-    /// Shows the tiles; returns the query for the value that was picked.
+    /// Shows the tiles; returns the query for the picked value.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -79,7 +79,7 @@ impl Tiles {
     }
 }
 
-/// Returns the inventory of a component that has most values.
+/// Returns the inventory of a component with the most values.
 fn inventory<'a>(seen: &Seen<'a>, component: Component) -> Option<&'a Inventory> {
     let all = seen.snapshot.overview.inventories.iter();
     all.map(|it| &it.inventory)
