@@ -1,6 +1,6 @@
-//! Pictures of the stage, drawn on a thread of their own: the window never waits for one.
+//! Pictures of the stage, drawn on a separate thread, so that the window never waits for one.
 //!
-//! The newest wish is the one that is drawn; wishes that were overtaken are not.
+//! Only the newest request is drawn; outdated requests are skipped.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -13,12 +13,12 @@ use chereme_figure::{Body, Image};
 use chereme_motion::{Face, ModelPose};
 use eframe::egui::{Color32, ColorImage};
 
-/// Pictures that are wished for, one for each pane.
+/// A request for pictures, one for each pane.
 pub(super) struct Wish {
     pub(super) figures: Vec<Figure>,
     pub(super) panes: Vec<Pane>,
     pub(super) style: Style,
-    /// Counted up from wish to wish.
+    /// Serial number of the request.
     pub(super) number: u64,
 }
 
@@ -41,43 +41,43 @@ impl Figure {
     }
 }
 
-/// A picture from one place.
+/// A picture from one camera.
 pub(super) struct Pane {
     pub(super) camera: Camera,
     /// Columns and rows.
     pub(super) size: [usize; 2],
     /// The sheets to draw, the lowest first.
     pub(super) layers: Vec<Sheet>,
-    /// Whether it is a small picture that must be read at its size: clear lines, many samples.
+    /// Whether it is a small picture that must be readable: clear lines, many samples.
     pub(super) fine: bool,
 }
 
-/// Half the width of lines in small pictures, in pixels, their depth step in metres, and their samples.
+/// Half the width of lines in small pictures in pixels, their depth step in metres, and their samples.
 const FINE: (f32, f32, usize) = (0.9, 0.006, 3);
 
-/// Shapes drawn together, over the sheets below.
+/// Shapes that are drawn together, above the sheets before.
 pub(super) struct Sheet {
-    /// The place of the figure among those of the wish.
+    /// Index of the figure among those of the request, if the sheet draws one.
     pub(super) figure: Option<usize>,
-    /// Trails and grids.
+    /// Trails or grids.
     pub(super) marks: Option<Arc<Mesh>>,
     pub(super) opacity: f32,
-    /// Whether nearer shapes drawn before it hide it.
+    /// Whether nearer shapes of earlier sheets hide it.
     pub(super) veiled: bool,
 }
 
-/// Pictures.
+/// Finished pictures.
 pub(super) struct Drawn {
     pub(super) images: Vec<ColorImage>,
-    /// The number of their wish.
+    /// The serial number of their request.
     pub(super) number: u64,
     /// The posture of the first figure.
     pub(super) posture: Option<ModelPose>,
-    /// How long they took.
+    /// How long the drawing took.
     pub(super) took: Duration,
 }
 
-/// The thread that draws.
+/// The handle of the drawing thread.
 pub(super) struct Artist {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
@@ -98,7 +98,7 @@ struct Wished {
 }
 
 impl Artist {
-    /// Begins; `wake` is called when pictures are ready.
+    /// Starts the thread; it calls `wake` when pictures are ready.
     pub(super) fn new(wake: impl Fn() + Send + 'static) -> Self {
         let shared = Arc::<Shared>::default();
         let own = shared.clone();
@@ -117,22 +117,22 @@ impl Artist {
         }
     }
 
-    /// Wishes for pictures; those wished for before and not begun are forgotten.
+    /// Requests pictures; an earlier request that has not been started is dropped.
     pub(super) fn wish(&self, wish: Wish) {
         held(&self.shared.wish).next = Some(wish);
         self.shared.wished.notify_one();
     }
 
-    /// Waits until the pictures of that wish are there, at most so long.
+    /// Waits until the pictures of that request are ready, at most for `most`.
     pub(super) fn await_newest(&self, number: u64, most: Duration) {
         let waiting =
             |drawn: &mut Option<Drawn>| drawn.as_ref().is_none_or(|it| it.number < number);
         let drawn = held(&self.shared.drawn);
-        // Where it takes longer, it is shown in a later frame.
+        // Pictures that take longer are shown in a later frame.
         let _ = self.shared.ready.wait_timeout_while(drawn, most, waiting);
     }
 
-    /// Returns the newest pictures that were not taken yet.
+    /// Returns the newest pictures, once.
     pub(super) fn take(&self) -> Option<Drawn> {
         held(&self.shared.drawn).take()
     }
@@ -167,19 +167,19 @@ impl Shared {
     }
 }
 
-/// The data behind a lock, even if another thread died with it.
+/// Locks shared data, even if another thread panicked with the lock.
 fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Buffers kept from picture to picture.
+/// Buffers that are kept between pictures.
 #[derive(Default)]
 struct Hand {
     meshes: Vec<(Option<Arc<Body>>, Mesh)>,
     canvases: Vec<Canvas>,
 }
 
-/// The memory of a pane.
+/// The buffers of a pane.
 #[derive(Default)]
 struct Canvas {
     raster: Raster,
@@ -187,7 +187,7 @@ struct Canvas {
     ground: Option<Ground>,
 }
 
-/// The picture below the figures, and everything it depends on.
+/// The picture below the figures, with its inputs.
 struct Ground {
     mesh: Arc<Mesh>,
     camera: Camera,
@@ -219,7 +219,7 @@ impl Hand {
         }
     }
 
-    /// Draws every pane; several at once, each on a thread of its own, and the small ones one after the other.
+    /// Draws every pane: large ones on one thread each, and the small ones one after the other.
     fn panes(&mut self, wish: &Wish) -> Vec<ColorImage> {
         self.canvases.resize_with(wish.panes.len(), Canvas::default);
         let meshes = &self.meshes;
@@ -311,7 +311,7 @@ impl Canvas {
         ColorImage::new(pane.size, pixels.collect())
     }
 
-    /// Returns the picture below the figures, which is drawn only if it differs from the last.
+    /// Returns the picture below the figures; it is drawn again only if its inputs changed.
     fn on_ground(&mut self, pane: &Pane, mesh: &Arc<Mesh>, style: &Style) -> Image {
         let same = |it: &Ground| {
             let size = [it.image.width(), it.image.height()];

@@ -1,4 +1,4 @@
-//! Words over the stage's pictures: whose original is seen, and notes on the whole.
+//! Texts over the stage's pictures: the signer of the original, and notes about the whole stage.
 
 use eframe::egui::{self, Align2, Rect, TextStyle, Ui, vec2};
 
@@ -11,7 +11,7 @@ use crate::words::{fill, stage as words};
 /// In a picture narrower than this, texts would cover the signer.
 pub(super) const NARROW: f32 = 300.0;
 
-/// Says whose original is seen, or by what a piece without one was made.
+/// Shows whose original is visible, or how a piece without an original was generated.
 pub(super) fn who(stage: &Stage, ui: &Ui, seen: &Seen<'_>, part: &Part) {
     if part.who == Who::Signer {
         return;
@@ -27,7 +27,7 @@ pub(super) fn who(stage: &Stage, ui: &Ui, seen: &Seen<'_>, part: &Part) {
         Some(piece) => no_original(seen, &piece.part.from),
         None => return,
     };
-    // Above there is the choice of the view.
+    // The choice of the view is above.
     let (at, anchor) = if part.rect.width() < NARROW {
         (
             part.rect.left_bottom() + vec2(8.0, -8.0),
@@ -51,7 +51,7 @@ pub(super) fn chip(ui: &Ui, at: egui::Pos2, anchor: Align2, text: &str) {
     chip_on(ui.painter(), ui, at, anchor, text);
 }
 
-/// Writes a word or two on a ground of its own.
+/// Writes a few words on a separate background.
 pub(super) fn chip_on(
     painter: &egui::Painter,
     ui: &Ui,
@@ -68,7 +68,7 @@ pub(super) fn chip_on(
     painter.galley(rect.min + vec2(6.0, 3.0), galley, colour);
 }
 
-/// Shows notes on the whole: a moment is being loaded, hands have no fingers.
+/// Shows notes about the whole stage, for example that a moment is being loaded, or that the hands have no fingers.
 pub(super) fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
     let at = whole.center_bottom() - vec2(0.0, 8.0);
     let whole_top = whole.center_top() + vec2(0.0, 8.0);

@@ -1,4 +1,4 @@
-//! The path of a recipe on the stage: a curve that is drawn there, and pulled by its points or anywhere between.
+//! The path of a recipe on the stage: a curve that can be drawn, and pulled at its points or between them.
 
 use chereme_figure::camera::Projection;
 use chereme_motion::{ModelPose, Part as Joint};
@@ -16,7 +16,8 @@ use crate::context::{Outbox, Seen};
 use crate::panes::recombine::{draw_on_stage, drawing, lengths, points_of_line};
 use crate::words::{fill, recombine as words};
 
-/// The size of a point for the pointer, and how near to the line a press pulls it, in points of the window.
+/// The size of a point for the pointer, and the distance from the line within which a press pulls it, in points of the
+/// window.
 const POINT: f32 = 18.0;
 const NEAR: f32 = 9.0;
 /// How far an arrow key moves a point, in metres.
@@ -28,25 +29,25 @@ const MOST: usize = 32;
 struct Laid<'a> {
     pane: Rect,
     projection: &'a Projection,
-    /// Where the path begins, in model space, and the signer's directions.
+    /// The beginning of the path in model space, and the signer's directions.
     base: DVec3,
     axes: DMat3,
-    /// Its points, to the left, up and forward of the base.
+    /// Its points in metres, to the left, up and forward of the base.
     points: Vec<DVec3>,
-    /// Places along it in the picture.
+    /// Positions along the path in the picture.
     line: Vec<Pos2>,
     card: u64,
-    /// The number of the picture's eye.
+    /// The index of the picture's eye.
     eye: usize,
 }
 
-/// What is pulled: a point by its number, kept while the drag lasts.
+/// The point that is being pulled, by its index.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pull {
     point: usize,
 }
 
-/// Shows the path over a picture of the made movement, and takes drags of it.
+/// Shows the path over a picture of generated movement, and handles drags of it.
 pub(super) fn show(
     stage: &mut Stage,
     ui: &mut Ui,
@@ -100,7 +101,7 @@ pub(super) fn show(
     }
 }
 
-/// Returns where a place of model space lies in the window.
+/// Returns the point in the window for a position in model space.
 fn spot(projection: &Projection, pane: Rect, at: DVec3) -> Pos2 {
     let seen = projection.project(at.as_vec3());
     pane.min + vec2(seen.x, seen.y)
@@ -122,7 +123,7 @@ fn paint(painter: &Painter, seen: &Seen<'_>, laid: &Laid<'_>) {
     }
 }
 
-/// Lets a point of the path be pulled, moved by keys, or taken away.
+/// Handles a point of the path: it can be pulled, moved by keys, or removed.
 fn pull_point(
     stage: &mut Stage,
     ui: &mut Ui,
@@ -173,7 +174,7 @@ fn pull_point(
     }
 }
 
-/// Lets the path be pulled between its points: a new point comes there.
+/// Handles pulls between the points: they insert a new point.
 fn pull_line(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, laid: &Laid<'_>) {
     let id = id(ui, laid).with("line");
     let pointer = ui.input(|input| input.pointer.interact_pos());
@@ -196,7 +197,7 @@ fn pull_line(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, 
         && points.len() < MOST
         && let Some((_, nth)) = nearest
     {
-        // The line has as many pieces between any two points.
+        // The line has the same number of pieces between any two points.
         let pieces = (laid.line.len() - 1) / points.len().max(1);
         let at = (nth.saturating_sub(1) / pieces.max(1)).min(points.len());
         let origin = points.get(at).copied().unwrap_or_default();
@@ -222,7 +223,7 @@ fn pull_line(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, 
     }
 }
 
-/// Draws a new path with the pointer, in the plane across the sight through its beginning.
+/// Draws a new path with the pointer, in the plane through its beginning that is perpendicular to the line of sight.
 fn draw(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, laid: &Laid<'_>) {
     let id = id(ui, laid).with("draw");
     let response = ui.interact(laid.pane, id, Sense::drag());
@@ -258,7 +259,8 @@ fn draw(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, laid: &Laid<'_>) {
     ui.data_mut(|data| data.insert_temp(id, line));
 }
 
-/// Returns where the pointer has pulled a place to: across the sight, in the signer's directions from the base.
+/// Returns the position to which the pointer has pulled `place`, in the plane perpendicular to the line of sight; to
+/// the left, up and forward of the base.
 fn pulled(ui: &Ui, laid: &Laid<'_>, place: DVec3) -> Option<DVec3> {
     let pointer = ui.input(|input| input.pointer.interact_pos())?;
     let [x, y] = (pointer - laid.pane.min).into();
@@ -267,7 +269,7 @@ fn pulled(ui: &Ui, laid: &Laid<'_>, place: DVec3) -> Option<DVec3> {
     Some(laid.axes.transpose() * (to - laid.base))
 }
 
-/// Returns how far arrow keys move a point with the focus: to the left, up and forward.
+/// Returns the distance by which arrow keys move a focused point: to the left, up and forward, in metres.
 fn stepped(ui: &Ui, id: &Id) -> Option<DVec3> {
     ui.memory_mut(|memory| {
         memory.set_focus_lock_filter(

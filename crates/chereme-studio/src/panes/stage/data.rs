@@ -1,4 +1,4 @@
-//! Where the eye of the stage stands, without a window.
+//! The cameras and the division of the stage, without widgets.
 
 use chereme_figure::View;
 use chereme_figure::camera::Camera;
@@ -24,16 +24,16 @@ pub(crate) const VIEWS: [(View, Action); 8] = {
     ]
 };
 
-/// A preset view with what the mouse did to it.
+/// A preset view with the user's changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Eye {
     pub(crate) view: View,
-    /// Turned around the vertical and up, in radians.
+    /// Rotation around the vertical axis and upwards, in radians.
     turn: f32,
     lift: f32,
-    /// Shifted by shares of the picture's height to the right and up.
+    /// Shift to the right and up, as shares of the picture's height.
     shift: [f32; 2],
-    /// How much nearer, 1 being the preset.
+    /// Magnification; 1 is the preset.
     zoom: f32,
 }
 
@@ -44,7 +44,7 @@ impl Default for Eye {
 }
 
 impl Eye {
-    /// Returns the preset itself.
+    /// Returns the preset without changes.
     pub(crate) fn of(view: View) -> Self {
         Self {
             view,
@@ -55,26 +55,26 @@ impl Eye {
         }
     }
 
-    /// Turns by a drag over those shares of the picture's height.
+    /// Turns the eye after a drag, given in shares of the picture's height.
     pub(crate) fn orbit(&mut self, [right, down]: [f32; 2]) {
         const HALF: f32 = std::f32::consts::FRAC_PI_2;
         self.turn = (self.turn - right * 3.0).rem_euclid(4.0 * HALF);
         self.lift = (self.lift + down * 3.0).clamp(-HALF * 0.98, HALF * 0.98);
     }
 
-    /// Moves the picture by a drag over those shares of its height.
+    /// Moves the picture after a drag, given in shares of its height.
     pub(crate) fn pan(&mut self, [right, down]: [f32; 2]) {
         self.shift[0] -= right / self.zoom;
         self.shift[1] += down / self.zoom;
     }
 
-    /// Moves nearer by that factor, or farther if it is below 1.
+    /// Magnifies by a factor; below 1, the picture becomes smaller.
     pub(crate) fn nearer(&mut self, factor: f32) {
         self.zoom = (self.zoom * factor).clamp(0.2, 20.0);
     }
 
-    /// Does the same around a point of the picture, which keeps its place: those shares of the height to the right of
-    /// the middle, and below it.
+    /// Magnifies around a point of the picture, which keeps its place. The point is given in shares of the picture's
+    /// height, to the right of the middle and below it.
     pub(crate) fn nearer_at(&mut self, factor: f32, [right, down]: [f32; 2]) {
         let before = self.zoom;
         self.nearer(factor);
@@ -83,7 +83,7 @@ impl Eye {
         self.shift[1] -= down * gone;
     }
 
-    /// Returns the camera, where `preset` is the one of the view.
+    /// Returns the camera; `preset` is the camera of the view.
     pub(crate) fn camera(&self, preset: Camera) -> Camera {
         let sight = preset.eye - preset.target;
         let towards = sight.normalize_or(Vec3::Z);
@@ -104,20 +104,20 @@ impl Eye {
         }
     }
 
-    /// Returns whether nothing was done to the preset but to go nearer.
+    /// Returns whether the eye has not been turned away from the preset.
     pub(crate) fn is_preset(&self) -> bool {
         self.turn == 0.0 && self.lift == 0.0
     }
 }
 
-/// How the made movement and the original are shown.
+/// How generated movement and its original are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Compare {
     /// Side by side.
     #[default]
     Beside,
-    /// The original over the other, seen through.
+    /// The original above the generated movement, transparent.
     Over,
     /// Without the original.
     Alone,
@@ -135,18 +135,18 @@ impl Compare {
     }
 }
 
-/// Who a pane shows.
+/// The contents of a pane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Who {
-    /// The signer of what is played.
+    /// The signer of the played movement.
     Signer,
-    /// That of what it was made from.
+    /// The signer of the original.
     Original,
     /// Both, one over the other.
     Both,
 }
 
-/// A part of the stage: its rectangle, its eye, and its signer.
+/// A part of the stage: its rectangle, the index of its eye, and its contents.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Part {
     pub(crate) rect: Rect,
@@ -154,10 +154,10 @@ pub(crate) struct Part {
     pub(crate) who: Who,
 }
 
-/// The line between panes.
+/// Width of the line between panes, in points.
 const GAP: f32 = 2.0;
 
-/// Returns the parts of the stage for that many eyes, and with the original where there is one.
+/// Returns the parts of the stage for that number of eyes, with the original according to `compare`.
 pub(crate) fn parts(whole: Rect, eyes: usize, compare: Option<Compare>) -> Vec<Part> {
     let wide = whole.width() >= whole.height();
     let panes = match eyes {
@@ -197,7 +197,7 @@ fn halves(whole: Rect, beside: bool) -> Vec<Rect> {
     vec![first, second]
 }
 
-/// Returns the views that panes begin with when the stage is parted into so many.
+/// Returns the initial views of a stage with `count` panes.
 pub(crate) fn usual_views(count: usize) -> &'static [View] {
     use chereme_motion::Side;
     match count {
@@ -212,14 +212,14 @@ pub(crate) fn usual_views(count: usize) -> &'static [View] {
     }
 }
 
-/// The extras drawn with the signer.
+/// Extras that are drawn with the signer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Shows {
-    /// The reach of trails, in seconds, if they are shown.
+    /// The reach of trails to either side of the moment, in seconds, if they are shown.
     pub(crate) trails: Option<f64>,
     pub(crate) ghosts: bool,
     pub(crate) grid: bool,
-    /// Whether markers stand next to the signer.
+    /// Whether markers are shown beside the signer.
     pub(crate) points: bool,
 }
 
@@ -229,7 +229,7 @@ pub(crate) struct Shows {
 pub(crate) struct Insets {
     /// Both hands.
     pub(crate) hands: bool,
-    /// Hands are turned so that their palms are seen and their fingers point up.
+    /// Whether hands are turned so that the palms are visible and the fingers point up.
     pub(crate) palms: bool,
     pub(crate) face: bool,
 }
@@ -254,13 +254,13 @@ pub(crate) struct Inset {
 
 /// A part of the stage narrower or lower than this, in points, has no room for close-ups.
 const ROOM: [f32; 2] = [300.0, 220.0];
-/// The side of a close-up beside the shorter side of its part, and its least and greatest, in points.
+/// The side of a close-up as a share of the shorter side of its part, and its least and greatest side in points.
 const INSET: (f32, f32, f32) = (0.36, 84.0, 190.0);
 /// The distance between a close-up and the edges.
 const MARGIN: f32 = 8.0;
 
-/// Returns the close-ups in a part of the stage that is looked at so: the signer's right hand on the side where it is
-/// seen, below; the face above.
+/// Returns the close-ups in a part of the stage with that view: the hands below, each on the side where it appears in
+/// the view; the face above.
 pub(crate) fn insets(part: &Part, view: View, wanted: Insets) -> Vec<Inset> {
     use chereme_motion::Side;
     let [wide, high] = ROOM;
@@ -306,7 +306,7 @@ pub(crate) fn insets(part: &Part, view: View, wanted: Insets) -> Vec<Inset> {
     found
 }
 
-/// All that the pictures of the stage depend on.
+/// The inputs of the stage's pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Look {
     pub(crate) at: Instant,
@@ -318,8 +318,7 @@ pub(crate) struct Look {
     pub(crate) samples: usize,
 }
 
-/// Returns how many samples a pixel gets: four where nothing moves, one where it moves and would
-/// take long.
+/// Returns the number of samples per pixel: four if nothing moves, one if something moves and the picture is large.
 pub(crate) fn samples(moving: bool, size: [usize; 2]) -> usize {
     if moving && size[0] * size[1] > 300_000 {
         1

@@ -1,15 +1,14 @@
-//! The handle of a placement without a window: where its ends lie in the picture, and what a drag
-//! of it means in space.
+//! The geometry of a placement's handle, without widgets: its place in the picture, and the effect of a drag in space.
 
 use chereme_figure::camera::Projection;
 use chereme_motion::{Anatomy, Clip};
 use glam::{DMat3, DVec3, Vec3};
 
-/// How long an axis is in the picture where it lies across, in points.
+/// The length of an axis in the picture if it is perpendicular to the line of sight, in points.
 pub(super) const REACH: f32 = 64.0;
-/// Axes that point at the eye are left out below this length on screen.
+/// Axes that are shorter than this in the picture, in points, are left out, as they point towards the eye.
 const LEAST: f32 = 12.0;
-/// How many frames are looked at for where the body faces.
+/// How many frames are examined for the direction that the body faces.
 const LOOKS: usize = 16;
 
 /// A line of sight.
@@ -21,7 +20,7 @@ pub(super) struct Ray {
 }
 
 impl Ray {
-    /// Returns the line of sight through a place of the picture.
+    /// Returns the line of sight through a point of the picture.
     pub(super) fn through(projection: &Projection, [x, y]: [f32; 2]) -> Self {
         let (from, along) = projection.ray(x, y);
         Self {
@@ -30,8 +29,8 @@ impl Ray {
         }
     }
 
-    /// Returns where on the line through `origin` along the unit vector `axis` it comes nearest, in
-    /// metres from `origin`; nothing where both point the same way.
+    /// Returns the point on an axis that is nearest to the ray, in metres from `origin` along the unit vector `axis`;
+    /// `None` if both are parallel.
     pub(super) fn along_axis(&self, origin: DVec3, axis: DVec3) -> Option<f64> {
         let between = self.from - origin;
         let slant = axis.dot(self.along);
@@ -39,8 +38,8 @@ impl Ray {
         (across > 1e-4).then(|| (axis.dot(between) - slant * self.along.dot(between)) / across)
     }
 
-    /// Returns where it meets the plane through `origin` across the unit vector `normal`; nothing
-    /// where it runs along it, or away from it.
+    /// Returns the intersection with the plane through `origin` with the unit normal `normal`; `None` if the ray is
+    /// parallel to the plane, or points away from it.
     pub(super) fn on_plane(&self, origin: DVec3, normal: DVec3) -> Option<DVec3> {
         let steep = normal.dot(self.along);
         let far = normal.dot(origin - self.from) / steep;
@@ -48,7 +47,7 @@ impl Ray {
     }
 }
 
-/// A signer's own directions, and the length of an arm.
+/// A signer's directions, and the length of an arm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Directions {
     /// Left, up and forward.
@@ -58,7 +57,7 @@ pub(super) struct Directions {
 }
 
 impl Directions {
-    /// Returns those of a movement as placements mean them: up is up, left and forward are level.
+    /// Returns the directions of a movement as placements use them: up is vertical, left and forward are horizontal.
     pub(super) fn of(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
         let step = clip.frames().div_ceil(LOOKS).max(1);
         let facing = (0..clip.frames()).step_by(step).filter_map(|frame| {
@@ -77,28 +76,28 @@ impl Directions {
 /// The part of the handle that is dragged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
-    /// One of left, up and forward.
+    /// The axis of left (0), up (1) or forward (2).
     Axis(usize),
-    /// Its middle: it goes across the line of sight.
+    /// Its middle, which moves perpendicular to the line of sight.
     Middle,
 }
 
-/// Where a drag began.
+/// The state at the beginning of a drag.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Begun {
     pub(super) part: Part,
-    /// Where the handle was, in model space.
+    /// The position of the handle, in model space.
     pub(super) origin: DVec3,
-    /// The value then, in metres to the left, up and forward.
+    /// The value, in metres to the left, up and forward.
     pub(super) value: [f64; 3],
-    /// The line of sight of the pointer then.
+    /// The line of sight through the pointer.
     pub(super) ray: Ray,
-    /// Where the eye looks.
+    /// The direction of view.
     pub(super) sight: DVec3,
 }
 
 impl Begun {
-    /// Returns the value while the pointer is on that line of sight, to the millimetre or to `step`.
+    /// Returns the value for a pointer on the line of sight `ray`, rounded to millimetres or to `step`.
     pub(super) fn value(&self, ray: Ray, axes: DMat3, step: Option<f64>) -> Option<[f64; 3]> {
         let way = match self.part {
             Part::Axis(nth) => {
@@ -124,22 +123,22 @@ impl Begun {
         Some(value)
     }
 
-    /// Returns where the handle is at that value, in model space.
+    /// Returns the position of the handle for a value, in model space.
     pub(super) fn place(&self, value: [f64; 3], axes: DMat3) -> DVec3 {
         self.origin + axes * (DVec3::from(value) - DVec3::from(self.value))
     }
 }
 
-/// Returns a length to the millimetre, or to `step`, as it is written in centimetres.
+/// Returns a length rounded to millimetres or to `step`, such that it is exact in centimetres.
 pub(super) fn snapped(metres: f64, step: Option<f64>) -> f64 {
     let step = step.unwrap_or(0.001);
     let mm = ((metres / step).round() * step * 1000.0).round();
-    // No minus before nothing.
+    // Adding 0.0 turns -0.0 into 0.0.
     mm / 10.0 / 100.0 + 0.0
 }
 
-/// Returns the value moved by keys: so many metres to the picture's right, up, and away from the eye,
-/// each along the one of the signer's directions that goes that way most.
+/// Returns the value after a step by keys, in metres to the picture's right, up, and away from the eye. Each step
+/// follows the axis of the signer that is nearest to it in the picture.
 pub(super) fn stepped(
     value: [f64; 3],
     [right, up, away]: [f64; 3],
@@ -177,11 +176,11 @@ pub(super) fn stepped(
     value
 }
 
-/// Where a handle lies in the picture, in points from its upper left corner.
+/// The place of a handle in the picture, in points from its upper left corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Laid {
     pub(super) middle: [f32; 2],
-    /// The ends of left, up and forward; none of one that points at the eye.
+    /// The ends of left, up and forward; `None` for an axis that points towards the eye.
     pub(super) ends: [Option<[f32; 2]>; 3],
 }
 
@@ -240,7 +239,7 @@ mod tests {
 
     #[test]
     fn rays_meet_axes_and_planes_where_closed_forms_say() {
-        // From (1, 2, 5) straight back: nearest to the x axis at x = 1, on z = 0 at (1, 2, 0).
+        // The ray from (1, 2, 5) straight back is nearest to the x axis at x = 1, and meets z = 0 at (1, 2, 0).
         let ray = Ray {
             from: DVec3::new(1.0, 2.0, 5.0),
             along: DVec3::NEG_Z,

@@ -17,26 +17,26 @@ use crate::context::{Outbox, Seen};
 use crate::model::handle::Handle;
 use crate::words::{fill, recombine, stage as words};
 
-/// How large the middle and the ends are for the pointer.
+/// The sizes of the middle and of the axes' ends for the pointer, in points.
 const MIDDLE: f32 = 22.0;
 const END: f32 = 24.0;
-/// How near to the handle a press takes the part of it that is nearest: who presses there means it, and not
-/// the eye's place. It is far enough for a hand that moves while it is reached for.
+/// The distance from the handle, in points, within which a press grabs its nearest part instead of turning the eye. It
+/// is large enough for a hand that moves while the user reaches for it.
 const NEAR: f32 = 34.0;
-/// How far an arrow key goes, and with Shift, in metres; and what a drag with Ctrl snaps to.
+/// The distance of an arrow key, also with Shift, in metres; a drag with Ctrl snaps to multiples of the first.
 const STEP: f64 = 0.01;
 const FAR_STEP: f64 = 0.05;
 
-/// The stage's memory of the handle from frame to frame.
+/// The state of the handle between frames.
 #[derive(Default)]
 pub(super) struct Holding {
     directions: Option<(Of, Option<Directions>)>,
     pub(super) grab: Option<Grab>,
-    /// The widgets that it is now.
+    /// The ids of its widgets in this frame.
     middles: Vec<Id>,
-    /// The card, and what it was before it was last dragged or moved by keys.
+    /// The card, and its goal before the last drag or series of key presses.
     before: Option<(u64, chereme_corpus::recipe::Goal)>,
-    /// The distance that the view was dragged, by another button than that for the handle.
+    /// The distance that the view was dragged with a mouse button other than that for the handle.
     pub(super) panned: Vec2,
 }
 
@@ -46,21 +46,21 @@ impl Holding {
         focused.is_some_and(|id| self.middles.contains(&id))
     }
 
-    /// Forgets the widgets of the last frame.
+    /// Forgets the widget ids of the last frame.
     pub(super) fn begin(&mut self) {
         self.middles.clear();
     }
 }
 
-/// A drag that goes on.
+/// A drag in progress.
 pub(super) struct Grab {
-    /// How the hand was when it began.
+    /// The posture when it began.
     pub(super) pose: ModelPose,
     card: u64,
     side: Side,
     begun: Begun,
     was_playing: bool,
-    /// Escape was pressed: the rest of the drag does nothing.
+    /// Whether Escape was pressed, so that the rest of the drag has no effect.
     over: bool,
 }
 
@@ -72,13 +72,13 @@ struct Held<'a> {
     pane: Rect,
     projection: Projection,
     side: Side,
-    /// Whether it has axes too, and not only its middle.
+    /// Whether the handle has axes, and not only its middle.
     whole: bool,
-    /// The widget that keys are for.
+    /// The widget with the keyboard input.
     id: Id,
 }
 
-/// Shows the handle over a picture of the made movement.
+/// Shows the handle over a picture of generated movement.
 pub(super) fn show(
     stage: &mut Stage,
     ui: &mut Ui,
@@ -130,13 +130,13 @@ pub(super) fn show(
     }
 }
 
-/// Returns the widget's id, which does not depend on the place of the picture: the line above it may grow while keys
-/// move a hand.
+/// Returns the widget's id, which does not depend on the place of the picture: the line above the picture may become
+/// higher while keys move a hand.
 fn id(ui: &Ui, pane: &Pane, side: Side) -> Id {
     ui.scope_id().with(("handle", pane.eye, side.name()))
 }
 
-/// Shows the handle of one hand, and takes its drags.
+/// Shows the handle of one hand, and handles its drags.
 fn one(
     holding: &mut Holding,
     ui: &mut Ui,
@@ -194,7 +194,7 @@ fn one(
     }
     let pointer = ui.input(|input| input.pointer.interact_pos());
     let nearest = pointer.map_or(Part::Middle, |at| nearest(held, &laid, at));
-    // A grabbed part stays grabbed, wherever the pointer moves.
+    // A grabbed part stays grabbed, regardless of the pointer's position.
     let taken = own_part(holding, held).unwrap_or(nearest);
     let parts = ends
         .iter()
@@ -226,7 +226,7 @@ fn own_part(holding: &Holding, held: &Held<'_>) -> Option<Part> {
     Some(grab.begun.part)
 }
 
-/// Returns the parts of a handle in the picture, each as a line from the middle.
+/// Returns the parts of a handle in the picture, each as a line.
 fn lines(held: &Held<'_>, laid: &Laid) -> impl Iterator<Item = (Part, [Pos2; 2])> {
     let spot = |[x, y]: [f32; 2]| held.pane.min + vec2(x, y);
     let middle = spot(laid.middle);
@@ -236,14 +236,14 @@ fn lines(held: &Held<'_>, laid: &Laid) -> impl Iterator<Item = (Part, [Pos2; 2])
     axes.chain([(Part::Middle, [middle, middle])])
 }
 
-/// Returns all that is near to a handle.
+/// Returns the rectangle around a handle in which a press can grab it.
 fn near(held: &Held<'_>, laid: &Laid) -> Rect {
     let all = lines(held, laid).flat_map(|(_, line)| line);
     let all: Vec<Pos2> = all.collect();
     Rect::from_points(&all).expand(NEAR).intersect(held.pane)
 }
 
-/// Returns the part of a handle that is nearest to a place; of an axis only its outer half counts.
+/// Returns the part of a handle that is nearest to a point; of an axis, only the outer half is considered.
 fn nearest(held: &Held<'_>, laid: &Laid, at: Pos2) -> Part {
     let away = |[from, to]: [Pos2; 2]| {
         let along = to - from;
@@ -260,7 +260,7 @@ fn nearest(held: &Held<'_>, laid: &Laid, at: Pos2) -> Part {
     nearest.map_or(Part::Middle, |it| it.0)
 }
 
-/// Lets assistive technology go along an axis, by whole steps.
+/// Lets assistive technology move the handle along an axis, in steps.
 fn assisted(ui: &Ui, out: &mut Outbox, held: &Held<'_>, nth: usize, id: Id) {
     use egui::accesskit::Action::{Decrement, Increment};
     ui.ctx().accesskit_node_builder(id, |node| {
@@ -276,7 +276,7 @@ fn assisted(ui: &Ui, out: &mut Outbox, held: &Held<'_>, nth: usize, id: Id) {
     }
 }
 
-/// Keeps the place of a text in the picture.
+/// Moves the position of a text into the picture if necessary.
 fn keep_in(pane: Rect, at: Pos2) -> Pos2 {
     let (x, y) = (pane.max.x - 210.0, pane.max.y - 26.0);
     egui::pos2(at.x.min(x).max(pane.min.x), at.y.min(y).max(pane.min.y))
@@ -300,7 +300,7 @@ fn axis_name(seen: &Seen<'_>, nth: usize) -> &'static str {
     )
 }
 
-/// Returns the value as people say it: `left 3.2 · up 10.0 · back 0.5 cm`.
+/// Returns the value as text: `left 3.2 · up 10.0 · back 0.5 cm`.
 fn value_text(seen: &Seen<'_>, held: &Held<'_>) -> String {
     let ways = [
         [recombine::LEFT, recombine::RIGHT],
@@ -337,7 +337,7 @@ fn drag(
         let place = place - held.pane.min;
         Ray::through(&held.projection, [place.x, place.y])
     };
-    // A hand that moves stands still as soon as its handle is pressed, and not only when that is dragged.
+    // Playback stops as soon as the handle is pressed, and not only when it is dragged.
     let pressed = ui.input(|input| input.pointer.button_pressed(PointerButton::Primary));
     if pressed
         && response.is_pointer_button_down_on()
@@ -398,7 +398,7 @@ fn send(held: &Held<'_>, value: [f64; 3], out: &mut Outbox) {
     out.send(Command::Placed(held.handle.card, goal));
 }
 
-/// Makes the card what it was before.
+/// Restores the card's goal.
 fn back(
     before: &mut Option<(u64, chereme_corpus::recipe::Goal)>,
     held: &Held<'_>,
@@ -409,7 +409,7 @@ fn back(
     }
 }
 
-/// Arrow keys go where the picture goes, Page Up and Page Down away and nearer, Escape back.
+/// Moves with arrow keys in the plane of the picture, with Page Up and Page Down in depth; Escape restores the goal.
 fn keys(holding: &mut Holding, ui: &Ui, out: &mut Outbox, held: &Held<'_>, response: &Response) {
     if !response.has_focus() {
         if response.lost_focus() {
@@ -466,7 +466,7 @@ fn keys(holding: &mut Holding, ui: &Ui, out: &mut Outbox, held: &Held<'_>, respo
     }
 }
 
-/// Draws it: arrows with a letter each, a ring in the middle, and the way that it was dragged.
+/// Draws the handle: arrows with a letter each, a ring in the middle, and the offset of the drag.
 fn paint(
     ui: &Ui,
     seen: &Seen<'_>,

@@ -1,4 +1,4 @@
-//! Both hands and the face from near, in the corners of the stage.
+//! Close-ups of both hands and of the face, in the corners of the stage.
 
 use chereme_corpus::proposed_for;
 use chereme_figure::View;
@@ -27,7 +27,7 @@ pub(super) fn of(stage: &Stage, parts: &[Part]) -> Vec<Inset> {
     parts.iter().flat_map(insets).collect()
 }
 
-/// Shows the close-ups that are drawn; a click turns hands so that their palms are seen, or back.
+/// Shows the close-ups; a click on a hand turns the hands so that their palms are visible, or back.
 pub(super) fn show(
     stage: &Stage,
     ui: &mut Ui,
@@ -80,7 +80,7 @@ pub(super) fn show(
     }
 }
 
-/// Shows the picture of a selected proposal next to the close-up of its hand, with how sure it is.
+/// Shows the picture of a selected proposal next to the close-up of its hand, with its confidence.
 pub(super) fn proposal(ui: &Ui, seen: &Seen<'_>, insets: &[Inset]) {
     let Some(proposal) = Proposal::of(seen) else {
         return;
@@ -116,7 +116,7 @@ pub(super) fn proposal(ui: &Ui, seen: &Seen<'_>, insets: &[Inset]) {
     painter.text(at, Align2::CENTER_CENTER, text, font, colour);
 }
 
-/// A value that is proposed and selected.
+/// The selected proposed value.
 struct Proposal {
     side: Side,
     value: String,
@@ -142,7 +142,7 @@ impl Proposal {
     }
 }
 
-/// Returns the action whose name is that of a close-up.
+/// Returns the action with the name of a close-up.
 fn name(view: View) -> Action {
     match view {
         View::Hand(Side::Left) | View::Palm(Side::Left) => Action::ViewLeftHand,

@@ -1,4 +1,4 @@
-//! Landmarks and placement zones over the signer's body; a zone that is clicked is a place chosen.
+//! Landmarks and placement zones over the signer's body; a click on a zone chooses its place.
 
 use chereme_corpus::Overview;
 use chereme_figure::camera::Projection;
@@ -12,14 +12,14 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::inspector::Thing;
 
-/// A placement value as it lies on a body.
+/// A placement value, as a position on a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Zone {
     pub(super) id: String,
-    /// The row of its inventory.
+    /// The row id of its inventory.
     inventory: i64,
     landmark: String,
-    /// Left, up and forward, in shoulder widths.
+    /// Offset from the landmark to the left, up and forward, in shoulder widths.
     offset: [f64; 3],
 }
 
@@ -49,18 +49,18 @@ pub(super) fn zones(overview: &Overview) -> Vec<Zone> {
     zones
 }
 
-/// Something to be seen on the body.
+/// A visible mark on the body.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Mark {
     pub(super) name: String,
     /// The placement value, if it has one.
     pub(super) zone: Option<String>,
-    /// The row of its inventory; of no zone it is not looked at.
+    /// The row id of its inventory; meaningless without a zone.
     inventory: i64,
     pub(super) at: DVec3,
 }
 
-/// Returns the marks on a body in its posture: zones, then landmarks that no zone lies on.
+/// Returns the marks on a body in its posture: all zones, then landmarks that are not at a zone.
 pub(super) fn marks(
     subject: &Subject,
     pose: &chereme_motion::ModelPose,
@@ -103,16 +103,16 @@ pub(super) fn marks(
     marks
 }
 
-/// How near the pointer has to be, and how large marks are.
+/// The distance within which the pointer selects a mark, and the radius of marks, in points.
 const REACH: f32 = 11.0;
 
-/// Writes the name of a mark in the line below the signer, where it covers no other mark.
+/// Writes the name of a mark at the bottom of the picture, where it covers no other mark.
 fn named(painter: &Painter, ui: &Ui, rect: Rect, name: &str) {
     let at = rect.center_bottom() - vec2(0.0, 34.0);
     super::ui::chip_on(painter, ui, at, Align2::CENTER_BOTTOM, name);
 }
 
-/// Shows the marks over a picture; the name of the one under the pointer or with the focus stands in a line below.
+/// Shows the marks over a picture; the name of the one under the pointer or with the focus is at the bottom.
 pub(super) fn show(
     ui: &mut Ui,
     seen: &Seen<'_>,

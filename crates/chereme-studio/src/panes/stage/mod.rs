@@ -2,20 +2,20 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | `data` | where eyes stand, how the stage is parted, what is compared |
+//! | `data` | cameras, the division of the stage, comparison with the original |
 //! | `scene` | bodies, ghosts, trails, grid and floor |
 //! | `gizmo` | the handle of a placement, as geometry |
 //! | `handle` | its widget: dragged, moved by keys |
-//! | `course` | a path that is drawn and pulled |
+//! | `course` | a path that can be drawn and pulled |
 //! | `marks` | landmarks and placement zones over the body |
-//! | `insets` | both hands and the face in the corners |
-//! | `original` | what made movement was made from |
+//! | `insets` | close-ups of both hands and the face in the corners |
+//! | `original` | the sources of generated movement |
 //! | `points` | optical markers, and points from film |
-//! | `preview` | the stroke of what was just opened |
+//! | `preview` | the stroke of a newly opened sign |
 //! | `artist` | the thread that draws |
-//! | `ways` | what is remembered of it |
-//! | `captions` | words over the pictures |
-//! | `tools` | the line above |
+//! | `ways` | the stored settings |
+//! | `captions` | texts over the pictures |
+//! | `tools` | the line of tools above |
 //! | `transport` | the bar and the buttons below |
 
 mod artist;
@@ -57,10 +57,10 @@ use points::Points;
 use scene::{Movement, Subject};
 pub(crate) use ways::StageWays;
 
-/// How far a key turns, in shares of the picture's height, and how much nearer it goes.
+/// The step of a key for turning, in shares of the picture's height, and for magnification.
 const KEY_STEP: f32 = 0.06;
 const KEY_ZOOM: f32 = 1.15;
-/// How far trails reach usually, in seconds.
+/// Usual reach of trails, in seconds.
 const REACH: f64 = 0.4;
 
 /// The pane.
@@ -69,44 +69,44 @@ pub(crate) struct Stage {
     signer: Option<(Of, Subject)>,
     original: Original,
     points: Points,
-    /// Where each pane is looked at from.
+    /// The cameras of the panes.
     eyes: Vec<Eye>,
-    /// The pane that keys are about.
+    /// The pane that keyboard actions apply to.
     active: usize,
     compare: Compare,
     shows: Shows,
-    /// How far trails reach when they are shown, in seconds.
+    /// The reach of trails when they are shown, in seconds.
     reach: f64,
     places: bool,
     insets: Insets,
-    /// The moment that stands for what was opened.
+    /// The stroke of a newly opened recording or sign.
     stroke: Option<preview::Stroke>,
-    /// The moment that is shown in place of the playhead's.
+    /// The moment that is shown instead of the playhead's, if any.
     previews: Option<chereme_motion::Instant>,
     zones: Option<(Arc<Overview>, Vec<Zone>)>,
     textures: Vec<TextureHandle>,
-    /// The signer's posture in the pictures that are shown.
+    /// The signer's posture in the visible pictures.
     drawn: Option<ModelPose>,
-    /// The numbers of the last wish and of the one that the pictures are of.
+    /// Serial numbers of the latest request for pictures, and of the request of the visible pictures.
     wished: u64,
     shown: u64,
-    /// The look of the last requested pictures.
+    /// The inputs of the last requested pictures.
     asked: Option<Look>,
-    /// Whether the moment at the playhead is not loaded yet.
+    /// Whether the moment at the playhead is still being loaded.
     coming: bool,
     /// How long the last pictures took to draw.
     took: Duration,
-    /// The handle of a placement that is dragged.
+    /// The state of a placement's handle.
     holding: handle::Holding,
-    /// The point of a path that is pulled.
+    /// The point of a path that is being pulled.
     pull: Option<course::Pull>,
-    /// Whether the signer is that of made movement.
+    /// Whether the signer belongs to generated movement.
     made: bool,
-    /// When made movement was last replaced by newer of it, in seconds of the window's clock, and whether
-    /// its picture shall be seen in this very frame.
+    /// When generated movement was last replaced by a newer version, in seconds of the window's clock; and whether its
+    /// picture should be visible in this frame.
     replaced: Option<f64>,
     at_once: bool,
-    /// Whether it is looked at as it was remembered.
+    /// Whether the stored settings have been applied.
     remembered: bool,
 }
 
@@ -149,12 +149,12 @@ impl Default for Stage {
     }
 }
 
-/// The movement that a subject was made for, by where it lies in memory.
+/// The identity of a subject's movement: its address in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Of(usize);
 
 impl Stage {
-    /// Builds the figures of the shown movement, if it changed; `time` is that of the window's clock.
+    /// Builds the figures of the displayed movement if it changed; `time` is in seconds of the window's clock.
     fn follow(&mut self, seen: &Seen<'_>, time: f64, out: &mut Outbox) {
         let made = seen.shown.made.as_ref().map(|showing| &showing.made);
         let sample = seen.reel.sample();
@@ -168,14 +168,14 @@ impl Stage {
             (None, None) => None,
         };
         if self.signer.as_ref().map(|it| it.0) != now.map(|it| it.0) {
-            // While a hand is placed, the eye keeps its position.
+            // While a hand is being placed, the camera does not move.
             let newer = self.made && made.is_some();
             let steady = newer && seen.shown.handle.is_some();
             self.replaced = newer.then_some(time);
             self.at_once = newer && !seen.shown.on_stage().is_playing();
             self.made = made.is_some();
             self.signer = now.and_then(|(of, clip, anatomy)| {
-                // The same body goes on where only its movement is another.
+                // The same body is used again if only its movement changed.
                 let before = self.signer.take().map(|it| it.1);
                 Some((of, Subject::after(before, clip, anatomy, steady)?))
             });
@@ -194,23 +194,23 @@ impl Stage {
         self.took
     }
 
-    /// Returns whether the pictures are those that were asked for last.
+    /// Returns whether the visible pictures are the last requested ones.
     pub(crate) fn is_drawn(&self) -> bool {
         self.asked.is_some() && self.wished == self.shown
     }
 
-    /// Returns whether the newest pictures are of that movement.
+    /// Returns whether the newest pictures show that movement.
     pub(crate) fn shows(&self, made: &Arc<Made>) -> bool {
         let of = Of(Arc::as_ptr(made) as usize);
         self.is_drawn() && self.signer.as_ref().is_some_and(|it| it.0 == of)
     }
 
-    /// Returns how the original is shown, where there is one.
+    /// Returns how the original is shown, if there is one.
     fn comparing(&self) -> Option<Compare> {
         self.original.is_there().then_some(self.compare)
     }
 
-    /// Returns whether the focus of the keyboard is on the handle of a placement.
+    /// Returns whether the handle of a placement has the keyboard focus.
     pub(crate) fn is_held(&self, ctx: &Context) -> bool {
         self.holding.has_focus(ctx)
     }
@@ -300,7 +300,7 @@ impl Pane for Stage {
             Action::StagePlaces => self.places = !self.places,
             Action::StageHands => self.insets.hands = !self.insets.hands,
             Action::StagePalms => {
-                // Palms that are asked for are to be seen.
+                // Turned palms are only visible in close-ups, so these are shown too.
                 self.insets.palms = !(self.insets.palms && self.insets.hands);
                 self.insets.hands = true;
             }
@@ -322,10 +322,10 @@ impl Pane for Stage {
     }
 }
 
-/// Where the pictures are, and in which frame they were there.
+/// Key for the rectangle of the pictures, and the frame in which they were there.
 const PLACE: &str = "place of the stage";
 
-/// Keeps in mind where the pictures are.
+/// Remembers the rectangle of the pictures.
 fn note_place(ui: &Ui, rect: Rect) {
     let frame = ui.ctx().cumulative_frame_nr();
     ui.data_mut(|data| data.insert_temp(Id::unique(PLACE), (frame, rect)));
@@ -337,7 +337,7 @@ pub(crate) fn place(ctx: &Context) -> Option<Rect> {
     (frame + 1 >= ctx.cumulative_frame_nr()).then_some(rect)
 }
 
-/// Returns where the signer's postures come from.
+/// Returns the source of the signer's postures.
 fn movement<'a>(seen: &Seen<'a>) -> Movement<'a> {
     match &seen.shown.made {
         Some(showing) => Movement::Clip(&showing.made.clip, &showing.made.faces),

@@ -1,4 +1,4 @@
-//! The sources of generated movement: the original of each of its pieces, at its time.
+//! The sources of generated movement: the original of each of its pieces, at the corresponding time.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::scene::Subject;
 use crate::context::{Outbox, Seen};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// The originals of what is on the stage.
+/// The originals of the movement on the stage.
 #[derive(Default)]
 pub(super) struct Original {
     source: Option<Source>,
@@ -22,11 +22,11 @@ pub(super) struct Original {
 #[derive(Debug, Clone, PartialEq)]
 enum Source {
     Parts(Vec<MadePart>),
-    /// A stored recording, with its recipe.
+    /// The row id of a stored recording, and its recipe.
     Stored(i64, String),
 }
 
-/// A piece of the made movement.
+/// A piece of the generated movement.
 pub(super) struct Piece {
     pub(super) part: MadePart,
     /// Its original, if it has one.
@@ -34,7 +34,7 @@ pub(super) struct Piece {
 }
 
 impl Original {
-    /// Has the originals loaded where something else is on the stage; whether that is so.
+    /// Requests the originals if the movement on the stage changed; returns whether it did.
     pub(super) fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) -> bool {
         let source = match &seen.shown.made {
             Some(showing) => Some(Source::Parts(showing.made.parts.clone())),
@@ -59,7 +59,7 @@ impl Original {
         true
     }
 
-    /// Hears what was loaded; whether it was for this.
+    /// Handles the result of work; returns whether it was the requested originals.
     pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) -> bool {
         if self.work.take_if(|work| *work == id).is_none() {
             return false;
@@ -83,13 +83,13 @@ impl Original {
         true
     }
 
-    /// Returns whether any piece has an original to be seen.
+    /// Returns whether any piece has an original.
     pub(super) fn is_there(&self) -> bool {
         self.parts.iter().any(|piece| piece.shown.is_some())
     }
 
-    /// Returns what makes the movement where none of it has an original that one would look for: of
-    /// notation nobody expects one.
+    /// Returns the source of the first piece if no piece has an original and the movement is fingerspelling or
+    /// pointing; `None` for notation, of which nobody expects an original.
     pub(super) fn made_by(&self) -> Option<&str> {
         let none = self.told && !self.is_there();
         let first = self.parts.first().filter(|_| none)?;
@@ -100,14 +100,14 @@ impl Original {
         made.then_some(from)
     }
 
-    /// Returns the piece that is played at `at`; between two the nearer one.
+    /// Returns the piece at `at`; between two pieces, the nearer one.
     pub(super) fn piece(&self, at: Instant) -> Option<&Piece> {
         let nearest = nearest(self.parts.iter().map(|piece| &piece.part), at)?;
         self.parts.get(nearest)
     }
 }
 
-/// Returns the place of the part whose time is nearest to `at`, the first of equal ones.
+/// Returns the index of the part whose time is nearest to `at`; the first of equally near ones.
 fn nearest<'a>(parts: impl Iterator<Item = &'a MadePart>, at: Instant) -> Option<usize> {
     let far = |part: &MadePart| {
         let (start, end) = (part.span.start().micros(), part.span.end().micros());
@@ -119,7 +119,8 @@ fn nearest<'a>(parts: impl Iterator<Item = &'a MadePart>, at: Instant) -> Option
         .map(|(place, _)| place)
 }
 
-/// Returns the moment of the original while `at` is played: as far from its beginning, at most its end.
+/// Returns the moment of the original that corresponds to `at`: at the same distance from the beginning, but not after
+/// the end.
 pub(super) fn moment(piece: &MadePart, moving: &Moving, at: Instant) -> Instant {
     let inside = at.shifted(-piece.span.start().micros()).max(Instant::ZERO);
     inside.min(moving.clip.span().end())

@@ -11,7 +11,7 @@ use chereme_motion::{Instant, Markers, Span};
 use crate::context::{Outbox, Seen};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
-/// How long a piece is, in microseconds.
+/// Length of a piece, in microseconds.
 const PIECE: i64 = 20_000_000;
 /// How many pieces are kept.
 const KEPT: usize = 3;
@@ -22,21 +22,21 @@ struct Cloud {
     piece: PointsPiece,
 }
 
-/// The points of a recording, as far as they are loaded.
+/// The loaded points of a recording.
 #[derive(Default)]
 pub(super) struct Points {
-    /// The recording, and its tracks of points with their offsets.
+    /// The recording's row id, and its tracks of points as row ids with offsets.
     source: Option<(i64, Vec<(i64, i64)>)>,
     pieces: BTreeMap<i64, Vec<Cloud>>,
     asked: Option<(WorkId, i64)>,
     dark: bool,
-    /// The cameras of each view as the first piece has them.
+    /// The cameras of each view, computed from the first piece.
     cameras: Vec<(View, Camera)>,
 }
 
 impl Points {
-    /// Turns to the recording that is shown and asks for the piece at the playhead; returns whether something else is to
-    /// be seen now.
+    /// Switches to the displayed recording, and requests the piece at the playhead; returns whether the picture
+    /// changes.
     pub(super) fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) -> bool {
         let source = source(seen);
         let changed = source != self.source || seen.dark != self.dark;
@@ -67,7 +67,7 @@ impl Points {
         changed
     }
 
-    /// Hears what was loaded; returns whether it was for this.
+    /// Handles the result of work; returns whether it was the requested piece.
     pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) -> bool {
         let Some((_, piece)) = self.asked.take_if(|(work, _)| *work == id) else {
             return false;
@@ -100,13 +100,14 @@ impl Points {
         self.source.is_some()
     }
 
-    /// Returns whether points lie in a room, so that they can stand next to a body.
+    /// Returns whether any points have depth, so that they can be drawn beside a body.
     pub(super) fn are_in_room(&self) -> bool {
         let mut all = self.pieces.values().flatten();
         all.any(|it| !it.cloud.is_flat())
     }
 
-    /// Returns the points at a moment; `None` while they are loaded. Next to a body only those in a room are returned.
+    /// Returns the points at a moment; `None` while they are being loaded. Beside a body, leaves out points without
+    /// depth.
     pub(super) fn mesh(&self, at: Instant, with_body: bool) -> Option<Mesh> {
         let clouds = self.pieces.get(&at.micros().div_euclid(PIECE))?;
         let mut mesh = Mesh::default();
@@ -118,7 +119,7 @@ impl Points {
         Some(mesh)
     }
 
-    /// Returns the camera of a view, which stays while the recording plays.
+    /// Returns the camera of a view, which stays the same while the recording plays.
     pub(super) fn camera(&mut self, view: View, aspect: f32) -> Option<Camera> {
         let first = self.pieces.values().flatten().next()?;
         let own = first.cloud.camera(view, aspect);
@@ -133,7 +134,7 @@ impl Points {
         Some(own)
     }
 
-    /// Returns what is to be known of the points: that they are estimated, or have no depth.
+    /// Returns a note about the points: that they are estimated, or have no depth.
     pub(super) fn note(&self) -> Option<&'static str> {
         let mut all = self.pieces.values().flatten();
         all.find_map(|it| it.cloud.note())
@@ -144,7 +145,7 @@ fn theme(dark: bool) -> Theme {
     if dark { Theme::Dark } else { Theme::Light }
 }
 
-/// Returns the recording that is shown and its tracks of points, if it has some.
+/// Returns the displayed recording and its tracks of points, if it has any.
 fn source(seen: &Seen<'_>) -> Option<(i64, Vec<(i64, i64)>)> {
     if seen.shown.made.is_some() {
         return None;

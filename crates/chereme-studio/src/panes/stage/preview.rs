@@ -1,4 +1,4 @@
-//! The moment that stands for what was just opened: its stroke, not its rest, or all of it in a loop.
+//! The preview of something newly opened: its stroke instead of its rest position, or all of it in a loop.
 
 use chereme_figure::has_hand_up;
 use chereme_motion::{Instant, ModelPose, Span};
@@ -6,12 +6,12 @@ use chereme_motion::{Instant, ModelPose, Span};
 use crate::context::Seen;
 use crate::player::Preview;
 
-/// How many moments of a span are looked at.
+/// How many moments of a span are examined.
 const LOOKS: i64 = 48;
-/// A recording's stroke is looked for in so much of its beginning, in microseconds.
+/// The length of a recording's beginning in which its stroke is searched, in microseconds.
 const MOST: i64 = 10_000_000;
 
-/// The stroke of what is previewed, as far as its movement is loaded.
+/// The stroke of the preview, as far as its movement is loaded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stroke {
     recording: Option<i64>,
@@ -19,11 +19,11 @@ pub(super) struct Stroke {
     at: Option<Instant>,
 }
 
-/// Returns the moment that the stage shows in place of the playhead's, if something is previewed. `time` is that of the
-/// window's clock.
+/// Returns the moment that the stage shows instead of the playhead's, if there is a preview. `time` is in seconds of
+/// the window's clock.
 pub(super) fn moment(known: &mut Option<Stroke>, seen: &Seen<'_>, time: f64) -> Option<Instant> {
     let shown = seen.shown;
-    // A film shows the playhead, and the signer is in step with it.
+    // A film shows the playhead, and the signer stays in step with it.
     if shown.made.is_some() || seen.films.are_there() {
         return None;
     }
@@ -33,7 +33,7 @@ pub(super) fn moment(known: &mut Option<Stroke>, seen: &Seen<'_>, time: f64) -> 
     if preview.loops && span.micros() > 0 {
         let passed = (time * 1e6) as i64;
         let at = span.start().shifted(passed.rem_euclid(span.micros()));
-        // A moment of a frame, so that the same picture is not drawn twice.
+        // The moment is the start of a frame, so that the same picture is not drawn twice.
         return Some(rate.instant(rate.frame_at(at)));
     }
     let same = |it: &&Stroke| it.recording == shown.recording && it.of == preview;
@@ -52,8 +52,8 @@ pub(super) fn moment(known: &mut Option<Stroke>, seen: &Seen<'_>, time: f64) -> 
     at
 }
 
-/// Returns the middle of the moments of a span with a hand up, and whether all moments are loaded; `None` before
-/// anything is loaded.
+/// Returns the middle of those examined moments of a span in which a hand is raised, and whether all moments are
+/// loaded; `None` before anything is loaded.
 fn stroke(seen: &Seen<'_>, span: Span) -> Option<(Option<Instant>, bool)> {
     let sample = seen.reel.sample()?;
     let (skeleton, anatomy) = (sample.clip.skeleton(), &sample.anatomy);

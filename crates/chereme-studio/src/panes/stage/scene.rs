@@ -11,20 +11,20 @@ use glam::Vec3;
 
 use crate::model::reel::Reel;
 
-/// How far apart ghosts are, in seconds, and how much of what is below each hides, nearest first.
+/// The distance between ghosts in seconds, and the opacity of each, nearest first.
 const GHOST_STEP: f64 = 0.1;
 const GHOSTS: [f32; 3] = [0.5, 0.36, 0.24];
-/// How often a trail has a point, in microseconds.
+/// The distance between points of a trail, in microseconds.
 const TRAIL_STEP: i64 = 20_000;
-/// How many points of trails are remembered.
+/// How many points of trails are kept.
 const REMEMBERED: usize = 4000;
-/// Past and future, for ghosts: blue and orange are apart for every eye.
+/// Colours of past and future ghosts: everybody can distinguish blue and orange.
 const PAST: Colour = Colour::hex(0x2E_7F_B8);
 const FUTURE: Colour = Colour::hex(0xD9_86_1A);
 /// Trails of the right and of the left hand.
 const TRAILS: [Colour; 2] = [Colour::hex(0xE0_7B_1F), Colour::hex(0x4C_7F_D6)];
 
-/// A body on the stage with what is worked out once for its movement.
+/// A body on the stage, with everything computed once for its movement.
 pub(super) struct Subject {
     pub(super) skeleton: Arc<Skeleton>,
     pub(super) anatomy: Anatomy,
@@ -32,19 +32,19 @@ pub(super) struct Subject {
     pub(super) body: Arc<Body>,
     past: Arc<Body>,
     future: Arc<Body>,
-    /// Height of the floor, where the body has feet.
+    /// Height of the floor in metres, if the body has feet.
     floor: Option<f32>,
-    /// Between the hips, as the movement begins.
+    /// The point between the hips at the beginning of the movement.
     middle: Vec3,
     joints: [Vec<usize>; 2],
     points: BTreeMap<i64, Vec<Vec3>>,
 }
 
-/// Where postures come from.
+/// The source of postures.
 #[derive(Clone, Copy)]
 pub(super) enum Movement<'a> {
     Reel(&'a Reel),
-    /// With what the face does in each frame.
+    /// A clip with the face in each frame.
     Clip(&'a Clip, &'a [Face]),
 }
 
@@ -69,8 +69,8 @@ impl Movement<'_> {
 }
 
 impl Subject {
-    /// Returns the subject of a movement. A body is taken over from another movement of the same skeleton, and so
-    /// is its frame if it must stay `steady`.
+    /// Returns the subject of a movement. It takes over the body of another movement with the same skeleton, and its
+    /// framing too if the picture must stay `steady`.
     pub(super) fn after(
         before: Option<Self>,
         clip: &Clip,
@@ -126,12 +126,12 @@ impl Subject {
             .any(|&side| self.anatomy.has_fingers(side))
     }
 
-    /// Returns hands and arms as they were before something was done to them.
+    /// Returns the body of hands and arms for the posture before an edit, in the colour of past ghosts.
     pub(super) fn before(&self) -> Arc<Body> {
         self.past.clone()
     }
 
-    /// Returns ghosts before and after `at`, the farthest first, each with how much it hides.
+    /// Returns ghosts before and after `at`, the farthest first, each with its opacity.
     pub(super) fn ghosts(
         &self,
         movement: Movement<'_>,
@@ -152,7 +152,7 @@ impl Subject {
         ghosts
     }
 
-    /// Returns the trails of wrists and fingertips from `reach` seconds before `at` to as long after.
+    /// Returns the trails of wrists and fingertips from `reach` seconds before `at` to `reach` seconds after it.
     pub(super) fn trails(
         &mut self,
         movement: Movement<'_>,
@@ -220,7 +220,7 @@ impl Subject {
             .collect()
     }
 
-    /// Returns floor and grid as a view sees them.
+    /// Returns floor and grid for a view.
     pub(super) fn ground(&self, view: View, theme: Theme, with_grid: bool) -> Mesh {
         let (paper, rule) = (theme.background(), theme.rule());
         let axes = self.framing.axes();
@@ -271,7 +271,7 @@ impl Subject {
     }
 }
 
-/// Returns the joints whose ways are drawn: the wrist, then the ends of thumb and fingers.
+/// Returns the joints whose trails are drawn: the wrist, then the ends of thumb and fingers.
 fn ends(anatomy: &Anatomy, side: Side) -> Vec<usize> {
     let last = |parts: Vec<Part>| parts.into_iter().rev().find_map(|it| anatomy.joint(it));
     let thumb = last((0..3).map(|n| Part::Thumb(side, n)).collect());
@@ -285,7 +285,7 @@ fn ends(anatomy: &Anatomy, side: Side) -> Vec<usize> {
         .collect()
 }
 
-/// Returns a body all of one colour, somewhat lighter at the hands.
+/// Returns a palette of one colour, somewhat lighter at the hands.
 fn plain(colour: Colour) -> Palette {
     let white = Colour::hex(0xFF_FF_FF);
     let hand = HandColours {
@@ -324,7 +324,8 @@ impl Pen {
         }
     }
 
-    /// Adds lines `step` metres apart, in pieces, so that none is lost that reaches behind the eye.
+    /// Adds lines `step` metres apart, in short pieces, so that lines which extend behind the eye are not lost as a
+    /// whole.
     fn grid(
         &self,
         mesh: &mut Mesh,
@@ -354,7 +355,7 @@ impl Pen {
     }
 }
 
-/// Adds a flat piece that is seen from both sides.
+/// Adds a flat quadrilateral that is visible from both sides.
 fn quad(mesh: &mut Mesh, corners: [Vec3; 4], colour: Colour) {
     let base = mesh.vertices.len() as u32;
     mesh.vertices.extend(corners.map(|at| mark(at, colour)));
@@ -363,7 +364,7 @@ fn quad(mesh: &mut Mesh, corners: [Vec3; 4], colour: Colour) {
     }
 }
 
-/// Adds a disc that fades from its middle to its edge: a shadow on the floor.
+/// Adds a disc that fades from its centre to its edge: a shadow on the floor.
 fn disc(mesh: &mut Mesh, middle: Vec3, [x, y]: [Vec3; 2], [inner, outer]: [Colour; 2]) {
     const AROUND: u32 = 32;
     let base = mesh.vertices.len() as u32;

@@ -1,5 +1,4 @@
-//! The line above the stage: into how many views it is parted, what is shown beside the signer, and
-//! how it is compared.
+//! The line above the stage: the number of views, the extras beside the signer, and the comparison with the original.
 
 use eframe::egui::{
     Button, DragValue, Label, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
@@ -12,10 +11,10 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{fill, stage as words};
 
-/// The width of a made sign's name.
+/// The width of a generated sign's name, in points.
 const MADE: f32 = 220.0;
 
-/// The switches for extras of the picture and for the number of views.
+/// Shows the switches for extras of the picture and for the number of views.
 pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
     ui.horizontal_wrapped(|ui| {
@@ -90,7 +89,7 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
                 stage.asked = None;
             }
         }
-        // After them all: a button keeps its place when another is pressed.
+        // This comes after all buttons, so that they keep their places when one is clicked.
         if stage.shows.trails.is_some() {
             reach(stage, ui, seen);
         }
@@ -116,7 +115,7 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
             ui.add_space(6.0);
             let name = fill(seen.say(words::MADE_OF), &[("name", &showing.made.name)]);
             let name = RichText::new(name).color(seen.colours().accent);
-            // Of one width, so that the stage keeps its place whatever the recipe.
+            // The width is fixed, so that the stage keeps its place whatever the recipe.
             let size = vec2(MADE, ui.spacing().interact_size.y);
             ui.add_sized(size, Label::new(name).truncate());
             let keys = seen.keys.text(Action::StageRecording);
@@ -150,7 +149,7 @@ fn reach(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
 
 fn compare(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
     let keys = seen.keys.text(Action::StageCompare);
-    // As high as the buttons after it, so that a row that is broken here stays level.
+    // The name is as high as the buttons after it, so that a row broken here stays aligned.
     let name = Button::new(RichText::new(seen.say(words::ORIGINAL_HOW)).weak()).frame(false);
     ui.add(name.sense(Sense::hover()));
     for way in Compare::ALL {
@@ -168,7 +167,7 @@ fn compare(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
     }
 }
 
-/// A button with a drawing of the stage parted into `count`.
+/// Shows a button with a drawing of the stage divided into `count` panes.
 fn split_button(ui: &mut Ui, on: bool, count: usize, name: &str, keys: &str) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(28.0, 24.0), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));

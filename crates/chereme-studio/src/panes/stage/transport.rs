@@ -1,4 +1,4 @@
-//! The transport: a bar with the annotations in small, and the buttons below it.
+//! The transport: a bar with small annotations, and the buttons below it.
 
 use chereme_corpus::TierRole;
 use chereme_motion::{Instant, Rate, Span};
@@ -17,7 +17,7 @@ use crate::words::{Text, fill, stage as words};
 const BAR: f32 = 26.0;
 const BUTTON: Vec2 = vec2(30.0, 26.0);
 
-/// Shows the bar and the buttons; `low` where the stage has little height, and `more` after the buttons.
+/// Shows the bar and the buttons; `low` if the stage has little height; `more` is called after the buttons.
 pub(super) fn show(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -68,7 +68,7 @@ pub(super) fn show(
     });
 }
 
-/// Shows the time of the playhead; pressed, another can be typed.
+/// Shows the time of the playhead; a click lets the user type another.
 fn go_to(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, now: &str) {
     let time = RichText::new(now).monospace().strong();
     let button = ui.add(Button::new(time).frame_when_inactive(false));
@@ -88,7 +88,7 @@ fn rate(seen: &Seen<'_>) -> Option<Rate> {
     made.or_else(|| seen.reel.rate())
 }
 
-/// Returns where the recorded movement ends, where annotations go on beyond it.
+/// Returns the end of the recorded movement if annotations continue beyond it.
 fn movement_end(seen: &Seen<'_>) -> Option<Instant> {
     if seen.shown.made.is_some() {
         return None;
@@ -100,15 +100,15 @@ fn movement_end(seen: &Seen<'_>) -> Option<Instant> {
     (frames > 0 && end.shifted(2 * frame) < whole).then_some(end)
 }
 
-/// Returns the frame at the playhead, counted from 1, and how many there are.
+/// Returns the number of the frame at the playhead, counted from 1, and the number of frames.
 fn frames(at: Instant, whole: Span, rate: Rate) -> (usize, usize) {
     let all = rate.frames_in(whole).len().max(1);
     ((rate.frame_at(at) + 1).min(all), all)
 }
 
-/// Returns the spans of those annotations that are apart on a bar of so many pixels, as shares of it.
+/// Returns the annotations that are distinguishable on a bar of that many pixels, as shares of its width.
 ///
-/// Starts never fall; annotations that would fill the same pixel are one.
+/// `starts` must be in order; annotations within the same pixel are joined.
 fn ticks(starts: &[i64], ends: &[i64], whole: Span, pixels: f32) -> Vec<[f32; 2]> {
     let length = whole.micros().max(1) as f64;
     let pixel = (length / f64::from(pixels.max(1.0))) as i64;
@@ -123,7 +123,7 @@ fn ticks(starts: &[i64], ends: &[i64], whole: Span, pixels: f32) -> Vec<[f32; 2]
     ticks
 }
 
-/// The bar: annotations of the chosen tier or of the glosses, the selected time, the playhead.
+/// Shows the bar: annotations of the chosen tier or of the glosses, the selected time, the playhead.
 fn bar(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     let player = seen.shown.on_stage();
     let size = vec2(ui.available_width(), BAR);
@@ -148,7 +148,7 @@ fn bar(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     let visuals = ui.visuals();
     painter.rect_filled(track, 4.0, visuals.widgets.inactive.bg_fill);
     if let Some(end) = movement_end(seen) {
-        // Nothing moves there any more.
+        // There is no movement in this part.
         let still = Rect::from_x_y_ranges(x(end)..=track.right(), track.y_range());
         painter.rect_filled(still, 4.0, visuals.extreme_bg_color);
     }
@@ -185,7 +185,7 @@ fn bar(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
             track.y_range(),
             Stroke::new(1.0, visuals.weak_text_color()),
         );
-        // Above, for the time of the playhead stands below.
+        // The tooltip is above the bar, as the time of the playhead is below.
         let layer = egui::LayerId::new(egui::Order::Tooltip, response.id);
         let above = ui.ctx().layer_painter(layer);
         let edge = 34.0_f32.min(rect.width() / 2.0);
@@ -196,7 +196,7 @@ fn bar(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     }
 }
 
-/// With the focus on the bar, arrows go by frames.
+/// Moves by frames with the arrow keys while the bar has the focus.
 fn keys(ui: &Ui, response: &Response, out: &mut Outbox) {
     ui.memory_mut(|memory| {
         let filter = egui::EventFilter {

@@ -28,21 +28,21 @@ use crate::words::{Text, stage as words};
 
 /// The most pixels that are drawn; larger stages show theirs scaled.
 const MOST_PIXELS: f32 = 1_600_000.0;
-/// Narrower and lower stages have their tools behind a button.
+/// In narrower or lower stages, in points, the tools are behind a button.
 const LOW: egui::Vec2 = vec2(480.0, 300.0);
-/// How long a frame waits for the picture of what a recipe has just become: it is seen in the frame in which
-/// it is known, and there is time left for the rest of the window.
+/// How long a frame waits for the picture of a changed recipe, so that the result is visible in the frame in which it
+/// is known; short enough for the rest of the window.
 const AT_ONCE: std::time::Duration = std::time::Duration::from_millis(12);
-/// How much larger a stage counts while a recipe changes than while it plays.
+/// Factor on the picture's size in the choice of its quality while a recipe changes, compared to playback.
 const HASTE: f32 = 3.0;
-/// How long after a recipe changed pictures are drawn as fast as while something moves, in seconds.
+/// How long after a change of the recipe pictures are drawn as fast as in motion, in seconds.
 const SETTLES: f64 = 0.25;
 
 pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     let time = ui.input(|input| input.time);
     stage.follow(seen, time, out);
     let frame = egui::Frame::new();
-    // Where there is little height the signer has it.
+    // If there is little height, the signer gets it.
     let low = ui.available_height() < LOW.y || ui.available_width() < LOW.x;
     if !low {
         egui::Panel::top("stage tools")
@@ -77,7 +77,7 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
                 }
                 _ => None,
             };
-            // A button below has room of its own.
+            // The button below needs a separate line.
             let foot = if next.is_some() { 44.0 } else { 0.0 };
             let above = whole.with_max_y(whole.bottom() - foot);
             little::empty(ui, above, seen.say(text));
@@ -89,8 +89,8 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
     }
 }
 
-/// Shows films on the stage if no pane of their own is in sight: all over it if nothing moves, else next to the
-/// signer. Returns the rest of the stage.
+/// Shows films on the stage if the film pane is not in sight: on the whole stage if there is no movement, else beside
+/// the signer. Returns the rest of the stage.
 fn films(
     stage: &Stage,
     ui: &mut Ui,
@@ -106,7 +106,7 @@ fn films(
         seen.films.show(ui, seen, out, whole);
         return None;
     }
-    // The longer side is parted.
+    // The longer side is divided.
     let half = |from: f32, to: f32| (from + to) / 2.0;
     let (rest, film) = if whole.width() > whole.height() * 1.1 {
         let middle = half(whole.left(), whole.right());
@@ -125,7 +125,7 @@ fn films(
     Some(rest)
 }
 
-/// Returns why no signer can be seen, if there is a reason.
+/// Returns the reason if no signer is visible.
 fn why_nothing(stage: &Stage, seen: &Seen<'_>) -> Option<Text> {
     if seen.shown.made.is_some() {
         stage.signer.is_none().then_some(words::NO_MOVEMENT)
@@ -149,7 +149,7 @@ fn why_nothing(stage: &Stage, seen: &Seen<'_>) -> Option<Text> {
     }
 }
 
-/// Leads on where there is nothing to be seen: to the signs of a corpus without recordings, or to the import.
+/// Shows the next steps if the stage is empty: to the signs of a corpus without recordings, or to the import.
 fn lead_on(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -216,7 +216,7 @@ fn eye_name(stage: &Stage, seen: &Seen<'_>, part: &Part) -> &'static str {
     found.map_or("", |(_, action)| seen.say(action.row().name))
 }
 
-/// Left drag orbits, right or middle drag pans, the wheel goes nearer, a double click resets.
+/// Handles the mouse: left drag orbits, right or middle drag pans, the wheel magnifies, a double click resets.
 fn turn(stage: &mut Stage, ui: &Ui, response: &Response, part: &Part) {
     let eye = &mut stage.eyes[part.eye];
     let moved = response.drag_delta() / part.rect.height().max(1.0);
@@ -243,8 +243,8 @@ fn turn(stage: &mut Stage, ui: &Ui, response: &Response, part: &Part) {
     }
 }
 
-/// Requests the pictures if they differ from the last, and shows the finished ones; returns the signer's posture in
-/// them, for the layers above.
+/// Requests the pictures if their inputs changed, and shows the finished ones; returns the signer's posture in them,
+/// for the layers above.
 fn pictures(
     stage: &mut Stage,
     ui: &mut Ui,
@@ -328,7 +328,7 @@ fn pictures(
             artist.await_newest(stage.wished, AT_ONCE);
         }
     }
-    // A pixel of the picture is one of the window, unless the picture is too large.
+    // A pixel of the picture is one of the window, unless the picture would be too large.
     let options = if shrink < 1.0 {
         TextureOptions::LINEAR
     } else {
@@ -479,7 +479,7 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
     stage.asked = Some(look);
 }
 
-/// Wishes for pictures of points alone.
+/// Requests pictures of points alone.
 fn wish_points(stage: &mut Stage, look: Look, mesh: Mesh) {
     let theme = if look.dark { Theme::Dark } else { Theme::Light };
     let Some(artist) = &stage.artist else { return };
@@ -500,7 +500,7 @@ fn wish_points(stage: &mut Stage, look: Look, mesh: Mesh) {
         panes.push(Pane {
             camera: eye.camera(preset),
             size: *size,
-            // The lowest sheet is kept from picture to picture: it is empty paper.
+            // The lowest sheet is the cached background: empty paper here.
             layers: vec![layer(std::sync::Arc::default()), layer(mesh.clone())],
             fine: false,
         });
@@ -520,7 +520,7 @@ fn wish_points(stage: &mut Stage, look: Look, mesh: Mesh) {
     stage.asked = Some(look);
 }
 
-/// Half of the processors draw, so that the window has its own.
+/// Returns the number of drawing threads: half of the processors, so that the window keeps the others.
 fn threads() -> usize {
     let all = std::thread::available_parallelism().map_or(2, std::num::NonZero::get);
     all.div_ceil(2).clamp(2, 6)
@@ -534,7 +534,7 @@ fn camera(subject: &Subject, eye: Eye, size: [usize; 2], pose: &ModelPose) -> Ca
     eye.camera(preset)
 }
 
-/// The view's name, which is a menu of the views, and who is seen.
+/// Shows the view's name, which opens a menu of views, and the name of the signer.
 fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
     let place = Rect::from_min_size(
         part.rect.min + vec2(6.0, 6.0),
@@ -553,7 +553,7 @@ fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
     ui.scope_builder(builder, |ui| {
         let text = eye_name(stage, seen, part);
         let combo = ComboBox::from_id_salt(("view", part.eye));
-        // Beside a narrow picture its name would cover the face.
+        // In a narrow picture the name would cover the face.
         let combo = if part.rect.width() < NARROW {
             combo.selected_text("").width(0.0)
         } else {
@@ -583,12 +583,12 @@ fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
     }
 }
 
-/// Whether that part is the first of its eye.
+/// Returns whether a part is the first of its eye.
 fn data_first(stage: &Stage, part: &Part) -> bool {
     stage.comparing() != Some(Compare::Beside) || part.who == Who::Original
 }
 
-/// Returns how a part shows the signer, in points from its corner.
+/// Returns the projection of the signer in a part, in points from the part's corner.
 fn projection(stage: &Stage, part: &Part, pose: &ModelPose) -> Option<Projection> {
     let (_, signer) = stage.signer.as_ref()?;
     let size = [part.rect.width(), part.rect.height()].map(|side| side.round().max(1.0) as usize);
@@ -596,7 +596,7 @@ fn projection(stage: &Stage, part: &Part, pose: &ModelPose) -> Option<Projection
     Some(camera.projection(size[0], size[1]))
 }
 
-/// Shows the handle of the placement that is worked on.
+/// Shows the handle of the placement that is being edited.
 fn handled(
     stage: &mut Stage,
     ui: &mut Ui,

@@ -1,18 +1,18 @@
-//! How the stage is looked at, as it is remembered between sittings.
+//! Settings of the stage that are kept between sessions.
 
 use serde::{Deserialize, Serialize};
 
 use super::data::{Compare, Eye, Insets, Shows, VIEWS};
 use super::{REACH, Stage};
 
-/// The stage's settings that are remembered.
+/// The stored settings of the stage.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct StageWays {
-    /// The views that it is parted into, by the names of their actions.
+    /// The views of the panes, by the names of their actions.
     views: Vec<String>,
     trails: bool,
-    /// How far trails reach, in seconds.
+    /// Reach of trails, in seconds.
     reach: f64,
     ghosts: bool,
     grid: bool,
@@ -39,7 +39,7 @@ impl Default for StageWays {
 }
 
 impl StageWays {
-    /// Returns how a stage is looked at.
+    /// Returns the settings of a stage.
     pub(super) fn of(stage: &Stage) -> Self {
         let name = |eye: &Eye| {
             let found = VIEWS.iter().find(|(view, _)| *view == eye.view);
@@ -58,7 +58,7 @@ impl StageWays {
         }
     }
 
-    /// Has a stage looked at so; views that are not known are those from the front.
+    /// Applies the settings to a stage; unknown views become the view from the front.
     pub(super) fn take(&self, stage: &mut Stage) {
         let count = match self.views.len() {
             0 | 1 => 1,
