@@ -1,8 +1,7 @@
-//! How many frames a second a recipe makes: `cargo bench -p chereme-compose`.
+//! Measures the frames per second at which a recipe is evaluated: `cargo bench -p chereme-compose`.
 //!
-//! The body has 75 joints with full hands, the sign takes 3 s at 120 Hz, the recipe has four
-//! operators. Forward kinematics of every frame of the result is timed on its own, as what a
-//! preview needs besides.
+//! The body has 75 joints with full hands, the sign takes 3 s at 120 Hz, the recipe has four operators. Forward
+//! kinematics of every frame of the result is timed separately, because a preview needs it as well.
 
 use std::sync::Arc;
 

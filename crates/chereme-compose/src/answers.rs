@@ -1,7 +1,8 @@
-//! The corpus's answers for the parts of a recipe: typed places that are filled once and read again and again.
+//! The corpus's answers for the parts of a recipe: typed slots that are filled once and read repeatedly.
 //!
 //! Each operator and source declares a [`Slot`] for every answer that it needs. Resolving writes through [`Ask`],
-//! evaluating reads through [`Given`], both by the same slot, so that a place cannot be misspelt and holds one type.
+//! evaluating reads through [`Given`], both by the same slot, so that its name cannot be misspelt and it holds one
+//! type.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -28,27 +29,27 @@ use crate::sources::{LearnedProfile, Material, Meaning, Sources, SpellingTimes};
 pub(crate) struct Path(String);
 
 impl Path {
-    /// Returns the place of the operand of operators.
+    /// Returns the path of the operand of a pipe.
     pub(crate) fn operand(&self) -> Self {
         Self(format!("{self}/pipe/of"))
     }
 
-    /// Returns the place of an operator.
+    /// Returns the path of an operator.
     pub(crate) fn step(&self, n: usize) -> Self {
         Self(format!("{self}/pipe/steps/{n}"))
     }
 
-    /// Returns the place of the first piece of an utterance.
+    /// Returns the path of the first piece of an utterance.
     pub(crate) fn first(&self) -> Self {
         Self(format!("{self}/then/first"))
     }
 
-    /// Returns the place of a piece that follows, with its transition.
+    /// Returns the path of a later piece, together with its transition.
     pub(crate) fn joined(&self, n: usize) -> Self {
         Self(format!("{self}/then/next/{n}"))
     }
 
-    /// Returns the place of the piece itself in one that follows.
+    /// Returns the path of the piece itself, below the path of a later piece.
     pub(crate) fn piece(&self) -> Self {
         Self(format!("{self}/node"))
     }
@@ -66,9 +67,9 @@ impl Display for Path {
 
 /// A kind of answer.
 pub(crate) trait Answer: Sized {
-    /// Returns the answer as it is stored.
+    /// Converts the answer to the stored form.
     fn stored(self) -> Input;
-    /// Returns the answer if the stored one is of this kind.
+    /// Returns the answer; `None` if the stored one is of another kind.
     fn of(input: &Input) -> Option<&Self>;
 }
 
@@ -101,7 +102,7 @@ answers! {
     Expression: ExpressionInput;
 }
 
-/// The place of one answer below the node that asks for it, such as `configure/via`.
+/// The name of one answer below the node that needs it, such as `configure/via`.
 #[derive(Debug, Clone)]
 pub(crate) struct Slot<T> {
     end: Cow<'static, str>,
@@ -109,7 +110,7 @@ pub(crate) struct Slot<T> {
 }
 
 impl<T> Slot<T> {
-    /// Returns a place with this name in the JSON of the node.
+    /// Returns a slot with this name in the JSON of the node.
     pub(crate) const fn new(end: &'static str) -> Self {
         Self {
             end: Cow::Borrowed(end),
@@ -117,7 +118,7 @@ impl<T> Slot<T> {
         }
     }
 
-    /// Returns the place of one of several answers: that for the value with this number, and a side.
+    /// Returns the slot of one of several answers: that for the value with this number on a side.
     pub(crate) fn of(&self, n: usize, side: Side) -> Self {
         Self {
             end: Cow::Owned(format!("{}/{n}/{}", self.end, side.name())),
@@ -125,13 +126,13 @@ impl<T> Slot<T> {
         }
     }
 
-    /// Returns the place in the whole recipe.
+    /// Returns its path in the whole recipe, for a node at `path`.
     pub(crate) fn at(&self, path: &Path) -> String {
         format!("{path}/{}", self.end)
     }
 }
 
-/// The signer whose movement a step works on.
+/// The signer whose movement an operator changes.
 #[derive(Clone)]
 pub(crate) struct Setting {
     pub(crate) signer: Option<String>,
@@ -154,7 +155,7 @@ pub(crate) struct Answers {
     pub(crate) materials: BTreeMap<String, Arc<Material>>,
 }
 
-/// What one node or operator asks of the corpus, and where the answers go.
+/// Asks the corpus for the needs of one node or operator, and stores the answers.
 pub(crate) struct Ask<'a> {
     pub(crate) sources: &'a dyn Sources,
     pub(crate) path: &'a Path,
@@ -162,13 +163,13 @@ pub(crate) struct Ask<'a> {
 }
 
 impl Ask<'_> {
-    /// Keeps an answer.
+    /// Stores an answer.
     pub(crate) fn put<T: Answer>(&mut self, slot: &Slot<T>, answer: T) {
         let at = slot.at(self.path);
         self.answers.inputs.0.insert(at, answer.stored());
     }
 
-    /// Keeps movement; returns whose it is.
+    /// Stores movement; returns its signer.
     pub(crate) fn keep(
         &mut self,
         slot: &Slot<MaterialInput>,
@@ -191,7 +192,7 @@ impl Ask<'_> {
         Ok(setting)
     }
 
-    /// Keeps the body of a signer, or of one that the corpus chooses; returns whose it is.
+    /// Stores the body of a signer, or of one that the corpus chooses; returns the signer.
     pub(crate) fn body(
         &mut self,
         slot: &Slot<MaterialInput>,
@@ -201,7 +202,7 @@ impl Ask<'_> {
         self.keep(slot, stage)
     }
 
-    /// Keeps the learned courses if a transition runs along them.
+    /// Stores the learned courses if a transition uses them.
     pub(crate) fn course(
         &mut self,
         slot: &Slot<LearnedProfile>,
@@ -214,7 +215,7 @@ impl Ask<'_> {
         Ok(())
     }
 
-    /// Keeps the place of a spot that an inventory names.
+    /// Stores the place of a spot if the spot is a value of an inventory.
     pub(crate) fn spot(&mut self, slot: &Slot<PlaceInput>, spot: &Spot) -> Result<(), Cause> {
         if let Spot::Value(value) = spot {
             let place = self.place(value)?;
@@ -223,7 +224,7 @@ impl Ask<'_> {
         Ok(())
     }
 
-    /// Returns the place of a value: the inventory's own, or that of a sign which holds the value.
+    /// Returns the place of a value: the inventory's own, or that of a sign with the value.
     pub(crate) fn place(&self, text: &str) -> Result<PlaceInput, Cause> {
         let value = self.sources.value(Component::Placement, text)?;
         if let Some(Meaning::Place(at)) = value.meaning {
@@ -258,7 +259,7 @@ pub(crate) struct Given<'a> {
     pub(crate) path: &'a Path,
     /// The node or operator as text.
     pub(crate) text: &'a str,
-    /// Notes for the report on where answers come from.
+    /// Notes for the report on the sources of answers.
     pub(crate) aside: Vec<String>,
 }
 
@@ -268,18 +269,18 @@ impl<'a> Given<'a> {
         self.inputs.get(&slot.at(self.path)).and_then(T::of)
     }
 
-    /// Returns an answer without which nothing can be generated.
+    /// Returns an answer that is required. Fails if it is missing.
     pub(crate) fn need<T: Answer + 'a>(&self, slot: &Slot<T>) -> Result<&'a T, Cause> {
         self.get(slot).ok_or(Cause::Input)
     }
 
-    /// Returns movement.
+    /// Returns the movement in a slot.
     pub(crate) fn material(&self, slot: &Slot<MaterialInput>) -> Result<&'a Material, Cause> {
         let found = self.materials.get(&slot.at(self.path));
         found.map(AsRef::as_ref).ok_or(Cause::Input)
     }
 
-    /// Returns the courses of a transition: those that it names, or the usual ones.
+    /// Returns the courses of a transition: those that it names, or the default ones.
     pub(crate) fn course(
         &mut self,
         slot: &Slot<LearnedProfile>,

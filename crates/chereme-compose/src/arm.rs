@@ -1,5 +1,5 @@
-//! Moving wrists: the arm's postures that bring each wrist where it should be, over all frames at
-//! once, so that elbows go calmly.
+//! Moves wrists: finds arm postures that bring each wrist to its target, over all frames at once, so that elbows move
+//! steadily.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::ik::{FabrikOptions, TwoBoneOptions, fabrik, two_bone};
@@ -13,23 +13,24 @@ mod calm;
 mod ease;
 mod swivel;
 
-/// The share of the arm's length beyond which the collar bone helps.
+/// The share of the arm's length beyond which the collar bone helps to reach a target.
 pub(crate) const HELP_FROM: f64 = 0.9;
-/// The turn of the collar bone in radians that is approached but never passed.
+/// The limit of the collar bone's rotation in radians, which is approached but not reached.
 const HELP_MOST: f64 = 0.5;
-/// The soft end of the reach, least and most: at the least, the wrist comes within a millimetre of every reachable
-/// target.
+/// The least and the greatest length of the soft end of the reach, as shares of the arm's length. At the least, the
+/// wrist comes within a millimetre of every reachable target.
 const SOFT: (f64, f64) = (0.004, 0.08);
-/// The share of the arm's length by which an elbow must stand off the line from shoulder to wrist for
-/// its swivel to count in full, and that by which the wrist must be away from the shoulder.
+/// The distance of an elbow from the line from shoulder to wrist at which its swivel counts in full, as a share of the
+/// arm's length.
 const STRAIGHT: f64 = 0.12;
+/// The distance of the wrist from the shoulder at which the swivel counts in full, as a share of the arm's length.
 const FOLDED: f64 = 0.35;
-/// How long before and after a fast way out of reach the soft end is longer, in seconds.
+/// The time before and after a fast exit from the reach during which the soft end is longer, in seconds.
 const AROUND: f64 = 0.3;
-/// The speed of an opening elbow that the soft end allows, in radians per second.
+/// The opening speed of an elbow that the soft end allows, in radians per second.
 const OPENING: f64 = 9.6;
 
-/// How well wrists came where they should.
+/// The accuracy with which wrists reach their targets.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Reach {
     /// The largest distance left between a wrist and its target, in metres.
@@ -40,15 +41,14 @@ pub(crate) struct Reach {
     pub(crate) farthest: f64,
     /// The arm's length in metres.
     pub(crate) arm: f64,
-    /// In how many frames the collar bone helped.
+    /// The number of frames in which the collar bone helped.
     pub(crate) helped: usize,
-    /// The share of the arm's length, before full extension, from which wrists fell behind their
-    /// targets.
+    /// The length of the soft end as a share of the arm's length: an arm extended further lags behind its target.
     pub(crate) soft: f64,
 }
 
 impl Reach {
-    /// Returns the worse of both.
+    /// Returns the worse of two results.
     pub(crate) fn worse(self, other: Self) -> Self {
         let worst = if self.arm == 0.0 || other.residual > self.residual {
             other
@@ -63,20 +63,20 @@ impl Reach {
         }
     }
 
-    /// Returns whether the soft end was made longer, so that reachable targets may be missed.
+    /// Returns whether the soft end was lengthened, so that reachable targets may be missed.
     pub(crate) fn is_softened(&self) -> bool {
         self.soft > SOFT.0
     }
 }
 
-/// Brings the wrist of `side` to `targets`, one a frame in model space, the hand turned in the world
-/// as `hands` says, or as it was; `columns` are those of the hand as it is.
+/// Moves the wrist of `side` to `targets`, one per frame in model space. `hands` are the hand's rotations in model
+/// space; `None` keeps them. `columns` hold the present state of the hand and the joints above it.
 ///
-/// Frames that are right already stay untouched. The elbow keeps the source's swivel; if that has no meaning (a
-/// source arm that is straight, or points away from the arm's new direction) or turns faster than the source's, the
-/// elbow moves calmly from the frame before to the frame after. If the wrist leaves the arm's reach fast, the soft
-/// end is longer, so that the elbow does not snap. If elbow or bones would still jump while the source's do not,
-/// they give way before and after. Returns `None` if the skeleton has no such arm, or one of its bones has no
+/// Frames that are already right stay unchanged. The elbow keeps the source's swivel; if that is undefined (a source
+/// arm that is straight, or points away from the arm's new direction) or changes faster than the source's, the elbow
+/// moves steadily from the frame before to the frame after. If the wrist leaves the arm's reach fast, the soft end is
+/// longer, so that the elbow does not snap. If elbow or bones would still jump though the source's do not, the frames
+/// before and after are changed, too. Returns `None` if the skeleton has no such arm, or one of its bones has no
 /// length.
 pub(crate) fn move_wrist(
     work: &mut Work,
@@ -116,7 +116,7 @@ pub(crate) fn move_wrist(
     Some(source.reach(targets, &steps, softest))
 }
 
-/// An arm as it is, over all frames in model space.
+/// An arm before the change, over all frames in model space.
 struct Source<'a> {
     arm: ArmChain,
     columns: &'a Columns,
@@ -125,7 +125,7 @@ struct Source<'a> {
     pole: Pole,
 }
 
-/// The direction of an elbow if nothing else decides it.
+/// The direction of an elbow if nothing else determines it.
 enum Pole {
     /// In the space of the upper arm.
     Arm(DVec3),
@@ -140,35 +140,38 @@ struct Help {
     shoulder: DVec3,
 }
 
-/// Where the arm goes in one frame.
+/// The new position of the arm in one frame.
 struct Step {
     moves: bool,
     help: Option<Help>,
-    /// Shoulder, elbow and wrist as they were, and as they will be.
+    /// Shoulder, elbow and wrist before the change.
     was: [DVec3; 3],
+    /// Shoulder, elbow and wrist after the change.
     is: [DVec3; 3],
-    /// Across the source's line from shoulder to wrist: where an elbow bends to by its build, where
-    /// this one stands, and where it bends to as the arm bends more.
+    /// The direction in which the elbow naturally bends, at a right angle to the source's line from shoulder to wrist.
     pole: DVec3,
+    /// The direction of this elbow from the source's line.
     stands: DVec3,
+    /// The direction in which the elbow bends as the arm bends more.
     bends: DVec3,
-    /// Takes the source's line to the new one, and what points across it with it.
+    /// The rotation from the source's line to the new one.
     carry: DQuat,
-    /// How much the source's swivel means once it is carried, from 0 to 1.
+    /// The reliability of the source's swivel at the new line, from 0 to 1; 2 for a frame that must not change.
     trust: f64,
 }
 
-/// How the arm's joints are turned in model space in one frame.
+/// The rotations of the arm's joints in model space in one frame.
 struct Turns {
-    /// Upper arm and forearm as they were.
+    /// The rotations of upper arm and forearm before the change.
     old: [DQuat; 2],
     upper: DQuat,
     forearm: DQuat,
     hand: DQuat,
-    /// The forearm's length in the space of its joint.
+    /// The direction of the forearm in the space of its joint.
     bone: DVec3,
-    /// The turn of the forearm about its length beyond that of its bone, and how well that angle is determined.
+    /// The rotation of the forearm about its length, in addition to that of its bone, in radians.
     twist: f64,
+    /// The reliability of that angle, from 0 to 1.
     told: f64,
 }
 
@@ -206,18 +209,18 @@ impl<'a> Source<'a> {
         self.columns.rotations(joint)[frame]
     }
 
-    /// Returns the turns into the space of what the arm hangs on, collar bone or none.
+    /// Returns the rotations from model space to the space of the joint above the arm or its collar bone.
     fn trunks(&self, frames: usize) -> Vec<DQuat> {
         let above = self.arm.clavicle.map_or(self.above[1], |_| self.above[0]);
         let turned = |frame| above.map_or(DQuat::IDENTITY, |joint| self.turned(joint, frame));
         (0..frames).map(|frame| turned(frame).inverse()).collect()
     }
 
-    /// Returns how the collar bone turns so that the target is no farther from the shoulder than the
-    /// stated share of the arm's length, or than the wrist was, if it can.
+    /// Returns the collar bone's rotation that brings the shoulder to within [`HELP_FROM`] of the arm's length from the
+    /// target, or as near as it was to the wrist, if possible; `None` if no help is needed or possible.
     ///
-    /// It turns by no more than what is missing over its length, however little of that comes to
-    /// good: a collar bone that points at the target cannot bring the shoulder nearer.
+    /// The angle is at most the missing distance divided by the bone's length, even if that is of little use: a collar
+    /// bone that points at the target cannot bring the shoulder nearer.
     fn help(&self, frame: usize, target: DVec3) -> Option<Help> {
         let [shoulder, elbow, wrist] = self.points(frame);
         let length = length([shoulder, elbow, wrist]);
@@ -244,8 +247,8 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Returns the soft ends of the reach at each frame, far and near: the least where no target
-    /// leaves the reach, else, about where one does, as much as keeps the elbow from opening too fast.
+    /// Returns the soft ends at the far and the near limit of the reach for each frame: the least length if no target
+    /// leaves the reach; around frames that leave it, the length that keeps the elbow from opening too fast.
     fn soft(&self, targets: &[DVec3], helps: &[Option<Help>], frame_time: f64) -> [Vec<f64>; 2] {
         let extension = |frame: usize| {
             let points = self.points(frame);
@@ -261,8 +264,8 @@ impl<'a> Source<'a> {
         [&far, &near].map(|extensions| softened(extensions, frame_time))
     }
 
-    /// Returns the target; or, if it is nearer to the shoulder than the folded arm's wrist, a place in the same
-    /// direction at a soft distance; `soft` is a share of the arm's length.
+    /// Returns the target; if it is nearer to the shoulder than the wrist of the folded arm plus `soft`, returns a
+    /// place in the same direction at a soft distance. `soft` is a share of the arm's length.
     fn kept_off(&self, frame: usize, target: DVec3, help: Option<Help>, soft: f64) -> DVec3 {
         let points = self.points(frame);
         let shoulder = help.map_or(points[0], |help| help.shoulder);
@@ -340,7 +343,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Turns the arm's joints so that its bones lie where the step has them.
+    /// Returns the rotations of the arm's joints that put its bones in the positions of the step.
     fn turns(&self, frame: usize, step: &Step, hand: Option<DQuat>) -> Turns {
         let [upper, forearm, held] = [self.arm.upper, self.arm.forearm, self.arm.hand]
             .map(|joint| self.turned(joint, frame));
@@ -365,7 +368,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Gives the arm's joints the local rotations for which they are turned so in model space.
+    /// Sets the local rotations of the arm's joints, so that they have the given rotations in model space.
     fn write(&self, work: &mut Work, frame: usize, step: &Step, turns: &Turns) {
         let above =
             |n: usize| self.above[n].map_or(DQuat::IDENTITY, |joint| self.turned(joint, frame));
@@ -404,10 +407,10 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Returns the soft end at each frame for how far arms are extended, as shares of their length.
+/// Returns the soft end at each frame for arms with these extensions; both are shares of the arm's length.
 ///
-/// An elbow of an arm that is extended to `1 - s` opens by `√(2/s)` times what the wrist goes
-/// outwards, in arm lengths.
+/// The elbow of an arm that is extended to `1 - s` opens by `√(2/s)` radians for each arm length that the wrist moves
+/// outwards.
 fn softened(extensions: &[f64], frame_time: f64) -> Vec<f64> {
     let mut soft = vec![SOFT.0; extensions.len()];
     if extensions
@@ -442,7 +445,7 @@ fn length([shoulder, elbow, wrist]: [DVec3; 3]) -> f64 {
     shoulder.distance(elbow) + elbow.distance(wrist)
 }
 
-/// Returns the unit vector from shoulder to wrist; along the upper arm where they coincide.
+/// Returns the unit vector from shoulder to wrist; along the upper arm if the two coincide.
 fn line([shoulder, elbow, wrist]: [DVec3; 3]) -> DVec3 {
     let line = wrist - shoulder;
     if line.length() > 1e-9 * length([shoulder, elbow, wrist]) {
@@ -452,20 +455,20 @@ fn line([shoulder, elbow, wrist]: [DVec3; 3]) -> DVec3 {
     }
 }
 
-/// Returns the least rotation from one unit vector to another.
+/// Returns the shortest rotation from one unit vector to another.
 fn least_turn(from: DVec3, to: DVec3) -> DQuat {
     DQuat::from_rotation_arc(from, to).normalize()
 }
 
-/// Returns the angle by which `q` turns about the unit vector `axis` (swing-twist), and how well it is determined:
-/// 0 for a half turn across it.
+/// Returns the angle of the rotation `q` about the unit vector `axis` (swing-twist), and its reliability: 0 for a half
+/// turn about an axis at a right angle to it.
 fn twist_about(q: DQuat, axis: DVec3) -> (f64, f64) {
     let along = axis.dot(q.xyz());
     (2.0 * along.atan2(q.w), along * along + q.w * q.w)
 }
 
-/// Returns where an elbow stands across the line from shoulder to wrist; as the arm becomes straight,
-/// so that this loses meaning, the share `grown` of where it would bend to counts more and more.
+/// Returns the direction of the elbow from the line from shoulder to wrist. As the arm becomes straight, so that this
+/// direction becomes undefined, the share `grown` of the natural bend `pole` counts more and more.
 fn bend(arm: [DVec3; 3], pole: DVec3, grown: f64) -> DVec3 {
     let clear = STRAIGHT * length(arm);
     let own = (arm[1] - arm[0]).reject_from_normalized(line(arm));
@@ -476,26 +479,26 @@ fn bend(arm: [DVec3; 3], pole: DVec3, grown: f64) -> DVec3 {
         .unwrap_or(pole)
 }
 
-/// Returns how far the elbow stands off the line from shoulder to wrist.
+/// Returns the distance of the elbow from the line from shoulder to wrist.
 fn off_line(arm: [DVec3; 3]) -> f64 {
     (arm[1] - arm[0]).reject_from_normalized(line(arm)).length()
 }
 
-/// Returns the weight of the source's swivel in the arm's new direction: 0 for an arm that is folded on the
-/// shoulder, or points opposite to the new direction.
+/// Returns the weight of the source's swivel in the arm's new direction: 0 for an arm that is folded on the shoulder,
+/// or whose old direction is opposite to the new one.
 fn meaning(was: [DVec3; 3], is: [DVec3; 3]) -> f64 {
     let folded = smooth(was[0].distance(was[2]) / (FOLDED * length(was)));
     folded * smooth((1.0 + line(was).dot(line(is))) / 0.5)
 }
 
-/// Returns a share that runs from 0 to 1 and is level at both.
+/// Returns a smooth share from 0 to 1 whose slope is 0 at both ends.
 fn smooth(share: f64) -> f64 {
     let share = share.clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)
 }
 
-/// Brings wrist and hand of an arm that does nothing yet to where they should be, with the elbow
-/// hanging: down, and a little to the arm's own side.
+/// Moves wrist and hand of an idle arm to their targets, with a hanging elbow: down, and a little to the arm's own
+/// side.
 pub(crate) fn raise_arm(
     work: &mut Work,
     side: Side,

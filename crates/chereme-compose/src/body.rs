@@ -1,4 +1,4 @@
-//! The signer's body while a sign is made: its directions, its places, its size.
+//! The signer's body during a sign: its directions, its places, its size.
 
 use chereme_motion::glam::DVec3;
 use chereme_motion::{ModelPose, Pose, Side};
@@ -10,26 +10,26 @@ use crate::sources::Spatial;
 use crate::units::{Length, towards};
 use crate::work::Work;
 
-/// How many frames are looked at for a mean posture of the body.
+/// The number of frames from which a mean posture of the body is taken.
 const SAMPLES: usize = 16;
 
 /// The signer's own directions and middle over a whole piece of movement.
 ///
-/// Up is up; left and forward are level, the mean of where the trunk faces.
+/// Up is the model's up; left and forward are horizontal, from the mean direction that the trunk faces.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Frame {
     /// The middle between the shoulders.
     pub(crate) origin: DVec3,
     pub(crate) left: DVec3,
     pub(crate) forward: DVec3,
-    /// The shoulders' width in metres.
+    /// The distance between the shoulders in metres.
     pub(crate) shoulders: f64,
     /// The arm's length from shoulder to wrist in metres.
     pub(crate) arm: f64,
 }
 
 impl Frame {
-    /// Returns the frame; nothing where the skeleton has no arm at all.
+    /// Returns the frame; `None` if the skeleton has no arm at all.
     ///
     /// A body whose front is unknown (one arm, one leg) faces forward in model space.
     pub(crate) fn of(work: &Work) -> Option<Self> {
@@ -70,12 +70,12 @@ impl Frame {
         })
     }
 
-    /// Returns a direction of body space (left, up, forward) in model space.
+    /// Converts a direction from body space (left, up, forward) to model space.
     pub(crate) fn direction(&self, v: DVec3) -> DVec3 {
         self.left * v.x + DVec3::Y * v.y + self.forward * v.z
     }
 
-    /// Returns a direction of model space in body space.
+    /// Converts a direction from model space to body space.
     pub(crate) fn to_body(self, v: DVec3) -> DVec3 {
         DVec3::new(v.dot(self.left), v.y, v.dot(self.forward))
     }
@@ -91,15 +91,15 @@ impl Frame {
         self.direction(way) * leg.distance.metres(self.arm)
     }
 
-    /// Returns the point that lies so far to the left of the body's middle, above the floor and in
-    /// front of the body.
+    /// Returns the point at these distances to the left of the body's middle, above the floor, and in front of the
+    /// body.
     pub(crate) fn point(&self, at: &[Length; 3]) -> DVec3 {
         let [left, up, forward] = at.map(|length| length.metres(self.arm));
         let level = self.left * left + self.forward * forward;
         DVec3::new(self.origin.x + level.x, up, self.origin.z + level.z)
     }
 
-    /// Returns where `at` is relative to the middle between the shoulders.
+    /// Returns the position of `at` relative to the middle between the shoulders.
     pub(crate) fn spatial(&self, at: DVec3) -> Spatial {
         let offset = self.to_body(at - self.origin) / self.shoulders.max(1e-9);
         Spatial {
@@ -108,8 +108,7 @@ impl Frame {
         }
     }
 
-    /// Returns the place in model space for an acting hand; nothing where the skeleton has no such
-    /// landmark.
+    /// Returns the place in model space for an acting hand; `None` if the skeleton has no such landmark.
     pub(crate) fn place(&self, work: &Work, at: &Spatial, hand: Side) -> Option<DVec3> {
         let landmark = Landmark {
             name: at.landmark.clone(),
@@ -126,7 +125,7 @@ impl Frame {
         Some(root + self.direction(DVec3::from(offset)) * self.shoulders)
     }
 
-    /// Returns where a spot is for an acting hand; `place` is what was found for an inventory's value.
+    /// Returns the position of a spot for an acting hand; `place` is the answer for an inventory's value.
     pub(crate) fn spot(
         &self,
         work: &Work,
@@ -148,8 +147,8 @@ impl Frame {
     }
 }
 
-/// Gives collar bones their posture at rest, so that moved arms do not turn the trunk's front; not if no body can
-/// take the rest posture.
+/// Gives collar bones their posture at rest, so that moved arms do not change the trunk's front; does nothing if the
+/// rest posture is impossible for a body.
 fn still_collars(work: &Work, pose: &mut Pose) {
     if !work.anatomy.is_posed() {
         return;
@@ -162,7 +161,7 @@ fn still_collars(work: &Work, pose: &mut Pose) {
     }
 }
 
-/// The place that made placements are relative to: the middle between the shoulders.
+/// The landmark to which generated placements are relative: the middle between the shoulders.
 pub(crate) const ORIGIN: &str = "shoulders-middle";
 
 /// Returns the length of an arm at rest from shoulder to wrist, in metres.
@@ -173,7 +172,7 @@ pub(crate) fn arm_length(work: &Work, side: Side) -> Option<f64> {
     Some(shoulder.distance(elbow) + elbow.distance(wrist))
 }
 
-/// Returns where a point of the hand is in one posture.
+/// Returns the position of a point of the hand in one posture.
 pub(crate) fn hand_point(
     work: &Work,
     model: &ModelPose,

@@ -1,4 +1,4 @@
-//! Bringing a tree into its one normal form, and refusing what could never be made.
+//! Normalises the tree of a recipe, and refuses recipes that could never be evaluated.
 
 use crate::error::RecipeError;
 use crate::recipe::*;
@@ -9,14 +9,14 @@ use chereme_sign::cue::Alphabet;
 pub const DEEPEST: usize = 32;
 /// The most sources and operators.
 pub const MOST_PARTS: usize = 1000;
-/// The longest time in seconds that a recipe can name: that of a day.
+/// The longest time in seconds that a recipe can state: a day.
 pub(crate) const LONGEST: f64 = 86_400.0;
 
 impl Recipe {
-    /// Returns the recipe of a tree, with nested pipes and utterances laid out flat.
+    /// Returns the recipe of a tree, with nested pipes and utterances flattened.
     ///
     /// # Errors
-    /// [`RecipeError`] where a number, list or size is outside of what can be made.
+    /// [`RecipeError`] if a number, list or size is out of range.
     pub fn new(root: Node) -> Result<Self, RecipeError> {
         let mut parts = 0;
         check(&root, 0, &mut parts)?;
@@ -180,7 +180,7 @@ fn count(parts: &mut usize, more: usize) -> Result<(), RecipeError> {
     Ok(())
 }
 
-/// Checks the two ends of a part of movement.
+/// Checks the two ends of a part of a movement.
 pub(crate) fn part(step: &'static str, cut: &Cut) -> Result<(), RecipeError> {
     time(step, "the start", cut.from, LONGEST)?;
     time(step, "the end", cut.to, LONGEST)?;
@@ -192,7 +192,7 @@ pub(crate) fn part(step: &'static str, cut: &Cut) -> Result<(), RecipeError> {
     Ok(())
 }
 
-/// Checks straight ways.
+/// Checks straight legs.
 pub(crate) fn legs(step: &'static str, legs: &[Leg]) -> Result<(), RecipeError> {
     legs.iter().try_for_each(|leg| {
         directions(step, &leg.towards)?;

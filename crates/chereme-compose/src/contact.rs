@@ -1,4 +1,4 @@
-//! Where hands touch each other and the body, before and after an operator.
+//! Contacts of hands with each other and the body, before and after an operator.
 
 use std::ops::Range;
 
@@ -14,21 +14,21 @@ mod points;
 pub(crate) use mend::{BLEND, Keep, blended, mend};
 use points::{Anchors, PLACES, POINTS, Tracks};
 
-/// How near points of hands are that touch, and a hand's point and a place on the body, in metres.
-/// Captures have no skin: in one of the sign for thanks, fingertips that touch the mouth come to
-/// 5.5 cm of it, thumbs that touch to 3.1 cm.
+/// The largest distance between two touching points of hands, in metres. Captures have no skin: in one of the sign for
+/// thanks, fingertips that touch the mouth come to 5.5 cm of it, thumbs that touch to 3.1 cm.
 const HANDS: f64 = 0.035;
+/// The largest distance between a hand's point and a place on the body that touch, in metres.
 const BODY: f64 = 0.06;
 /// The greatest distance of a point of a hand from its palm's middle, in lengths of the hand, and that length in
 /// metres if the body does not give it.
 const HAND: (f64, f64) = (0.9, 0.2);
-/// How often contacts are looked for, in seconds.
+/// The interval at which contacts are looked for, in seconds.
 const LOOK: f64 = 1.0 / 60.0;
-/// Contacts that are apart for less than this are one, in seconds.
+/// The shortest pause between two separate contacts, in seconds.
 const PAUSE: f64 = 0.1;
 /// The distance in metres that a contact may move and still count as kept.
 const KEPT: f64 = 0.005;
-/// The same where another hand or moment touches: bodies are never quite alike on both sides.
+/// The same for another hand or another time: the two sides of a body are never exactly alike.
 const ALIKE: f64 = 0.02;
 
 /// The contacts of a movement.
@@ -38,24 +38,24 @@ pub(crate) struct Contacts {
     found: Vec<Contact>,
 }
 
-/// A stretch of time in which a hand touches something.
+/// A span of time in which a hand touches something.
 #[derive(Debug, Clone)]
 struct Contact {
     side: Side,
-    /// The other hand; nothing for the body.
+    /// The other hand; `None` for the body.
     other: Option<Side>,
-    /// What comes nearest: the hand's point, and the other hand's or the body's place.
+    /// The hand's point that comes nearest.
     point: usize,
     place: usize,
     frames: Range<usize>,
-    /// From the point to the place, at each of these frames.
+    /// The vectors from the point to the place at each of these frames.
     ways: Vec<DVec3>,
     /// The frame at which they are nearest.
     nearest: usize,
 }
 
 impl Contacts {
-    /// Looks for the same contacts on another body that moves alike.
+    /// Returns the same contacts for another body that moves alike.
     pub(crate) fn on(self, work: &Work) -> Self {
         Self {
             anchors: Anchors::of(work),
@@ -70,7 +70,7 @@ impl Contact {
         Some(tracks.touched(self.other, self.place, frame)? - from)
     }
 
-    /// Returns how far the point was moved against the place where they were nearest.
+    /// Returns the change of the point's position relative to the place, at the frame where they were nearest.
     fn moved(&self, tracks: &Tracks<'_>) -> f64 {
         let was = self.ways[self.nearest - self.frames.start];
         self.way(tracks, self.nearest)
@@ -87,7 +87,7 @@ impl Contact {
     }
 }
 
-/// The moment at which a hand touches the body, and the hand's point that does.
+/// The moment at which a hand touches the body, with the hand's point and the place.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Touch {
     pub(crate) frame: usize,
@@ -126,7 +126,7 @@ impl Contacts {
     }
 }
 
-/// Returns what touches in the movement.
+/// Returns the contacts in a movement.
 pub(crate) fn touches(work: &Work) -> Contacts {
     let anchors = Anchors::of(work);
     let tracks = anchors.tracks(work);
@@ -152,7 +152,7 @@ pub(crate) fn touches(work: &Work) -> Contacts {
     Contacts { anchors, found }
 }
 
-/// What may touch: a hand, the other hand or the body, and how near they are then.
+/// The possible contacts: a hand, the other hand or the body, and the largest distance of a contact in metres.
 const PAIRS: [(Side, Option<Side>, f64); 3] = [
     (Side::Right, Some(Side::Left), HANDS),
     (Side::Right, None, BODY),
@@ -168,7 +168,7 @@ struct Near {
     distance: f64,
 }
 
-/// Makes one contact of a run of frames with what comes nearest in any of them.
+/// Returns the contact over a run of frames, between the point and the place that come nearest in any of them.
 fn contact(tracks: &Tracks<'_>, side: Side, other: Option<Side>, run: &[Near]) -> Option<Contact> {
     let nearest = run
         .iter()
@@ -188,7 +188,7 @@ fn contact(tracks: &Tracks<'_>, side: Side, other: Option<Side>, run: &[Near]) -
     Some(contact)
 }
 
-/// Where everything is in one frame, as far as hands are near to it.
+/// Positions in one frame; places on the body only if hands are near them.
 struct At<'a> {
     tracks: &'a Tracks<'a>,
     frame: usize,
@@ -258,21 +258,21 @@ impl<'a> At<'a> {
     }
 }
 
-/// How an operator carries contacts.
+/// The effect of an operator on contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Carry {
     /// The same hand touches the same place at the same frame.
     Same,
     /// The other hand touches the place on the other side.
     Swapped,
-    /// The other hand does what this one does.
+    /// The other hand takes over the contacts of this one.
     Copied(Side),
-    /// At some frame or other.
+    /// The same contact at any frame.
     Anytime,
 }
 
 impl Carry {
-    /// Returns what should touch after the operator; nothing where the arm does something else.
+    /// Returns the expected contact after the operator; `None` if the arm does something else.
     fn carried(self, contact: &Contact) -> Option<Contact> {
         match (self, contact.other) {
             (Self::Swapped, Some(_)) => Some(Contact {
@@ -290,7 +290,7 @@ impl Carry {
         }
     }
 
-    /// Returns how far what should touch now is, and by how much that is more than it was.
+    /// Returns the distance of the expected contact now, and its increase.
     fn off(self, contact: &Contact, tracks: &Tracks<'_>, frames: usize) -> Option<(f64, f64)> {
         let was = contact.ways[contact.nearest - contact.frames.start].length();
         let at = |frame: usize| contact.way(tracks, frame).map(DVec3::length);
@@ -306,7 +306,7 @@ impl Carry {
     }
 }
 
-/// Says which contacts of before are gone, and by how far.
+/// Describes the former contacts that are lost, with their distances.
 pub(crate) fn lost(before: &Contacts, work: &Work, carry: Carry) -> Vec<String> {
     if before.found.is_empty() {
         return Vec::new();

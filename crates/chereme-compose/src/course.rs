@@ -1,4 +1,4 @@
-//! The course of a transition, with a learned one beside those that formulas give.
+//! Courses of transitions: learned ones, and those of formulas.
 
 use chereme_motion::Interpolation;
 use chereme_motion::glam::DQuat;
@@ -6,7 +6,7 @@ use chereme_motion::glam::DQuat;
 use crate::recipe::Profile;
 use crate::sources::{LearnedCourse, LearnedProfile};
 
-/// How transitions run: those of arms and of all else but fingers, and those of fingers.
+/// The courses of a transition: one for fingers, one for all other joints.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Courses {
     pub(crate) arms: Course,
@@ -14,7 +14,7 @@ pub(crate) struct Courses {
 }
 
 impl Courses {
-    /// Returns the courses that `profile` names; nothing for learned ones that are not there.
+    /// Returns the courses that `profile` names; `None` for learned ones that are missing.
     pub(crate) fn of(profile: Profile, learned: Option<&LearnedProfile>) -> Option<Self> {
         let shares = |course: Option<&'_ LearnedCourse>| course.map(|it| it.shares.clone());
         let [arms, fingers] = [
@@ -28,10 +28,10 @@ impl Courses {
     }
 }
 
-/// The number of recordings that are named.
+/// The number of recordings that a description names.
 const NAMED: usize = 3;
 
-/// Returns what learned courses were learned from, for people.
+/// Describes the source of learned courses for people.
 pub(crate) fn told(learned: &LearnedProfile) -> String {
     let count = |course: &Option<LearnedCourse>, whose: &str| {
         let course = course.as_ref()?;
@@ -54,16 +54,16 @@ pub(crate) fn told(learned: &LearnedProfile) -> String {
     format!("the course was learned from {}", counts.join(" and "))
 }
 
-/// How a transition runs.
+/// The course of a transition: its progress over time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Course {
     Formula(Interpolation),
-    /// Shares of the way at equal steps of time, from 0 to 1.
+    /// Shares of the path at equal steps of time, from 0 to 1.
     Learned(Vec<f64>),
 }
 
 impl Course {
-    /// Returns the course that `profile` names; nothing for a learned one that is not there.
+    /// Returns the course that `profile` names; `None` for a learned one that is missing.
     pub(crate) fn of(profile: Profile, learned: Option<&[f64]>) -> Option<Self> {
         Some(match profile {
             Profile::Slerp => Self::Formula(Interpolation::Slerp),
@@ -78,7 +78,7 @@ impl Course {
         })
     }
 
-    /// Returns the share of the way done at `w` from 0 to 1.
+    /// Returns the share of the path covered at the share `w` of the time, from 0 to 1.
     pub(crate) fn share(&self, w: f64) -> f64 {
         match self {
             Self::Formula(way) => way.share(w),
@@ -90,7 +90,7 @@ impl Course {
         }
     }
 
-    /// Returns the rotation at `w` from `a` to `b`.
+    /// Returns the rotation from `a` to `b` at the share `w` of the time.
     pub(crate) fn rotation(&self, a: DQuat, b: DQuat, w: f64) -> DQuat {
         match self {
             Self::Formula(way) => way.rotation(a, b, w),

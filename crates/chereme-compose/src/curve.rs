@@ -1,26 +1,26 @@
-//! A smooth way through points, as `travel … through` takes it and as it is drawn.
+//! A smooth path through points, as `travel … through` uses it and as pictures show it.
 //!
-//! The curve is a centripetal Catmull-Rom spline: it goes through every point, and makes no loops or cusps that the
-//! points do not ask for (Yuksel, Schaefer and Keyser, *Parameterization and applications of Catmull-Rom curves*, 2011).
+//! The curve is a centripetal Catmull-Rom spline: it passes through every point, without loops or cusps that the points
+//! do not require (Yuksel, Schaefer and Keyser, *Parameterization and applications of Catmull-Rom curves*, 2011).
 
 use chereme_motion::glam::DVec3;
 
-/// Straight pieces between two points of the table of lengths.
+/// The number of straight pieces between two points, in the table of lengths.
 const PIECES: usize = 24;
-/// Points nearer to each other than this are one, in metres.
+/// The distance, in metres, below which two points count as one.
 const SAME: f64 = 1e-6;
 
 /// A spline from the origin through points, measured along its length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spline {
-    /// Places along the curve, at first the origin.
+    /// Places along the curve; the first is the origin.
     places: Vec<DVec3>,
-    /// How far along the curve each lies.
+    /// The length of the curve up to each place.
     lengths: Vec<f64>,
 }
 
 impl Spline {
-    /// Returns the curve from the origin through `points`, in metres; a point that repeats the one before it counts once.
+    /// Returns the curve from the origin through `points`, in metres; repeated points count once.
     #[must_use]
     pub fn new(points: &[DVec3]) -> Self {
         let mut knots = vec![DVec3::ZERO];
@@ -33,7 +33,7 @@ impl Spline {
         let mut places = vec![DVec3::ZERO];
         for at in 0..last {
             let (from, to) = (knots[at], knots[at + 1]);
-            // Beyond an end the curve goes on as it came.
+            // Beyond an end the curve continues straight.
             let before = if at > 0 {
                 knots[at - 1]
             } else {
@@ -56,8 +56,8 @@ impl Spline {
         self.lengths[self.lengths.len() - 1]
     }
 
-    /// Returns the place at a share of the length; shares beyond 0 and 1 go on straight, so that a course that goes too
-    /// far and comes back does so here.
+    /// Returns the place at a share of the length; beyond 0 and 1 the curve continues straight, for courses that
+    /// overshoot.
     #[must_use]
     pub fn at(&self, share: f64) -> DVec3 {
         let last = self.places.len() - 1;
@@ -73,13 +73,14 @@ impl Spline {
         a + (b - a) * part
     }
 
-    /// Returns places along the curve for drawing it, from the origin to the last point.
+    /// Returns places along the curve for drawing, from the origin to the last point.
     #[must_use]
     pub fn places(&self) -> &[DVec3] {
         &self.places
     }
 
-    /// Returns the shape of the way, as inventories of movements call it: `straight`, `arc`, `circle`, else `path`.
+    /// Returns the shape of the curve, in the words of inventories of movements: `straight`, `arc`, `circle`, else
+    /// `path`.
     #[must_use]
     pub fn shape(&self) -> &'static str {
         let end = self.places[self.places.len() - 1];
@@ -97,7 +98,7 @@ impl Spline {
         }
     }
 
-    /// Returns the sum of all turns along the curve, those back against those forth, in radians.
+    /// Returns the sum of all rotations along the curve in radians; opposite ones cancel.
     fn turned(&self) -> f64 {
         let steps: Vec<DVec3> = self.places.windows(2).map(|it| it[1] - it[0]).collect();
         let sum = |axis: DVec3| -> f64 {
@@ -126,7 +127,7 @@ impl Spline {
     }
 }
 
-/// Returns the point a share `u` of the way from the second to the third of four points.
+/// Returns the point at the share `u` of the curve from the second to the third of four points.
 fn between(points: [DVec3; 4], u: f64) -> DVec3 {
     let knot = |a: DVec3, b: DVec3| a.distance(b).sqrt().max(1e-9);
     let [p0, p1, p2, p3] = points;

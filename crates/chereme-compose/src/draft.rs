@@ -14,12 +14,12 @@ use crate::simplify::Planned;
 use crate::sources::{Material, Sources};
 use crate::work::Work;
 
-/// A recipe that is made again and again while it changes.
+/// A recipe that is evaluated repeatedly while it changes.
 ///
-/// Movement is kept after every source, operator and join, so that only the parts after a change are evaluated
-/// again; the result equals that of [`resolve`](crate::resolve()) and [`evaluate`](crate::evaluate()), bit by bit.
-/// The answers for a part of the recipe are used again as long as that part stays as it is: call
-/// [`forget`](Self::forget) if the corpus changed.
+/// Movement is stored after every source, operator and join, so that only the parts after a change are evaluated again;
+/// the result equals that of [`resolve`](crate::resolve()) and [`evaluate`](crate::evaluate()), bit by bit. The answers
+/// for a part of the recipe are reused as long as that part does not change: call [`forget`](Self::forget) if the
+/// corpus changed.
 #[derive(Debug, Default)]
 pub struct Draft {
     resolved: Option<Resolved>,
@@ -27,12 +27,12 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// Makes the movement of a recipe; between two steps `goes_on` is asked whether it is still wanted.
+    /// Generates the movement of a recipe; between two steps `goes_on` is asked whether the result is still wanted.
     ///
     /// # Errors
-    /// Does the same as [`resolve`](crate::resolve()) and [`evaluate`](crate::evaluate()), and returns
-    /// [`Cause::Stopped`](crate::Cause::Stopped) if the result is no longer wanted; the steps taken by then need
-    /// not be taken again.
+    /// Those of [`resolve`](crate::resolve()) and [`evaluate`](crate::evaluate()), and
+    /// [`Cause::Stopped`](crate::Cause::Stopped) if the result is no longer wanted; the next call reuses the steps
+    /// evaluated by then.
     pub fn make(
         &mut self,
         recipe: &Recipe,
@@ -49,22 +49,22 @@ impl Draft {
         made
     }
 
-    /// Forgets everything, so that the next evaluation looks everything up again.
+    /// Discards all results, so that the next evaluation starts from scratch.
     pub fn forget(&mut self) {
         *self = Self::default();
     }
 }
 
-/// The most that is kept, in numbers of eight bytes.
+/// The most memory for stored results, in numbers of eight bytes.
 const MOST: usize = 12 << 20;
 
-/// The results for parts of a recipe.
+/// The stored results for parts of recipes.
 #[derive(Debug, Default)]
 pub(crate) struct Kept {
     stages: Vec<Stage>,
-    /// Counted up from evaluation to evaluation.
+    /// The number of the current evaluation.
     round: u64,
-    /// The stage that was kept or taken last.
+    /// The index of the stage that was stored or found last.
     last: Option<usize>,
 }
 
@@ -75,7 +75,7 @@ pub(crate) struct Part {
     pub(crate) steps: Vec<Planned>,
 }
 
-/// The answers for the inside of a part, by paths from that part on.
+/// The answers for a part, by paths relative to the part's own.
 type Given = BTreeMap<String, (Option<Input>, Option<Arc<Material>>)>;
 
 /// The movement after a part, with the report so far.
@@ -83,7 +83,7 @@ type Given = BTreeMap<String, (Option<Input>, Option<Arc<Material>>)>;
 pub(crate) struct Stage {
     part: Part,
     given: Given,
-    /// Where the part stood in the recipe.
+    /// The path of the part in the recipe.
     base: String,
     pub(crate) work: Work,
     pub(crate) contacts: Option<Contacts>,
@@ -92,7 +92,7 @@ pub(crate) struct Stage {
 }
 
 impl Part {
-    /// Returns whether what stands at `path`, counted from the part's own, is of it.
+    /// Returns whether `path`, relative to the part's own, belongs to the part.
     fn covers(&self, path: &str) -> bool {
         let own = Path::default();
         let below = |start: Path| {
@@ -112,7 +112,7 @@ impl Part {
         }
     }
 
-    /// Returns the first pieces of an utterance, so many after the first one.
+    /// Returns the part of an utterance up to its first piece and `count` more.
     pub(crate) fn pieces(then: &Then, count: usize) -> Self {
         Self {
             of: Node::Then(Then {
@@ -124,7 +124,7 @@ impl Part {
     }
 }
 
-/// Returns what `resolved` holds below `base` for a part.
+/// Returns the answers of `resolved` for a part at `base`.
 fn given(resolved: &Resolved, base: &str, part: &Part) -> Given {
     let mut given = Given::new();
     for (path, input) in resolved.below(base) {
@@ -157,7 +157,7 @@ impl Stage {
         same && now.next().is_none()
     }
 
-    /// Returns the report, at `base` instead of the former place of the part.
+    /// Returns the report with paths at `base` instead of the former path of the part.
     pub(crate) fn report_at(&self, base: &str) -> Report {
         let mut report = self.report.clone();
         for step in &mut report.steps {
@@ -191,7 +191,7 @@ impl Kept {
         Some(&self.stages[at])
     }
 
-    /// Keeps the movement after a part, with what making that part told.
+    /// Stores the movement after a part, with the report on that part.
     pub(crate) fn keep(
         &mut self,
         (resolved, base): (&Resolved, &str),
@@ -220,7 +220,7 @@ impl Kept {
         self.last = Some(self.stages.len() - 1);
     }
 
-    /// Returns the stage that was kept or found last, where there is one.
+    /// Returns the stage that was stored or found last, if there is one.
     pub(crate) fn last(&mut self) -> Option<&mut Stage> {
         self.stages.get_mut(self.last?)
     }
@@ -232,7 +232,7 @@ impl Kept {
     }
 }
 
-/// A part of the recipe as it was before, with its path in it.
+/// A part of the previous recipe, with its path there.
 #[derive(Debug, Clone)]
 pub(crate) struct Former<'a> {
     node: &'a Node,
@@ -273,7 +273,7 @@ impl<'a> Former<'a> {
         }
     }
 
-    /// Returns the source that it all begins with.
+    /// Returns the first source in it.
     pub(crate) fn source(&self) -> Self {
         match self.node {
             Node::Pipe(_) => self.operated().source(),
@@ -291,7 +291,7 @@ impl<'a> Former<'a> {
         Some(self.path.step(at))
     }
 
-    /// Returns the piece that was equal, or else stood there, among those after the first.
+    /// Returns the equal piece, or else the piece at the same position, among those after the first.
     pub(crate) fn piece(&self, joined: &Joined, nth: usize) -> Option<Self> {
         let Node::Then(then) = self.node else {
             return None;

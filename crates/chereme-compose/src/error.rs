@@ -25,18 +25,18 @@ pub enum RecipeError {
         /// The fault of the field.
         message: String,
     },
-    /// A number is outside of what can be made.
+    /// A number is out of range.
     #[error("{step}: {what} is {found}; it must lie between {least} and {most}")]
     Range {
         /// The operator.
         step: &'static str,
         /// The setting.
         what: &'static str,
-        /// What was asked for.
+        /// The number or quantity as written.
         found: String,
-        /// The least that is allowed.
+        /// The least allowed value.
         least: f64,
-        /// The most that is allowed.
+        /// The greatest allowed value.
         most: f64,
     },
     /// A list that must hold something is empty, or directions cancel out.
@@ -44,20 +44,20 @@ pub enum RecipeError {
     Empty {
         /// The operator.
         step: &'static str,
-        /// What is missing.
+        /// A description of the missing thing.
         what: &'static str,
     },
     /// There are too many operators, or they are nested too deep.
     #[error("a recipe has at most {most} {what}; split it and store the parts as signs")]
     Size {
-        /// The thing that there is too much of.
+        /// The kind of thing that exceeds the limit.
         what: &'static str,
-        /// How much is allowed.
+        /// The limit.
         most: usize,
     },
 }
 
-/// Where and why a text is no recipe.
+/// A text that is no recipe: the place of its fault, and the reason.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("character {}: {problem}", at + 1)]
 pub struct TextError {
@@ -65,7 +65,7 @@ pub struct TextError {
     pub text: String,
     /// The character, from 0, at which reading stopped.
     pub at: usize,
-    /// What is wrong there.
+    /// The fault there.
     pub problem: Problem,
 }
 
@@ -87,11 +87,11 @@ pub enum Problem {
         chereme_sign::text::did_you_mean(nearest.as_deref())
     )]
     Expected {
-        /// What would be right.
+        /// The expected text.
         expected: &'static str,
-        /// The word that stands there; nothing at the end.
+        /// The word found; `None` at the end.
         found: Option<String>,
-        /// A word near to it that would be right.
+        /// A similar word that would be valid.
         nearest: Option<String>,
     },
     /// A quantity cannot be read.
@@ -111,29 +111,29 @@ pub enum Problem {
     TooDeep(usize),
 }
 
-/// Why a recipe cannot be made: which step, why, and what would work.
+/// A recipe that cannot be evaluated: the step at fault, the reason, and a remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{step}: {cause}")]
 pub struct MakeError {
-    /// Where the step stands in the recipe's JSON, such as `/pipe/steps/0`.
+    /// The path of the step in the recipe's JSON, such as `/pipe/steps/0`.
     pub path: String,
     /// The source or operator as text.
     pub step: String,
-    /// Why it cannot be done.
+    /// The reason.
     #[source]
     pub cause: Cause,
 }
 
-/// Why a step cannot be done.
+/// The reason why a step cannot be done.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Cause {
-    /// It is not wanted any more.
+    /// The result is no longer wanted.
     #[error("making it was stopped; make it again")]
     Stopped,
     /// The corpus has no answer.
     #[error(transparent)]
     Source(#[from] SourceError),
-    /// HamNoSys that is not understood.
+    /// HamNoSys that cannot be read.
     #[error(transparent)]
     Hamnosys(#[from] chereme_sign::hamnosys::HamnosysError),
     /// Text or phones that cannot be cued.
@@ -187,7 +187,7 @@ pub enum Cause {
         /// The phases of the sign.
         phases: usize,
     },
-    /// A value means nothing for a body, and no token with movement holds it.
+    /// A value has no meaning for a body, and no token with movement has it.
     #[error(
         "no sign with movement holds {value:?}, and its inventory gives no {what} for it; choose another value, or annotate a sign that has it"
     )]
@@ -197,7 +197,7 @@ pub enum Cause {
         /// The missing thing.
         what: &'static str,
     },
-    /// The query finds nothing with movement.
+    /// The query finds no token with movement.
     #[error("the query {0:?} finds no sign with movement; loosen it")]
     NothingFound(String),
     /// A sign that should give a value shows none.
@@ -208,7 +208,7 @@ pub enum Cause {
         /// The thing it should have shown.
         what: &'static str,
     },
-    /// A part is asked for that the movement does not have.
+    /// The recipe names a part that the movement does not have.
     #[error(
         "the movement lasts {length:.2} s, so that nothing of it is left; name times within it"
     )]
@@ -216,17 +216,17 @@ pub enum Cause {
         /// The length of the movement in seconds.
         length: f64,
     },
-    /// Two pieces do not meet: the join would leap.
+    /// Two pieces do not fit together: something would jump at the join.
     #[error(
         "the two pieces do not meet: {what} would leap by {distance:.2} m, at {speed:.0} m/s; cut wrong first or last \
          frames off (`| trim`, or `| span 0.2s..1.5s`), or give the way more time (`then via 0.4s`, `repeat 2 gap 0.3s`)"
     )]
     Torn {
-        /// What leaps: `the right hand`, `the body`.
+        /// The part of the body that would jump: `the right hand`, `the body`.
         what: String,
-        /// How far apart the two are, in metres.
+        /// The distance between its two positions, in metres.
         distance: f64,
-        /// By how much their speeds differ, in metres per second.
+        /// The difference of its speeds, in metres per second.
         speed: f64,
     },
     /// The movement has no frame.
@@ -237,7 +237,7 @@ pub enum Cause {
     TooLong {
         /// Its frames.
         frames: usize,
-        /// The most that is made.
+        /// The limit.
         most: usize,
     },
     /// The corpus has not learned a transition.
@@ -245,7 +245,7 @@ pub enum Cause {
         "the corpus shows too few transitions to learn their course from; import captured movement, or use sigmoid"
     )]
     NoProfile,
-    /// A source is no longer what it was when the recipe was resolved.
+    /// A source has changed since the recipe was resolved.
     #[error("{address:?} has changed since this sign was made; resolve the recipe again")]
     Changed {
         /// The source.
@@ -254,7 +254,7 @@ pub enum Cause {
     /// The inputs stored with the recipe do not fit it.
     #[error("the stored inputs hold nothing fit for this step; resolve the recipe again")]
     Input,
-    /// The movement that came out is no movement.
+    /// The generated movement is not a valid clip.
     #[error("the result is no movement: {0}")]
     Clip(#[from] chereme_motion::ClipError),
 }

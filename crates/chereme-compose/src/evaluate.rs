@@ -1,4 +1,4 @@
-//! From a resolved recipe to movement.
+//! Evaluates a resolved recipe: generates its movement.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,18 +21,18 @@ use crate::work::{Group, Work};
 /// stored sign can be distinguished from one that would be generated today.
 pub const ENGINE: u32 = 11;
 
-/// Makes the movement of a recipe.
+/// Generates the movement of a recipe.
 ///
 /// The same resolved recipe gives the same movement, bit by bit, on the same machine.
 ///
 /// # Errors
-/// [`MakeError`] naming the step that cannot be done, why, and what would work.
+/// [`MakeError`] with the step that cannot be done, the reason, and a remedy.
 pub fn evaluate(resolved: &Resolved) -> Result<Made, MakeError> {
     with(resolved, None, &|| true)
 }
 
-/// Does the same as [`evaluate`], but takes the movement after parts of the recipe from `kept`, and adds to it;
-/// stops between two steps if `goes_on` says so.
+/// Does the same as [`evaluate`], but reuses stored movement of parts from `kept`, and adds to it; stops between two
+/// steps if `goes_on` returns false.
 pub(crate) fn with(
     resolved: &Resolved,
     kept: Option<&mut Kept>,
@@ -84,7 +84,7 @@ struct Evaluator<'a> {
     report: Report,
 }
 
-/// The length of the report at a moment.
+/// The lengths of the report's lists at some moment.
 #[derive(Clone, Copy)]
 struct Mark {
     steps: usize,
@@ -225,7 +225,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Returns the movement after a part if it is kept, and repeats its report.
+    /// Returns the stored movement after a part, if any, and adds its report again.
     fn kept(&mut self, path: &Path, part: &Part) -> Option<Work> {
         let path = path.as_str();
         let stage = self.kept.as_mut()?.find(self.resolved, path, part)?;
@@ -249,7 +249,7 @@ impl<'a> Evaluator<'a> {
         kept.keep((self.resolved, path.as_str()), part, work, report);
     }
 
-    /// Returns what touches in the movement after the last step, looked for once.
+    /// Returns the contacts in the movement after the last step; they are computed once.
     fn touches(&mut self, work: &Work) -> Contacts {
         let Some(stage) = self.kept.as_mut().and_then(|kept| kept.last()) else {
             return contact::touches(work);

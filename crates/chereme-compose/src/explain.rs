@@ -1,4 +1,4 @@
-//! A made sign explained to people: the steps, where each channel comes from, joins, residuals.
+//! Explains a generated sign to people: its steps, the source of each channel, joins, residuals.
 
 use std::fmt::{self, Display, Formatter};
 

@@ -1,4 +1,4 @@
-//! The face that scalar curves of non-manuals mean, frame by frame.
+//! Derives faces, frame by frame, from scalar curves of non-manuals.
 
 use std::ops::Range;
 
@@ -7,14 +7,14 @@ use chereme_sign::hamnosys::face::Expression;
 
 use crate::made::Curve;
 
-/// The prefix of names of curves that are numbers of a face.
+/// The prefix of the names of curves that hold a number of a face.
 pub const NUMBER: &str = "face.";
 
-/// Returns the face of each frame, as many as the longest curve has; none where no curve is of a face.
+/// Returns the face of each frame, as many as the longest curve has; empty if no curve belongs to a face.
 ///
-/// A curve `face.jaw_open` is a number of the face itself, by [`Face::NAMES`]. Any other curve gives the amount of
-/// its non-manual. A course within it, such as the sounds of a mouth picture, is spread evenly over the time with
-/// at least half the full amount.
+/// A curve `face.jaw_open` is a number of the face itself, by [`Face::NAMES`]. Any other curve gives the amount of its
+/// non-manual. If that has several phases, such as the sounds of a mouth picture, they are spread evenly over the time
+/// in which the amount is at least half of its maximum.
 #[must_use]
 pub fn faces(curves: &[Curve]) -> Vec<Face> {
     let mut faces = Vec::new();
@@ -49,7 +49,7 @@ pub fn faces(curves: &[Curve]) -> Vec<Face> {
     faces
 }
 
-/// Returns the stretches in which there is something.
+/// Returns the runs of frames with values above zero.
 fn runs(values: &[f64]) -> Vec<Range<usize>> {
     let mut runs: Vec<Range<usize>> = Vec::new();
     for (frame, value) in values.iter().enumerate() {
@@ -63,7 +63,7 @@ fn runs(values: &[f64]) -> Vec<Range<usize>> {
     runs
 }
 
-/// Returns the part of a run from the first to the last frame with at least half of the most in it.
+/// Returns the part of a run from the first to the last frame with at least half of the run's greatest value.
 fn core(values: &[f64], run: &Range<usize>) -> Range<usize> {
     let most = values[run.clone()].iter().copied().fold(0.0, f64::max);
     let much = |frame: &usize| values[*frame] >= most / 2.0;

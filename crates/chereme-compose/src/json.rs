@@ -9,7 +9,7 @@ use crate::recipe::{Node, Recipe};
 /// The version of the tree that this engine reads and writes.
 pub const VERSION: u64 = 1;
 
-/// A recipe's JSON object before its version is known to be ours.
+/// A recipe's JSON object before its version is checked.
 #[derive(Serialize, Deserialize)]
 #[serde(transparent)]
 pub(crate) struct Versioned(Map<String, Value>);
@@ -47,7 +47,7 @@ impl TryFrom<Versioned> for Recipe {
     }
 }
 
-/// Refuses an object that should hold one thing and holds more, naming the rest.
+/// Refuses an object with more than its one expected key; the error names the others.
 fn one_key(name: &str, object: &Value) -> Result<(), RecipeError> {
     let keys: Vec<&str> = object
         .as_object()

@@ -1,24 +1,23 @@
-//! The body language that notation is animated with: which of its numbers are not the usual ones, and
-//! where they come from.
+//! The body language for animating notation: the numbers that differ from the default ones, and their sources.
 
 use std::collections::BTreeMap;
 
 use chereme_sign::hamnosys::{BodyLanguage, LanguageError};
 use serde::{Deserialize, Serialize};
 
-/// Numbers of body language in place of the usual ones; see [`BodyLanguage`].
+/// Numbers of body language that replace the default ones; see [`BodyLanguage`].
 ///
-/// It is stored beside a recipe, so that what is measured later changes no sign that was made before.
+/// It is stored with a recipe, so that later measurements do not change signs that were generated before.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Language {
-    /// `measured` in the corpus, `quiet`, or the file; empty where everything is as usual.
+    /// `measured` in the corpus, `quiet`, or the file; empty if all numbers are the default ones.
     #[serde(default)]
     pub from: String,
     /// Numbers by the names of [`BodyLanguage::NAMES`].
     #[serde(default)]
     pub values: BTreeMap<String, LanguageValue>,
-    /// As [`BodyLanguage::places`].
+    /// Offsets of places, as in [`BodyLanguage::places`].
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub places: BTreeMap<String, [f64; 3]>,
 }
@@ -29,18 +28,19 @@ pub struct Language {
 pub struct LanguageValue {
     /// The number: the median of the measurements, in the unit in [`BodyLanguage::NAMES`].
     pub value: f64,
-    /// Half of what was measured lies between these; nothing for what was not measured itself.
+    /// The quartiles of the measurements: half of them lie between these; `None` for a number that was not measured
+    /// itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub quartiles: Option<[f64; 2]>,
-    /// How many movements were measured.
+    /// The number of measured movements.
     #[serde(default)]
     pub count: usize,
-    /// Whose movements they were, or what the number follows from.
+    /// The signers of those movements, or the number from which this one follows.
     pub of: String,
 }
 
 impl Language {
-    /// Returns the usual numbers without sway, blinks and the help of head, eyes and shoulders.
+    /// Returns the default numbers without sway, blinks and the help of head, eyes and shoulders.
     #[must_use]
     pub fn quiet() -> Self {
         let (usual, still) = (BodyLanguage::usual(), BodyLanguage::usual().without_life());
@@ -65,16 +65,16 @@ impl Language {
         }
     }
 
-    /// Returns whether every number is the usual one.
+    /// Returns whether every number is the default one.
     #[must_use]
     pub fn is_usual(&self) -> bool {
         self.values.is_empty() && self.places.is_empty()
     }
 
-    /// Returns the whole body language: the usual one with these numbers and places.
+    /// Returns the whole body language: the default one with these numbers and places.
     ///
     /// # Errors
-    /// [`LanguageError`] where a name is unknown or a number out of range.
+    /// [`LanguageError`] if a name is unknown or a number out of range.
     pub fn whole(&self) -> Result<BodyLanguage, LanguageError> {
         let values = self.values.iter();
         let values = values.map(|(name, value)| (name.as_str(), value.value));
@@ -83,7 +83,7 @@ impl Language {
         Ok(whole)
     }
 
-    /// Says each number and place for people; nothing where everything is as usual.
+    /// Describes each number and place for people; empty if all are the default ones.
     #[must_use]
     pub fn told(&self) -> Vec<String> {
         let unit = |name: &str| {

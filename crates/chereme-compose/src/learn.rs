@@ -1,4 +1,4 @@
-//! The course of transitions learned from captured movement, and courses tried against it.
+//! Learns the course of transitions from captured movement, and tests courses against it.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,29 +9,29 @@ use chereme_motion::glam::{DQuat, DVec3};
 use crate::course::Course;
 use crate::recipe::Profile;
 
-/// How many steps a learned course has.
+/// The number of steps of a learned course.
 const STEPS: usize = 64;
-/// The least total turn of the joints for a stretch to count, in radians.
+/// The least total rotation of the joints in a transition that counts, in radians.
 const LEAST_TURN: f64 = 0.1;
 
-/// A stretch of captured movement from one posture to another.
+/// A span of captured movement from one posture to another.
 #[derive(Debug, Clone)]
 pub struct Stretch<'a> {
     /// The movement.
     pub clip: &'a Clip,
-    /// The joints that make the transition, such as those of an arm or of a hand's fingers.
+    /// The joints of the transition, such as those of an arm or of a hand's fingers.
     pub joints: &'a [usize],
-    /// The frames, from the posture it starts in up to and with the one it ends in.
+    /// The frames, from the first posture to the last, inclusive.
     pub frames: Range<usize>,
 }
 
-/// Returns the usual course of transitions: shares of the way at equal steps of time, from 0 to 1,
-/// never falling.
+/// Returns the usual course of transitions: shares of the path at equal steps of time, from 0 to 1, never falling.
 ///
-/// The share of a frame is the best fit, by least squares over the joints, of its turn to the turn from the first
-/// frame to the last; turns aside do not count. Each step takes the mean of the middle half of all transitions, so
-/// that transitions that overshoot or wait do not bend the course. Stretches of fewer than three frames, outside of
-/// their clip, or with joints that hardly turn are left out; without any stretch the result is `None`.
+/// The share of a frame is the best fit, by least squares over the joints, of its rotation to the rotation from the
+/// first frame to the last; rotations about other axes do not count. Each step takes the mean of the middle half of all
+/// transitions, so that transitions that overshoot or wait do not bend the course. Stretches of fewer than three
+/// frames, outside of their clip, or with joints that hardly rotate are left out; without any stretch the result is
+/// `None`.
 #[must_use]
 pub fn learn_course<'a>(stretches: impl IntoIterator<Item = Stretch<'a>>) -> Option<Vec<f64>> {
     let mut learner = CourseLearner::default();
@@ -41,10 +41,10 @@ pub fn learn_course<'a>(stretches: impl IntoIterator<Item = Stretch<'a>>) -> Opt
     learner.course()
 }
 
-/// Learns a course as [`learn_course`] does, from one stretch after another.
+/// Learns a course as [`learn_course`] does, stretch by stretch.
 #[derive(Debug, Clone)]
 pub struct CourseLearner {
-    /// The share of each transition at each step.
+    /// The shares of all transitions at each step.
     steps: Vec<Vec<f64>>,
 }
 
@@ -71,13 +71,13 @@ impl CourseLearner {
         true
     }
 
-    /// Returns how many stretches told something.
+    /// Returns the number of stretches that counted.
     #[must_use]
     pub fn transitions(&self) -> usize {
         self.steps[0].len()
     }
 
-    /// Returns the course learned so far; nothing where no stretch told anything.
+    /// Returns the course learned so far; `None` if no stretch counted.
     #[must_use]
     pub fn course(&self) -> Option<Vec<f64>> {
         if self.transitions() == 0 {
@@ -95,7 +95,7 @@ impl CourseLearner {
     }
 }
 
-/// Returns the mean of the middle half.
+/// Returns the mean of the middle half of the values.
 fn middle(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     let cut = values.len() / 4;
@@ -103,11 +103,10 @@ fn middle(mut values: Vec<f64>) -> f64 {
     kept.iter().sum::<f64>() / kept.len() as f64
 }
 
-/// Returns the clip with a stretch of it synthesised: its joints go from the stretch's first posture
-/// to its last by a course. Compared with the captured clip it shows how true the course is.
+/// Returns the clip with one stretch synthesised: its joints go from the stretch's first posture to its last by a
+/// course. A comparison with the captured clip shows the accuracy of the course.
 ///
-/// Nothing where the stretch is empty or outside of its clip, or the learned course is asked for and
-/// not given.
+/// Returns `None` if the stretch is empty or outside of its clip, or the learned course is named but missing.
 #[must_use]
 pub fn bridge(stretch: &Stretch<'_>, profile: Profile, learned: Option<&[f64]>) -> Option<Clip> {
     let course = Course::of(profile, learned)?;
@@ -166,7 +165,7 @@ fn shares(stretch: &Stretch<'_>) -> Option<Vec<f64>> {
     Some((0..=last).map(share).collect())
 }
 
-/// Returns the shortest turn from one rotation to another as an axis times an angle.
+/// Returns the shortest rotation from one rotation to another, as an axis multiplied by the angle.
 fn turn(from: DQuat, to: DQuat) -> DVec3 {
     let turn = from.inverse() * to;
     let short = if turn.w < 0.0 { -turn } else { turn };

@@ -20,7 +20,7 @@
 //! |---|---|
 //! | [`recipe`] | the tree: sources, operators with their settings, utterances |
 //! | [`units`] | lengths, times, directions and hands as recipes write them |
-//! | [`sources`] | what is asked of a corpus, and its answers |
+//! | [`sources`] | the questions to a corpus, and its answers |
 //! | [`cue`](mod@cue) | a cuer, its phases, and a dictionary of movements between keys |
 //! | [`made`] | movement with its notes and its report |
 //! | [`notation`] | movement from HamNoSys and SiGML |

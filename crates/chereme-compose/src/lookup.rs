@@ -9,11 +9,11 @@ use crate::sources::{Letter, LetterStroke, SourceError, Value};
 
 /// Returns the value of `component` that `text` names in the first of the inventories that knows it.
 ///
-/// Inventories of a part of the component (`orientation.palm`, the letters of an alphabet) are looked
-/// at after those of the whole.
+/// Inventories of a part of the component (`orientation.palm`, the letters of an alphabet) are searched after those of
+/// the whole.
 ///
 /// # Errors
-/// [`SourceError::UnknownValue`] with what was probably meant.
+/// [`SourceError::UnknownValue`] with the value that was probably meant.
 pub fn value_in<'a>(
     inventories: impl IntoIterator<Item = &'a Inventory>,
     component: Component,
@@ -39,12 +39,11 @@ pub fn value_in<'a>(
     }
 }
 
-/// Returns the letters of `word`, without regard to case and accents; blanks, hyphens and apostrophes
-/// are passed over. Without a name the first inventory that has letters is the alphabet.
+/// Returns the letters of `word`, without regard to case and accents; blanks, hyphens and apostrophes are skipped.
+/// Without a name the first inventory that has letters is the alphabet.
 ///
 /// # Errors
-/// [`SourceError::UnknownAlphabet`], or [`SourceError::UnknownLetter`] naming the first that there is
-/// not.
+/// [`SourceError::UnknownAlphabet`], or [`SourceError::UnknownLetter`] with the first letter that the alphabet lacks.
 pub fn letters_in<'a>(
     inventories: impl IntoIterator<Item = &'a Inventory>,
     alphabet: Option<&str>,
@@ -96,7 +95,7 @@ fn known_letters(alphabet: &Inventory) -> String {
     letters.collect::<Vec<_>>().join(" ")
 }
 
-/// Returns a value with the posture of the configuration it names if it has no posture of its own.
+/// Returns a value; if it has no posture of its own, it gets that of the configuration that it names.
 fn with_pose(all: &[&Inventory], inventory: &Inventory, value: &InventoryValue) -> Value {
     let own = Value::of(inventory, value);
     if own.meaning.is_some() {
@@ -147,13 +146,13 @@ fn letter(all: &[&Inventory], alphabet: &Inventory, value: &InventoryValue) -> L
     }
 }
 
-/// Returns where the palm faces, as HamNoSys counts: from palm down on a hand that points out, turned
-/// by `roll` to the right, then turned with the hand to where it points by the shortest way.
+/// Returns the direction of the palm in HamNoSys's convention: palm down on a hand that points out, rotated by `roll`
+/// to the right, then rotated with the hand to its direction by the shortest rotation.
 fn palm(fingers: Option<[f64; 3]>, roll: f64) -> DVec3 {
     let out = DVec3::new(-roll.sin(), -roll.cos(), 0.0);
     let to = fingers.map_or(DVec3::Y, DVec3::from).normalize_or(DVec3::Y);
     let turn = if to.z < -1.0 + 1e-9 {
-        // Straight back: over the top, as a person turns it.
+        // Straight back: over the top, as people do it.
         DQuat::from_rotation_x(std::f64::consts::PI)
     } else {
         DQuat::from_rotation_arc(DVec3::Z, to)

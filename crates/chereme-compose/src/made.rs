@@ -9,46 +9,46 @@ use chereme_motion::Anatomy;
 
 use crate::language::Language;
 
-/// A made sign or utterance.
+/// A generated sign or utterance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Made {
     /// The movement.
     pub clip: Clip,
-    /// Which joint of its skeleton is what.
+    /// The parts of the body that the skeleton's joints are.
     pub anatomy: Arc<Anatomy>,
-    /// Which hand the signer signs with.
+    /// The hand with which the signer signs.
     pub handedness: Handedness,
-    /// Whose body moves, where known.
+    /// The signer whose body moves, if known.
     pub signer: Option<String>,
-    /// How much there is of each non-manual at each frame.
+    /// The amount of each non-manual at each frame.
     pub curves: Vec<Curve>,
     /// The annotations.
     pub notes: Vec<Note>,
-    /// How it came about.
+    /// The steps, sources and accuracy of the result.
     pub report: Report,
 }
 
-/// A scalar curve beside a clip, a value a frame.
+/// A scalar curve of a clip, with a value per frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// The part and the code of SiGML: `head.SH`, `brows.RB`, `mouth.L04`, `mouthing.hYs`.
     pub name: String,
-    /// From 0, nothing of it, to 1, all of it.
+    /// The amount, from 0 to 1.
     pub values: Vec<f64>,
 }
 
-/// Something said about a stretch of made movement; the corpus makes annotations of these.
+/// A statement about a span of generated movement; the corpus turns these into annotations.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Note {
-    /// The hand; nothing for glosses and non-manual components.
+    /// The hand; `None` for glosses and non-manual components.
     pub hand: Option<Side>,
-    /// What is said.
+    /// The subject.
     pub about: About,
     /// The value.
     pub value: Reading,
     /// The time, from the first frame.
     pub span: Span,
-    /// Where the movement of that stretch comes from.
+    /// The source of the movement in that span.
     pub origin: String,
 }
 
@@ -56,7 +56,7 @@ pub struct Note {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum About {
-    /// The gloss of the sign that the stretch was made from.
+    /// The gloss of the sign from which the span was generated.
     Gloss,
     /// A component, and its part if the note is not about the whole.
     Component(Component, Option<String>),
@@ -93,16 +93,16 @@ impl CueTier {
     }
 }
 
-/// How a made sign came about, for people and for `--explain`.
+/// The steps, sources and accuracy of a generated sign, for people and for `--explain`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Report {
     /// The steps in the order in which they were taken.
     pub steps: Vec<StepReport>,
-    /// For each channel of the body, where its movement comes from.
+    /// The source of movement for each channel of the body.
     pub channels: Vec<ChannelReport>,
     /// The places at which pieces of movement meet.
     pub joins: Vec<JoinReport>,
-    /// Contacts of the sources that an operator undid, and by how much.
+    /// Contacts of the sources that an operator lost, with distances.
     #[serde(default)]
     pub contacts: Vec<String>,
     /// Reasons for caution about the result.
@@ -112,41 +112,41 @@ pub struct Report {
 /// One step that was taken.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepReport {
-    /// Where it stands in the recipe's JSON, such as `/pipe/steps/0`.
+    /// Its path in the recipe's JSON, such as `/pipe/steps/0`.
     pub path: String,
     /// The source or operator as text.
     pub step: String,
     /// The effects, in a few words.
     pub did: Vec<String>,
-    /// The largest distance in metres between where a wrist should have come and where it came.
+    /// The largest distance between a wrist and its target, in metres.
     pub residual: Option<f64>,
-    /// The way by which a placement moved the hands: metres to the signer's left, up and forward.
+    /// The displacement of the hands by a placement: metres to the signer's left, up and forward.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<[f64; 3]>,
-    /// The body language that notation was animated with, if it is not the usual one.
+    /// The body language that animated the notation, if it is not the default one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub language: Option<Language>,
-    /// Of notation: how near each hand came to what is written.
+    /// The accuracy of each hand, for notation.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub hands: Vec<HandReport>,
 }
 
-/// How near a hand came to what is written; the worst of all frames.
+/// The largest deviations of a hand from its notation over all frames.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HandReport {
     /// The hand.
     pub hand: Side,
-    /// How far it is off its way, in metres.
+    /// The distance from its path, in metres.
     pub off_m: f64,
-    /// How far it stays short of what it touches, in metres.
+    /// The distance from the place that it should touch, in metres.
     pub short_m: f64,
-    /// How far it is turned from what is written, in degrees.
+    /// The rotation away from the notated one, in degrees.
     pub turned_deg: f64,
-    /// How far it was moved out of the trunk, in metres.
+    /// The distance by which it was moved out of the trunk, in metres.
     pub pushed_m: f64,
 }
 
-/// Where the movement of a channel comes from.
+/// The sources of the movement of a channel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChannelReport {
     /// The channel: `right fingers`, `left arm`, `head`, `trunk`.
@@ -155,16 +155,16 @@ pub struct ChannelReport {
     pub from: Vec<String>,
 }
 
-/// How well two pieces of movement meet at one end of a transition, at a wrist.
+/// The smoothness of a join at one end of a transition, at a wrist.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct JoinReport {
-    /// What is joined.
+    /// The joined pieces.
     pub what: String,
     /// The hand.
     pub hand: Side,
     /// The transition.
     pub span: Span,
-    /// How far the wrist is from where its speed would have brought it, in metres; the larger of both ends.
+    /// The distance of the wrist from the position that its speed predicts, in metres; the larger of both ends.
     pub position: f64,
     /// The change of velocity in metres per second; the larger of both ends.
     pub velocity: f64,

@@ -1,4 +1,4 @@
-//! Choosing the posture of a hand for a value, in order of preference.
+//! Chooses the posture of a hand for a value, in order of preference.
 
 use chereme_motion::glam::DQuat;
 use chereme_motion::{HandAngles, Side, Skeleton};
@@ -10,13 +10,13 @@ use crate::error::Cause;
 use crate::recipe::Choice;
 use crate::sources::{Example, Material, Meaning, Sources, Value};
 
-/// A posture of the hand as it was chosen.
+/// A chosen posture of the hand.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HandPose {
     /// The configuration's value, if it is known.
     pub value: Option<String>,
-    /// Where the posture comes from.
+    /// The source of the posture.
     pub origin: PoseOrigin,
     /// The posture.
     pub angles: HandAngles,
@@ -35,7 +35,7 @@ pub struct Exact {
     pub joints: Vec<(String, DQuat)>,
 }
 
-/// Where a posture comes from, the most wanted first.
+/// The source of a posture, the most preferred first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum PoseOrigin {
@@ -68,12 +68,12 @@ impl std::fmt::Display for PoseOrigin {
     }
 }
 
-/// How far a neighbouring value may be, as the root mean square of its angles' differences in radians.
+/// The greatest distance of a neighbouring value, as the root mean square of its angles' differences in radians.
 const NEAR: f64 = 0.25;
-/// How many examples are looked at before going on to the next best kind.
+/// The number of examples that are tried before the next best kind of source.
 const TRIES: usize = 8;
 
-/// Returns the postures that `choice` stands for: one, or those that a sign holds in turn.
+/// Returns the postures for `choice`: one, or the successive ones of a sign.
 pub(crate) fn choose(
     sources: &dyn Sources,
     choice: &Choice,
@@ -108,8 +108,7 @@ pub(crate) fn choose(
     }
 }
 
-/// Returns the posture for a value: the same signer's, another signer's, an edited neighbour's, or
-/// the inventory's.
+/// Returns the posture for a value: from the same signer, another signer, a modified neighbour, or the inventory.
 pub(crate) fn of_value(
     sources: &dyn Sources,
     value: &Value,
@@ -141,7 +140,7 @@ pub(crate) fn of_value(
     })
 }
 
-/// Returns the posture of the same signer's nearest value, changed as the inventory's postures differ.
+/// Returns the posture of the same signer's nearest value, changed by the difference of the inventory's postures.
 fn from_neighbour(
     sources: &dyn Sources,
     wanted: &Value,
@@ -244,8 +243,8 @@ fn with_origin(pose: HandPose, example: &Example, setting: &Setting) -> HandPose
     HandPose { origin, ..pose }
 }
 
-/// Returns the postures that a sign holds in turn with `side`, or with the other hand if that side holds no
-/// posture, or the one in its middle if no hold is annotated.
+/// Returns the successive postures of `side` in a sign; those of the other hand if that side has none; the one in the
+/// middle if no configuration is annotated.
 fn held_by(material: &Material, side: Side) -> Vec<HandPose> {
     for side in [side, side.other()] {
         let mut held: Vec<_> = material
@@ -312,8 +311,8 @@ fn pose_at(
 
 /// Returns the local rotations that give the hand of `side` the posture: joint and rotation.
 ///
-/// A donor whose finger joints have the same names, in the same order, on the same side gives its
-/// rotations as they are when `same_body` says that the skeletons agree; else the angles are set.
+/// If the donor's finger joints have the same names, in the same order, on the same side, and the skeletons agree
+/// (`same_body`), its rotations are used unchanged; otherwise the angles are set.
 pub(crate) fn rotations(
     skeleton: &Skeleton,
     anatomy: &chereme_motion::Anatomy,
@@ -335,7 +334,7 @@ pub(crate) fn rotations(
             }
             trial
         });
-        // The same names on other bones would give other angles.
+        // The same names on other bones would give different angles.
         if let Some(trial) = trial
             && let Some(angles) = anatomy.hand_angles(skeleton, side, &trial)
             && distance(&angles, &pose.angles) < 1e-6

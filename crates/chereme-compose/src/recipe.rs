@@ -8,20 +8,19 @@ use crate::units::{Direction, Factor, Hands, Length, Seconds};
 pub use crate::ops::settings::*;
 pub use crate::ops::{Field, FieldSetting, Step};
 
-/// How a made clip comes about, as text (`ESCARGOT | configure right U`) and as JSON.
+/// A description from which movement is generated, as text (`ESCARGOT | configure right U`) and as JSON.
 ///
-/// Both spellings are the same tree: [`str::parse`] and [`Display`](std::fmt::Display) give and
-/// take the text, serde the JSON, which carries a version:
-/// `{"version": 1, "make": {"pipe": {"of": {"sign": "CLAIR"}, "steps": ["reverse"]}}}`.
-/// Unknown fields and versions from the future are refused by name. A recipe names its sources and
-/// holds no other recipe by reference, so that there are no cycles.
+/// Both spellings are the same tree: [`str::parse`] and [`Display`](std::fmt::Display) read and write the text, serde
+/// the JSON, which carries a version: `{"version": 1, "make": {"pipe": {"of": {"sign": "CLAIR"}, "steps":
+/// ["reverse"]}}}`. Unknown fields and versions from the future are refused by name. A recipe names its sources and
+/// does not refer to other recipes, so that there are no cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "crate::json::Versioned", into = "crate::json::Versioned")]
 pub struct Recipe {
     pub(crate) root: Node,
 }
 
-/// A part of a recipe that gives movement.
+/// A part of a recipe that produces movement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Node {
@@ -44,7 +43,7 @@ pub enum Node {
 }
 
 impl Node {
-    /// The words that begin sources, beside the names of signs.
+    /// The words that begin sources other than names of signs.
     pub(crate) const WORDS: [&'static str; 5] = ["spell", "point", "cue", "hamnosys", "sigml"];
 
     /// Returns the name of the kind of node, as JSON has it.
@@ -86,18 +85,18 @@ pub struct Then {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Joined {
-    /// How the piece before it leads into it.
+    /// The transition from the piece before.
     #[serde(default, skip_serializing_if = "Transition::is_default")]
     pub via: Transition,
     /// The piece.
     pub node: Node,
 }
 
-/// How one posture leads to the next: `via sigmoid 0.2s`.
+/// A transition from one posture to the next: `via sigmoid 0.2s`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transition {
-    /// The course of the way; without one the sigmoid.
+    /// The course; the default is the sigmoid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<Profile>,
     /// The time it takes; by default the operator chooses, from the material if it can.
@@ -162,16 +161,16 @@ pub struct Spell {
     /// The hand that spells.
     #[serde(default = "dominant")]
     pub hand: Hands,
-    /// The inventory with the letters; without one the corpus's own.
+    /// The inventory with the letters; `None` for the corpus's own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub alphabet: Option<String>,
-    /// How long each letter is held; without one as long as the corpus's letters are, else 0.2 s.
+    /// The time for which each letter is held; the default is the median of the corpus's letters, else 0.2 s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hold: Option<Seconds>,
-    /// From letter to letter.
+    /// The transition from letter to letter.
     #[serde(default, skip_serializing_if = "Transition::is_default")]
     pub via: Transition,
-    /// Whose body spells; without one the corpus chooses.
+    /// The signer whose body spells; `None` lets the corpus choose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
 }
@@ -182,10 +181,10 @@ pub struct Spell {
 pub struct Cue {
     /// The text, or phones separated by blanks; `a=120` is a phone of 120 ms.
     pub text: String,
-    /// The alphabet of the phones: `sampa`, `ipa` or `mfa`; without one the text is in ordinary spelling.
+    /// The alphabet of the phones: `sampa`, `ipa` or `mfa`; `None` if the text is in ordinary spelling.
     #[serde(rename = "as", default, skip_serializing_if = "Option::is_none")]
     pub phones: Option<String>,
-    /// The code; without one French.
+    /// The code; the default is French.
     #[serde(rename = "with", default, skip_serializing_if = "Option::is_none")]
     pub code: Option<String>,
     /// Habits of the cuer by their names, and `no-liaison`, `schwa-said`, `schwa-dropped`.
@@ -194,13 +193,13 @@ pub struct Cue {
     /// The hand that cues; never both.
     #[serde(default = "dominant")]
     pub hand: Hands,
-    /// When the hand is where.
+    /// The rule for the times of the hand.
     #[serde(rename = "by", default, skip_serializing_if = "PhaseRule::is_default")]
     pub phase: PhaseRule,
-    /// How many times longer than usual sounds last if the phones have no times; without one 1.6.
+    /// The factor on the usual durations of sounds, if the phones have no times; the default is 1.6.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pace: Option<Factor>,
-    /// Whose body cues; without one the corpus chooses.
+    /// The signer whose body cues; `None` lets the corpus choose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
 }
@@ -209,13 +208,13 @@ pub struct Cue {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Notation {
-    /// The symbols of the sign, or the name of what the corpus knows as notation.
+    /// The symbols of the sign, or the name of notation in the corpus.
     pub of: String,
-    /// The body language: `default` for the program's own, `measured` for what the corpus's captured
-    /// signs show, or a file; without one what is measured.
+    /// The body language: `default` for the program's own, `measured` for measurements in the corpus's captured signs,
+    /// or a file; the default is `measured`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub language: Option<String>,
-    /// Whose body signs; without one the corpus chooses.
+    /// The signer whose body signs; `None` lets the corpus choose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
 }
@@ -227,18 +226,18 @@ pub struct Point {
     /// The hand that points.
     #[serde(default = "dominant")]
     pub hand: Hands,
-    /// What is pointed at.
+    /// The target.
     pub at: Spot,
-    /// The hand's shape; without one the index finger's.
+    /// The hand's shape; the default is the index finger's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with: Option<Choice>,
-    /// How long the gesture stays at its apex; without one 0.3 s.
+    /// The time for which the gesture stays at its apex; the default is 0.3 s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hold: Option<Seconds>,
-    /// Reaching and retraction; without a time 0.5 s each.
+    /// The transitions of reaching and retraction; their default time is 0.5 s each.
     #[serde(default, skip_serializing_if = "Transition::is_default")]
     pub via: Transition,
-    /// Whose body points; without one the corpus chooses.
+    /// The signer whose body points; `None` lets the corpus choose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
 }
@@ -251,11 +250,11 @@ pub(crate) fn both() -> Hands {
     Hands::Both
 }
 
-/// Where a value comes from.
+/// The source of a value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Choice {
-    /// The value that is there already; written `_`.
+    /// The present value; written `_`.
     Keep,
     /// A value of an inventory by its name.
     Value(String),
@@ -265,11 +264,11 @@ pub enum Choice {
     Best(String),
 }
 
-/// A straight way: `left 25cm`, `right up 10cm` (the diagonal), `down 20cm in 0.4s`.
+/// A straight leg of a path: `left 25cm`, `right up 10cm` (the diagonal), `down 20cm in 0.4s`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Leg {
-    /// The directions, half-way between which the way goes.
+    /// The directions; the leg goes half-way between them.
     pub towards: Vec<Direction>,
     /// Its length.
     pub distance: Length,
@@ -325,14 +324,14 @@ impl HandPoint {
     }
 }
 
-/// How an arm's posture is found from the wrist's place.
+/// The method that finds an arm's posture from the wrist's place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Solver {
     /// Two bones in closed form, the elbow turned as in the source.
     #[default]
     Analytic,
-    /// FABRIK, as the founding paper has it.
+    /// FABRIK, as in the founding paper.
     Fabrik,
 }
 
@@ -349,7 +348,7 @@ impl Solver {
         }
     }
 
-    /// Returns whether this is the usual one.
+    /// Returns whether this is the default method.
     #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()

@@ -1,4 +1,4 @@
-//! Fixing everything a recipe asks of the world, so that it can be made again and again alike.
+//! Finds and records everything a recipe needs from the outside, so that it gives the same movement again.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,10 +21,10 @@ use crate::sources::{Held, LearnedProfile, Letter, Material, Sources, Spatial, S
 
 /// The movement of a sign.
 pub(crate) const SIGN: Slot<MaterialInput> = Slot::new("sign");
-/// The learned courses of the way from a piece to the next.
+/// The learned courses of the transition from one piece to the next.
 pub(crate) const JOIN: Slot<LearnedProfile> = Slot::new("via");
 
-/// A recipe with everything it needs.
+/// A recipe with all its inputs.
 #[derive(Debug, Clone)]
 pub struct Resolved {
     pub(crate) recipe: Recipe,
@@ -39,13 +39,13 @@ impl Resolved {
         &self.recipe
     }
 
-    /// Returns what was chosen, to be stored beside the recipe; see [`restore`].
+    /// Returns the chosen inputs, to be stored with the recipe; see [`restore`].
     #[must_use]
     pub fn inputs(&self) -> &Inputs {
         &self.inputs
     }
 
-    /// Returns what was chosen below a path of the recipe.
+    /// Returns the chosen inputs below a path of the recipe.
     pub(crate) fn below(&self, base: &str) -> impl Iterator<Item = (&String, &Input)> {
         let from = self.inputs.0.range(base.to_owned()..);
         let base = base.to_owned();
@@ -59,15 +59,15 @@ impl Resolved {
     }
 }
 
-/// The choices for each place in a recipe, by its path in the recipe's JSON.
+/// The chosen inputs of a recipe, by their paths in the recipe's JSON.
 ///
-/// Spans, poses and places are held here as they were, so that better annotation, a better
-/// detector or new recordings never change a sign that was made before.
+/// Spans, poses and places are stored here, so that better annotation, a better detector or new recordings never change
+/// a sign that was generated before.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Inputs(pub BTreeMap<String, Input>);
 
-/// The choice for one place in a recipe.
+/// The choice for one path in a recipe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Input {
@@ -81,11 +81,11 @@ pub enum Input {
     Letters(Vec<LetterInput>),
     /// Signs as notation.
     Notation(Vec<Notated>),
-    /// Body language that differs from the usual one.
+    /// Body language that differs from the default one.
     Language(Language),
     /// Learned courses.
     Courses(LearnedProfile),
-    /// How long letters are held, and how long the hand takes from one to the next.
+    /// The times of held letters, and of the change from one to the next.
     Times(SpellingTimes),
     /// Measured phases of cued speech.
     Phases(CuePhases),
@@ -93,7 +93,7 @@ pub enum Input {
     Expression(ExpressionInput),
 }
 
-/// An expression of the face as it was found.
+/// The expression of the face that was found.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpressionInput {
@@ -103,31 +103,31 @@ pub struct ExpressionInput {
     pub milestones: Milestones,
 }
 
-/// A source of movement as it was found.
+/// The source of movement that was found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialInput {
-    /// Its address without doubt.
+    /// Its unambiguous address.
     pub address: String,
     /// The hash of its movement.
     pub hash: String,
-    /// What it was called.
+    /// Its gloss.
     pub gloss: String,
-    /// Which hand its signer signs with.
+    /// The hand with which its signer signs.
     pub handedness: Handedness,
-    /// The values it held.
+    /// Its component values.
     pub held: Vec<Held>,
 }
 
-/// A place as it was found.
+/// The place that was found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlaceInput {
     /// The value, if it belongs to an inventory.
     pub value: Option<String>,
-    /// The inventory or sign it comes from.
+    /// The inventory or sign that gives it.
     pub from: String,
-    /// Where it is.
+    /// The position.
     pub at: Spatial,
 }
 
@@ -144,12 +144,12 @@ pub struct LetterInput {
 /// Finds everything that `recipe` needs: sources, values, answers to queries, spans.
 ///
 /// # Errors
-/// [`MakeError`] naming the step for which there is nothing, with what would work.
+/// [`MakeError`] with the step for which nothing was found, and a remedy.
 pub fn resolve(recipe: &Recipe, sources: &dyn Sources) -> Result<Resolved, MakeError> {
     after(recipe, sources, None)
 }
 
-/// As [`resolve`], but takes what `before` has for parts of the recipe that stayed as they were.
+/// Does the same as [`resolve`], but reuses the answers in `before` for unchanged parts of the recipe.
 pub(crate) fn after(
     recipe: &Recipe,
     sources: &dyn Sources,
@@ -170,10 +170,10 @@ pub(crate) fn after(
     })
 }
 
-/// Finds again what was chosen before: loads the movement that `inputs` name and nothing else.
+/// Restores earlier choices: loads the movement that `inputs` name and nothing else.
 ///
 /// # Errors
-/// [`MakeError`] where a source is gone or its movement is no longer what it was.
+/// [`MakeError`] if a source is gone or its movement has changed.
 pub fn restore(
     recipe: &Recipe,
     inputs: Inputs,
@@ -217,7 +217,7 @@ struct Resolver<'a> {
     answers: Answers,
 }
 
-/// Returns the place at which a source keeps the movement that it begins with.
+/// Returns the slot in which a source stores its initial movement.
 fn body_of(leaf: &Node) -> Option<Slot<MaterialInput>> {
     Some(match leaf {
         Node::Sign(_) => SIGN,
@@ -231,7 +231,7 @@ fn body_of(leaf: &Node) -> Option<Slot<MaterialInput>> {
 }
 
 impl Resolver<'_> {
-    /// Takes over the answers for a part at `from`, now at `to`.
+    /// Copies the answers for a part at `from` to `to`.
     fn again(&mut self, from: &Path, to: &Path) {
         let Some(before) = self.before else { return };
         for (path, input) in before.below(from.as_str()) {
@@ -244,7 +244,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Uses the earlier answer for a source that has not changed.
+    /// Reuses the earlier answer for a source that has not changed.
     fn source_again(
         &mut self,
         leaf: &Node,

@@ -1,13 +1,13 @@
-//! Pipelines without what does nothing: neighbours that cancel out or become one.
+//! Simplifies pipelines: removes neighbours that cancel out, and merges those that can be one.
 
 use crate::ops::Neighbours;
 use crate::recipe::*;
 
 impl Recipe {
-    /// Returns the recipe that makes the same sign with the fewest operators: pairs of `reverse` or
-    /// `swap` are gone, ways of placing the same hands are one, and what changes nothing is left out.
+    /// Returns the recipe for the same sign with the fewest operators: pairs of `reverse` or `swap` are removed,
+    /// displacements of the same hands are merged, and operators without effect are left out.
     ///
-    /// Evaluating takes the same steps, so that moving hands out of reach and back loses nothing.
+    /// Evaluation performs the same reduced steps, so that moving hands out of reach and back loses nothing.
     #[must_use]
     pub fn simplified(&self) -> Self {
         Self {
@@ -16,15 +16,15 @@ impl Recipe {
     }
 }
 
-/// A step to be taken.
+/// A step to be evaluated.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Planned {
-    /// Its place in the pipe as written; the first of those that became one.
+    /// Its index in the pipe as written; for merged steps, that of the first.
     pub(crate) index: usize,
     pub(crate) step: Step,
 }
 
-/// Returns the steps of a pipe that do something.
+/// Returns the steps of a pipe that have an effect.
 pub(crate) fn plan(steps: &[Step]) -> Vec<Planned> {
     let mut kept: Vec<Planned> = Vec::with_capacity(steps.len());
     for (index, step) in steps.iter().enumerate() {

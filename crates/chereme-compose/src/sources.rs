@@ -13,11 +13,10 @@ use crate::cue::CuePhases;
 use crate::language::Language;
 use crate::made::Curve;
 
-/// Where recipes find movement, values and examples; a corpus implements it.
+/// The source of movement, values and examples for recipes; a corpus implements it.
 ///
-/// Every question is asked while a recipe is [resolved](crate::Recipe); evaluating asks nothing.
-/// Answers must not depend on anything but the corpus: the same question gives the same answer in
-/// the same order.
+/// All questions are asked while a recipe is [resolved](crate::Recipe), none during evaluation. Answers must depend on
+/// the corpus only: the same question gives the same answer in the same order.
 pub trait Sources {
     /// Returns the movement at an address as written: a gloss, `token:41`, `sign:LIMACE`.
     ///
@@ -26,41 +25,40 @@ pub trait Sources {
     /// [`SourceError::NoMovement`] for a lexicon entry without movement.
     fn material(&self, address: &str) -> Result<Material, SourceError>;
 
-    /// Returns a body at rest, for movement that comes from no recording: a frame or more of a
-    /// neutral posture of the signer (an address), or of one the corpus chooses.
+    /// Returns a body at rest, for movement without a recording: one or more frames of a neutral posture of the signer
+    /// (an address), or of one that the corpus chooses.
     ///
     /// # Errors
-    /// [`SourceError`] where there is no such signer, or no movement at all.
+    /// [`SourceError`] if there is no such signer, or no movement at all.
     fn stage(&self, signer: Option<&str>) -> Result<Material, SourceError>;
 
     /// Returns the value of `component` that `text` names: by id, by a name in any language, or by
     /// its notation.
     ///
     /// # Errors
-    /// [`SourceError::UnknownValue`] with what was probably meant.
+    /// [`SourceError::UnknownValue`] with the value that was probably meant.
     fn value(&self, component: Component, text: &str) -> Result<Value, SourceError>;
 
     /// Returns every value of `component` in the inventories, in their order.
     fn values(&self, component: Component) -> Vec<Value>;
 
-    /// Returns the tokens with movement that hold the value with this id, best examples first.
+    /// Returns the tokens with movement that have the value with this id, best examples first.
     ///
     /// # Errors
-    /// [`SourceError`] where the corpus cannot be read.
+    /// [`SourceError`] if the corpus cannot be read.
     fn holding(&self, component: Component, value: &str) -> Result<Vec<Example>, SourceError>;
 
     /// Returns the tokens with movement that answer `query`, best first; `signer=same` in it means
     /// the signer given here.
     ///
     /// # Errors
-    /// [`SourceError::Query`] where the query is not understood.
+    /// [`SourceError::Query`] if the query is not understood.
     fn best(&self, query: &str, signer: Option<&str>) -> Result<Vec<Example>, SourceError>;
 
-    /// Returns the signs of the notation that `name` stands for: a SiGML file that the corpus holds,
-    /// or the notation of a sign.
+    /// Returns the signs of the notation named `name`: a SiGML file in the corpus, or the notation of a sign.
     ///
     /// # Errors
-    /// [`SourceError::Missing`] where nothing notated has that name.
+    /// [`SourceError::Missing`] if no notation has that name.
     fn notation(&self, name: &str) -> Result<Vec<Notated>, SourceError> {
         Err(SourceError::Missing {
             address: name.to_owned(),
@@ -101,19 +99,19 @@ pub trait Sources {
     /// Returns the letters of `word` in an alphabet, or in the corpus's usual one.
     ///
     /// # Errors
-    /// [`SourceError::UnknownAlphabet`], or [`SourceError::UnknownLetter`] naming the first letter that
-    /// the alphabet does not have.
+    /// [`SourceError::UnknownAlphabet`], or [`SourceError::UnknownLetter`] with the first letter that the alphabet
+    /// lacks.
     fn letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError>;
 
-    /// Returns the usual courses of the corpus's own transitions; nothing where it shows too few.
+    /// Returns the usual courses of the corpus's own transitions; `None` if there are too few.
     ///
     /// # Errors
-    /// [`SourceError`] where the corpus cannot be read.
+    /// [`SourceError`] if the corpus cannot be read.
     fn learned_profile(&self) -> Result<Option<LearnedProfile>, SourceError> {
         Ok(None)
     }
 
-    /// Returns the phases of the corpus's captured keys of cued speech; nothing if there are too few.
+    /// Returns the phases of the corpus's captured keys of cued speech; `None` if there are too few.
     ///
     /// # Errors
     /// [`SourceError`] if the corpus cannot be read.
@@ -121,23 +119,23 @@ pub trait Sources {
         Ok(None)
     }
 
-    /// Returns how long the corpus's hands hold a configuration and take to the next.
+    /// Returns the times for which the corpus's hands hold a configuration and change to the next.
     ///
     /// # Errors
-    /// [`SourceError`] where the corpus cannot be read.
+    /// [`SourceError`] if the corpus cannot be read.
     fn spelling_times(&self) -> Result<SpellingTimes, SourceError> {
         Ok(SpellingTimes::default())
     }
 }
 
-/// The usual courses of a corpus's transitions, for each channel that shows enough of them.
+/// The usual courses of a corpus's transitions, for each channel with enough of them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LearnedProfile {
-    /// The course of wrists from place to place; without it that of the fingers is used.
+    /// The course of wrists from place to place; if missing, that of the fingers is used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arms: Option<LearnedCourse>,
-    /// The course of fingers from shape to shape; without it that of the arms is used.
+    /// The course of fingers from shape to shape; if missing, that of the arms is used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingers: Option<LearnedCourse>,
 }
@@ -146,11 +144,11 @@ pub struct LearnedProfile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LearnedCourse {
-    /// Shares of the way at equal steps of time, from 0 to 1.
+    /// Shares of the path at equal steps of time, from 0 to 1.
     pub shares: Vec<f64>,
-    /// How many transitions it was learned from.
+    /// The number of transitions that it was learned from.
     pub transitions: usize,
-    /// The recordings that they are of, by their names.
+    /// The names of their recordings.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<String>,
 }
@@ -169,14 +167,14 @@ impl LearnedProfile {
     }
 }
 
-/// How long hands hold a configuration, and how long they take from one to the next.
+/// The times for which hands hold a configuration, and change from one to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpellingTimes {
-    /// Of holds; nothing where there are too few.
+    /// The time of a hold; `None` if there are too few.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hold: Option<MedianTime>,
-    /// From the end of one hold to the start of the next; nothing where there are too few.
+    /// The time from the end of one hold to the start of the next; `None` if there are too few.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub change: Option<MedianTime>,
 }
@@ -187,34 +185,34 @@ pub struct SpellingTimes {
 pub struct MedianTime {
     /// The median in seconds.
     pub seconds: f64,
-    /// How many it is the median of.
+    /// The number of times measured.
     pub count: usize,
 }
 
 /// A piece of movement with its annotations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
-    /// Its address without doubt, such as `token:41`.
+    /// Its unambiguous address, such as `token:41`.
     pub address: String,
-    /// A hash of the movement, as the corpus makes it; the same movement always has the same.
+    /// A hash of the movement, as the corpus computes it; equal movements have equal hashes.
     pub hash: String,
-    /// What it is called.
+    /// Its gloss.
     pub gloss: String,
-    /// The address of the signer, where known.
+    /// The address of the signer, if known.
     pub signer: Option<String>,
-    /// Which hand the signer signs with.
+    /// The hand with which the signer signs.
     pub handedness: Handedness,
     /// The movement; times in `held` count from its first frame.
     pub clip: Clip,
-    /// Which joint is what.
+    /// The parts of the body that its joints are.
     pub anatomy: Arc<Anatomy>,
-    /// The component values it holds, in any order.
+    /// Its component values, in any order.
     pub held: Vec<Held>,
-    /// Scalar curves of it, a value a frame.
+    /// Its scalar curves, with a value per frame.
     pub curves: Vec<Curve>,
 }
 
-/// An expression of the face with the movement it is part of.
+/// An expression of the face with the movement that contains it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExpressionSource {
     /// The movement, at least from M1 to M5 as far as it was recorded.
@@ -229,21 +227,21 @@ pub struct ExpressionSource {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Held {
-    /// The hand; nothing for non-manual components.
+    /// The hand; `None` for non-manual components.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand: Option<Side>,
     /// The component.
     pub component: Component,
-    /// The part of the component, such as `brows` or `palm`; nothing for the whole.
+    /// The part of the component, such as `brows` or `palm`; `None` for the whole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feature: Option<String>,
-    /// The value: an id of an inventory where there is one.
+    /// The value: an id of an inventory if it has one.
     pub value: Reading,
     /// The time, from the movement's first frame.
     pub span: Span,
 }
 
-/// A value of an inventory with what it means for a body.
+/// A value of an inventory with its meaning for a body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Value {
     /// The id under which annotations name it.
@@ -271,8 +269,8 @@ pub struct Spatial {
     /// The landmark's name, as [`Anatomy::landmark`] spells it; `ipsi-` and `contra-` at its start
     /// stand for the acting hand's own and other side.
     pub landmark: String,
-    /// From the landmark to the left, up and forward in shoulder widths; with `ipsi-` and `contra-`
-    /// the first counts away from the body's middle.
+    /// Offset from the landmark to the left, up and forward in shoulder widths; with `ipsi-` and `contra-` the first
+    /// counts away from the body's middle.
     pub offset: [f64; 3],
 }
 
@@ -286,7 +284,7 @@ impl From<&Landmark> for Spatial {
 }
 
 impl Value {
-    /// Returns a value of an inventory with what it means for a body.
+    /// Returns a value of an inventory with its meaning for a body.
     #[must_use]
     pub fn of(inventory: &Inventory, value: &InventoryValue) -> Self {
         let hand = value.pose.map(Meaning::Hand);
@@ -299,16 +297,16 @@ impl Value {
     }
 }
 
-/// A token that shows something, and where in it.
+/// A token that is an example of something, with the hand and span that show it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Example {
     /// Its address.
     pub address: String,
-    /// Its signer's address, where known.
+    /// Its signer's address, if known.
     pub signer: Option<String>,
     /// The hand that shows it; `None` if it is unknown.
     pub hand: Option<Side>,
-    /// When, from the start of its movement; nothing for all of it.
+    /// The span, from the start of its movement; `None` for all of it.
     pub span: Option<Span>,
 }
 
@@ -320,13 +318,13 @@ pub struct Letter {
     pub letter: String,
     /// Its configuration's value.
     pub value: Value,
-    /// Where the straight fingers point: left, up, forward for a right hand; nothing for up.
+    /// The direction of the straight fingers: left, up, forward for a right hand; `None` for up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingers: Option<[f64; 3]>,
     /// The direction of the palm, in the same form; `None` for forward.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub palm: Option<[f64; 3]>,
-    /// The strokes of the hand while it shows the letter; empty for one that is held still.
+    /// The strokes of the hand during the letter; empty if it is held still.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub strokes: Vec<LetterStroke>,
 }
@@ -335,13 +333,13 @@ pub struct Letter {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LetterStroke {
-    /// The way to the left, up and forward in shoulder widths, for a right hand.
+    /// The displacement to the left, up and forward in shoulder widths, for a right hand.
     pub way: [f64; 3],
-    /// The turn of the forearm meanwhile in radians, positive when the palm turns to face up.
+    /// The rotation of the forearm during the stroke in radians, positive when the palm turns to face up.
     pub turn: f64,
 }
 
-/// Why the corpus has no answer.
+/// The reason why the corpus has no answer.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SourceError {
     /// Nothing has this address.
@@ -349,7 +347,7 @@ pub enum SourceError {
     Missing {
         /// The address as written.
         address: String,
-        /// An address near to it.
+        /// A similar address.
         nearest: Option<String>,
     },
     /// Several things have this address.
@@ -357,7 +355,7 @@ pub enum SourceError {
     Ambiguous {
         /// The address as written.
         address: String,
-        /// Addresses without doubt.
+        /// Their unambiguous addresses.
         candidates: Vec<String>,
     },
     /// The sign is a lexicon entry without movement.
@@ -376,7 +374,7 @@ pub enum SourceError {
         /// The reason, with a remedy.
         why: String,
     },
-    /// The sign is not there as notation.
+    /// The sign has no notation.
     #[error(
         "{address:?} has no notation; import it as SiGML or HamNoSys, or write it from its movement: \
          `chereme transcribe CORPUS {address} --store`"
@@ -392,7 +390,7 @@ pub enum SourceError {
         component: Component,
         /// The value as written.
         text: String,
-        /// A value near to it.
+        /// A similar value.
         nearest: Option<String>,
     },
     /// No inventory with this name has letters.

@@ -13,16 +13,16 @@ use chereme_sign::{Component, Handedness, Reading};
 
 use crate::sources::*;
 
-/// Which local axes a body's joints have.
+/// The local axes of a body's joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Axes {
     /// All parallel to model space at rest.
     Plain,
-    /// Each joint turned another way at rest, left and right unlike.
+    /// Each joint is rotated differently at rest, left and right unlike.
     Odd,
 }
 
-/// Returns a body of 51 joints in a T-pose with full hands, `size` times as large as a tall person.
+/// Returns a body of 51 joints in a T-pose with full hands, `size` times the size of a tall person.
 pub(crate) fn skeleton(axes: Axes, size: f64) -> Skeleton {
     let mut names: Vec<(String, Option<usize>, DVec3, Option<DVec3>)> = Vec::new();
     let mut add = |name: &str, parent: Option<usize>, at: [f64; 3], tip: Option<[f64; 3]>| {
@@ -212,7 +212,7 @@ pub(crate) fn span(start: i64, end: i64) -> Span {
     Span::between(Instant::from_millis(start), Instant::from_millis(end))
 }
 
-/// Returns what a sign holds.
+/// Returns a component value of a sign.
 pub(crate) fn held(hand: Side, component: Component, value: &str, span: Span) -> Held {
     Held {
         hand: Some(hand),
@@ -466,7 +466,7 @@ impl Sources for Shelf {
     }
 }
 
-/// Returns where every fingertip and wrist of `side` is at every frame.
+/// Returns the positions of every fingertip and wrist of `side` at every frame.
 pub(crate) fn tips(clip: &Clip, side: Side) -> Vec<Vec<DVec3>> {
     let skeleton = clip.skeleton();
     let anatomy = Anatomy::detect(skeleton);

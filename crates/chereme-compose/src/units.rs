@@ -16,7 +16,7 @@ pub enum UnitError {
     Number {
         /// What was written.
         text: String,
-        /// A quantity that would be right.
+        /// A valid quantity.
         example: &'static str,
     },
     /// The unit is missing or unknown.
@@ -24,7 +24,7 @@ pub enum UnitError {
     Unit {
         /// What was written.
         text: String,
-        /// The unit that was found, perhaps empty.
+        /// The unit found, possibly empty.
         unit: String,
         /// The units that are understood.
         units: &'static str,
@@ -212,8 +212,8 @@ fn unknown(text: &str, unit: &str, units: &'static str) -> UnitError {
     }
 }
 
-/// Returns `value` times `by` where dividing it again gives `value` back to the last bit, after
-/// rounding to 12 digits so that 0.07 m prints as 7 cm.
+/// Returns `value` times `by`, rounded to 12 digits so that 0.07 m prints as 7 cm; `None` if dividing it again does not
+/// give `value` exactly.
 fn scaled(value: f64, by: f64) -> Option<f64> {
     let rounded: f64 = format!("{:.11e}", value * by).parse().ok()?;
     (rounded / by == value && rounded.abs() >= 0.1 || value == 0.0).then_some(rounded)
@@ -285,7 +285,7 @@ impl Direction {
     }
 }
 
-/// Returns the unit vector in body space half-way between `towards`, or nothing where they cancel.
+/// Returns the unit vector in body space half-way between directions; `None` if they cancel.
 #[must_use]
 pub fn towards(directions: &[Direction]) -> Option<DVec3> {
     directions
@@ -339,7 +339,7 @@ impl Hands {
         Self::ALL.into_iter().find(|hands| hands.name() == word)
     }
 
-    /// Returns the sides that are meant for a signer of this handedness.
+    /// Returns the sides of these hands for a signer of this handedness.
     #[must_use]
     pub fn sides(self, handedness: Handedness) -> &'static [Side] {
         let side = match self {

@@ -10,7 +10,7 @@ use chereme_sign::{Component, Handedness, Reading};
 use crate::made::{About, Curve, Made, Note};
 use crate::sources::Material;
 
-/// Movement in the making.
+/// A clip under construction.
 #[derive(Debug, Clone)]
 pub(crate) struct Work {
     pub(crate) skeleton: Arc<Skeleton>,
@@ -21,7 +21,7 @@ pub(crate) struct Work {
     pub(crate) handedness: Handedness,
     pub(crate) signer: Option<String>,
     pub(crate) notes: Vec<Note>,
-    /// A value a frame of each.
+    /// Scalar curves, each with a value per frame.
     pub(crate) curves: Vec<Curve>,
     /// Sources and operators of each channel of the body, in order.
     pub(crate) from: BTreeMap<Group, Vec<String>>,
@@ -127,7 +127,7 @@ impl Work {
         }
     }
 
-    /// Takes movement that was made from nothing but notation to work on.
+    /// Takes movement that was generated from notation alone to work on.
     pub(crate) fn made(made: Made, leaf: &str) -> Self {
         Self {
             skeleton: Arc::clone(made.clip.skeleton()),
@@ -184,8 +184,7 @@ impl Work {
         }
     }
 
-    /// Returns the spans over which `side` holds values of `component`, in order of time, as
-    /// indices of notes.
+    /// Returns the spans in which `side` has values of `component`, in order of time, as indices of notes.
     pub(crate) fn held(&self, side: Side, component: Component) -> Vec<usize> {
         let about = About::Component(component, None);
         let mut found: Vec<usize> = (0..self.notes.len())
@@ -198,13 +197,13 @@ impl Work {
         found
     }
 
-    /// Makes a clip of the movement.
+    /// Converts the movement to a clip.
     pub(crate) fn into_clip(self) -> Result<Clip, chereme_motion::ClipError> {
         Clip::new(self.skeleton, self.rate, self.channels)
     }
 }
 
-/// Where joints are and how they are turned in model space over all frames, joint by joint.
+/// The positions and rotations of joints in model space over all frames, joint by joint.
 pub(crate) struct Columns {
     positions: Vec<Option<Vec<DVec3>>>,
     rotations: Vec<Option<Vec<DQuat>>>,
@@ -253,14 +252,14 @@ impl Columns {
         columns
     }
 
-    /// Returns where `joint` is at each frame.
+    /// Returns the positions of `joint`, one per frame.
     pub(crate) fn positions(&self, joint: usize) -> &[DVec3] {
         self.positions[joint]
             .as_deref()
             .expect("kinematics were run for this joint")
     }
 
-    /// Returns how `joint` is turned at each frame.
+    /// Returns the rotations of `joint`, one per frame.
     pub(crate) fn rotations(&self, joint: usize) -> &[DQuat] {
         self.rotations[joint]
             .as_deref()
@@ -269,8 +268,8 @@ impl Columns {
 }
 
 impl Work {
-    /// Samples every channel again: one frame for each entry, at that frame of the old movement or, for a fraction,
-    /// between two; the rate stays.
+    /// Resamples every channel: each entry gives the frame of the old movement for one new frame, interpolated if it is
+    /// a fraction; the rate stays the same.
     pub(crate) fn sample(&mut self, at: &[f64]) {
         let last = (self.frames - 1) as f64;
         let between = |at: f64| {

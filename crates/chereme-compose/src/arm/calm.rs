@@ -1,33 +1,32 @@
-//! Angles over time: reliable ones stay, and the angle moves calmly through unreliable ones.
+//! Smooths angles over time: reliable ones stay, and the angle changes steadily through unreliable ones.
 
 use std::f64::consts::{PI, TAU};
 
-/// How fast an angle may turn beyond its own way before it is doubted, in radians per second.
+/// The change of an angle beyond its `own` change, in radians per second, above which it is doubted.
 const FASTEST: f64 = 5.0;
-/// The times before and after a doubted turn over which it is spread, tried in order, in seconds.
+/// Times before and after a doubted change over which it is spread, tried in order, in seconds.
 const SPREADS: [f64; 4] = [0.05, 0.1, 0.2, 0.4];
-/// The time over which angles of little trust are evened out, in seconds.
+/// The time over which angles of little trust are smoothed, in seconds.
 const EVEN: f64 = 0.04;
 /// The weight of an angle that may not change.
 const FIXED: f64 = 1e9;
 
-/// Angles of one joint, one a frame.
+/// Angles of one joint, one per frame.
 pub(super) struct Angles {
-    /// The angles in radians; those that differ by whole turns are the same.
+    /// The angles in radians; angles that differ by whole turns are the same.
     pub(super) values: Vec<f64>,
-    /// How much each is worth, from 0 to 1; above 1 it must not change.
+    /// The reliability of each angle, from 0 to 1; above 1 the angle must not change.
     pub(super) trust: Vec<f64>,
-    /// The angle's own change from the frame before, if it is known.
+    /// The known change of the source's angle from the frame before; 0 if it is unknown.
     pub(super) own: Vec<f64>,
 }
 
 impl Angles {
-    /// Returns how far each angle is changed so that none turns faster than it should; nothing where
-    /// none needs to.
+    /// Returns the correction of each angle that keeps all from changing too fast; `None` if none is needed.
     ///
-    /// Angles of little trust follow their neighbours of more; where angles still turn too fast, the
-    /// turn is spread over the frames around it. This is least squares: the sum of
-    /// `weight · change²` and of the squares of what steps differ from their own way is least.
+    /// Angles of little trust follow more reliable neighbours; if an angle still changes too fast, the change is spread
+    /// over the frames around it. This is a least-squares solution: it minimises the sum of `weight · change²` and of
+    /// the squared differences between the steps and their `own` changes.
     pub(super) fn calmed(mut self, frame_time: f64) -> Option<Vec<f64>> {
         self.unwrap();
         let fastest = FASTEST * frame_time;
@@ -60,7 +59,7 @@ impl Angles {
         Some(changes.collect())
     }
 
-    /// Takes whole turns out, each angle against the last one that can be trusted and its own way since.
+    /// Removes whole turns: each angle becomes the one nearest to the last reliable angle plus its `own` changes since.
     fn unwrap(&mut self) {
         let mut last = self.values.first().copied().unwrap_or_default();
         for ((value, trust), own) in self.values.iter_mut().zip(&self.trust).zip(&self.own) {
@@ -81,10 +80,10 @@ fn weight(trust: f64) -> f64 {
     1e-4 + 4.0 * trust * trust / (1.001 - trust)
 }
 
-/// Solves for the values that are near the given ones by weight and whose steps are near `own`.
+/// Returns the values that are near the given ones by weight, and whose steps are near `own`.
 fn evened(values: &[f64], weights: &[f64], own: &[f64], stiff: f64) -> Vec<f64> {
     let len = values.len();
-    // The equations are tridiagonal, with the same number beside the diagonal everywhere.
+    // The equations are tridiagonal; all entries beside the diagonal are equal.
     let mut above = vec![0.0; len];
     let mut solved = vec![0.0; len];
     for n in 0..len {

@@ -1,27 +1,28 @@
-//! One angle a frame that is left free, chosen so that nothing jumps that can be kept from it.
+//! Chooses one free angle per frame so that avoidable jumps disappear.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use chereme_motion::glam::{DQuat, DVec3};
 
-/// The time before and after over which angles make way, in seconds.
+/// The time before and after a jump over which angles change, in seconds.
 const EVEN: f64 = 0.25;
-/// The weight of a turn beyond the limit against an equal change of an angle.
+/// The weight of a rotation beyond the limit, relative to an equal change of an angle.
 const TOO_FAR: f64 = 2e6;
 /// The weight of an angle that must stay.
 const FIXED: f64 = 1e9;
-/// The most steps towards the least sum, and the longest of one angle, in radians.
+/// The most iterations.
 const STEPS: usize = 40;
+/// The longest step of one angle, in radians.
 const LONGEST: f64 = 0.3;
 
-/// By how much something turns too far from a frame to the next, in radians, and how that changes
-/// with the angle at the one and at the other.
+/// The rotation beyond the limit between two frames, in radians, and its derivatives by the angles of the first and the
+/// second frame; `None` within the limit.
 pub(super) type Excess = Option<(f64, [f64; 2])>;
 
-/// A direction that a free angle takes about a line; both are unit vectors.
+/// A direction that rotates about a line by a free angle; both are unit vectors.
 pub(super) struct Circle {
     pub(super) line: DVec3,
-    /// The direction at angle nought.
+    /// The direction at angle zero.
     pub(super) start: DVec3,
 }
 
@@ -31,14 +32,14 @@ impl Circle {
         along + (self.start - along) * angle.cos() + self.line.cross(self.start) * angle.sin()
     }
 
-    /// Returns whether no direction turns by more than `most` from one frame to the next.
+    /// Returns whether no direction rotates by more than `most` from one frame to the next at angle zero.
     pub(super) fn is_calm(all: &[Self], most: f64) -> bool {
         let least = most.min(PI).cos();
         all.windows(2)
             .all(|two| two[0].start.dot(two[1].start) >= least)
     }
 
-    /// Returns by how much more than `most` the direction turns from one frame to the next.
+    /// Returns the rotation of the direction beyond `most` from one frame to the next.
     pub(super) fn excess(two: [&Self; 2], angles: [f64; 2], most: f64) -> Excess {
         let [before, now] = [0, 1].map(|n| two[n].at(angles[n]));
         let turn = before.angle_between(now);
@@ -53,22 +54,22 @@ impl Circle {
     }
 }
 
-/// A rotation that a free angle goes on with about a line, a unit vector.
+/// A rotation that is followed by a rotation about a line, a unit vector, by a free angle.
 pub(super) struct Turned {
     pub(super) line: DVec3,
-    /// The rotation at angle nought.
+    /// The rotation at angle zero.
     pub(super) start: DQuat,
 }
 
 impl Turned {
-    /// Returns whether no rotation turns by more than `most` from one frame to the next.
+    /// Returns whether no rotation changes by more than `most` from one frame to the next at angle zero.
     pub(super) fn is_calm(all: &[Self], most: f64) -> bool {
         let least = (most / 2.0).min(FRAC_PI_2).cos();
         all.windows(2)
             .all(|two| two[0].start.dot(two[1].start).abs() >= least)
     }
 
-    /// Returns by how much more than `most` the rotation turns from one frame to the next.
+    /// Returns the change of the rotation beyond `most` from one frame to the next.
     pub(super) fn excess(two: [&Self; 2], angles: [f64; 2], most: f64) -> Excess {
         let at = |n: usize| DQuat::from_axis_angle(two[n].line, angles[n]) * two[n].start;
         let way = |n: usize, at: DQuat| DQuat::from_vec4(two[n].line.extend(0.0)) * at;
@@ -83,11 +84,12 @@ impl Turned {
     }
 }
 
-/// Returns the angles, starting from zero, for which the excess turn is least; `None` if nothing turns too far at
-/// zero. Those that are `fixed` stay.
+/// Returns the angles that minimise the rotation beyond the limits, starting from zero; `None` if nothing exceeds its
+/// limit at zero. `fixed` angles stay zero.
 ///
 /// Damped Gauss-Newton steps, each a tridiagonal solution, minimise the sum of the squares of the angles, of their
-/// changes from frame to frame, and of the results of `excess` for two frames, the second of them named.
+/// changes from frame to frame, and of the results of `excess`, which takes the index of the second of two frames and
+/// their angles.
 pub(super) fn eased(
     fixed: &[bool],
     frame_time: f64,
@@ -154,10 +156,10 @@ pub(super) fn eased(
     Some(angles)
 }
 
-/// Tridiagonal equations for a step of every angle.
+/// Tridiagonal equations for one step of all angles.
 struct Equations {
     diagonal: Vec<f64>,
-    /// The entries before the diagonal.
+    /// The entries left of the diagonal.
     beside: Vec<f64>,
     right: Vec<f64>,
 }
@@ -175,7 +177,7 @@ impl Equations {
         }
     }
 
-    /// Adds the square of a value that changes with the angles of two frames.
+    /// Adds the square of `value`, whose derivatives by the angles of frames `n - 1` and `n` are given.
     fn add(&mut self, n: usize, weight: f64, value: f64, [before, now]: [f64; 2]) {
         self.diagonal[n - 1] += weight * before * before;
         self.diagonal[n] += weight * now * now;
@@ -208,7 +210,7 @@ mod tests {
     const FRAME: f64 = 1.0 / 120.0;
     const MOST: f64 = 0.07;
 
-    /// An elbow whose wrist passes above the shoulder: the line turns fastest in the middle.
+    /// An elbow while the wrist passes above the shoulder: the line rotates fastest in the middle.
     fn passing() -> Vec<Circle> {
         let at = |n: i32| {
             let line = DVec3::new(f64::from(n - 120) * 0.02, 0.2, 0.0).normalize();

@@ -1,5 +1,4 @@
-//! Turns of arms about the line from shoulder to wrist, and of their bones about their length, over
-//! all frames at once.
+//! Rotates arms about the line from shoulder to wrist, and their bones about their length, over all frames at once.
 
 use std::f64::consts::TAU;
 
@@ -9,13 +8,15 @@ use super::calm::Angles;
 use super::ease::{Circle, Turned, eased};
 use super::{Source, Step, Turns, least_turn, line, off_line};
 
-/// How fast an elbow may go about its shoulder, and how fast upper arm and forearm may turn, beyond the
-/// source's, in radians per second: 3.8 and 4.5 degrees a frame at 120 Hz.
+/// The speed of an elbow about its shoulder beyond the source's, in radians per second: 3.5 degrees per frame at 120
+/// Hz.
 const SWING: f64 = 7.3;
+/// The rotation speed of upper arm and forearm beyond the source's, in radians per second: 4.3 degrees per frame at 120
+/// Hz.
 const TURN: f64 = 9.0;
 
-/// Turns arms about the line from shoulder to wrist so that they move calmly: first the whole arm, then the elbow
-/// alone, if it does not stand as it is built.
+/// Rotates arms about the line from shoulder to wrist so that they move steadily: first the whole arm, then the elbow
+/// alone, if it is not in the direction of its natural bend.
 pub(super) fn swivel(steps: &mut [Step], frame_time: f64) {
     let was = swivels(steps.iter().map(|step| (line(step.was), step.pole)));
     let is = swivels(
@@ -48,8 +49,8 @@ pub(super) fn swivel(steps: &mut [Step], frame_time: f64) {
     }
 }
 
-/// Calms angles about the new lines; of the turns of those about the old ones the share `seen` is
-/// their own way.
+/// Smooths the angles `is` about the new lines; the share `seen` of the changes of `was`, the angles about the old
+/// lines, counts as their own change.
 fn calmed(
     steps: &[Step],
     was: &[f64],
@@ -71,8 +72,8 @@ fn calmed(
     .calmed(frame_time)
 }
 
-/// Returns the angle of each direction about its line, against a direction that is carried along by
-/// the least turns of the lines.
+/// Returns the angle of each direction about its line, relative to a reference that follows the lines by shortest
+/// rotations.
 fn swivels(arms: impl Iterator<Item = (DVec3, DVec3)>) -> Vec<f64> {
     let mut carried: Option<(DVec3, DVec3)> = None;
     arms.map(|(line, out)| {
@@ -89,7 +90,7 @@ fn swivels(arms: impl Iterator<Item = (DVec3, DVec3)>) -> Vec<f64> {
     .collect()
 }
 
-/// Returns what the least turn from one unit vector to another makes of a vector across the first.
+/// Applies the shortest rotation from one unit vector to another to `across`, a vector at a right angle to the first.
 fn carried_along(from: DVec3, to: DVec3, across: DVec3) -> DVec3 {
     let opposed = 1.0 + from.dot(to);
     if opposed < 1e-9 {
@@ -98,7 +99,7 @@ fn carried_along(from: DVec3, to: DVec3, across: DVec3) -> DVec3 {
     across - (from + to) * (to.dot(across) / opposed)
 }
 
-/// Returns by how much each angle turns from the one before, the short way.
+/// Returns the change of each angle from the one before, in the shorter direction.
 fn own(angles: &[f64]) -> Vec<f64> {
     let turned = |n: usize| match n.checked_sub(1) {
         Some(before) => {
@@ -110,13 +111,12 @@ fn own(angles: &[f64]) -> Vec<f64> {
     (0..angles.len()).map(turned).collect()
 }
 
-/// Returns by how much `q` turns.
+/// Returns the angle of a rotation.
 fn angle(q: DQuat) -> f64 {
     2.0 * q.xyz().length().atan2(q.w.abs())
 }
 
-/// Returns for each frame how far something may turn from the one before: by `more` than `source` says
-/// that it did.
+/// Returns the largest allowed change of each frame from the one before: `more` than the change in the source.
 fn most(frames: usize, more: f64, source: impl Fn(usize, usize) -> f64) -> Vec<f64> {
     let most = |n: usize| {
         n.checked_sub(1)
@@ -129,7 +129,7 @@ fn stay(steps: &[Step]) -> Vec<bool> {
     steps.iter().map(|step| !step.moves).collect()
 }
 
-/// Turns arms about their lines where elbows would jump that could make way.
+/// Rotates arms about their lines if an elbow would jump and can avoid it.
 pub(super) fn ease(source: &Source, steps: &mut [Step], frame_time: f64) {
     let trunk: Vec<DQuat> = source.trunks(steps.len());
     let circles = steps.iter().zip(&trunk).map(|(step, trunk)| Circle {
@@ -160,8 +160,8 @@ pub(super) fn ease(source: &Source, steps: &mut [Step], frame_time: f64) {
     }
 }
 
-/// Lets the bones turn about their length so that neither jumps: the upper arm in the space of the
-/// trunk, the forearm in that of the upper arm.
+/// Rotates the bones about their length so that neither jumps: the upper arm in the space of the trunk, the forearm in
+/// that of the upper arm.
 pub(super) fn twist(source: &Source, steps: &[Step], turns: &mut [Turns], frame_time: f64) {
     let stay = stay(steps);
     let more = TURN * frame_time;
@@ -193,7 +193,7 @@ pub(super) fn twist(source: &Source, steps: &[Step], turns: &mut [Turns], frame_
     }
 }
 
-/// Turns upper arms about their length where they, or forearms in their space, would jump.
+/// Rotates upper arms about their length if they, or forearms in their space, would jump.
 fn twist_upper(
     source: &Source,
     steps: &[Step],
@@ -240,8 +240,8 @@ fn twist_upper(
     }
 }
 
-/// Lets forearms turn about their length as calmly as the source's, which `was` has in the space of
-/// the upper arm.
+/// Makes forearms rotate about their length as steadily as the source's; `was` holds the source's rotations in the
+/// space of the upper arm.
 fn calm_forearm(was: &[DQuat], turns: &mut [Turns], stay: &[bool], frame_time: f64) {
     let Some(mark) = turns.first().map(|turn| turn.bone.any_orthonormal_vector()) else {
         return;

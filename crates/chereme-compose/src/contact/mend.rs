@@ -1,4 +1,4 @@
-//! Wrists moved a little, so that hands touch where they touched.
+//! Moves wrists a little, so that hands touch again where they touched before an operator.
 
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
@@ -8,25 +8,26 @@ use crate::arm;
 use crate::recipe::Solver;
 use crate::work::{Columns, Group, Work};
 
-/// How far a wrist is moved for the same point of the hand to touch, and for any, in metres.
+/// The longest shift of a wrist for the same point of the hand to touch again, in metres.
 const SAME: f64 = 0.06;
+/// The longest shift for any point of the hand to touch, in metres.
 const MOST: f64 = 0.12;
-/// How long a wrist takes to and from a contact that was mended, in seconds.
+/// The time in which a wrist moves to and from a restored contact, in seconds.
 pub(crate) const BLEND: f64 = 0.2;
 
-/// Which contacts an operator is to keep.
+/// The contacts that an operator must keep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Keep {
-    /// None: it takes one hand elsewhere.
+    /// None: it moves one hand elsewhere.
     None,
-    /// Those of the hands with each other: it takes both elsewhere.
+    /// Those of the hands with each other: it moves both elsewhere.
     Hands,
     /// Those of these hands with each other and the body.
     All(&'static [Side]),
 }
 
 impl Keep {
-    /// Returns what moving hands elsewhere keeps: their contacts with each other if both move.
+    /// Returns the contacts to keep when these hands are moved elsewhere: those with each other if both move.
     pub(crate) fn between(sides: &[Side]) -> Self {
         match sides.len() {
             2 => Self::Hands,
@@ -36,10 +37,10 @@ impl Keep {
 }
 
 /// Moves wrists so that former contacts touch again, if `keep` asks for it and a small move is enough; returns a
-/// description of the moves. If another point of the hand touches now, that point is the contact from then on.
+/// description of the moves. If another point of the hand touches now, that point is part of the contact from then on.
 ///
-/// The hand that was changed comes to the other; where both were, the weak hand comes first. Turns of
-/// hands stay. Before and after a contact the wrist's way is blended with what it was.
+/// The hand that was changed moves to the other; if both were, the weak hand moves first. Hands keep their rotations.
+/// Before and after a contact the wrist's new path is blended with the old one.
 pub(crate) fn mend(
     work: &mut Work,
     before: &mut Contacts,
@@ -105,9 +106,9 @@ pub(crate) fn mend(
     did
 }
 
-/// Returns by how much the wrist of `side` must be moved at each frame of a contact, and the point of
-/// that hand that touches then: the one that did, or, where that takes much, the one that takes
-/// least. Nothing where the contact is still there, or it takes too much.
+/// Returns the shift of the wrist of `side` at each frame of a contact, and the point of that hand that then touches:
+/// the former one or, if that needs a long shift, the one that needs the shortest. `None` if the contact still exists,
+/// or the shift would be too long.
 fn shift(contact: &Contact, tracks: &Tracks<'_>, side: Side) -> Option<(Vec<DVec3>, usize)> {
     if contact.moved(tracks) < KEPT {
         return None;
@@ -158,8 +159,7 @@ fn told(contact: &Contact, was: &(String, String), side: Side, most: f64) -> Str
     )
 }
 
-/// Fills in what is not said: from the nearest said before to the nearest after, each fading within
-/// `blend` frames.
+/// Fills in missing shifts: fades from the nearest one before to the nearest one after, each within `blend` frames.
 pub(crate) fn blended(shifts: &[Option<DVec3>], blend: usize) -> Vec<DVec3> {
     let blend = blend.max(1);
     let smooth = |share: f64| {

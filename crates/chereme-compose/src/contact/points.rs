@@ -1,11 +1,11 @@
-//! Where points of hands and places on the body are.
+//! Follows points of hands and places on the body.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{ModelPose, Part, Side};
 
 use crate::work::{Columns, Work};
 
-/// The points of a hand that touch.
+/// The points of a hand that may touch something.
 pub(super) const POINTS: [&str; 6] = [
     "palm",
     "thumb-tip",
@@ -14,7 +14,7 @@ pub(super) const POINTS: [&str; 6] = [
     "ring-tip",
     "little-tip",
 ];
-/// The places on the body that are touched.
+/// The places on the body that may be touched.
 pub(super) const PLACES: [&str; 12] = [
     "forehead",
     "left-temple",
@@ -41,17 +41,17 @@ pub(super) fn across(place: usize) -> usize {
     other.unwrap_or(place)
 }
 
-/// How often places that go with several joints are looked for; between, they are interpolated.
+/// The number of frames at which points that depend on several joints are computed; between, they are interpolated.
 const SAMPLES: usize = 16;
 
-/// The farthest that places are from the joint that carries them, in metres.
+/// The largest distance of a place from the joint that carries it, in metres.
 const SPREAD: f64 = 0.35;
 
 /// The joint that carries a point.
 #[derive(Debug, Clone, Copy)]
 struct Anchor {
     joint: usize,
-    /// Where the point is in the joint's space; nothing where it moves in it.
+    /// The point in the joint's space; `None` if it moves there.
     at: Option<DVec3>,
 }
 
@@ -63,8 +63,8 @@ pub(super) struct Anchors {
 }
 
 impl Anchors {
-    /// Finds for each point the joint whose space it never moves in; for places that depend on several joints of
-    /// the trunk, the uppermost of them.
+    /// Finds for each point the joint in whose space it never moves; for places that depend on several joints of the
+    /// trunk, the uppermost of these.
     pub(super) fn of(work: &Work) -> Self {
         let anatomy = &work.anatomy;
         let twisted = [1.0, 2.0].map(|way| twisted(work, way));
@@ -131,7 +131,7 @@ impl Anchors {
         tracks
     }
 
-    /// Returns where in one posture what moves in its joint's space is there, hands first.
+    /// Returns the points that move in their joint's space, in that space, for one posture; hands first.
     fn sampled(&self, work: &Work, model: &ModelPose) -> Vec<Option<DVec3>> {
         let at = |anchor: &Option<Anchor>, name: &dyn Fn() -> String| {
             let anchor = anchor.filter(|anchor| anchor.at.is_none())?;
@@ -160,7 +160,7 @@ fn local(model: &ModelPose, joint: usize, at: DVec3) -> DVec3 {
     model.rotation(joint).inverse() * (at - model.position(joint))
 }
 
-/// Returns the first posture with every joint turned, each another way.
+/// Returns the first posture with every joint rotated differently; each `way` gives other rotations.
 fn twisted(work: &Work, way: f64) -> ModelPose {
     let mut pose = work.pose(0);
     for (n, rotation) in pose.rotations.iter_mut().enumerate() {
@@ -171,19 +171,20 @@ fn twisted(work: &Work, way: f64) -> ModelPose {
     ModelPose::of(&work.skeleton, &pose)
 }
 
-/// Where points of hands and places on the body are at each frame, as far as one asks.
+/// The positions of points of hands and places on the body at each frame, computed on demand.
 pub(super) struct Tracks<'a> {
     work: &'a Work,
     wrists: [Option<usize>; 2],
     anchors: &'a Anchors,
     columns: Columns,
-    /// The points that move in their joint's space, sampled at intervals of frames.
+    /// The interval in frames at which the points in `loose` are sampled.
     step: usize,
+    /// The points that move in their joint's space, hands first, one list per sampled frame.
     loose: Vec<Vec<Option<DVec3>>>,
 }
 
 impl Tracks<'_> {
-    /// Returns where a point of the hand of `side` is; nothing for what the hand lacks.
+    /// Returns the position of a point of the hand of `side`; `None` if the hand lacks it.
     pub(super) fn hand(&self, side: Side, point: usize, frame: usize) -> Option<DVec3> {
         let hand = usize::from(side == Side::Left);
         let anchor = self.anchors.hands[hand][point]?;
@@ -197,14 +198,14 @@ impl Tracks<'_> {
         Some(self.placed(wrist, at, frame))
     }
 
-    /// Returns where a place on the body is; nothing for what the body lacks.
+    /// Returns the position of a place on the body; `None` if the body lacks it.
     pub(super) fn body(&self, place: usize, frame: usize) -> Option<DVec3> {
         let anchor = self.anchors.body[place]?;
         let at = self.local(anchor, 2 * POINTS.len() + place, frame)?;
         Some(self.placed(anchor.joint, at, frame))
     }
 
-    /// Returns where places on the body are, those left out that no palm is within `reach` of.
+    /// Returns the positions of places on the body, without those that are not within `reach` of a palm.
     pub(super) fn body_near(
         &self,
         palms: &[Option<DVec3>; 2],
@@ -230,7 +231,7 @@ impl Tracks<'_> {
         })
     }
 
-    /// Returns where what a hand may touch is: a point of the other hand, or a place on the body.
+    /// Returns the position of something that a hand may touch: a point of the other hand, or a place on the body.
     pub(super) fn touched(&self, other: Option<Side>, place: usize, frame: usize) -> Option<DVec3> {
         match other {
             Some(side) => self.hand(side, place, frame),

@@ -1,8 +1,8 @@
-//! A dictionary of movements between keys, and sentences made of them.
+//! A dictionary of movements between keys, and sentences composed of them.
 //!
-//! A *dikey* is the movement of all parameters of hand and head from the target of one key to that of the next
-//! (Gibert et al. 2004, section 5). Parameters are numbers whose meaning is the caller's: those of a model of the
-//! hand, or angles of joints. Time is in seconds.
+//! A *dikey* is the movement of all parameters of hand and head from the target of one key to that of the next (Gibert
+//! et al. 2004, section 5). The caller defines the meaning of parameters: numbers of a model of the hand, or angles of
+//! joints. Time is in seconds.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -41,21 +41,21 @@ pub struct Dikey {
 pub struct Dictionary {
     dikeys: Vec<Dikey>,
     by_ends: BTreeMap<(DikeyEnd, DikeyEnd), Vec<usize>>,
-    /// Frames a second.
+    /// Frames per second.
     rate: f64,
-    /// Weight and spread within a key of each parameter.
+    /// The weight of each parameter, and its spread within a key.
     scale: Vec<(f64, f64)>,
-    /// The mean of the parameters at each key, and the mean of where each placement is.
+    /// The means of the parameters at each key.
     keys: BTreeMap<DikeyEnd, Vec<f64>>,
     places: BTreeMap<u8, [f64; 3]>,
 }
 
-/// How candidates are weighed.
+/// The weights of the costs of candidates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Costs {
-    /// The weight of a duration that differs by 100 ms.
+    /// The cost of a duration that differs by 100 ms.
     pub duration: f64,
-    /// The weight of a join whose ends differ by the spread within one key.
+    /// The cost of a join whose ends differ by the spread within one key.
     pub join: f64,
 }
 
@@ -68,16 +68,16 @@ impl Default for Costs {
     }
 }
 
-/// A piece of a sentence: which dikey stands for which, and what it cost.
+/// A piece of a sentence: a pair of keys with its dikey, and their cost.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Piece {
-    /// What was wanted.
+    /// The wanted pair of keys.
     pub wanted: (DikeyEnd, DikeyEnd),
-    /// The number of the dikey; nothing for a synthetic ramp between the means of the two keys.
+    /// The index of the dikey; `None` for a synthetic ramp between the means of the two keys.
     pub dikey: Option<usize>,
     /// The recording and the frames that it was cut from.
     pub source: String,
-    /// The ends of the dikey that stands for a missing one.
+    /// The ends of the dikey that replaces a missing one.
     pub instead: Option<(DikeyEnd, DikeyEnd)>,
     /// The cost of its duration.
     pub duration_cost: f64,
@@ -85,11 +85,13 @@ pub struct Piece {
     pub join_cost: f64,
 }
 
-/// Duration and join may at most be stretched and squeezed so far; beyond, the hand is held at the target.
+/// The strongest compression and the longest stretch of a dikey in time; beyond the latter the hand is held at the
+/// target.
 const STRETCH: (f64, f64) = (0.5, 2.5);
 
 impl Dictionary {
-    /// Returns the dikeys between neighbours of `targets`, the key and the frame of each, in order of time.
+    /// Cuts the dikeys between neighbouring targets from a take; `targets` holds the key and the frame of each, in
+    /// order of time.
     #[must_use]
     pub fn cut(rows: &[Vec<f64>], targets: &[(DikeyEnd, usize)], source: &str) -> Vec<Dikey> {
         let mut found = Vec::new();
@@ -107,8 +109,8 @@ impl Dictionary {
         found
     }
 
-    /// Returns a dictionary; `weights` is the variance that each parameter explains, `places` where each placement is.
-    /// Dikeys with fewer than two frames, or of another width, are left out.
+    /// Returns a dictionary; `weights` holds the variance that each parameter explains, `places` the position of each
+    /// placement. Dikeys with fewer than two frames, or of another width, are left out.
     #[must_use]
     pub fn new(
         dikeys: Vec<Dikey>,
@@ -172,13 +174,13 @@ impl Dictionary {
         &self.dikeys
     }
 
-    /// Returns how many of the 1,680 different dikeys of 41 keys it has.
+    /// Returns the number of different dikeys in it, of the 1,680 that 41 keys can have.
     #[must_use]
     pub fn kinds(&self) -> usize {
         self.by_ends.len()
     }
 
-    /// Returns the pairs of keys of a script that it lacks, with how often each occurs.
+    /// Returns the pairs of keys of a script that the dictionary lacks, each with its number of occurrences.
     #[must_use]
     pub fn missing(&self, script: &[Vec<DikeyEnd>]) -> BTreeMap<(DikeyEnd, DikeyEnd), usize> {
         let mut missing = BTreeMap::new();
@@ -190,8 +192,8 @@ impl Dictionary {
         missing
     }
 
-    /// Returns the sentences of a script that would add most, the best first, with how many new dikeys each adds
-    /// after those before it.
+    /// Returns the sentences of a script that would add most dikeys, the best first: the index of each, and the number
+    /// of dikeys that it adds to the ones before it.
     #[must_use]
     pub fn worth_recording(&self, script: &[Vec<DikeyEnd>], most: usize) -> Vec<(usize, usize)> {
         let mut known: BTreeSet<(DikeyEnd, DikeyEnd)> = self.by_ends.keys().copied().collect();
@@ -219,8 +221,8 @@ impl Dictionary {
         chosen
     }
 
-    /// Chooses dikeys for keys with the times of their targets: the least sum of both costs, of equals the lower
-    /// number.
+    /// Chooses dikeys for keys with the times of their targets, so that the sum of both costs is least; among equals,
+    /// the lowest index wins.
     #[must_use]
     pub fn select(&self, wanted: &[(DikeyEnd, f64)], costs: &Costs) -> Vec<Piece> {
         let mut steps: Vec<Vec<Candidate>> = Vec::new();
@@ -248,8 +250,8 @@ impl Dictionary {
         pieces
     }
 
-    /// Returns the candidates for a pair of keys: exact ones, else those of the nearest second placement, else of the
-    /// nearest first placement, else a ramp.
+    /// Returns the candidates for a pair of keys: exact ones, else those whose second placement is the nearest to the
+    /// wanted one, else those with the nearest first placement, else a ramp.
     fn candidates(
         &self,
         from: DikeyEnd,
@@ -324,7 +326,7 @@ impl Dictionary {
             .find_map(|(_, place)| self.by_ends.get(&with(*place)))
     }
 
-    /// Returns the mean of the parameters at a key; at a key that no dikey has, the mean of the nearest that one has.
+    /// Returns the mean of the parameters at a key; if no dikey has that key, the mean at the most similar one.
     fn mean_of(&self, key: DikeyEnd) -> Vec<f64> {
         let alike = |own: &DikeyEnd| {
             u8::from(own.shape != key.shape) * 2 + u8::from(own.placement != key.placement)
@@ -371,8 +373,8 @@ impl Dictionary {
         chosen
     }
 
-    /// Returns the parameters frame by frame, from the first target to the last: each dikey warped to the time
-    /// between its targets, the jump to the next spread over it as a straight ramp.
+    /// Returns the parameters frame by frame, from the first target to the last: each dikey is warped to the time
+    /// between its targets, and the jump to the next one is spread over it as a linear ramp.
     #[must_use]
     pub fn render(&self, pieces: &[Piece], wanted: &[(DikeyEnd, f64)]) -> Vec<Vec<f64>> {
         let ends = |n: usize| -> [Vec<f64>; 2] {
@@ -413,7 +415,7 @@ impl Dictionary {
                     both.map(|(a, b)| a + (b - a) * eased).collect()
                 }
             };
-            // The jump to what follows is spread over the dikey: its end is where the next one starts.
+            // The jump to the next dikey is spread over this one, so that its end is where the next one starts.
             let goal = match pieces.get(n + 1) {
                 Some(_) => Some(ends(n + 1)[0].clone()),
                 None => pieces[n].instead.map(|_| self.mean_of(pieces[n].wanted.1)),
@@ -429,7 +431,7 @@ impl Dictionary {
     }
 }
 
-/// Returns a dikey's parameters at a share of its new time; beyond the greatest stretch it waits at its target.
+/// Returns a dikey's parameters at a share of its new time; beyond the longest stretch it waits at its target.
 fn warped(dikey: &Dikey, share: f64, length: f64, rate: f64) -> Vec<f64> {
     let last = dikey.frames.len() - 1;
     let own = last as f64 / rate;
@@ -611,7 +613,7 @@ mod tests {
             &[1.0, 1.0],
             places(),
         );
-        // 33 after 22 is there, 53 after 22 is not; the chin is nearest to the throat.
+        // The pair from 22 to 33 exists, that to 53 does not; the chin is nearest to the throat.
         let wanted = timed(&[(key(1, 1), 0), (key(2, 2), 10), (key(5, 3), 25)]);
         let pieces = book.select(&wanted, &Costs::default());
         assert_eq!(pieces[1].instead, Some((key(2, 2), key(3, 3))));

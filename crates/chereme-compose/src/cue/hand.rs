@@ -1,4 +1,4 @@
-//! Fingers, hand and arm that show one target after another.
+//! Moves fingers, hand and arm from one target to the next.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Finger, Interpolation, ModelPose, Part, Side};
@@ -11,10 +11,10 @@ use crate::error::Cause;
 use crate::poses::{self, HandPose};
 use crate::work::Work;
 
-/// The way of least jerk from rest to rest.
+/// The minimum-jerk course from rest to rest.
 const COURSE: Interpolation = Interpolation::MinimumJerk;
 
-/// Moves fingers, hand and arm of `side`; returns by how much the wrist misses its way at most, in metres.
+/// Moves fingers, hand and arm of `side`; returns the largest distance of the wrist from its path, in metres.
 pub(super) fn show(
     work: &mut Work,
     side: Side,
@@ -53,7 +53,7 @@ fn time(work: &Work, frame: usize) -> f64 {
     frame as f64 * work.rate.frame_time()
 }
 
-/// Returns the target that is shown or on its way at a time, and the share of the time of its way.
+/// Returns the target that is shown or approached at a time, and the share of the time of its approach.
 fn along(
     targets: &[Target],
     time: f64,
@@ -99,7 +99,7 @@ fn fingers(
     Ok(())
 }
 
-/// Returns how the hand is turned at a place: fingers up and towards the face, the back of the hand to the front.
+/// Returns the rotation of the hand at a place: fingers up and towards the face, the back of the hand to the front.
 fn rotation(work: &Work, side: Side, head: &Head, spot: &Spot) -> Option<DQuat> {
     let level = DVec3::new(-spot.angle.cos(), spot.angle.sin(), 0.0);
     let along = level * spot.lean.cos() - DVec3::Z * spot.lean.sin();
@@ -107,8 +107,8 @@ fn rotation(work: &Work, side: Side, head: &Head, spot: &Spot) -> Option<DQuat> 
     work.anatomy.hand_rotation(side, along, palm)
 }
 
-/// Returns where the tip is that points at a frame: of the index or the middle finger, on the way between both
-/// while the shape changes, and the knuckle of the index at rest.
+/// Returns the position of the pointing tip at a frame: the index or the middle finger's, in between while the shape
+/// changes, and the knuckle of the index finger at rest.
 pub(super) fn tip(
     work: &Work,
     model: &ModelPose,

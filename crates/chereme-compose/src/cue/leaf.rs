@@ -1,4 +1,4 @@
-//! Cued speech as a source of a recipe: what it asks of the corpus, and its movement.
+//! Cued speech as a source of a recipe: its questions to the corpus, and its movement.
 
 use chereme_motion::Side;
 use chereme_sign::Component;
@@ -15,12 +15,12 @@ use crate::work::Work;
 
 /// The body that cues.
 pub(crate) const BODY: Slot<MaterialInput> = Slot::new("cue");
-/// The postures of the code's shapes; that of the hand at rest comes first.
+/// The postures of the code's shapes; the resting hand's comes first.
 const SHAPES: Slot<Vec<HandPose>> = Slot::new("cue/shapes");
 /// The phases measured in the corpus.
 const PHASES: Slot<CuePhases> = Slot::new("cue/by");
 
-/// Asks for the body, the shapes of the code and, if they are wanted, the measured phases.
+/// Asks for the body, the shapes of the code and, if the recipe wants them, the measured phases.
 pub(crate) fn resolve(settings: &Cue, ask: &mut Ask<'_>) -> Result<Setting, Cause> {
     let read = read(settings)?;
     let setting = ask.body(&BODY, settings.on.as_deref())?;
@@ -39,8 +39,8 @@ pub(crate) fn resolve(settings: &Cue, ask: &mut Ask<'_>) -> Result<Setting, Caus
     Ok(setting)
 }
 
-/// Returns the posture of a shape of cued speech: the inventory's own, because every cuer learns the same charts;
-/// captured ones if the inventory has none.
+/// Returns the posture of a shape of cued speech: the inventory's own, because every cuer learns the same charts; a
+/// captured one if the inventory has none.
 fn shape(ask: &Ask<'_>, value: &Value, side: Side, setting: &Setting) -> Result<HandPose, Cause> {
     match &value.meaning {
         Some(Meaning::Hand(angles)) => Ok(HandPose {

@@ -1,8 +1,8 @@
 //! A cuer: cued speech from text or phones, on any body with an arm, fingers and a head.
 //!
-//! Keys come from [`chereme_sign::cue`], their times from [`PhaseRule`]. The tip of the pointing finger goes from place
-//! to place of the head along minimum-jerk ways that bend around the lips, the fingers change from shape to shape,
-//! and arm and hand follow; the mouth says the sounds.
+//! Keys come from [`chereme_sign::cue`], their times from [`PhaseRule`]. The tip of the pointing finger moves between
+//! places of the head along minimum-jerk paths that bend around the lips, the fingers change from shape to shape, and
+//! arm and hand follow; the mouth says the sounds.
 //!
 //! After Gibert, Bailly, Elisei, Beautemps & Brun, *Evaluation of a speech cuer* (2004).
 
@@ -28,32 +28,34 @@ use crate::recipe::Cue;
 use crate::work::{Group, Work};
 use places::{Bow, CLEAR, Head, Spot};
 
-/// How many times longer than usual sounds last for people who cue.
+/// Factor on the usual durations of sounds, for people who cue.
 const PACE: f64 = 1.6;
-/// The least time before the first sound, and the time that the hand rests at either end, in seconds.
+/// The least time before the first sound, in seconds.
 const LEAD: f64 = 0.6;
+/// The time for which the hand rests at either end, in seconds.
 const REST: f64 = 0.2;
-/// The time that the hand takes to come to rest, and the shortest silence in which it rests, in seconds.
+/// The time in which the hand comes to rest, in seconds.
 const TO_REST: f64 = 0.4;
+/// The shortest silence in which the hand rests, in seconds.
 const SILENCE: f64 = 0.25;
 /// The name of the place between utterances.
 const AT_REST: &str = "rest";
 /// The number of the shape between utterances.
 const FIST: u8 = 0;
 
-/// A key or the rest between keys, with the times of hand and fingers.
+/// A key, or the rest between keys, with the times of hand and fingers.
 struct Target {
     placement: String,
     shape: u8,
     spot: Spot,
     times: KeyTimes,
-    /// How the tip comes here.
+    /// The bend of the tip's path to it.
     bow: Bow,
-    /// The key's sounds and their span; nothing at rest.
+    /// The span of the key's sounds; `None` at rest.
     key: Option<Span>,
 }
 
-/// Reads what is to be cued.
+/// Reads the text or phones to cue.
 pub(crate) fn read(settings: &Cue) -> Result<Utterance, Cause> {
     let mut french = french::Options::default();
     let mut variants = Vec::new();
@@ -84,14 +86,15 @@ pub(crate) fn read(settings: &Cue) -> Result<Utterance, Cause> {
     Ok(spoken)
 }
 
-/// What cueing did.
+/// The results of cueing.
 pub(crate) struct Done {
     pub(crate) did: Vec<String>,
     pub(crate) warnings: Vec<String>,
     pub(crate) residual: f64,
 }
 
-/// Cues on the body of `work`, whose first frame is its posture; `shapes` are those of the code, the last at rest.
+/// Cues on the body of `work`, whose first frame is its posture; `shapes` are those of the code, the resting one
+/// included.
 pub(crate) fn cue(
     work: &mut Work,
     settings: &Cue,
@@ -172,7 +175,7 @@ pub(crate) fn cue(
     })
 }
 
-/// Returns what the hand shows one after another: rest, the keys, and rest in long silences and at the end.
+/// Returns the successive targets of the hand: rest, the keys, and rest in long silences and at the end.
 fn targets(
     read: &Utterance,
     sounds: &[Sound],
@@ -217,7 +220,7 @@ fn targets(
         {
             let before = targets[targets.len() - 1].times;
             let from = (end + lead).max(before.m2).max(before.d2);
-            // Half of the silence for the way to rest, at most its usual time.
+            // Half of the silence for the path to rest, at most its usual time.
             let to = from + TO_REST.min((sounds[n].a1 - end) / 2.0);
             targets.push(rest(from, to)?);
             own.m2 = own.m2.max(to + 0.06);
@@ -253,7 +256,7 @@ fn targets(
     Ok(targets)
 }
 
-/// Returns how near the pointing tip comes to the lips, and at which frame.
+/// Returns the least distance of the pointing tip from the lips, and its frame.
 fn lips(
     work: &Work,
     side: Side,

@@ -1,16 +1,16 @@
-//! The mouth that speaks what is cued: a curve for each sound.
+//! The mouth that speaks the cued sounds: a curve for each sound.
 
 use chereme_sign::cue::Utterance;
 use chereme_sign::hamnosys::face::Expression;
 
 use crate::made::Curve;
 
-/// How long before a sound the lips begin to form it, in seconds.
+/// The time before a sound at which the lips begin to form it, in seconds.
 const BEFORE: f64 = 0.06;
-/// How long the lips take from one sound to the next, in seconds.
+/// The time in which the lips change from one sound to the next, in seconds.
 const CHANGE: f64 = 0.09;
 
-/// Returns a curve for each sound that the lips show; `lead` is the time of the first sound in seconds.
+/// Returns a curve for each sound that is visible on the lips; `lead` is the time of the first sound in seconds.
 pub(super) fn curves(read: &Utterance, lead: f64, frames: usize, frame_time: f64) -> Vec<Curve> {
     let mut curves: Vec<Curve> = Vec::new();
     for phone in &read.phones {
@@ -54,7 +54,7 @@ fn show(values: &mut [f64], (start, end): (f64, f64), frame_time: f64) {
     }
 }
 
-/// Returns a share that runs from 0 to 1 and is level at both ends.
+/// Returns a smooth share from 0 to 1 whose slope is 0 at both ends.
 fn level(share: f64) -> f64 {
     let share = share.clamp(0.0, 1.0);
     share * share * share * (share * (6.0 * share - 15.0) + 10.0)

@@ -1,4 +1,4 @@
-//! Where the tip of the pointing finger goes, in the space of the head, and where the lips are.
+//! The targets of the pointing fingertip in the space of the head, and the position of the lips.
 //!
 //! Lengths are shares of the head's height from chin to top (about 230 mm): towards the cueing hand, up from the
 //! height of the chin, and forward of the middle of the skull. Places and angles of the forearm follow the
@@ -8,11 +8,11 @@
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Anatomy, Face, ModelPose, Side, Skeleton};
 
-/// The chin and the throat as landmarks have them, in the space of the head.
+/// The chin, as landmarks have it, in the space of the head.
 const CHIN: DVec3 = DVec3::new(0.0, 0.04, 0.44);
-/// How far the tip stays off the contour of the lips at least, in metres.
+/// The least distance of the tip from the contour of the lips, in metres.
 pub(super) const CLEAR: f64 = 0.006;
-/// The distance from the lips that paths are planned for, in metres: more than the least, as faces move.
+/// The distance from the lips with which paths are planned, in metres: more than the least, as faces move.
 const PLANNED: f64 = 0.009;
 
 /// The space of a head, seen from the cueing hand.
@@ -24,27 +24,27 @@ pub(super) struct Head {
     /// The head's height in metres.
     pub(super) size: f64,
     throat: DVec3,
-    /// How far forward the front of the chest is at most.
+    /// The largest distance of the front of the chest forward, in the space of the head.
     chest: f64,
-    /// From the wrist to the end of the middle finger.
+    /// The distance from the wrist to the end of the middle finger.
     hand: f64,
 }
 
-/// A place for the tip, with how the hand comes to it.
+/// A place for the tip, with the posture of the hand there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Spot {
-    /// In the space of the head.
+    /// The position in the space of the head.
     pub(super) at: DVec3,
     /// The angle of forearm and fingers above the horizontal, in radians.
     pub(super) angle: f64,
-    /// How far the fingers lean back towards the face, in radians.
+    /// The angle by which the fingers lean back towards the face, in radians.
     pub(super) lean: f64,
     /// Whether the tip touches the body here.
     pub(super) touches: bool,
 }
 
 impl Head {
-    /// Returns the head's space in a posture; nothing if the skeleton has no head or no trunk.
+    /// Returns the head's space in a posture; `None` if the skeleton has no head or no trunk.
     pub(super) fn of(
         anatomy: &Anatomy,
         skeleton: &Skeleton,
@@ -73,17 +73,17 @@ impl Head {
         Some(head)
     }
 
-    /// Returns a direction of the head in model space.
+    /// Converts a direction from the space of the head to model space.
     pub(super) fn direction(&self, v: DVec3) -> DVec3 {
         self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z
     }
 
-    /// Returns a point of the head in model space.
+    /// Converts a point from the space of the head to model space.
     pub(super) fn point(&self, at: DVec3) -> DVec3 {
         self.origin + self.direction(at) * self.size
     }
 
-    /// Returns a point of model space in the space of the head.
+    /// Converts a point from model space to the space of the head.
     pub(super) fn local(&self, at: DVec3) -> DVec3 {
         let way = (at - self.origin) / self.size;
         DVec3::new(
@@ -93,7 +93,7 @@ impl Head {
         )
     }
 
-    /// Returns the place of that name; nothing if it is unknown.
+    /// Returns the place with that name; `None` if it is unknown.
     pub(super) fn spot(&self, placement: &str) -> Option<Spot> {
         let spot = |at: [f64; 3], angle: f64, lean: f64, touches| Spot {
             at: DVec3::from(at),
@@ -115,15 +115,15 @@ impl Head {
     }
 }
 
-/// How far before the front of the chest the wrist is while the hand is at the throat, in heights of the head: half of a
+/// The distance of the wrist in front of the chest while the hand is at the throat, in heights of the head: half of a
 /// forearm, and a shirt.
 const BEFORE_CHEST: f64 = 0.45;
-/// The farthest that fingers lean back towards the throat, in radians.
+/// The largest angle by which fingers lean back towards the throat, in radians.
 const FARTHEST_LEAN: f64 = 1.2;
 
 impl Head {
-    /// Returns the spot at the throat, in front of a collar: the fingers lean so that the wrist stays before the chest,
-    /// however deep that is, and the tip comes forward where leaning is not enough.
+    /// Returns the spot at the throat, in front of a collar: the fingers lean so that the wrist stays in front of the
+    /// chest, however deep that is, and the tip moves forward if leaning is not enough.
     fn at_throat(&self, usual: Spot) -> Spot {
         let mut at = self.throat + DVec3::new(0.04, 0.0, 0.13);
         let wanted = self.chest + BEFORE_CHEST - at.z;
@@ -134,10 +134,10 @@ impl Head {
     }
 }
 
-/// Returns how far a point of the head's space is outside of the lips of a face, seen from the front, in metres;
-/// negative inside.
+/// Returns the distance in metres of a point in the head's space from the lips of a face, seen from the front; negative
+/// inside.
 ///
-/// The contour is an ellipse about the mouth that grows as the jaw drops and the corners go apart.
+/// The contour is an ellipse about the mouth that grows as the jaw drops and the corners move apart.
 pub(super) fn clearance(at: DVec3, face: &Face, size: f64) -> f64 {
     let jaw = face.jaw.clamp(0.0, 1.0);
     let middle = DVec3::new(0.0, 0.21 - 0.035 * jaw, 0.0);
@@ -157,16 +157,16 @@ pub(super) fn clearance(at: DVec3, face: &Face, size: f64) -> f64 {
     nearest * size * if inside { -1.0 } else { 1.0 }
 }
 
-/// By how much a path between two places bends, at its middle.
+/// The bend of a path between two places, at its middle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Bow {
-    /// In the space of the head.
+    /// The displacement in the space of the head.
     by: DVec3,
 }
 
 impl Bow {
-    /// Returns the bow of the way between two places: forward, away from the face, and outwards as far as the
-    /// lips ask for.
+    /// Returns the bow of the path between two places: forward, away from the face, and outwards as far as the lips
+    /// require.
     pub(super) fn between(from: &Spot, to: &Spot, size: f64) -> Self {
         let far = from.at.distance(to.at);
         let forward = if from.touches || to.touches {
@@ -174,7 +174,7 @@ impl Bow {
         } else {
             0.0
         };
-        // The mouth as wide and as open as it goes in speech.
+        // The mouth as wide and open as in speech.
         let open = Face {
             jaw: 0.75,
             wide: 0.8,
@@ -197,14 +197,14 @@ impl Bow {
         bow
     }
 
-    /// Returns the bow of a small movement away and back, with which a key is shown a second time.
+    /// Returns the bow of a small movement away and back, which shows a key a second time.
     pub(super) fn renewed() -> Self {
         Self {
             by: DVec3::new(0.02, 0.0, 0.07),
         }
     }
 
-    /// Returns where the tip is after a share of the way.
+    /// Returns the position of the tip after a share of the path.
     pub(super) fn at(&self, from: &Spot, to: &Spot, share: f64) -> DVec3 {
         let bend = (std::f64::consts::PI * share).sin();
         from.at.lerp(to.at, share) + self.by * (bend * bend)

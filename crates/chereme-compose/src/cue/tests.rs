@@ -40,7 +40,7 @@ fn settings(text: &str, phase: PhaseRule) -> Cue {
     }
 }
 
-/// Straight fingers for every shape but that of rest.
+/// Straight fingers for every shape except the resting one.
 fn shapes() -> Vec<(u8, HandPose)> {
     let pose = |number: u8| {
         let mut angles = HandAngles::default();
@@ -100,7 +100,7 @@ fn the_tip_is_at_its_place_at_every_target_whatever_the_axes_and_the_rule() {
                     .landmark(&work.skeleton, &model, &name)
                     .expect("a tip");
                 let at = head.point(head.spot(&key.placement).expect("a place").at);
-                // The fingers may still be on their way by another rule than the paper's.
+                // Under rules other than the paper's the fingers may still be moving.
                 if phase == PhaseRule::Paper {
                     assert!(
                         tip.distance(at) < 0.01,

@@ -1,13 +1,13 @@
-//! When the hand moves and the fingers change for each key, by a rule of phases.
+//! Computes the times at which the hand and the fingers move for each key, by a rule of phases.
 
 use chereme_sign::cue::Key;
 use serde::{Deserialize, Serialize};
 
-/// Which rule says when the hand is where.
+/// The rule that decides when the hand moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PhaseRule {
-    /// Gibert et al. (2004): the target in the middle of the consonant, at the start of a vowel or consonant alone.
+    /// Gibert et al. (2004): the target is in the middle of a consonant, or at the start of a vowel or consonant alone.
     #[default]
     Paper,
     /// Attina et al. (2003, 2005): shares of the key's length, measured on one cuer in a laboratory.
@@ -42,28 +42,28 @@ impl PhaseRule {
         }
     }
 
-    /// Returns whether this is the usual one.
+    /// Returns whether this is the default rule.
     #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
 }
 
-/// Measured phases: the median of (target − start of the sound) in seconds, by type of key, with their counts.
+/// Measured phases: the median of (target − start of the sound), by type of key, with their counts.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CuePhases {
-    /// Of a consonant with a vowel, as a share of the consonant.
+    /// For a consonant with a vowel, as a share of the consonant.
     pub pair: f64,
-    /// Of a vowel alone, in seconds.
+    /// For a vowel alone, in seconds.
     pub vowel: f64,
-    /// Of a consonant alone, in seconds.
+    /// For a consonant alone, in seconds.
     pub consonant: f64,
-    /// How many keys of each type were measured.
+    /// The number of measured keys of each type: pairs, vowels, consonants.
     pub counts: [usize; 3],
 }
 
-/// The sounds of a key: its type.
+/// The type of a key, by its sounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum KeyType {
     /// A consonant and the vowel after it.
@@ -74,10 +74,10 @@ pub enum KeyType {
     Consonant,
 }
 
-/// The sounds of a key in seconds.
+/// The times of a key's sounds in seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sound {
-    /// What it stands for.
+    /// The type of the key.
     pub kind: KeyType,
     /// The acoustic start of the key.
     pub a1: f64,
@@ -87,25 +87,25 @@ pub struct Sound {
     pub a3: f64,
 }
 
-/// When the hand and the fingers move for a key, in seconds.
+/// The times at which the hand and the fingers move for a key, in seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KeyTimes {
-    /// The hand leaves the place of the key before.
+    /// The hand leaves the place of the previous key.
     pub m1: f64,
     /// The hand is at its target.
     pub m2: f64,
     /// The fingers begin to change.
     pub d1: f64,
-    /// The shape is there.
+    /// The fingers have their new shape.
     pub d2: f64,
 }
 
-/// The share of its length before its start at which the hand leaves for a key (Attina 2005).
+/// The share of the key's length before its start at which the hand leaves for it (Attina 2005).
 const LEAVES: f64 = 0.62;
 /// The least time between two targets, in seconds.
 const APART: f64 = 0.06;
 
-/// Returns the sounds of keys; nothing if a key has no times.
+/// Returns the sounds of keys; `None` if a key has no times.
 #[must_use]
 pub fn sounds(keys: &[Key]) -> Option<Vec<Sound>> {
     let mut sounds: Vec<Sound> = Vec::with_capacity(keys.len());
@@ -114,7 +114,7 @@ pub fn sounds(keys: &[Key]) -> Option<Vec<Sound>> {
         let (mut a1, a3) = (span.start().seconds(), span.end().seconds());
         let glides = n > 0 && key.from.len() == 1 && keys[n - 1].from.last() == key.from.first();
         if glides {
-            // The second placement of a diphthong has the second half of it.
+            // The second placement of a diphthong gets the second half of its time.
             a1 = (a1 + a3) / 2.0;
             if let Some(before) = sounds.last_mut() {
                 before.a3 = a1;
@@ -131,10 +131,10 @@ pub fn sounds(keys: &[Key]) -> Option<Vec<Sound>> {
     Some(sounds)
 }
 
-/// Returns when hand and fingers move for each of the sounds.
+/// Returns the times at which hand and fingers move for each key.
 ///
-/// A movement never begins before the one before it has come to its target; targets keep the time that the
-/// rule gives, unless the one before it is later or nearly as late.
+/// A movement never begins before the previous one has reached its target. Targets keep the times of the rule, unless
+/// the previous target is later or nearly as late.
 #[must_use]
 pub fn times(sounds: &[Sound], rule: PhaseRule, measured: &CuePhases) -> Vec<KeyTimes> {
     let mean =
@@ -153,7 +153,7 @@ pub fn times(sounds: &[Sound], rule: PhaseRule, measured: &CuePhases) -> Vec<Key
     all
 }
 
-/// Returns what a rule says of one key, whatever stands before it; `mean` is the mean length of keys.
+/// Returns the times that a rule gives for one key, regardless of other keys; `mean` is the mean length of keys.
 fn wanted(sound: &Sound, rule: PhaseRule, measured: &CuePhases, mean: f64) -> KeyTimes {
     let (a1, d) = (sound.a1, sound.a3 - sound.a1);
     let consonant = sound.a2 - a1;

@@ -1,4 +1,4 @@
-//! `amplify`: the hands' paths grown or shrunk about their middle.
+//! `amplify`: enlarges or shrinks the hands' paths about their middle.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -20,11 +20,11 @@ use crate::text::{Parsed, Parser};
 use crate::units::{Factor, Hands};
 use crate::work::{Group, Work};
 
-/// Settings of `amplify both 1.5`: the hands' paths grow about their middle.
+/// Settings of `amplify both 1.5`: enlarges the hands' paths about their middle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Amplify {
-    /// The hands whose movement changes, about one middle where both do.
+    /// The hands whose movement changes; two hands have one common middle.
     #[serde(default = "crate::recipe::both")]
     pub hand: Hands,
     /// The factor for distances from the middle of the movement.

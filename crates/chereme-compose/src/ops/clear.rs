@@ -1,4 +1,4 @@
-//! Hands that were placed, kept out of head and trunk.
+//! Keeps placed hands out of head and trunk.
 
 use std::ops::Range;
 
@@ -11,25 +11,26 @@ use crate::notation::stage::Torso;
 use crate::recipe::Solver;
 use crate::work::{Columns, Group, Work};
 
-/// The head beside its height from chin to top: half its breadth, height and depth, a little within the places of the
-/// face, which hands touch; and where its middle is above the chin.
+/// Half of the head's breadth, height and depth, as shares of its height from chin to top; a little within the places
+/// of the face, which hands touch.
 const HEAD: [f64; 3] = [0.33, 0.49, 0.42];
+/// The height of the head's middle above the chin, as a share of the head's height.
 const MIDDLE: f64 = 0.5;
-/// How deep a joint of a finger may be in a body without skin, in metres.
+/// The depth in metres that a joint of a finger may have in a body without skin.
 const SKIN: f64 = 0.01;
-/// The most rounds of moving hands out before the rest is reported.
+/// The most rounds of moving hands out; the report describes the rest.
 const ROUNDS: usize = 4;
 
-/// How a hand was kept out of the body.
+/// The displacement that kept a hand out of the body.
 pub(crate) struct Cleared {
-    /// How far it was moved in each frame.
+    /// The displacement in each frame.
     ways: Vec<DVec3>,
-    /// How deep it still is, in metres.
+    /// The remaining depth in the body, in metres.
     deep: f64,
 }
 
 impl Cleared {
-    /// Returns how far the hand was moved away in the frames that count.
+    /// Returns the largest displacement in these frames.
     pub(crate) fn at(&self, frames: &Range<usize>) -> f64 {
         let ways = self.ways.get(frames.clone()).unwrap_or_default();
         ways.iter().map(|way| way.length()).fold(0.0, f64::max)
@@ -109,7 +110,7 @@ pub(crate) fn clear(work: &mut Work, before: &Work, side: Side, solver: Solver) 
     Some(Cleared { ways: all, deep })
 }
 
-/// The longest way out of the body of any joint or tip of a hand, frame by frame.
+/// For each frame the longest vector by which a joint or tip of a hand would leave the body.
 struct Depths(Vec<DVec3>);
 
 impl Depths {
@@ -195,7 +196,7 @@ impl Skull {
         })
     }
 
-    /// Returns the way by which a point in the head leaves it, straight away from its middle.
+    /// Returns the vector by which a point in the head leaves it, straight away from the head's middle.
     fn way_out(&self, at: DVec3) -> DVec3 {
         let way = at - self.middle;
         let shares: [f64; 3] =

@@ -1,4 +1,4 @@
-//! `configure`: other hand shapes over the spans in which the sign holds its own.
+//! `configure`: gives the hands other shapes over the spans in which the sign has its own.
 
 use std::ops::Range;
 
@@ -34,9 +34,9 @@ pub struct Configure {
     /// The hands that change.
     #[serde(default = "crate::recipe::dominant")]
     pub hand: Hands,
-    /// One value for the whole sign, or one for each configuration that the sign holds in turn.
+    /// One value for the whole sign, or one for each of its successive configurations.
     pub values: Vec<Choice>,
-    /// Into and out of each value, and from one to the next.
+    /// The transition into and out of each value, and from one to the next.
     #[serde(default, skip_serializing_if = "Transition::is_default")]
     pub via: Transition,
 }
@@ -127,14 +127,14 @@ impl Operator for Configure {
     }
 }
 
-/// The usual time of a hand from one shape to another, in seconds.
+/// The usual time in which a hand changes its shape, in seconds.
 const CHANGE: f64 = 0.2;
 
-/// Gives `side` the values, one for the whole sign or one for each span; nothing keeps a span's own.
+/// Gives the hand of `side` the values, one for the whole sign or one for each span; `None` keeps a span's own.
 ///
-/// Only joints below the wrist change. Between two spans the fingers go from one value to the next,
-/// over the time that the sign itself takes for it, or `time`; where a span begins after the sign or
-/// ends before it they go from and to the sign's own movement.
+/// Only joints below the wrist change. Between two spans the fingers go from one value to the next, in the time that
+/// the sign itself takes for it, or `time`; before the first span and after the last they come from and return to the
+/// sign's own movement.
 pub(crate) fn configure(
     work: &mut Work,
     side: Side,
@@ -240,7 +240,7 @@ impl Stretch {
     }
 }
 
-/// Writes one joint's values over their stretches, then the ways between them.
+/// Writes the key values of one joint over their spans, then the transitions between them.
 fn overwrite(
     work: &mut Work,
     joint: usize,
@@ -289,8 +289,8 @@ fn overwrite(
     }
 }
 
-/// Returns the frames in which one value becomes the next: the gap between their spans, as long as
-/// asked for in its middle, or, where the spans leave none, up to a third of each.
+/// Returns the frames in which one value becomes the next: the gap between their spans or, if a time is asked for, the
+/// middle of the gap; if the gap is too short, also up to a third of each span.
 fn between(from: usize, to: usize, length: usize, asked: bool, spans: &[Stretch]) -> Range<usize> {
     let gap = to - from;
     if gap >= length || (gap > 0 && !asked && gap * 2 >= length) {

@@ -1,4 +1,4 @@
-//! `span` and `trim`: a part of the movement, and the movement without its rest.
+//! `span` and `trim`: cut a part out of the movement, or remove rest at its ends.
 
 use std::ops::Range;
 
@@ -20,14 +20,14 @@ use crate::ops::{Done, Field, FieldSetting, Operator, Syntax};
 use crate::text::{Parsed, Parser, list};
 use crate::units::Seconds;
 
-/// Settings of `span 0.4s..1.9s`, `span 0.4s..`, `span ..1.9s`: the part of the movement that is kept.
+/// Settings of `span 0.4s..1.9s`, `span 0.4s..`, `span ..1.9s`: the part of the movement to keep.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cut {
-    /// The time at which it begins; without one at the first frame.
+    /// The time at which it begins; `None` for the first frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<Seconds>,
-    /// The time before which it ends; without one after the last frame.
+    /// The time at which it ends; `None` for the end of the last frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<Seconds>,
 }
@@ -53,7 +53,7 @@ impl Display for Cut {
     }
 }
 
-/// Writes the two ends alone: `0.4s..1.9s`.
+/// Prints the two ends alone: `0.4s..1.9s`.
 pub(crate) struct Part<'a>(pub(crate) &'a Cut);
 
 impl Display for Part<'_> {
@@ -86,7 +86,7 @@ impl Operator for Cut {
     }
 }
 
-/// The operator that leaves the rest out; it has no settings.
+/// The operator that removes rest at both ends; it has no settings.
 pub(crate) struct Trim;
 
 impl Syntax for Trim {
@@ -140,7 +140,7 @@ pub(crate) fn span(work: &mut Work, cut: &Cut, operator: &str) -> Result<Vec<Str
     Ok(did)
 }
 
-/// Keeps the activity; a movement without rest stays as it is.
+/// Keeps the active frames; a movement without rest stays unchanged.
 pub(crate) fn trim(work: &mut Work, operator: &str) -> Result<Vec<String>, Cause> {
     let channels = work.channels.clone();
     let clip = Clip::new(work.skeleton.clone(), work.rate, channels)?;

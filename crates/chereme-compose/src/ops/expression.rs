@@ -1,4 +1,4 @@
-//! `nonmanual … over … by phases`: an expression of the face carried over to other signs, phase by phase.
+//! `nonmanual … over … by phases`: transfers an expression of the face to other signs, phase by phase.
 
 use std::sync::Arc;
 
@@ -15,19 +15,19 @@ use crate::resolve::ExpressionInput;
 use crate::sources::Material;
 use crate::work::{Group, Work, groups};
 
-/// The longest time in seconds in which an expression grows out of what the face did before, or fades into what follows.
+/// The longest time in which an expression fades in or out, in seconds.
 const BLEND: f64 = 0.2;
-/// The time of that outside of an expression without an onset or offset.
+/// The fading time before and after an expression without an onset or offset, in seconds.
 const LEAD: f64 = 0.1;
-/// A phase shorter than this counts as empty.
+/// The length in seconds below which a phase counts as empty.
 const EMPTY: f64 = 1e-6;
-/// A mouth that moves less than this is at rest.
+/// The value up to which a curve of the mouth counts as at rest.
 const QUIET: f64 = 0.05;
 
-/// Gives head, trunk and face an expression of another performance, each phase stretched onto the same phase here.
+/// Gives head, trunk and face an expression from another performance, each phase stretched to the same phase here.
 ///
-/// Outside of the expression everything stays as it was. A mouth that moves in these signs keeps its own movement, and a
-/// trunk takes the other's turns from M1 on, so that it stays where it stands.
+/// Outside of the expression nothing changes. A mouth that moves in these signs keeps its own movement. The trunk adds
+/// the other's rotations relative to M1 to its own, so that it keeps its posture.
 pub(crate) fn expression(
     work: &mut Work,
     donor: &Material,
@@ -88,7 +88,7 @@ pub(crate) fn expression(
     Ok(did)
 }
 
-/// Returns the milestones that the expression gets here.
+/// Returns the milestones of the expression in this movement.
 fn target(work: &Work, over: Option<Over>, given: &ExpressionInput) -> Milestones {
     let whole = work.span();
     let part = match over {
@@ -119,7 +119,7 @@ fn target(work: &Work, over: Option<Over>, given: &ExpressionInput) -> Milestone
     })
 }
 
-/// Returns the milestones over the signs whose middle lies in `part`; `None` without such a sign.
+/// Returns milestones over the signs whose middles lie in `part`; `None` without such a sign.
 fn signed(work: &Work, part: Span, function: &Function) -> Option<Milestones> {
     let glosses = work.notes.iter().filter(|note| note.about == About::Gloss);
     let mut signs: Vec<Span> = glosses.map(|note| note.span).collect();
@@ -132,7 +132,7 @@ fn signed(work: &Work, part: Span, function: &Function) -> Option<Milestones> {
     milestones(&signs, first..last + 1, function, EDGE)
 }
 
-/// Which moment of an expression is shown when, and how much of it.
+/// Maps times of the movement to times of the expression, and gives its weight.
 struct Course {
     own: Milestones,
     target: Milestones,
@@ -140,7 +140,8 @@ struct Course {
 }
 
 impl Course {
-    /// Returns the moment of the expression in seconds; its nearest end outside of it.
+    /// Returns the time in the expression, in seconds, for a time of the movement; outside, the expression's nearest
+    /// end.
     fn moment(&self, seconds: f64) -> f64 {
         let (own, there) = (self.own.times(), self.target.times());
         let [from, to] = [there[0], there[4]].map(Instant::seconds);
@@ -155,7 +156,7 @@ impl Course {
         start + share * (end - start)
     }
 
-    /// Returns how much of the expression there is, from 0 to 1.
+    /// Returns the weight of the expression at a time, from 0 to 1.
     fn weight(&self, seconds: f64) -> f64 {
         let [m1, m2, _, m4, m5] = self.target.times().map(Instant::seconds);
         let (in_from, in_to) = match m2 - m1 {
@@ -171,7 +172,7 @@ impl Course {
         smooth(rise).min(smooth(fall))
     }
 
-    /// Returns the moment here at which a moment of the expression is shown.
+    /// Returns the time in the movement for a time of the expression.
     fn here(&self, moment: Instant) -> Instant {
         let (own, there) = (self.own.times(), self.target.times());
         let inside = moment.clamp(own[0], own[4]).seconds();
@@ -189,7 +190,7 @@ fn smooth(share: f64) -> f64 {
     share * share * (3.0 - 2.0 * share)
 }
 
-/// Turns head and trunk as the other does, and returns how many joints of each were turned.
+/// Applies the other performance's rotations to head and trunk; returns the number of joints of each.
 fn turn(
     work: &mut Work,
     other: &Work,
@@ -199,7 +200,7 @@ fn turn(
     let groups = groups(&work.skeleton, &work.anatomy);
     let hips = work.anatomy.joint(Part::Hips);
     let (mut head, mut trunk) = (0, 0);
-    // A frame that is not blended keeps its rotation to the last bit.
+    // A frame outside of the expression keeps its rotation to the last bit.
     let seen = |(frame, _): &(usize, &mut DQuat)| weights[*frame] > 0.0;
     for (joint, group) in groups.iter().enumerate() {
         let theirs = &other.channels[joint].rotations;
@@ -231,7 +232,7 @@ fn turn(
     }
 }
 
-/// Returns the rotation in the form that is nearer to another.
+/// Returns whichever of the two quaternions of a rotation is nearer to another quaternion.
 fn near(to: DQuat, rotation: DQuat) -> DQuat {
     if to.dot(rotation) < 0.0 {
         -rotation
@@ -257,7 +258,7 @@ fn is_of_mouth(curve: &Curve) -> bool {
     }
 }
 
-/// Blends the curves of the face; returns whether the mouth kept its own movement.
+/// Blends the curves of the face by weight; returns whether the mouth kept its own movement.
 fn blend_curves(work: &mut Work, theirs: Vec<Curve>, weights: &[f64], span: Span) -> bool {
     let frames = work.rate.frames_in(span);
     let moves = |curve: &Curve| {
@@ -290,7 +291,7 @@ fn blend_curves(work: &mut Work, theirs: Vec<Curve>, weights: &[f64], span: Span
     mouth
 }
 
-/// Takes over the notes about the expression, in the time that it gets here.
+/// Copies the notes about the expression, at the times that it has in this movement.
 fn take_notes(work: &mut Work, theirs: &[Note], course: &Course) {
     let (here, there) = (course.target.span(), course.own.span());
     let is_carried = |note: &Note| match &note.about {

@@ -1,4 +1,4 @@
-//! `from … to …`: directional verbs between other places.
+//! `from … to …`: moves directional verbs to other places.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -22,22 +22,22 @@ use crate::text::{Parsed, Parser, list, option};
 use crate::units::{Direction, Hands};
 use crate::work::{Columns, Work};
 
-/// Settings of `from me to left`: where a directional verb starts and ends.
+/// Settings of `from me to left`: the new start and end of a directional verb.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Indicate {
-    /// The hands that move; a hand that stays still away from the other keeps its place.
+    /// The hands that move; a hand that stays still, away from the other, keeps its place.
     #[serde(default = "crate::recipe::both")]
     pub hand: Hands,
-    /// Where the movement starts; without one where it did.
+    /// The start of the movement; `None` keeps it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<Spot>,
-    /// Where the movement ends; without one where it did.
+    /// The end of the movement; `None` keeps it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<Spot>,
 }
 
-/// The places of the start and the end that inventories name.
+/// The places of start and end, if inventories name them.
 const ENDS: [Slot<PlaceInput>; 2] = [Slot::new("indicate/from"), Slot::new("indicate/to")];
 
 impl Syntax for Indicate {
@@ -109,7 +109,7 @@ impl Operator for Indicate {
     }
 }
 
-/// A hand that a verb sends elsewhere.
+/// A hand that a directional verb moves.
 struct Sent {
     side: Side,
     path: Vec<DVec3>,
@@ -134,8 +134,8 @@ impl Sent {
         self.path.iter().all(|at| at.distance(self.path[0]) < STILL)
     }
 
-    /// Returns the share of the line from `near` to `far` at which the wrist is within the arm's reach, at the
-    /// start or the end, with the wrist `beside` the hands' middle.
+    /// Returns the largest share of the line from `near` to `far` at which the wrist is within the arm's reach. `end`
+    /// is 0 for the start of the movement and 1 for its end; `beside` is the wrist's offset from the hands' middle.
     fn reaches(&self, end: usize, beside: DVec3, near: DVec3, far: DVec3) -> f64 {
         let most = REACH * self.arm;
         let within =
@@ -148,10 +148,10 @@ impl Sent {
     }
 }
 
-/// How far, as a share of its length, an arm is stretched at most towards what is only a direction.
+/// The largest extension of an arm towards a mere direction, as a share of its length.
 const REACH: f64 = 0.95;
 
-/// Returns the hands that are sent: those that move, if one of them does and the other is not by it.
+/// Returns the hands to move: of two hands only the moving one, if the other stays still and away from it.
 fn sent(work: &Work, sides: &[Side]) -> Result<Vec<Sent>, Cause> {
     let all = sides.iter().map(|&side| Sent::of(work, side));
     let mut all = all.collect::<Result<Vec<_>, _>>()?;
@@ -165,10 +165,10 @@ fn sent(work: &Work, sides: &[Side]) -> Result<Vec<Sent>, Cause> {
     Ok(all)
 }
 
-/// Makes the hands' movement start and end elsewhere: the way between is turned and stretched with
-/// its ends, and the hands turn about the vertical with it.
+/// Moves the start and the end of the hands' movement: the path between is rotated and stretched with its ends, and the
+/// hands rotate about the vertical with it.
 ///
-/// A mere direction, such as `left` or `you`, lies at the end of the arms' reach. A hand that hangs or lies still
+/// A mere direction, such as `left` or `you`, means a place within the arms' reach. A hand that hangs or lies still
 /// while the other one moves stays in its place.
 pub(crate) fn indicate(
     work: &mut Work,
@@ -290,7 +290,8 @@ fn travelled(path: &[DVec3]) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the turn about the vertical from one way to another, where both go sideways at all.
+/// Returns the rotation about the vertical from one vector to another; the identity if either is nearly vertical or
+/// short.
 fn level_turn(from: DVec3, to: DVec3) -> DQuat {
     let level = |v: DVec3| DVec3::new(v.x, 0.0, v.z);
     let (a, b) = (level(from), level(to));

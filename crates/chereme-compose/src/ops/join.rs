@@ -1,4 +1,4 @@
-//! Movement after movement: the frames between them, and how well they meet.
+//! Joins movement after movement, generates the frames between, and measures the joins.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Part, Side};
@@ -8,10 +8,10 @@ use crate::error::Cause;
 use crate::made::{About, Curve, JoinReport, Note};
 use crate::work::{Group, Work};
 
-/// The most joints times frames that are made: about 300 MB of rotations.
+/// The most joints times frames of a result: about 300 MB of rotations.
 const MOST_CELLS: usize = 10_000_000;
 
-/// Returns an error where `frames` of this skeleton are more than is made.
+/// Returns an error if `frames` of this skeleton exceed the limit.
 pub(crate) fn check_length(work: &Work, frames: usize) -> Result<(), Cause> {
     let most = MOST_CELLS / work.skeleton.len();
     if frames > most {
@@ -20,7 +20,7 @@ pub(crate) fn check_length(work: &Work, frames: usize) -> Result<(), Cause> {
     Ok(())
 }
 
-/// The report of a join: its effects, the distance between the hands, and lost contacts.
+/// The report of a join: its effects, measurements, and lost contacts.
 #[derive(Debug, Default)]
 pub(crate) struct Done {
     pub(crate) did: Vec<String>,
@@ -28,16 +28,16 @@ pub(crate) struct Done {
     pub(crate) contacts: Vec<String>,
 }
 
-/// When the channels of one hand leave the first movement and enter the second.
+/// The frames at which the channels of one hand leave the first movement and enter the second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Cut {
-    /// The last frame of the first movement that is played.
+    /// The last frame played from the first movement.
     pub(crate) leave: usize,
-    /// The first frame of the second that is played, counted in the second.
+    /// The first frame played from the second movement, counted in the second.
     pub(crate) enter: usize,
 }
 
-/// Where two movements of the same skeleton and rate meet.
+/// The join of two movements with the same skeleton and rate.
 pub(crate) struct Seam {
     /// The frame of the result at which the second movement's frame 0 would be.
     pub(crate) offset: usize,
@@ -48,7 +48,7 @@ pub(crate) struct Seam {
 }
 
 impl Seam {
-    /// Returns the seam that plays both to their ends with `gap` frames between.
+    /// Returns the seam that plays both movements completely, with `gap` frames between.
     pub(crate) fn plain(first: &Work, gap: usize) -> Self {
         let cut = Cut {
             leave: first.frames - 1,
@@ -69,7 +69,7 @@ impl Seam {
     }
 }
 
-/// Puts `second` behind `first`; both have the same skeleton and rate, and at least a frame.
+/// Appends `second` to `first`; both have the same skeleton and rate, and at least one frame.
 ///
 /// Each channel follows the first up to its cut, goes to the second by its course, and follows the
 /// second from its cut on.
@@ -116,10 +116,10 @@ pub(crate) fn join(
     Ok(reports)
 }
 
-/// The farthest that what is joined may leap, in metres and in metres per second.
+/// The largest jump at a join, in metres and in metres per second.
 const MOST: (f64, f64) = (0.5, 20.0);
 
-/// Refuses a join that tears the movement apart.
+/// Refuses a join with a larger jump.
 fn whole(what: impl Fn() -> String, distance: f64, speed: f64) -> Result<(), Cause> {
     if distance > MOST.0 || speed > MOST.1 {
         let what = what();
@@ -161,8 +161,8 @@ fn extend(first: &mut Work, second: &Work, joint: usize, cut: Cut, offset: usize
     }
 }
 
-/// Moves every curve from its value at the end of the first to its value at the start of the second; a curve of
-/// only one of them is zero in the other.
+/// Moves every curve linearly from its value at the end of the first to its value at the start of the second; a missing
+/// curve counts as zero.
 fn curves(first: &mut Work, second: &Work, seam: &Seam) {
     let (leave, enter) = (seam.body.leave, seam.body.enter);
     let none = |name: &str, frames: usize| Curve {
@@ -219,7 +219,7 @@ fn clipped(span: chereme_motion::Span, within: chereme_motion::Span) -> chereme_
     chereme_motion::Span::between(at(span.start()), at(span.end()))
 }
 
-/// Measures how a wrist goes through both ends of a transition.
+/// Measures the smoothness of a wrist's movement at both ends of a transition.
 fn report(work: &Work, side: Side, seam: &Seam, what: &str) -> Option<JoinReport> {
     let hand = work.anatomy.arm(side)?.hand;
     let cut = seam.cut(Group::Arm(side));
@@ -235,8 +235,8 @@ fn report(work: &Work, side: Side, seam: &Seam, what: &str) -> Option<JoinReport
     })
 }
 
-/// Measures how a joint goes through both ends of a transition: how far it is from where its speed would have brought
-/// it, and the changes of its velocity and acceleration; the larger of both ends.
+/// Measures the smoothness of a joint's movement at both ends of a transition: the distance from the position that its
+/// speed predicts, and the changes of its velocity and acceleration; the larger of both ends.
 fn breaks(work: &Work, joint: usize, cut: Cut, offset: usize) -> [f64; 3] {
     let (leave, enter) = (cut.leave, offset + cut.enter);
     let start = leave.saturating_sub(4);
@@ -258,7 +258,7 @@ fn breaks(work: &Work, joint: usize, cut: Cut, offset: usize) -> [f64; 3] {
     found
 }
 
-/// Returns where `joint` is over some frames.
+/// Returns the positions of `joint` over some frames.
 fn near(work: &Work, joint: usize, frames: std::ops::Range<usize>) -> Vec<DVec3> {
     let mut up: Vec<usize> = work.skeleton.ancestors(joint).collect();
     up.reverse();

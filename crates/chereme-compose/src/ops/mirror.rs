@@ -1,11 +1,10 @@
-//! `swap` and `mirror`: one arm does the movement of the other, across the body's sagittal plane.
+//! `swap` and `mirror`: give one arm the movement of the other, mirrored at the body's sagittal plane.
 //!
-//! With C the rotation of the joint that carries both arms, R that of an arm's joint j and m its
-//! counterpart, all in model space, and a zero for the rest pose, the movement of j relative to the
-//! trunk is `D = (C C₀⁻¹)⁻¹ R_j R_j0⁻¹`. Its mirror image `S D S` (S reflects across the plane between
-//! the shoulders at rest) is given to m: `R_m = C C₀⁻¹ · S D S · K · R_m0`, where K, the shortest
-//! turn, makes up for arms whose bones do not lie symmetrically at rest. Doing it again gives R back.
-//! All this is done joint by joint in local space.
+//! With C the rotation of the joint that carries both arms, R that of an arm's joint j and m its counterpart, all in
+//! model space, and a zero for the rest pose, the movement of j relative to the trunk is `D = (C C₀⁻¹)⁻¹ R_j R_j0⁻¹`.
+//! Its mirror image `S D S` (S reflects across the plane between the shoulders at rest) is given to m: `R_m = C C₀⁻¹ ·
+//! S D S · K · R_m0`, where K, the shortest rotation, compensates for arms whose bones are not symmetric at rest.
+//! Applied twice, this gives R again. All this is done joint by joint in local space.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Part, Side, Skeleton};
@@ -64,7 +63,7 @@ impl Operator for Swap {
     }
 }
 
-/// Settings of `mirror right`: the arm that is copied; without one the dominant.
+/// Settings of `mirror right`: the arm that is copied.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mirror {
@@ -126,7 +125,7 @@ impl Operator for Mirror {
     }
 }
 
-/// Exchanges what the arms do.
+/// Exchanges the movements of the arms.
 pub(crate) fn swap(work: &mut Work) -> Result<Vec<String>, Cause> {
     let plan = Plan::of(work)?;
     let images = plan.pairs.iter().map(|pair| (pair, plan.image(work, pair)));
@@ -139,7 +138,7 @@ pub(crate) fn swap(work: &mut Work) -> Result<Vec<String>, Cause> {
     Ok(did)
 }
 
-/// Makes the other arm do the mirror image of what `from` does.
+/// Gives the other arm the mirror image of the movement of `from`.
 pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> {
     let plan = Plan::of(work)?;
     let copied = plan.pairs.iter().filter(|pair| pair.side == from);
@@ -177,8 +176,8 @@ pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> 
     Ok(did)
 }
 
-/// Says when hands that are each other's mirror image go through each other: when a joint of one is
-/// beyond the plane between them.
+/// Reports hands that are each other's mirror image and pass through each other: a joint of one is beyond the plane
+/// between them.
 fn crossing(work: &Work, plan: &Plan) -> Option<String> {
     let upper = |side| Some(work.anatomy.arm(side)?.upper);
     let (left, right) = (upper(Side::Left)?, upper(Side::Right)?);
@@ -213,7 +212,7 @@ fn arms(sides: &[Side]) -> Vec<Group> {
         .collect()
 }
 
-/// Names the other hand, and the other side in values such as `high-left`.
+/// Replaces the hand by the other one, and the side in values such as `high-left`.
 fn turn_over(note: &mut Note) {
     let manual = |component: &Component| *component != Component::NonManual;
     match (note.hand, &note.about) {
@@ -242,10 +241,10 @@ struct Pair {
     side: Side,
     joint: usize,
     other: usize,
-    /// Turns the counterpart's bone at rest to where the mirror image of this joint's bone is.
+    /// The rotation from the counterpart's bone at rest to the mirror image of this joint's bone.
     even: DQuat,
-    /// The factor that turns the mirror image of the joint's rotation, both in the space of the pair above, into
-    /// the counterpart's.
+    /// Rotations before and after the mirror image of the joint's rotation in the space of the pair above, which turn
+    /// it into the counterpart's.
     around: [DQuat; 2],
     /// Joints between the joint, or its counterpart, and the pair above; the lowest first.
     between: [Vec<usize>; 2],
@@ -255,7 +254,7 @@ struct Plan {
     /// The normal of the sagittal plane at rest in model space.
     normal: DVec3,
     rest: Vec<DQuat>,
-    /// Both ways, parents first.
+    /// All pairs, once for each direction of copying, parents first.
     pairs: Vec<Pair>,
     alone: Vec<String>,
 }
@@ -318,7 +317,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Hangs a pair on the nearest pair above it, or on the trunk.
+    /// Connects a pair to the nearest pair above it, or to the trunk.
     ///
     /// With a the joint of that pair, b its counterpart and V the rotation of j in the space of a,
     /// the first formula of this module gives m in the space of b as
@@ -334,7 +333,7 @@ impl Plan {
             up(pair.joint).any(|joint| joint == above.joint)
                 && up(pair.other).any(|joint| joint == above.other)
         };
-        // Parents stand before their children, so that the nearest pair has the last joint.
+        // Parents come before their children, so that the nearest pair has the last joint.
         let above = self.pairs.iter().filter(is_above).max_by_key(|it| it.joint);
         let (a, b, even) = above.map_or((trunk, trunk, DQuat::IDENTITY), |it| {
             (it.joint, it.other, it.even)
@@ -377,8 +376,8 @@ impl Plan {
         }
     }
 
-    /// Returns the rotations of a joint's counterpart in the space of the pair above, and its places
-    /// where the joint moves.
+    /// Returns the rotations of a joint's counterpart in the space of the pair above, and its places if the joint has
+    /// translations.
     fn image(&self, work: &Work, pair: &Pair) -> Column {
         let own = &work.channels[pair.joint].rotations;
         let [before, after] = pair.around;
@@ -414,7 +413,7 @@ impl Plan {
     fn write(&self, work: &mut Work, mirrored: Vec<(&Pair, Column)>) -> Vec<String> {
         for (pair, column) in mirrored {
             let turned = column.rotations.into_iter().enumerate();
-            // A joint with no counterpart between two that have one is carried along.
+            // A joint without a counterpart, between two that have one, is carried along.
             let local = turned.map(|(frame, rotation)| {
                 (below(work, &pair.between[1], frame).inverse() * rotation).normalize()
             });

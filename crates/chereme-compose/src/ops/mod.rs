@@ -1,8 +1,9 @@
-//! The operators, one module each, and the one list of them.
+//! The operators, one module each, and the list of all.
 //!
-//! An operator is a struct of settings with its text ([`Syntax`]) and its effect ([`Operator`]), both in its module.
-//! To add one, write that module and a row of the list below; the tree, its JSON, the text's parser and printer, the
-//! reserved words, checks, the resolver, the evaluator, the care for contacts and the window's card follow from the row.
+//! An operator is a struct of settings with its text ([`Syntax`]) and its effect ([`Operator`]), both in its module. To
+//! add one, write that module and a row of the list below; the tree, its JSON, the text's parser and printer, the
+//! reserved words, checks, the resolver, the evaluator, the handling of contacts and the window's card follow from the
+//! row.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -57,8 +58,8 @@ pub(crate) trait Operator: Display {
     /// Changes the movement.
     fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause>;
 
-    /// Returns how contacts go through the operator and which it keeps; nothing if it cannot undo any, or sees to
-    /// them itself.
+    /// Returns the effect of the operator on contacts, and those that it must keep; `None` if it cannot lose any, or
+    /// handles them itself.
     fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)>;
 
     /// Returns whether the operator leaves every movement as it is.
@@ -66,12 +67,12 @@ pub(crate) trait Operator: Display {
         false
     }
 
-    /// Returns what becomes of this operator right after another; the other may take this one in.
+    /// Returns the relation of this operator to one directly before it, which may absorb this one.
     fn after(&self, _before: &mut Step) -> Neighbours {
         Neighbours::Apart
     }
 
-    /// Returns the settings that a form shows with its usual fields; none for a form of the operator's own.
+    /// Returns the settings that a form shows with common fields; empty for an operator with a form of its own.
     fn fields(&mut self) -> Vec<FieldSetting<'_>> {
         Vec::new()
     }
@@ -83,22 +84,22 @@ pub(crate) trait Syntax: Operator + Sized {
     const NAME: &'static str;
     /// The words that begin the text.
     const WORDS: &'static [&'static str] = &[Self::NAME];
-    /// Further words with a meaning; names that equal one are quoted.
+    /// Further words with a meaning; names that equal one of them are quoted.
     const KEYWORDS: &'static [&'static str] = &[];
 
     /// Reads the settings after `word`, the word that began the operator.
     fn parse(parser: &mut Parser<'_>, word: &str) -> Parsed<Self>;
 
-    /// Returns an operator to begin with, with a visible effect or an empty name.
+    /// Returns an operator for a new form, with a visible effect or an empty name.
     fn usual() -> Self;
 }
 
-/// What becomes of two operators in a row.
+/// The relation of two successive operators.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Neighbours {
-    /// Both are taken.
+    /// Both are applied.
     Apart,
-    /// The first one took the second in.
+    /// The first absorbed the second.
     One,
     /// They cancel out.
     Nothing,
@@ -113,7 +114,7 @@ pub(crate) struct Done {
     pub(crate) language: Option<Language>,
     pub(crate) hands: Vec<HandReport>,
     pub(crate) joins: Vec<JoinReport>,
-    /// Contacts that it undid.
+    /// Contacts that it lost.
     pub(crate) lost: Vec<String>,
     pub(crate) warnings: Vec<String>,
 }
@@ -176,14 +177,14 @@ macro_rules! operators {
                 }
             }
 
-            /// Returns one of every operator, to begin with: with a visible effect or an empty name.
+            /// Returns one of each operator, for a new form: with a visible effect or an empty name.
             #[must_use]
             pub fn usual() -> Vec<Self> {
                 vec![$(operators!(@step $module $name $($settings)?)(Syntax::usual())),*]
             }
 
-            /// Returns the settings that a form shows with its usual fields; none for operators without settings and
-            /// for those that want a form of their own.
+            /// Returns the settings that a form shows with common fields; empty for operators without settings, and for
+            /// those with a form of their own.
             #[must_use]
             pub fn fields(&mut self) -> Vec<FieldSetting<'_>> {
                 match self {
@@ -201,7 +202,7 @@ macro_rules! operators {
                 )),*
             ];
 
-            /// Reads the operator that `word` begins; nothing if it begins none.
+            /// Reads the operator that `word` begins; `None` if it begins none.
             pub(crate) fn parse(parser: &mut Parser<'_>, word: &str) -> Option<Parsed<Self>> {
                 $(if <operators!(@type $module $name $($settings)?)>::WORDS.contains(&word) {
                     let read = Syntax::parse(parser, word);
@@ -246,17 +247,17 @@ operators! {
     Repeat(Repeat) in repeat;
     /// Plays the movement backwards.
     Reverse in reverse;
-    /// Exchanges what the two arms do, across the body's sagittal plane.
+    /// Exchanges the movements of the two arms, mirrored at the body's sagittal plane.
     Swap in mirror;
-    /// Makes one arm do the mirror image of what the other does.
+    /// Gives one arm the mirror image of the other's movement.
     Mirror(Mirror) in mirror;
     /// Makes the movement faster or slower.
     Retime(Retime) in retime with Pace;
-    /// Keeps a part of the movement and leaves the rest out.
+    /// Keeps a part of the movement and removes the rest.
     Span(Cut) in cut;
-    /// Keeps the activity: rest before and after it goes, odd first and last frames with it.
+    /// Keeps the active part: removes rest at both ends, and odd first and last frames.
     Trim in cut;
-    /// Makes a directional verb start or end elsewhere.
+    /// Moves the start or the end of a directional verb.
     Indicate(Indicate) in indicate;
     /// Takes head and face from another sign.
     Nonmanual(Nonmanual) in nonmanual with Over;
@@ -275,7 +276,7 @@ impl Step {
     /// Refuses settings that could never be evaluated.
     ///
     /// # Errors
-    /// [`RecipeError`] naming the setting, and [`RecipeError::Empty`] if one is missing.
+    /// [`RecipeError`] with the setting at fault, and [`RecipeError::Empty`] if one is missing.
     pub fn check(&self) -> Result<(), RecipeError> {
         self.operator().check()
     }

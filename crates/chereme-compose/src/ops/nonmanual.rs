@@ -1,4 +1,4 @@
-//! `nonmanual from`: head and face of another sign.
+//! `nonmanual from`: takes head and face from another sign.
 
 use std::sync::Arc;
 
@@ -26,25 +26,26 @@ use crate::resolve::{ExpressionInput, MaterialInput};
 use crate::text::{Name, Parsed, Parser, list};
 use crate::units::Seconds;
 
-/// Settings of `nonmanual from TOKEN`: head and face of another sign, fitted to this one's time, and of
-/// `nonmanual wh from recording:3 over 0.4s..1.9s by phases`: an expression carried over phase by phase.
+/// Settings of `nonmanual from TOKEN`: head and face of another sign, fitted to this one's time, and of `nonmanual wh
+/// from recording:3 over 0.4s..1.9s by phases`: an expression transferred phase by phase.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Nonmanual {
     /// The other sign's address.
     pub from: String,
-    /// The function of the expression, such as `wh`; without one the only expression that is there.
+    /// The function of the expression, such as `wh`; `None` for the only expression at the address.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub function: Option<String>,
-    /// The part of this movement over which the expression lies; without one all of it.
+    /// The part of this movement for the expression; `None` for all of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over: Option<Over>,
-    /// Whether each phase of the expression is stretched onto the same phase here; else all of it evenly.
+    /// Whether each phase of the expression is stretched to the same phase here; otherwise the whole is stretched
+    /// evenly.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub by_phases: bool,
 }
 
-/// Where an expression lies in a movement.
+/// The times of an expression in a movement.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Over {
@@ -56,7 +57,7 @@ pub enum Over {
 
 /// The other sign.
 const FROM: Slot<MaterialInput> = Slot::new("nonmanual/from");
-/// The expression that is carried over.
+/// The transferred expression.
 const EXPRESSION: Slot<ExpressionInput> = Slot::new("nonmanual/expression");
 
 impl Nonmanual {
@@ -69,7 +70,7 @@ impl Nonmanual {
         }
     }
 
-    /// Returns whether an expression with milestones is carried over, and not all of another sign.
+    /// Returns whether it transfers an expression with milestones, instead of a whole sign.
     #[must_use]
     pub fn is_expression(&self) -> bool {
         self.by_phases || self.over.is_some() || self.function.is_some()
@@ -205,8 +206,7 @@ impl Operator for Nonmanual {
     }
 }
 
-/// Gives head, neck, jaw and eyes the movement they have in another sign, stretched to this one's
-/// time.
+/// Gives head, neck, jaw and eyes their movement from another sign, stretched to this one's time.
 pub(crate) fn nonmanual(
     work: &mut Work,
     donor: &Material,
@@ -249,7 +249,7 @@ pub(crate) fn nonmanual(
         })
         .collect();
     work.notes.extend(notes);
-    // Trunk and shoulders stay this sign's own.
+    // Trunk and shoulders keep this sign's movement.
     let of_body = |curve: &Curve| {
         ["body.", "shoulders."]
             .iter()

@@ -20,7 +20,7 @@ pub(crate) enum Written {
     Sigml,
 }
 
-/// The places of the answers: the body, the signs, and body language that differs from the usual one.
+/// The slots of the answers: the body, the signs, and body language that differs from the default one.
 struct Slots {
     body: Slot<MaterialInput>,
     signs: Slot<Vec<Notated>>,

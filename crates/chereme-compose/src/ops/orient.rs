@@ -1,4 +1,4 @@
-//! `orient`: the hands turned in the world, moving and turning on as they did.
+//! `orient`: rotates the hands in the world; they keep their movement and their own rotations.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{ModelPose, Side};
@@ -31,24 +31,24 @@ pub struct Orient {
     /// The hands that turn.
     #[serde(default = "crate::recipe::dominant")]
     pub hand: Hands,
-    /// Where the palm faces in the middle of the sign.
+    /// The direction of the palm in the middle of the sign.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub palm: Vec<Direction>,
-    /// Where the fingers would point if they were straight.
+    /// The direction of straight fingers in the middle of the sign.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fingers: Vec<Direction>,
-    /// Turns about the signer's own directions, right-handed, in order.
+    /// Rotations about the signer's own directions, right-handed, in order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub by: Vec<Turn>,
 }
 
-/// A turn about one of the signer's directions: `30deg about up`.
+/// A rotation about one of the signer's directions: `30deg about up`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Turn {
-    /// How far; positive is counter-clockwise seen against the direction.
+    /// The angle; positive is counter-clockwise, seen against the direction.
     pub angle: Degrees,
-    /// The direction turned about.
+    /// The axis.
     pub about: Direction,
 }
 
@@ -137,11 +137,11 @@ impl Operator for Orient {
     }
 }
 
-/// The most that wrists bend, in degrees: flexion goes to about 80, extension to 70.
+/// The largest bend of wrists, in degrees: flexion reaches about 80, extension 70.
 const MOST_BEND: f64 = 85.0;
 
-/// Turns each hand by one rotation of the world over the whole movement, so that in its middle the
-/// palm and fingers point as asked.
+/// Applies one rotation in the world to each hand over the whole movement, so that in its middle palm and fingers have
+/// the wanted directions.
 pub(crate) fn orient(
     work: &mut Work,
     settings: &Orient,
@@ -186,11 +186,11 @@ pub(crate) fn orient(
     Ok((did, worst.residual))
 }
 
-/// How far a hand may turn on from where it points in the middle of the sign and still be said to point there, in
-/// radians.
+/// The largest rotation away from the hand's directions in the middle of the sign, in radians, at which the values of
+/// these directions still hold.
 const SAME: f64 = 0.5;
 
-/// Says where palm and fingers point about the middle of the movement.
+/// Notes the directions of palm and fingers around the middle of the movement.
 fn tell(work: &mut Work, frame: &Frame, side: Side, operator: &str) {
     let ways = |work: &Work, at: usize| {
         let model = ModelPose::of(&work.skeleton, &work.pose(at));
@@ -246,7 +246,7 @@ fn wrist_bend(work: &Work, side: Side) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Returns the rotation in model space that the settings ask for.
+/// Returns the rotation in model space for the settings.
 fn turn(work: &Work, frame: &Frame, side: Side, settings: &Orient) -> Result<DQuat, Cause> {
     let model = ModelPose::of(&work.skeleton, &work.pose(work.frames / 2));
     let anatomy = &work.anatomy;
@@ -272,7 +272,7 @@ fn turn(work: &Work, frame: &Frame, side: Side, settings: &Orient) -> Result<DQu
     Ok(turn.normalize())
 }
 
-/// Returns the shortest turn from `from` to `to`; about `axis` if they are opposite.
+/// Returns the shortest rotation from `from` to `to`; about `axis` if they are opposite.
 fn arc(from: DVec3, to: DVec3, axis: DVec3) -> DQuat {
     if from.dot(to) < -1.0 + 1e-9 {
         return DQuat::from_axis_angle(axis, std::f64::consts::PI);

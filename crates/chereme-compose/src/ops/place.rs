@@ -1,4 +1,4 @@
-//! `place`: the hands elsewhere, moving and turned as they were.
+//! `place`: moves the hands elsewhere; they keep their movement and rotations.
 
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
@@ -32,43 +32,43 @@ use crate::units::{Direction, Hands, Length};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
-    /// The hands that move, as one body where both do.
+    /// The hands that move; two hands move by the same displacement.
     #[serde(default = "crate::recipe::both")]
     pub hand: Hands,
-    /// Where to.
+    /// The goal.
     pub to: Goal,
-    /// The point of the hand that comes to the goal; without one the point that touches the body in the sign, else
-    /// the palm. `by` moves all points alike.
+    /// The point of the hand that comes to the goal; `None` for the point that touches the body in the sign, else the
+    /// palm. With `by`, all points move alike.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with: Option<HandPoint>,
-    /// The way the arm's posture is found; `using fabrik`.
+    /// The method that finds the arm's posture; `using fabrik`.
     #[serde(default, skip_serializing_if = "Solver::is_default")]
     pub solver: Solver,
 }
 
-/// Where hands are placed.
+/// The goal of a placement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Goal {
-    /// Moved by the sum of these, each in the signer's own directions.
+    /// A displacement by the sum of these, each in the signer's own directions.
     By(Vec<Leg>),
-    /// At a placement of an inventory.
+    /// A placement of an inventory.
     At(String),
-    /// At a point of body space: metres to the left, up from the floor, and forward.
+    /// A point of body space: metres to the left, up from the floor, and forward.
     AtPoint([Length; 3]),
-    /// Where the hand is in another sign, by its address, and moved on from there.
+    /// The hand's position in another sign, by its address, plus a displacement.
     Near {
         /// The other sign.
         of: String,
-        /// How far beside it.
+        /// The displacement from there.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         by: Vec<Leg>,
     },
-    /// Where the hand is in the best answer to a query.
+    /// The hand's position in the best answer to a query.
     Best(String),
 }
 
-/// The place to go to, as it was found.
+/// The place of the goal.
 const TO: Slot<PlaceInput> = Slot::new("place/to");
 
 impl Syntax for Place {
@@ -238,7 +238,7 @@ impl Operator for Place {
 }
 
 impl Place {
-    /// Returns where another sign has the hands.
+    /// Returns the position of the hands in another sign.
     fn shown_in(&self, material: &Material, setting: &Setting) -> Result<PlaceInput, Cause> {
         let has = |side: &&Side| material.anatomy.arm(**side).is_some();
         let sides = self.hand.sides(setting.handedness).iter();
@@ -247,7 +247,7 @@ impl Place {
     }
 }
 
-/// Returns the placement that hands hold all through another sign, if it has exactly one.
+/// Returns the placement of the hands throughout another sign, if it has exactly one.
 fn held_place(material: &Material, sides: &[Side]) -> Option<String> {
     let dominant = material.handedness.dominant();
     let annotated = material.held.iter().filter(|held| {
@@ -259,7 +259,7 @@ fn held_place(material: &Material, sides: &[Side]) -> Option<String> {
     values.all(|value| value == first).then(|| first.to_owned())
 }
 
-/// Returns where hands are in the middle of another sign, relative to the signer's chest and arms.
+/// Returns the position of the hands in the middle of another sign, relative to the signer's chest and arms.
 pub(crate) fn shown_by(
     material: &Material,
     sides: &[Side],
@@ -345,7 +345,7 @@ pub(crate) fn place(
     Ok((did, reach.residual, moved))
 }
 
-/// Returns a displacement in centimetres as people say it, each part with the direction it goes.
+/// Describes a displacement in centimetres for people, each part with its direction.
 fn directions(cm: DVec3) -> String {
     let part = |length: f64, to: &str, back: &str| {
         let direction = if length < 0.0 { back } else { to };
@@ -359,17 +359,17 @@ fn directions(cm: DVec3) -> String {
     parts.join(", ")
 }
 
-/// The moment of a sign whose place counts: frames, and the point of the hand in them.
+/// The moment of a sign that determines its place: frames, and the point of the hand.
 struct Anchor {
     point: HandPoint,
     frames: std::ops::Range<usize>,
-    /// The touched thing.
+    /// The contact that determines the place, if there is one.
     touch: Option<Touch>,
 }
 
-/// Finds the moment whose place counts. For one hand it is the contact with the body that falls in the span of its
-/// own placement, or in the whole sign if no placement is annotated; else the stroke in that span, else the span,
-/// else the stroke.
+/// Finds the moment that determines the place of a sign. For one hand it is the contact with the body that falls in the
+/// span of its own placement, or in the whole sign if no placement is annotated; else the stroke in that span, else the
+/// span, else the stroke.
 fn anchor(work: &Work, sides: &[Side], with: Option<HandPoint>) -> Anchor {
     let whole = 0..work.frames;
     let point = with.unwrap_or(HandPoint::Palm);
@@ -413,7 +413,7 @@ fn anchor(work: &Work, sides: &[Side], with: Option<HandPoint>) -> Anchor {
 }
 
 impl Anchor {
-    /// Returns where the point is at that moment; of two hands the middle between them.
+    /// Returns the position of the point at that moment; for two hands the middle between them.
     fn at(&self, work: &Work, sides: &[Side]) -> Option<DVec3> {
         if sides.len() > 1 {
             return body::mean_point(work, sides, self.point);
@@ -445,7 +445,7 @@ fn spatial(work: &Work, frame: &Frame, input: &PlaceInput, side: Side) -> Result
         })
 }
 
-/// Returns the body's frame, or an error that names the arm that is missing.
+/// Returns the body's frame. Fails with the missing arm if the body lacks one.
 pub(crate) fn frame(work: &Work, sides: &[Side]) -> Result<Frame, Cause> {
     if let Some(&side) = sides.iter().find(|&&side| work.anatomy.arm(side).is_none()) {
         return Err(Cause::NoArm(side));
@@ -453,7 +453,7 @@ pub(crate) fn frame(work: &Work, sides: &[Side]) -> Result<Frame, Cause> {
     Frame::of(work).ok_or(Cause::NoArm(sides[0]))
 }
 
-/// Moves wrists by the same way at every frame.
+/// Moves wrists by the same displacement at every frame.
 pub(crate) fn shift(
     work: &mut Work,
     sides: &[Side],
@@ -463,7 +463,7 @@ pub(crate) fn shift(
     wrists(work, sides, solver, |_, _, at| at + by)
 }
 
-/// Moves wrists to the position that `target` gives for a hand and a frame, starting from its position there.
+/// Moves wrists to the positions that `target` returns for a hand, a frame and the present position.
 pub(crate) fn wrists(
     work: &mut Work,
     sides: &[Side],
@@ -486,7 +486,7 @@ pub(crate) fn wrists(
     Ok(worst)
 }
 
-/// Refuses what lies half an arm and more out of reach.
+/// Refuses targets that are out of reach by half an arm's length or more.
 pub(crate) fn check(side: Side, reach: &Reach) -> Result<(), Cause> {
     if reach.residual > 0.5 * reach.arm && reach.farthest > 1.5 * reach.arm {
         return Err(Cause::TooFar {
@@ -498,7 +498,7 @@ pub(crate) fn check(side: Side, reach: &Reach) -> Result<(), Cause> {
     Ok(())
 }
 
-/// Says what an arm could not do and what helped it.
+/// Describes the limits that an arm met, and the help that it had.
 pub(crate) fn told(reach: &Reach) -> Vec<String> {
     let mut told = Vec::new();
     if reach.residual > 1e-3 {

@@ -1,4 +1,4 @@
-//! `point`: a finger that points at a target, reached from a body at rest and left again.
+//! `point`: generates a pointing gesture from a body at rest and back.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Finger, FingerAngles, HandAngles, ModelPose, Part, Side, ThumbAngles};
@@ -24,7 +24,7 @@ use crate::work::{Group, Work, groups};
 pub(crate) const BODY: Slot<MaterialInput> = Slot::new("point");
 /// The hand's shape.
 const WITH: Slot<Vec<HandPose>> = Slot::new("point/with");
-/// The place that is pointed at, if an inventory names it.
+/// The place of the target, if an inventory names it.
 const AT: Slot<PlaceInput> = Slot::new("point/at");
 /// The learned courses of reaching and retraction.
 const VIA: Slot<LearnedProfile> = Slot::new("point/via");
@@ -57,12 +57,13 @@ pub(crate) fn generate(
     Ok((work, done.into()))
 }
 
-/// How long reaching, holding and retraction take, in seconds.
+/// The usual time of reaching, and of retraction, in seconds.
 const REACH: f64 = 0.5;
+/// The usual time of the hold between, in seconds.
 const HOLD: f64 = 0.3;
-/// How far the arm is stretched for a far target, as a share of its length.
+/// The extension of the arm towards a far target, as a share of its length.
 const STRETCH: f64 = 0.88;
-/// How far before a near target the fingertip stops, in metres.
+/// The distance of the fingertip from a near target, in metres.
 const SHORT_OF: f64 = 0.02;
 
 /// The inputs of a pointing gesture.
@@ -135,7 +136,7 @@ pub(crate) fn point(
             apex.channels[joint].rotations[0],
         );
         for (f, rotation) in work.channels[joint].rotations.iter_mut().enumerate() {
-            // Hands take their shape in the first half of the way, and lose it in the last.
+            // Hands take their shape in the first half of reaching, and lose it in the last half of retraction.
             let out = (f as f64 / reach as f64).min((total - 1 - f) as f64 / reach as f64);
             *rotation = course.rotation(rest, top, (out * early).min(1.0));
         }
@@ -188,8 +189,8 @@ fn index_finger() -> HandPose {
     }
 }
 
-/// Moves arm and hand of a posture so that the index finger's line meets the target; returns by how
-/// much it passes beside.
+/// Moves arm and hand of a posture so that the index finger's line meets the target; returns the distance by which it
+/// misses.
 fn aim(apex: &mut Work, frame: &Frame, side: Side, target: DVec3) -> Result<f64, Cause> {
     let chain = apex.anatomy.arm(side).ok_or(Cause::NoArm(side))?;
     let model = ModelPose::of(&apex.skeleton, &apex.pose(0));
@@ -226,7 +227,7 @@ fn aim(apex: &mut Work, frame: &Frame, side: Side, target: DVec3) -> Result<f64,
         if missed < 1e-5 || line.dot(to) <= 0.0 {
             break;
         }
-        // Turned about the finger's base, the line meets the target at once where the arm follows.
+        // A rotation about the finger's base makes the line meet the target at once, if the arm follows.
         let turn = DQuat::from_rotation_arc(line, to.normalize_or(line));
         hands = [(turn * hands[0]).normalize()];
         wrist = [base - turn * (base - model.position(chain.hand))];

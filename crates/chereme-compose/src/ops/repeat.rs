@@ -1,4 +1,4 @@
-//! `repeat`: the movement several times, growing or shrinking, faster or slower.
+//! `repeat`: plays the movement several times, growing or shrinking, faster or slower.
 
 use chereme_motion::Side;
 use chereme_sign::Component;
@@ -28,18 +28,18 @@ use crate::units::{Factor, Seconds};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Repeat {
-    /// How often the movement is played, from 1 on.
+    /// The number of times that the movement is played, from 1 on.
     pub times: u32,
-    /// The factor for the size of the hands' movement from each repetition to the next.
+    /// The factor on the size of the hands' movement from each repetition to the next.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<Factor>,
-    /// The factor for the speed from each repetition to the next.
+    /// The factor on the speed from each repetition to the next.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tempo: Option<Factor>,
     /// The time between two repetitions, the transition included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap: Option<Seconds>,
-    /// The course between two repetitions; without one slerp, as the founding paper has it.
+    /// The transition between two repetitions; the default course is slerp, as in the founding paper.
     #[serde(default, skip_serializing_if = "Transition::is_default")]
     pub via: Transition,
 }
@@ -206,7 +206,7 @@ pub(crate) fn repeat(
     Ok(done)
 }
 
-/// Notes the number of repetitions of each active hand, in place of its earlier value.
+/// Notes the number of repetitions for each active hand, in place of its earlier value.
 fn repeated(work: &mut Work, times: usize, operator: &str) {
     let is_said = |about: &About| matches!(about, About::Component(Component::Movement, Some(it)) if it == "repetition");
     let more = work.notes.iter().any(|note| {

@@ -1,4 +1,4 @@
-//! Movement of one skeleton on another, part by part through the anatomy.
+//! Transfers movement from one skeleton to another, part by part, through the anatomy.
 
 use std::sync::Arc;
 
@@ -11,12 +11,12 @@ use crate::error::Cause;
 use crate::recipe::Solver;
 use crate::work::{Columns, Work};
 
-/// Puts movement on another skeleton.
+/// Transfers movement to another skeleton.
 ///
-/// Each part turns in model space as its counterpart does: its bone and a direction across it (where
-/// the elbow points, out of the palm, where the body faces) go where the counterpart's go, however
-/// both lie at rest. Wrists are where they were in arms' lengths from the shoulders' middle, fingers take the joint angles, the root's way is scaled by the legs' length, and
-/// joints that are no part stay at rest.
+/// Each part has the directions of its counterpart in model space: its bone and a direction across it (that of the
+/// elbow, out of the palm, forward from the body) point where the counterpart's point, whatever the rest poses. Wrists
+/// keep their distance from the shoulders' middle in arms' lengths, fingers keep their joint angles, the root's path is
+/// scaled by the legs' length, and joints that are not parts stay at rest.
 pub(crate) fn retarget(
     work: &Work,
     skeleton: &Arc<Skeleton>,
@@ -82,7 +82,7 @@ pub(crate) fn retarget(
     Ok(out)
 }
 
-/// Returns for each joint of the new skeleton its counterpart and part; fingers have none.
+/// Returns for each joint of the new skeleton its counterpart and part; `None` for fingers.
 fn pairs(work: &Work, skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<Option<(usize, Part)>> {
     let mut pairs = vec![None; skeleton.len()];
     for (part, joint, _) in anatomy.found() {
@@ -102,7 +102,7 @@ struct Axes {
 }
 
 impl Axes {
-    /// Returns the axes of a limb's part; nothing for one of the trunk, which takes the body's.
+    /// Returns the axes of a limb's part; `None` for a part of the trunk, which uses the body's axes.
     fn of(anatomy: &Anatomy, rest: &ModelPose, part: Part) -> Option<Self> {
         let at = |part| anatomy.joint(part).map(|joint| rest.position(joint));
         let bone = |next: Part| (at(next)? - at(part)?).try_normalize();
@@ -151,7 +151,7 @@ struct Body<'a> {
 }
 
 impl Body<'_> {
-    /// Returns the trunk's rotation at rest, up along the spine: shoulders may be drawn forward.
+    /// Returns the trunk's rotation at rest, with up along the spine because shoulders may be drawn forward.
     fn trunk(&self) -> Option<DQuat> {
         let at = |part| {
             self.anatomy
@@ -166,7 +166,7 @@ impl Body<'_> {
     }
 }
 
-/// Returns the turn from how a part lies at rest on the one body to how it lies on the other.
+/// Returns the rotation from a part's rest pose on the new body to that on the old one.
 fn even(from: &Body<'_>, to: &Body<'_>, part: Part) -> DQuat {
     let bodies = match (from.trunk(), to.trunk()) {
         (Some(from), Some(to)) => from * to.inverse(),
@@ -191,7 +191,7 @@ fn root(work: &Work, out: &mut Work) {
             .or(anatomy.joint(Part::Foot(Side::Right)));
         foot.map(|foot| model.position(hips).y - model.position(foot).y)
     };
-    // Legs that do not hang down at rest, because every bone lies along one axis, count by their length.
+    // Legs that do not hang down at rest, because every bone lies along one axis, are measured by their length.
     let size = |work: &Work| {
         let measures = work.anatomy.measures()?;
         let leg = leg_length(&work.skeleton, &work.anatomy);
@@ -204,7 +204,7 @@ fn root(work: &Work, out: &mut Work) {
     let scale = heights.map_or(sizes, |(from, to)| to / from);
     let agree = (0.75..1.35).contains(&(scale / sizes));
     let scale = if agree { scale } else { sizes };
-    // The hips' height above the floor is scaled, wherever the two files have their roots.
+    // The hips' height above the floor is scaled, wherever the roots of the two skeletons are.
     let hips = |work: &Work| work.anatomy.joint(Part::Hips).unwrap_or(0);
     let (from, to) = (hips(work), hips(out));
     let (there, here) = (Columns::of(work, [from]), Columns::of(out, [to]));
@@ -229,7 +229,7 @@ fn leg_length(skeleton: &Skeleton, anatomy: &Anatomy) -> Option<f64> {
     })
 }
 
-/// Moves the wrists to the same place relative to the shoulders' middle, in arms' lengths, so that hands that meet
+/// Moves the wrists to the same position relative to the shoulders' middle, in arms' lengths, so that hands that meet
 /// still meet on wider shoulders.
 fn wrists(work: &Work, out: &mut Work) {
     let arms = |work: &Work| Side::BOTH.map(|side| work.anatomy.arm(side));

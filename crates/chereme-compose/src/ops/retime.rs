@@ -1,4 +1,4 @@
-//! `retime`: faster or slower, as a whole or phase by phase.
+//! `retime`: makes movement faster or slower, as a whole or phase by phase.
 
 use chereme_motion::{Instant, Side, Span};
 use chereme_sign::Component;
@@ -24,17 +24,17 @@ use crate::units::{Factor, Seconds};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Retime {
-    /// One pace for the whole sign, or one for each of its phases in turn.
+    /// One pace for the whole sign, or one for each of its successive phases.
     pub paces: Vec<Pace>,
 }
 
-/// How long something lasts.
+/// A new length of time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Pace {
-    /// This times as long as it did.
+    /// The factor on the old length: 2 makes it twice as long.
     Times(Factor),
-    /// This long.
+    /// The length itself.
     To(Seconds),
 }
 
@@ -100,10 +100,10 @@ impl Operator for Retime {
     }
 }
 
-/// Gives the movement, or each of its phases, another length of time.
+/// Changes the length of the movement, or of each of its phases.
 ///
-/// Phases are cut where the dominant hand's movements begin and end, or its placements, or its
-/// configurations, whichever is annotated first.
+/// Phases begin and end with the dominant hand's movements, else with its placements, else with its configurations,
+/// whichever of these are annotated.
 pub(crate) fn retime(
     work: &mut Work,
     paces: &[Pace],
@@ -162,7 +162,7 @@ pub(crate) fn stretch(work: &mut Work, factor: f64) -> Result<(), Cause> {
     )
 }
 
-/// A piecewise even map between old and new frames.
+/// A piecewise linear map between old and new frames.
 struct Map {
     old: Vec<f64>,
     new: Vec<f64>,
@@ -184,7 +184,7 @@ fn warp(work: &mut Work, map: &Map) -> Result<(), Cause> {
     if same {
         return Ok(());
     }
-    // Frame n stands for the time from n to n + 1: middles go to middles.
+    // Frame n covers the time from n to n + 1: middles map to middles.
     let at: Vec<f64> = (0..frames)
         .map(|frame| through(&map.new, &map.old, frame as f64 + 0.5) - 0.5)
         .collect();

@@ -1,4 +1,4 @@
-//! `reverse`: the movement played backwards, an exact involution.
+//! `reverse`: plays the movement backwards; applied twice, it changes nothing.
 
 use chereme_motion::Span;
 use chereme_sign::Reading;
@@ -54,7 +54,7 @@ impl Operator for Reverse {
     }
 }
 
-/// Plays all channels backwards; returns what one should know.
+/// Plays all channels backwards; returns cautions about the result.
 pub(crate) fn reverse(work: &mut Work) -> Vec<String> {
     for channel in &mut work.channels {
         channel.rotations.reverse();
@@ -95,7 +95,7 @@ trait Mirrored {
 }
 
 impl Mirrored for Span {
-    /// Returns the span as seen from an end at `end` microseconds.
+    /// Returns the mirror image of the span in a movement that ends at `end` microseconds.
     fn mirrored(self, end: i64) -> Self {
         let at = |instant: chereme_motion::Instant| {
             chereme_motion::Instant::from_micros(end.saturating_sub(instant.micros()))

@@ -1,4 +1,4 @@
-//! The notes of operators: values that become true, and values that become false.
+//! Notes the values that an operator gives to signs, and withdraws those that no longer hold.
 
 use std::ops::Range;
 
@@ -10,13 +10,13 @@ use chereme_sign::{Component, Reading};
 use crate::made::{About, Note};
 use crate::work::Work;
 
-/// Returns whether a note is about hands of `sides`; a note without a hand is about the dominant one.
+/// Returns whether a note is about a hand in `sides`; a note without a hand is about the dominant one.
 pub(crate) fn is_of(work: &Work, note: &Note, sides: &[Side]) -> bool {
     let dominant = work.handedness.dominant();
     sides.contains(&note.hand.unwrap_or(dominant))
 }
 
-/// Withdraws notes about hands if `about` finds a component, perhaps a part of it, that is no longer true.
+/// Withdraws notes about hands if `about` returns that the component, or the part of it, no longer holds.
 pub(crate) fn withdraw(
     work: &mut Work,
     sides: &[Side],
@@ -38,7 +38,7 @@ pub(crate) fn withdraw(
 }
 
 /// Notes that a hand has a value of a component, or of a part of it, over some frames. Earlier notes on the same
-/// thing at that time make room.
+/// subject are cut or removed there.
 pub(crate) fn tell(
     work: &mut Work,
     side: Side,
@@ -76,8 +76,8 @@ pub(crate) fn tell(
     });
 }
 
-/// Notes the place of a moved hand: `value`, over the times of its earlier placements, or over `frames` if it had
-/// no placement. Without a value the earlier placements are withdrawn only.
+/// Notes the place of a moved hand: `value`, over the times of its earlier placements, or over `frames` if it had no
+/// placement. Without a value, it only withdraws the earlier placements.
 pub(crate) fn placed(
     work: &mut Work,
     side: Side,
@@ -106,8 +106,8 @@ pub(crate) fn placed(
     }
 }
 
-/// The value of a component when it is played backwards; nothing where it would be another one that no word is known
-/// for.
+/// Returns the value of a component when the movement is played backwards; `None` if it would be a value without a
+/// known word.
 pub(crate) fn backwards(
     component: Component,
     feature: Option<&str>,
@@ -146,7 +146,7 @@ pub(crate) fn backwards(
     }
 }
 
-/// Returns a direction such as `up-left` turned round.
+/// Returns the opposite of a direction such as `up-left`.
 fn opposite(value: &str) -> String {
     let words = value.split('-').map(|word| match word {
         "up" => "down",
@@ -160,7 +160,7 @@ fn opposite(value: &str) -> String {
     words.collect::<Vec<_>>().join("-")
 }
 
-/// Names the nearest of the 26 directions of body space (left, up, forward), as inventories have them.
+/// Returns the name of the nearest of the 26 directions of body space (left, up, forward), in the words of inventories.
 pub(crate) fn direction(way: DVec3) -> Option<String> {
     let way = way.try_normalize()?;
     let cells = (-1..=1).flat_map(|x| (-1..=1).flat_map(move |y| (-1..=1).map(move |z| [x, y, z])));
@@ -180,8 +180,8 @@ pub(crate) fn direction(way: DVec3) -> Option<String> {
     Some(words.join("-"))
 }
 
-/// Names the side of eight that a palm faces, with both directions in body space, in the words of notation for
-/// fingers in that direction.
+/// Returns the name of the palm's direction, one of eight, in the words of notation for fingers in that direction; both
+/// directions are in body space.
 pub(crate) fn palm(fingers: DVec3, palm: DVec3) -> Option<&'static str> {
     let (fingers, palm) = (fingers.try_normalize()?, palm.try_normalize()?);
     let angle = orientation::palm_angle(fingers.to_array(), palm.to_array());

@@ -1,4 +1,4 @@
-//! `spell`: a word in a manual alphabet, on a body at rest.
+//! `spell`: generates a word in a manual alphabet, on a body at rest.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Side, Span};
@@ -26,7 +26,7 @@ use crate::work::{Group, Work};
 pub(crate) const BODY: Slot<MaterialInput> = Slot::new("spell");
 /// The letters with their postures.
 const LETTERS: Slot<Vec<LetterInput>> = Slot::new("spell/word");
-/// How long the corpus's hands hold letters.
+/// The times for which the corpus's hands hold letters and change between them.
 const TIMES: Slot<SpellingTimes> = Slot::new("spell/hold");
 /// The learned courses from letter to letter.
 const VIA: Slot<LearnedProfile> = Slot::new("spell/via");
@@ -65,28 +65,29 @@ pub(crate) fn generate(settings: &Spell, given: &mut Given<'_>) -> Result<(Work,
     Ok((work, done.into()))
 }
 
-/// The usual time of a held letter, and of the hand from letter to letter, in seconds.
+/// The usual time of a held letter, in seconds.
 const HOLD: f64 = 0.2;
+/// The usual time of the change from letter to letter, in seconds.
 const CHANGE: f64 = 0.25;
-/// The longest of either that is taken from a corpus, in seconds.
+/// The longest plausible time of either from a corpus, in seconds.
 const LONGEST: f64 = 60.0;
-/// How long a stroke of a letter that moves takes, in seconds.
+/// The time of one stroke of a letter that moves, in seconds.
 const STROKE: f64 = 0.3;
-/// How far the hand slides to the outside for the second of two like letters, in shoulder widths.
+/// The distance by which the hand slides outwards for the second of two equal letters, in shoulder widths.
 const SLIDE: f64 = 0.12;
-/// Where the wrist spells: to the hand's own side, up and forward of the middle between the
-/// shoulders, in shoulder widths; before the shoulder, the hand at the height of the chin.
+/// The position of the spelling wrist: to the hand's own side, up and forward of the middle between the shoulders, in
+/// shoulder widths; in front of the shoulder, with the hand at the height of the chin.
 const SEAT: [f64; 3] = [0.6, -0.25, 0.85];
 
-/// A stretch of time in which the hand shows one letter.
+/// A span of time in which the hand shows one letter.
 struct Show {
     frames: std::ops::Range<usize>,
     fingers: Vec<(usize, DQuat)>,
-    /// The wrist and the hand's rotation at the start of the stretch and after each stroke.
+    /// The wrist's position and the hand's rotation at the start of the span and after each stroke.
     keys: Vec<(DVec3, DQuat)>,
 }
 
-/// How long letters are held, and how long the hand takes from one to the next, in seconds.
+/// The times of a held letter and of the change to the next, in seconds.
 pub(crate) struct Times {
     hold: f64,
     change: f64,
@@ -94,7 +95,7 @@ pub(crate) struct Times {
 }
 
 impl Times {
-    /// Takes each time from the recipe, else from the corpus, else a usual one.
+    /// Takes each time from the recipe, else from the corpus, else the default one.
     pub(crate) fn of(settings: &Spell, corpus: Option<&SpellingTimes>) -> Self {
         let mut told = Vec::new();
         let mut time = |what, asked: Option<Seconds>, found: Option<MedianTime>, usual: f64| {
@@ -244,7 +245,7 @@ fn fingers(work: &mut Work, side: Side, shows: &[Show], course: &Course) {
     }
 }
 
-/// Returns where the wrist is and how the hand is turned at a frame.
+/// Returns the wrist's position and the hand's rotation at a frame.
 fn wrist(shows: &[Show], frame: usize, course: &Course) -> (DVec3, DQuat) {
     let n = shows
         .partition_point(|show| show.frames.start <= frame)

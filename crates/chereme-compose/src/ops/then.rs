@@ -1,4 +1,4 @@
-//! `A then B`: one piece of movement after another on the first one's body.
+//! `A then B`: joins one piece of movement to another on the first one's body.
 
 use std::sync::Arc;
 
@@ -15,13 +15,13 @@ use crate::ops::retarget;
 use crate::units::Seconds;
 use crate::work::{Columns, Group, Work};
 
-/// The stretch at the end of one sign and the start of the next in which cuts are looked for, in
-/// seconds; never more than 30 % of either.
+/// The time at the end of one sign and the start of the next in which cuts are searched for, in seconds; never more
+/// than 30 % of either.
 const WINDOW: f64 = 0.3;
-/// The least and most time of a transition, and a wrist's mean speed in one, in metres per second.
+/// The least and the greatest time of a transition in seconds, and a wrist's mean speed in one, in metres per second.
 const TIMES: (f64, f64, f64) = (0.15, 0.6, 1.0);
 
-/// Appends `next` to `work`; returns a description of the effects and of the distance between the hands.
+/// Appends `next` to `work`; returns a description of the effects and of the join.
 pub(crate) fn then(
     work: &mut Work,
     next: Work,
@@ -82,7 +82,8 @@ pub(crate) fn then(
     })
 }
 
-/// Returns whether two skeletons are one body: they may differ only in offsets of joints that both movements place.
+/// Returns whether two skeletons are the same body: they may differ only in offsets of joints whose positions both
+/// movements give.
 fn one_body(first: &Work, second: &Work) -> bool {
     let (a, b) = (&first.skeleton, &second.skeleton);
     if Arc::ptr_eq(a, b) || a == b {
@@ -98,7 +99,7 @@ fn one_body(first: &Work, second: &Work) -> bool {
         })
 }
 
-/// The position of a body in a posture, and its front as far as its joints show it.
+/// Returns the position of a body in a posture, and the direction of its front if its joints show it.
 fn standing(work: &Work, frame: usize) -> (DVec3, Option<DVec3>) {
     let model = ModelPose::of(&work.skeleton, &work.pose(frame));
     if let Some(body) = work.anatomy.body_frame(&model) {
@@ -117,11 +118,12 @@ fn standing(work: &Work, frame: usize) -> (DVec3, Option<DVec3>) {
     (origin, None)
 }
 
-/// Bodies whose heights differ by more than this stand on other floors, in metres: none sits down between signs.
+/// The difference of two bodies' heights, in metres, above which they stand on different floors: nobody sits down
+/// between signs.
 const FLOOR: f64 = 0.6;
 
-/// Turns and moves the second movement on the floor so that it starts where the first ends, facing
-/// the same way, wherever their files have the root and whatever is above the hips.
+/// Rotates and moves the second movement on the floor so that it starts at the position where the first ends, facing
+/// the same way, regardless of the joints above the hips in their files.
 fn face_alike(first: &Work, second: &mut Work) {
     let (end, faced) = standing(first, first.frames - 1);
     let (start, facing) = standing(second, 0);
@@ -148,7 +150,7 @@ fn face_alike(first: &Work, second: &mut Work) {
     }
 }
 
-/// Finds for each hand the frames at which leaving one sign and entering the next costs least.
+/// Finds for each hand the frames to leave one sign and enter the next with the least cost.
 fn seam(first: &Work, second: &Work, time: Option<Seconds>) -> Seam {
     let wrists = Side::BOTH.map(|side| first.anatomy.arm(side).map(|arm| arm.hand));
     let joints = || wrists.iter().flatten().copied();
@@ -182,7 +184,7 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>) -> Seam {
     let (least, most, speed) = TIMES;
     let seconds = time.map_or((longest / speed).clamp(least, most), |time| time.0);
     let gap = (seconds / first.rate.frame_time()).round().max(1.0) as usize;
-    // The slower hand sets the pace: its way takes the time asked for, cuts included.
+    // The hand with fewer frames to spare sets the pace: its transition takes the wanted time, cuts included.
     let spare = hands
         .iter()
         .map(|cut| last - cut.leave + cut.enter)
@@ -211,7 +213,7 @@ fn stays(first: &Work, second: &Work, side: Side) -> bool {
     used(first, side) && !used(second, side) && used(second, side.other())
 }
 
-/// Lets a hand of the second movement stay as the first leaves it.
+/// Keeps a hand of the second movement in its posture at the end of the first.
 fn hold(first: &Work, second: &mut Work, side: Side, leave: usize) {
     let groups = crate::work::groups(&first.skeleton, &first.anatomy);
     for (joint, group) in groups.iter().enumerate() {

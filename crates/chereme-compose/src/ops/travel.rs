@@ -1,4 +1,4 @@
-//! `travel`: the hands carried along straight legs or a smooth curve.
+//! `travel`: carries the hands along straight legs or a smooth curve.
 
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
@@ -28,25 +28,24 @@ use crate::sources::LearnedProfile;
 use crate::text::{Parsed, Parser, list, option, point_text};
 use crate::units::{Direction, Hands};
 
-/// Settings of `travel right down 20cm then up 20cm`, and of
-/// `travel right through 10cm,5cm,0cm then 20cm,0cm,0cm in 1.2s`: along straight legs, or along a smooth curve.
+/// Settings of `travel right down 20cm then up 20cm`, and of `travel right through 10cm,5cm,0cm then 20cm,0cm,0cm in
+/// 1.2s`: a path of straight legs, or a smooth curve.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Travel {
     /// The hands that travel.
     #[serde(default = "crate::recipe::dominant")]
     pub hand: Hands,
-    /// The legs, one after another; those without a time share the rest by their length.
+    /// The legs, one after another; those without a time share the remaining time by their length.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Leg>,
-    /// The points of a curve that is taken instead of legs, each so far to the left of where the hands would be, up and
-    /// forward.
+    /// The points of a curve instead of legs: offsets from the hands' usual position to the left, up and forward.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub through: Vec<[Length; 3]>,
-    /// The time that the curve takes; without one all of the movement.
+    /// The time of the curve; `None` for all of the movement.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<Seconds>,
-    /// The course along each way; without one minimum jerk.
+    /// The course along each leg or curve; the default is minimum jerk.
     #[serde(default, skip_serializing_if = "Transition::is_default")]
     pub via: Transition,
 }
@@ -151,7 +150,7 @@ impl Operator for Travel {
     }
 }
 
-/// Carries the hands along a path while they do what they did.
+/// Carries the hands along a path in addition to their own movement.
 pub(crate) fn travel(
     work: &mut Work,
     settings: &Travel,
@@ -215,7 +214,8 @@ fn curve(frame: &Frame, through: &[[Length; 3]]) -> Option<Spline> {
     (!points.is_empty()).then(|| Spline::new(&points))
 }
 
-/// Returns how far along a curve the hands are at each frame; they stay at its end where the movement lasts longer.
+/// Returns the displacement of the hands along a curve at each frame; they stay at its end if the movement lasts
+/// longer.
 fn along(work: &Work, curve: &Spline, time: Option<Seconds>, course: &Course) -> Vec<DVec3> {
     let total = work.frames.saturating_sub(1).max(1) as f64 * work.rate.frame_time();
     let time = time.map_or(total, |time| time.0).max(1e-9);
@@ -225,7 +225,7 @@ fn along(work: &Work, curve: &Spline, time: Option<Seconds>, course: &Course) ->
         .collect()
 }
 
-/// Returns how far along the path the hands are at each frame.
+/// Returns the displacement of the hands along the path at each frame.
 ///
 /// Legs without a time share the rest of the movement by their lengths.
 fn way(work: &Work, frame: &Frame, path: &[Leg], course: &Course) -> Vec<DVec3> {
@@ -268,7 +268,7 @@ fn way(work: &Work, frame: &Frame, path: &[Leg], course: &Course) -> Vec<DVec3> 
         .collect()
 }
 
-/// Wrists that stay within this many metres do not move.
+/// The largest movement, in metres, of a wrist that counts as still.
 pub(crate) const STILL: f64 = 0.03;
 
 pub(crate) fn wrist_path(work: &Work, side: Side) -> Result<Vec<DVec3>, Cause> {
@@ -282,7 +282,7 @@ fn is_still(work: &Work, side: Side) -> bool {
     path.iter().all(|at| at.distance(path[0]) < STILL)
 }
 
-/// Notes the new path of hands that did not move before: straight if it has one leg, the shape of a curve.
+/// Notes the new path of hands that were still before: straight if it has one leg, else the shape of the curve.
 fn drawn(
     work: &mut Work,
     frame: &Frame,

@@ -1,4 +1,4 @@
-//! Where values come from, and that they stay what they were.
+//! The sources of values, and their permanence.
 
 use super::*;
 

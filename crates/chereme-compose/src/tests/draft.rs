@@ -1,4 +1,4 @@
-//! A recipe that is worked on gives what it gives from scratch, and makes only what changed.
+//! A draft gives the same result as an evaluation from scratch, and evaluates only the changed parts.
 
 use std::cell::RefCell;
 
@@ -83,8 +83,7 @@ fn recipe(text: &str) -> Recipe {
         .unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
-/// Recipes in the order of somebody's work: from one to the next a setting, an operator's place, the source or a
-/// piece changes.
+/// Recipes as successive edits of a person's work: a setting, an operator's position, the source or a piece changes.
 const SOURCES: [&str; 4] = [
     "ESCARGOT",
     "BOL",

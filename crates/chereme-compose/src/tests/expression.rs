@@ -1,4 +1,4 @@
-//! Expressions of the face carried over phase by phase.
+//! Expressions of the face transferred phase by phase.
 
 use chereme_motion::{Instant, Part};
 use chereme_sign::milestones::{Function, Milestones};

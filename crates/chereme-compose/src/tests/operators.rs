@@ -79,7 +79,7 @@ fn paths_are_scaled_carried_and_sent() {
         assert!(gone(0).length() < 1e-6, "{gloss}");
         let end = DVec3::new(0.04, -0.06, 0.0);
         for f in [100, 119] {
-            // The recording has 120 frames a second: from frame 96 on the hand stays at the end of the curve.
+            // The recording has 120 frames per second: from frame 96 on the hand stays at the end of the curve.
             assert!(gone(f).abs_diff_eq(end, 3e-3), "{gloss} {f}: {}", gone(f));
         }
         let sent = made(&format!("{gloss} | from me to left with right"));
@@ -299,7 +299,7 @@ fn contacts_are_followed_through_every_operator() {
             "{told:?}"
         );
     }
-    // A shrunk movement no longer reaches its contact, or the report says that it was brought back.
+    // A shrunk movement no longer reaches its contact, or the report describes the restored contact.
     let shrunk = made(&format!("{touching} | repeat 2 scale 0.3"));
     let told = format!("{}{:?}", shrunk.report, shrunk.report.contacts);
     assert!(told.contains("repetition 2: "), "{told}");
@@ -325,7 +325,7 @@ fn a_curve_is_drawn_smoothly_by_a_hand_that_spells_and_its_shape_is_noted() {
     );
     let spelt = wrist(&self::made("spell UU"), Side::Right);
     let path = wrist(&made, Side::Right);
-    // The curve is the difference that it makes: the hand moves between letters as well.
+    // The curve is the difference to the movement without it: the hand moves between letters as well.
     let gone: Vec<DVec3> = path.iter().zip(&spelt).map(|(a, b)| *a - *b).collect();
     let steps: Vec<DVec3> = gone.windows(2).map(|it| it[1] - it[0]).collect();
     let moving = steps.iter().filter(|it| it.length() > 2e-3);

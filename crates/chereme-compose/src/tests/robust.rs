@@ -1,4 +1,4 @@
-//! Bodies that lack something, and operators in any order.
+//! Bodies with missing parts, and operators in any order.
 
 use super::*;
 

@@ -160,7 +160,7 @@ fn trim_leaves_what_has_no_rest_as_it_is() {
 
 #[test]
 fn the_hand_touches_the_place_at_its_contact_and_stays_out_of_the_body() {
-    // Made so that it touches the chin early, then goes away.
+    // Constructed so that it touches the chin early, then moves away.
     let touching = "ESCARGOT | place right at chin with index | travel right forward 30cm";
     for (recipe, place) in [
         (

@@ -4,17 +4,17 @@ use std::ops::Range;
 
 use crate::error::{Problem, TextError};
 
-/// A piece of a recipe's text.
+/// A token of a recipe's text.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Token {
     pub(super) kind: Kind,
     /// The word without its quotes, or the query.
     pub(super) text: String,
-    /// Where it stands, in bytes.
+    /// Its place in the text, in bytes.
     pub(super) at: Range<usize>,
 }
 
-/// What a piece is.
+/// The kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Word,
@@ -28,7 +28,7 @@ pub(super) enum Kind {
 
 const LONGEST: usize = 64 * 1024;
 
-/// Cuts `text` into its pieces.
+/// Splits `text` into its tokens.
 pub(super) fn lex(text: &str) -> Result<Vec<Token>, TextError> {
     if text.len() > LONGEST {
         return Err(fault("", 0, Problem::TooLong(LONGEST)));

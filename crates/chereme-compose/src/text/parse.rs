@@ -1,4 +1,4 @@
-//! From text to the tree.
+//! Parses a recipe's text into the tree.
 
 use std::str::FromStr;
 
@@ -32,10 +32,10 @@ impl FromStr for Recipe {
     }
 }
 
-/// What the parser read, or the fault and its place.
+/// A parsed value, or the fault and its place.
 pub(crate) type Parsed<T> = Result<T, TextError>;
 
-/// A reader of a recipe's words.
+/// Reads a recipe's text word by word.
 pub(crate) struct Parser<'a> {
     text: &'a str,
     tokens: Vec<Token>,
@@ -278,7 +278,7 @@ impl Parser<'_> {
             .map(Spot::Value)
     }
 
-    /// Reads three lengths with commas between, where a comma follows the first.
+    /// Reads three lengths with commas between, if a comma follows the first.
     pub(crate) fn spot_point(&mut self) -> Parsed<Option<[Length; 3]>> {
         let starts = self.is_length(self.at) && {
             let unit = self.tokens.get(self.at + 1);
@@ -305,7 +305,7 @@ impl Parser<'_> {
         Ok(Some(point))
     }
 
-    /// Reads one leg after another; on a path `then` stands between them.
+    /// Reads legs, one after another; on a path they are separated by `then`.
     pub(crate) fn legs(&mut self, path: bool) -> Parsed<Vec<Leg>> {
         let mut legs = vec![self.leg(path)?];
         loop {
@@ -415,7 +415,7 @@ impl Parser<'_> {
         Ok(found)
     }
 
-    /// Reads a number with its unit, which may stand apart.
+    /// Reads a number with its unit, which may be separated by a blank.
     pub(crate) fn quantity<T: FromStr<Err = UnitError>>(
         &mut self,
         expected: &'static str,
@@ -445,7 +445,7 @@ impl Parser<'_> {
         Ok(quantity)
     }
 
-    /// Reads a name: a quoted text, or a word that means nothing else.
+    /// Reads a name: a quoted text, or a word without another meaning.
     pub(crate) fn name(&mut self, expected: &'static str) -> Parsed<String> {
         let quoted = self.peek().filter(|token| token.kind == Kind::Quoted);
         let plain = || {
@@ -510,7 +510,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Returns whether a length with a comma after it stands there.
+    /// Returns whether a length followed by a comma is at `at`.
     fn is_point(&self, at: usize) -> bool {
         let comma = |at: usize| self.tokens.get(at).is_some_and(|it| it.kind == Kind::Comma);
         self.is_length(at) && (comma(at + 1) || comma(at + 2))
@@ -521,12 +521,12 @@ impl Parser<'_> {
         self.is_length(self.at + 1)
     }
 
-    /// Returns where the parser is, for [`back_to`](Self::back_to).
+    /// Returns the parser's position, for [`back_to`](Self::back_to).
     pub(crate) fn place(&self) -> usize {
         self.at
     }
 
-    /// Goes back to an earlier place.
+    /// Returns to an earlier position.
     pub(crate) fn back_to(&mut self, place: usize) {
         self.at = place;
     }

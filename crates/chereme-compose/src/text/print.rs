@@ -1,4 +1,4 @@
-//! From the tree to text.
+//! Prints the tree as text.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -45,7 +45,7 @@ fn within(f: &mut Formatter<'_>, node: &Node, parentheses: bool) -> fmt::Result 
     }
 }
 
-/// Words that mean something in more than one place; as a name each is quoted, and so is each word of an operator.
+/// Words with a meaning in several places; as names they are quoted, and so are the words of operators.
 const RESERVED: [&str; 14] = [
     "then",
     "via",
@@ -63,7 +63,7 @@ const RESERVED: [&str; 14] = [
     "backwards",
 ];
 
-/// Returns whether a word means something somewhere.
+/// Returns whether a word has a meaning somewhere in recipes.
 fn is_reserved(word: &str) -> bool {
     let mut operators = Step::SPELLINGS.iter();
     RESERVED.contains(&word)
