@@ -1,4 +1,4 @@
-//! Recipes as trees, for skins that show and change their parts: what [`chereme_compose`] has of them.
+//! Recipes as trees, for user interfaces that show and change their parts: re-exports of [`chereme_compose`].
 
 pub use chereme_compose::recipe::*;
 pub use chereme_compose::units::*;

@@ -165,7 +165,7 @@ impl Signing {
         inside.map(|(_, gloss)| gloss.clone()).collect()
     }
 
-    /// Returns the expression over the signs whose middle lies in an annotation; if there are none, over the
+    /// Returns the expression over the signs whose middle lies in an annotation; without signs, over the
     /// annotation's own span.
     fn expression(&self, recording: i64, function: Function, of: &AnnotationRow) -> Expression {
         let span = span_of(of);

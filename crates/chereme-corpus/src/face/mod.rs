@@ -97,7 +97,7 @@ pub struct FaceFinding {
     pub severity: Severity,
     /// The finding.
     pub message: String,
-    /// A remedy; `None` if there is none.
+    /// A remedy, if there is one.
     pub remedy: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Counts of the single terms of a query, reported if together they find nothing.
+//! Counts of the single terms of a query, reported if they find nothing together.
 
 use chereme_sign::query::{Expr, Query};
 
@@ -7,8 +7,8 @@ use super::finding::FindingKind;
 use super::joined;
 use super::plan;
 
-/// Reports the terms that find nothing: all of a query that has no answer, and otherwise those
-/// between `or`, where nothing shows that they add none.
+/// Reports the terms that find nothing: all of them if the query has no results, and otherwise those within an `or`,
+/// whose failure would go unnoticed.
 pub(crate) fn report(ask: &Ask<'_>, query: &Query, total: usize) -> Asked<()> {
     let terms = joined(&query.root);
     if total > 0 {
@@ -48,7 +48,7 @@ fn count(ask: &Ask<'_>, term: &Expr) -> Asked<usize> {
     Ok(plan::evaluate(ask, &plan, None)?.len())
 }
 
-/// Reports the comparisons below a term that find nothing, unless more is known of them already.
+/// Reports the comparisons within a term that find nothing, unless a more specific finding exists already.
 fn leaves(ask: &Ask<'_>, term: &Expr) -> Asked<()> {
     match term {
         Expr::And(terms) | Expr::Or(terms) => terms.iter().try_for_each(|term| leaves(ask, term)),

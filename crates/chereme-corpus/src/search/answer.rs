@@ -1,4 +1,4 @@
-//! Answers: the tokens found, in order, with what is coded of them and how often each value occurs.
+//! Answers: the tokens found, in order, with their coded values and the counts of each value.
 
 use chereme_sign::Component;
 use std::collections::BTreeMap;
@@ -15,31 +15,31 @@ use super::probe::{Column, Doc, RowField};
 use crate::db::columns::{Origin, ValueState};
 use crate::db::search::answers::{self, CodedRow};
 
-/// What a query finds.
+/// The result of a query.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Answer {
     /// The query in its canonical form.
     pub query: String,
-    /// How many tokens it finds, whatever part of them is shown.
+    /// The number of tokens found, including those that are not shown.
     pub total: usize,
     /// The tokens shown, in order.
     pub hits: Vec<Hit>,
-    /// By field, how many of all tokens found have each value: the most frequent first, at most
-    /// as many as were asked for, those of equal number by name.
+    /// By field, the number of tokens found that have each value, most frequent first; at most the requested number of
+    /// values, and equal counts ordered by name.
     #[serde(serialize_with = "counts")]
     pub facets: BTreeMap<String, Vec<(String, usize)>>,
-    /// By field, how many further values have not been counted, if some have not.
+    /// By field, the number of values that were left out, if there are any.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub facets_left_out: BTreeMap<String, usize>,
     /// The wider values that conditions of the query accepted or matched, and conditions that cannot match.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<Finding>,
-    /// Further notes for the asker.
+    /// Further notes for the user.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
 
-/// Writes facets as an object of values and counts a field, the most frequent first.
+/// Serialises facets as one object of values and counts per field, most frequent first.
 fn counts<S: serde::Serializer>(
     facets: &BTreeMap<String, Vec<(String, usize)>>,
     out: S,
@@ -66,9 +66,9 @@ pub struct Hit {
     pub start_us: Option<i64>,
     /// The first microsecond after it.
     pub end_us: Option<i64>,
-    /// How it came about.
+    /// Its origin.
     pub origin: Origin,
-    /// How alike it is to the example, from 0 to 1, where there is one.
+    /// Its similarity to the example, from 0 to 1, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub score: Option<f64>,
     /// Values by field, such as `initial.right.placement`; a list if there are several. A value that does not apply
@@ -76,10 +76,10 @@ pub struct Hit {
     pub components: BTreeMap<String, Value>,
 }
 
-/// In which order tokens are shown.
+/// The order in which tokens are shown.
 ///
-/// Every order ends with: recordings in the order in which they were stored, time, the lexicon by
-/// gloss, the order in which tokens were stored.
+/// Every order is completed by: recordings in the order in which they were stored, time, lexicon entries by gloss, the
+/// order in which tokens were stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Order {
     /// The most similar to an example first; then tokens whose whole gloss is the text, then a word of the gloss,
@@ -94,10 +94,10 @@ pub enum Order {
     Duration,
 }
 
-/// The place of a token in the order.
+/// The sort key of a token.
 type Key = (u64, u64, u64, i64);
 
-/// Returns the part of the documents that is to be shown, in order.
+/// Returns the requested range of documents, in order.
 pub(crate) fn page(
     ask: &Ask<'_>,
     found: &[Doc],
@@ -122,11 +122,11 @@ pub(crate) fn page(
     Ok(keyed[start..].iter().map(|(_, doc)| *doc).collect())
 }
 
-/// How far to the front each document found belongs, the least first.
+/// The rank of each document found, least first.
 pub(crate) struct Ranks(Option<Vec<u64>>);
 
 impl Ranks {
-    /// Ranks documents by likeness and by the places where texts are found in them.
+    /// Ranks documents by similarity and by the places where texts are found in them.
     pub(crate) fn new(
         ask: &Ask<'_>,
         found: &[Doc],
@@ -177,7 +177,7 @@ impl Ranks {
     }
 }
 
-/// The keys that decide the order of documents.
+/// The keys that determine the order of documents.
 struct Places {
     id: Box<dyn Column>,
     sign: Box<dyn Column>,
@@ -223,7 +223,7 @@ impl Places {
     }
 }
 
-/// Returns a number in the order of times, those before zero first.
+/// Maps a time to a number that sorts in the same order, also for times before zero.
 fn ordered(micros: i64) -> u64 {
     micros as u64 ^ (1 << 63)
 }

@@ -15,10 +15,10 @@ use crate::db::attributes::{self, AttributeRow};
 
 /// Returns the plan for the tokens whose attribute passes.
 ///
-/// Case, accents and all that is no letter or digit do not count in the name of an attribute.
+/// The name of an attribute is compared without regard to case, accents and characters other than letters and digits.
 ///
 /// # Errors
-/// Where no entry of the corpus has an attribute of this name.
+/// Fails if no entry of the corpus has an attribute of this name.
 pub(super) fn plan(ask: &Ask<'_>, test: &Test, name: &str, wanted: &AttributeTest) -> Asked<Plan> {
     let all = attributes::names(ask.connection)?;
     let names: Vec<String> = all

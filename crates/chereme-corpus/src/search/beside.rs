@@ -1,4 +1,4 @@
-//! Relations of time between a token and other annotations of its recording.
+//! Temporal relations between a token and other annotations of its recording.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,14 +21,14 @@ use crate::error::Result;
 
 /// A relation to another annotation.
 ///
-/// The other is any annotation of a component, a text or a tier, those that belong to the token
-/// itself too; of glosses it is another token.
+/// The other annotation may be on any tier that has the component, text or name, even if it belongs to the token
+/// itself; a relation to a gloss is one to another token.
 pub(crate) struct Beside {
-    /// Nothing where annotations that share time with the token are asked for and there being none
-    /// counts as unset.
+    /// The relation; nothing for a condition on annotations of a tier that overlap the token, where a missing
+    /// annotation counts as unset.
     relation: Option<Relation>,
     other: Vec<Other>,
-    /// Whether the token may overlap what it is itself.
+    /// Whether the token itself may be the overlapping other.
     itself: bool,
 }
 
@@ -38,12 +38,12 @@ enum Other {
     Component(Box<ComponentTest>),
     /// An annotation of tiers with this role.
     Role(TierRole, Test),
-    /// An annotation of tiers of such a name.
+    /// An annotation on tiers whose name matches.
     Tier(Pattern, Comparison),
 }
 
 impl Beside {
-    /// Prepares a relation to what passes a test; without a relation the test is of a tier.
+    /// Prepares a relation to annotations that pass a test; without a relation it must be a test on a tier.
     pub(crate) fn new(ask: &Ask<'_>, relation: Option<Relation>, test: &Test) -> Asked<Self> {
         let other = match &test.what {
             What::Component(field, comparison) => {
@@ -69,7 +69,7 @@ impl Beside {
         })
     }
 
-    /// Returns it so that the token itself may be the other that it overlaps.
+    /// Returns the relation with the token itself accepted as an overlapping other.
     pub(crate) fn or_itself(self) -> Self {
         Self {
             itself: self.relation == Some(Relation::Overlaps),
@@ -77,7 +77,7 @@ impl Beside {
         }
     }
 
-    /// Returns the candidates that stand in the relation.
+    /// Returns the candidates for which the relation holds.
     pub(crate) fn filter(&self, ask: &Ask<'_>, candidates: Docs) -> Asked<Docs> {
         let times = Times::open(ask.now)?;
         let ids = ask.now.rows(RowField::Token)?;
@@ -121,7 +121,7 @@ impl Beside {
         }
     }
 
-    /// Returns whether a token passes if no annotation of the tier shares time with it.
+    /// Returns whether a token passes if no annotation of the tier overlaps it.
     fn passes_alone(&self) -> bool {
         self.relation.is_none()
             && self.other.iter().any(|other| match other {
@@ -159,7 +159,7 @@ impl Beside {
         Ok(marks)
     }
 
-    /// Adds the annotations of a recording that the relation may be to.
+    /// Adds the annotations of a recording to which the relation may hold.
     fn collect(&self, ask: &Ask<'_>, recording: i64, marks: &mut Vec<Mark>) -> Result<()> {
         ask.go_on()?;
         let mut add = |row: &CodedRow<'_>, passes: bool| {
@@ -282,12 +282,12 @@ struct Candidate {
 
 struct Mark {
     span: Span,
-    /// The token that it is.
+    /// The token, if the annotation is that of one.
     token: Option<i64>,
     passes: bool,
 }
 
-/// Annotations by start, with the latest end so far, to find those near a span.
+/// Annotations ordered by start, each with the latest end up to it, for a fast search around a span.
 struct Marks {
     marks: Vec<Mark>,
     latest: Vec<Instant>,
@@ -304,7 +304,7 @@ impl Marks {
         Self { marks, latest }
     }
 
-    /// Returns whether the candidate stands in the relation to another annotation.
+    /// Returns whether the relation holds between the candidate and one of the wanted annotations.
     fn any(
         &self,
         relation: Relation,

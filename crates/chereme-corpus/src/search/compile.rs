@@ -1,4 +1,4 @@
-//! From the tree of a query to a plan.
+//! Compiles the tree of a query to a plan.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
@@ -29,30 +29,30 @@ use crate::db::search::answers::{self, Named};
 use crate::db::search::terms::Mark;
 use crate::error::{Error, Result};
 
-/// The corpus and index that a query is answered from.
+/// The corpus and index against which a query is evaluated.
 pub(crate) struct Ask<'a> {
     pub(crate) connection: &'a Connection,
     pub(crate) index: &'a SearchIndex,
-    /// The index as it is now.
+    /// The index at the time of the query.
     pub(crate) now: &'a dyn Index,
     pub(crate) vocabulary: Arc<Vocabulary>,
     pub(crate) notes: RefCell<BTreeSet<String>>,
     pub(crate) findings: RefCell<Vec<Finding>>,
-    /// How many rows were looked at.
+    /// The number of rows examined so far.
     pub(crate) looked_at: Cell<u64>,
-    /// Hears how many, and says whether to go on.
+    /// Receives the number of examined rows, and decides whether to go on.
     pub(crate) hear: &'a RefCell<dyn FnMut(u64) -> Result<()> + 'a>,
 }
 
-/// Why a query has no answer.
+/// The reason why a query has no answer.
 pub(crate) enum Failure {
-    /// It asks for what there is not.
+    /// The query names something that does not exist.
     Query(QueryError),
     /// Rows or index cannot be read.
     Other(Error),
 }
 
-/// The result of a step of answering.
+/// The result of a step of evaluation.
 pub(crate) type Asked<T> = std::result::Result<T, Failure>;
 
 impl From<QueryError> for Failure {
@@ -80,12 +80,12 @@ impl Ask<'_> {
         self.now.docs(probe)
     }
 
-    /// Fails where whoever asked wants no answer any more.
+    /// Fails if the caller no longer wants an answer.
     pub(crate) fn go_on(&self) -> Result<()> {
         (self.hear.borrow_mut())(self.looked_at.get())
     }
 
-    /// Counts a row that was looked at, and asks now and then whether to go on.
+    /// Counts an examined row, and checks from time to time whether to go on.
     pub(crate) fn look(&self) -> Result<()> {
         const OFTEN: u64 = 64;
         let rows = self.looked_at.get() + 1;
@@ -101,7 +101,7 @@ impl Ask<'_> {
         self.index.memory().signs(self.connection)
     }
 
-    /// Adds something that whoever asked should know.
+    /// Adds a note for the user.
     pub(crate) fn note(&self, text: String) {
         self.notes.borrow_mut().insert(text);
     }
@@ -116,15 +116,16 @@ impl Ask<'_> {
     }
 }
 
-/// Returns the plan for an expression; a search by example wants every token, in another order.
+/// Returns the plan for an expression. A search by example selects every token and only affects the order.
 ///
 /// # Errors
-/// Where it names a value, feature, signer… that there is not, or ranks what it excludes.
+/// Fails if the expression names a value, feature, signer or the like that does not exist, or ranks by what it
+/// excludes.
 pub(crate) fn plan(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
     match expr {
         Expr::And(terms) => {
             let ranked = |term: &&Expr| !matches!(term, Expr::Like(_));
-            // What overlaps is then a stretch of the curve, and the token in which it lies may be the other's own.
+            // The relation is then to a stretch of the curve, so the other may also lie in the token itself.
             let of_curve = terms.iter().any(is_of_curve);
             let plans = terms.iter().filter(ranked).map(|term| match term {
                 Expr::Relation(related) if of_curve => {
@@ -160,7 +161,7 @@ fn is_of_curve(term: &Expr) -> bool {
     matches!(term, Expr::Test(test) if matches!(test.what, What::Curve(..)))
 }
 
-/// Returns the plan for what stands under a joint, where a search by example has no place.
+/// Returns the plan for an operand of a connective, in which a search by example is not allowed.
 fn inner(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
     let example = match expr {
         Expr::Like(like) => Some(like),
@@ -252,7 +253,7 @@ fn property(ask: &Ask<'_>, property: Property, comparison: &Comparison) -> Asked
     }
 }
 
-/// A name that is asked for.
+/// A requested name.
 struct Wish<'a> {
     glob: Glob,
     exactly: bool,
@@ -308,7 +309,7 @@ fn mark_of(property: Property) -> Option<Mark> {
     }
 }
 
-/// Returns the plan for the tokens that have such a property at all.
+/// Returns the plan for the tokens that have some value of a property.
 fn has(ask: &Ask<'_>, property: Property) -> Asked<Plan> {
     if let Some(mark) = mark_of(property) {
         let terms = ask.now.terms(Text::Reading, &mark.prefix(), &|_| true)?;

@@ -14,16 +14,16 @@ use super::vocabulary::Accepted;
 use super::{findings, steps};
 use crate::db::search::terms::{hands_of, phase_counts};
 
-/// A comparison of a component, ready to be made.
+/// A comparison of a component, prepared for evaluation.
 ///
-/// A field that names no part of the component means the whole. A value that the whole does not know means the
-/// parts that know it (`nonmanual=raised`); without a value (`*`, `unset`) all parts count. If the field names no
-/// hand or phase, every reading of the token counts.
+/// A field without a part means the whole component. If the whole does not know a value, the parts that do are compared
+/// (`nonmanual=raised`); without a value (`*`, `unset`) all parts count. If the field names no hand or phase, every
+/// reading of the token counts.
 pub(crate) struct ComponentTest {
     pub(crate) field: Field,
     subject_at: std::ops::Range<usize>,
     pub(crate) comparison: Comparison,
-    /// For each part what passes for each of the values.
+    /// For each part, the accepted stored values for each value of the comparison.
     pub(crate) parts: Vec<(Option<String>, Vec<Accepted>)>,
 }
 
@@ -31,7 +31,7 @@ impl ComponentTest {
     /// Prepares a comparison.
     ///
     /// # Errors
-    /// With the place of a value, feature or part that neither an inventory nor a token has.
+    /// Fails if neither an inventory nor a token has a value, feature or part; the error has its place in the query.
     pub(crate) fn new(
         ask: &Ask<'_>,
         field: &Field,
@@ -82,7 +82,7 @@ impl ComponentTest {
         })
     }
 
-    /// Returns the plan for the tokens that pass, and reports what it found of the values.
+    /// Returns the plan for the tokens that pass, and reports which values of the corpus matched.
     pub(crate) fn plan(&self, ask: &Ask<'_>) -> Asked<Plan> {
         self.report(ask)?;
         let mut plans = vec![self.own_plan(ask)?];
@@ -95,12 +95,12 @@ impl ComponentTest {
         Ok(Plan::any(plans))
     }
 
-    /// Reports what each of the values found in the corpus.
+    /// Reports which values of the corpus each value matched.
     pub(crate) fn report(&self, ask: &Ask<'_>) -> Asked<()> {
         findings::report(ask, self)
     }
 
-    /// Returns the terms of the values of a part that pass, on one hand, each after its phase.
+    /// Returns the terms of a part's passing values on one hand, each with its phase.
     pub(crate) fn passing_terms(
         &self,
         ask: &Ask<'_>,
@@ -157,7 +157,7 @@ impl ComponentTest {
         Ok(Plan::any(vec![found, absent]))
     }
 
-    /// Returns the values that pass, folded, if they are known without a look at each.
+    /// Returns the passing values, folded, if they can be listed without examining each stored value.
     fn listed<'a>(
         &self,
         accepted: &'a [Accepted],
@@ -181,7 +181,7 @@ impl ComponentTest {
     }
 }
 
-/// Returns the parts of a component that a field can mean.
+/// Returns the parts of a component that a field may stand for.
 fn all_parts(
     ask: &Ask<'_>,
     field: &Field,
@@ -213,7 +213,7 @@ fn all_parts(
     .into())
 }
 
-/// Returns the parts that a value means, of all that it can.
+/// Returns the parts that a value belongs to, among all possible ones.
 fn parts_meant<'a>(
     ask: &Ask<'_>,
     field: &Field,
@@ -271,14 +271,14 @@ fn has_value(values: &Values, accepted: &Accepted) -> bool {
     }
 }
 
-/// Returns the names that would have been understood, those in use first.
+/// Returns the names that would have been accepted, those in use first.
 fn names(
     ask: &Ask<'_>,
     component: Component,
     known: &KnownReadings,
     parts: &BTreeSet<Option<String>>,
 ) -> Vec<String> {
-    // The values in use come first: they are what can be found.
+    // The values in use come first, because only these can be found.
     let mut names: Vec<String> = Vec::new();
     for part in parts {
         let values = known.parts.get(part).into_iter();

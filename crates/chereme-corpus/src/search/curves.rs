@@ -1,4 +1,4 @@
-//! Conditions on curves of the face and head, answered from captured faces, skeletons and what recipes made.
+//! Conditions on curves of the face and head, evaluated on captured faces, skeletons and generated curves.
 
 use chereme_motion::{Face, Instant};
 use chereme_sign::query::{CurveTest, QueryError, Test};
@@ -10,11 +10,11 @@ use super::probe::{Probe, RowField};
 use crate::db::{recordings, signs};
 use crate::face::{Fits, numbers_of};
 
-/// Frames a second at which curves are looked at.
+/// The frames per second at which curves are evaluated.
 const RATE: f64 = 50.0;
-/// A longer recording is looked at up to here, in seconds.
+/// The part of a recording that is examined, in seconds from its start.
 const LONGEST: f64 = 7_200.0;
-/// Parts that stand for several numbers, whose mean is compared.
+/// Names that stand for several channels, whose mean is compared.
 const PARTS: [(&str, &[&str]); 9] = [
     ("brows", &["brow_raise_right", "brow_raise_left"]),
     ("frown", &["brow_squeeze"]),
@@ -29,10 +29,10 @@ const PARTS: [(&str, &[&str]); 9] = [
 const HEAD: [&str; 3] = ["head_pitch", "head_yaw", "head_roll"];
 const TRUNK: [&str; 3] = ["trunk_pitch", "trunk_yaw", "trunk_roll"];
 
-/// Returns the plan for the tokens while which a curve passes as long as it is to.
+/// Returns the plan for the tokens during which a curve meets the condition for the required time.
 ///
 /// # Errors
-/// If no number of a face has this name.
+/// Fails if no channel of a face has this name.
 pub(super) fn plan(ask: &Ask<'_>, test: &Test, wanted: &CurveTest) -> Asked<Plan> {
     let Some(channels) = channels(&wanted.name) else {
         return Err(unknown(test, &wanted.name).into());
@@ -74,7 +74,7 @@ pub(super) fn plan(ask: &Ask<'_>, test: &Test, wanted: &CurveTest) -> Asked<Plan
     Ok(Plan::Index(Probe::Rows(RowField::Token, found)))
 }
 
-/// Returns the times, in microseconds, over which frames pass for `lasting` microseconds and longer.
+/// Returns the times, in microseconds, of runs of passing frames that last at least `lasting` microseconds.
 fn runs(passes: &[bool], lasting: i64) -> Vec<(i64, i64)> {
     let at = |frame: usize| Instant::from_seconds(frame as f64 / RATE).micros();
     let mut runs = Vec::new();
@@ -94,7 +94,7 @@ fn runs(passes: &[bool], lasting: i64) -> Vec<(i64, i64)> {
     runs
 }
 
-/// Returns the places of the numbers that a name stands for: those of the head come first.
+/// Returns the indices of the channels that a name stands for; those of the head come first.
 fn channels(name: &str) -> Option<Vec<usize>> {
     if let Some(at) = HEAD.iter().position(|own| *own == name) {
         return Some(vec![at]);

@@ -1,11 +1,11 @@
-//! Sets of documents, in order, and their numbers.
+//! Ordered sets of documents, and their times.
 
 use chereme_sign::query::TimeField;
 
 use super::probe::{Column, Doc, Index, RowField};
 use crate::error::Result;
 
-/// Documents in order, none twice.
+/// Documents in order, without duplicates.
 pub(crate) type Docs = Vec<Doc>;
 
 /// Returns what is in both.
@@ -48,7 +48,7 @@ pub(crate) fn union(mut a: Docs, b: Docs) -> Docs {
     a
 }
 
-/// Returns how many documents at the start of `docs` come before `doc`, most often few.
+/// Returns the number of documents at the start of `docs` before `doc`; it is usually small.
 fn leap(docs: &[Doc], doc: Doc) -> usize {
     let mut reach = 1;
     while reach < docs.len() && docs[reach] < doc {
@@ -58,7 +58,7 @@ fn leap(docs: &[Doc], doc: Doc) -> usize {
     from + docs[from..to].partition_point(|other| *other < doc)
 }
 
-/// Where each document lies in time.
+/// The times of documents.
 pub(crate) struct Times {
     recording: Box<dyn Column>,
     start: Box<dyn Column>,

@@ -1,8 +1,8 @@
-//! Facets: how often each value of each field occurs among the tokens found.
+//! Facets: the number of tokens found that have each value of each field.
 //!
-//! The count of a value is the number of tokens that its condition would leave. Tiers and lexicons may write the
-//! hand of one component in several forms: `dominant` in a lexicon, `right` in a recording, no hand at all. A
-//! condition for one form finds the others as well, so these values are counted by evaluating the condition.
+//! The count of a value is the number of tokens that would remain under the corresponding condition. Tiers and lexicons
+//! may write the hand of one component in several forms: `dominant` in a lexicon, `right` in a recording, or no hand at
+//! all. A condition in one form matches the others as well, so these values are counted by evaluating the condition.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,13 +15,13 @@ use super::probe::{Doc, RowField};
 use crate::db::search::answers::{self, Named};
 use crate::error::Result;
 
-/// How many values of a field are counted at most, unless more are asked for.
+/// The default limit for the number of counted values of a field.
 pub const FACET_VALUES: usize = 20;
 
 type Facets = BTreeMap<String, Vec<(String, usize)>>;
 
-/// Returns how many of the documents have each value of each field, at most `most` values of each,
-/// and how many values were left out of each.
+/// Returns for each field the number of documents that have each value, with at most `most` values, and the number of
+/// values left out.
 pub(crate) fn facets(
     ask: &Ask<'_>,
     found: &[Doc],
@@ -67,7 +67,7 @@ fn row_facet(
     let least = all.min(most);
     if least > 0 && counts.len() > least {
         counts.select_nth_unstable_by(least - 1, |a, b| b.0.cmp(&a.0));
-        // Values with equal counts differ in name, so all of them stay.
+        // Values with equal counts are chosen by name, so all of them are kept here.
         let bar = counts[least - 1].0;
         counts.retain(|(count, _)| *count >= bar);
     }
@@ -82,7 +82,7 @@ fn row_facet(
     Ok((named_counts, left_out))
 }
 
-/// Keeps the most frequent values, in order, and returns how many others there were.
+/// Keeps the most frequent values, in order, and returns the number of others.
 fn keep_most_frequent(counts: &mut Vec<(String, usize)>, most: usize) -> usize {
     counts.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
     let left_out = counts.len().saturating_sub(most);
@@ -132,7 +132,7 @@ fn count_forms_of_hands(ask: &Ask<'_>, found: &[Doc], facets: &mut Facets) -> As
     Ok(())
 }
 
-/// Returns a field as the index spells it, without its hand.
+/// Returns a field in the spelling of the index, without its hand.
 fn without_hand(field: &str) -> String {
     let bare = field.strip_prefix("both.").unwrap_or(field);
     match bare.parse::<Field>() {
@@ -158,7 +158,7 @@ fn count_of_condition(
     let (findings, notes) = (ask.findings.take(), ask.notes.take());
     let docs = compile::plan(ask, &condition.root)
         .and_then(|plan| plan::evaluate(ask, &plan, Some(found)));
-    // Findings are about the question that was asked.
+    // The findings of the original question are restored.
     ask.findings.replace(findings);
     ask.notes.replace(notes);
     Ok(Some(docs?.len()))

@@ -1,20 +1,20 @@
-//! Findings of an answer: the values that a condition widened to or matched, or why it matches nothing.
+//! Findings about a query: the values that a condition widened to or matched, or the reason why it matches nothing.
 
 use chereme_sign::Component;
 use chereme_sign::query::{At, Query};
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
-/// How many names a message lists.
+/// The number of names listed in a message.
 const NAMED: usize = 8;
 
-/// Something about a condition of a query that whoever asked should know.
+/// A finding about a condition of a query, for the user.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// The condition in its canonical form, such as `placement=head`.
     pub condition: String,
-    /// Its first character in the query, and the one after its last; a condition of a saved search
-    /// stands where the search is named.
+    /// The index of its first character in the query, and of the one after its last; for a condition of a saved search
+    /// those of the saved search's name.
     pub at: (usize, usize),
     /// The kind, with its details.
     pub kind: FindingKind,
@@ -23,17 +23,17 @@ pub struct Finding {
 /// A kind of finding, with its details.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FindingKind {
-    /// `=` found narrower values than the one that is named: these of the corpus. `==` does not.
+    /// `=` also matched narrower values than the named one; these are in the corpus. `==` does not match them.
     Widened {
         /// The narrower values, as they are coded.
         values: Vec<String>,
     },
-    /// A pattern or a list of features found these values of the corpus.
+    /// A pattern or a list of features matched these values of the corpus.
     Matched {
         /// The values, as they are coded.
         values: Vec<String>,
     },
-    /// Nothing of this component, or of this part of it, is coded in the corpus.
+    /// No value of this component, or of this part of it, is coded in the corpus.
     NotCoded {
         /// The component.
         component: Component,
@@ -42,14 +42,14 @@ pub enum FindingKind {
     },
     /// No token of the corpus can match.
     CannotMatch {
-        /// Why, in one sentence without a full stop.
+        /// The reason, in one sentence without a full stop.
         why: String,
-        /// What could match: values, names, or whole conditions.
+        /// Possible alternatives: values, names, or whole conditions.
         names: Vec<String>,
     },
-    /// Each term finds tokens by itself, and no token has all of them.
+    /// Each term matches tokens by itself, but no token has all of them.
     NoneTogether {
-        /// The terms, and how many tokens each finds by itself.
+        /// The terms, and the number of tokens that each matches by itself.
         terms: Vec<(String, usize)>,
     },
 }
@@ -64,7 +64,7 @@ impl Finding {
         }
     }
 
-    /// Returns the word for the kind that JSON has, such as `cannot-match`.
+    /// Returns the name of the kind in JSON, such as `cannot-match`.
     #[must_use]
     pub fn kind_name(&self) -> &'static str {
         match self.kind {
@@ -76,7 +76,7 @@ impl Finding {
         }
     }
 
-    /// Returns what could stand in place of a condition that matches nothing: values, names, or whole conditions.
+    /// Returns possible alternatives to a condition that matches nothing: values, names, or whole conditions.
     #[must_use]
     pub fn names(&self) -> &[String] {
         match &self.kind {
@@ -85,8 +85,8 @@ impl Finding {
         }
     }
 
-    /// Returns the query that was asked with one of [`names`](Self::names) in its place; nothing if the condition does
-    /// not stand in that query, as one of a saved search.
+    /// Returns the query with the condition replaced by one of [`names`](Self::names); nothing if the condition is not
+    /// in the query itself, but in a saved search.
     #[must_use]
     pub fn instead(&self, query: &str, name: &str) -> Option<String> {
         let letters: Vec<char> = query.chars().collect();
@@ -101,7 +101,7 @@ impl Finding {
             match asked.contains(['=', ':']) {
                 true => format!("{before}{name}{after}"),
                 false => {
-                    // Only the value has a place: its field stands before it.
+                    // The place is that of the value alone; its field stands before it.
                     let field = before.rfind([' ', '(']).map_or(0, |at| at + 1);
                     format!("{}{name}{after}", &before[..field])
                 }
@@ -117,7 +117,7 @@ impl Finding {
         Query::parse(&changed).is_ok().then_some(changed)
     }
 
-    /// Returns the finding as a sentence for people.
+    /// Returns the finding as a sentence.
     #[must_use]
     pub fn message(&self) -> String {
         let condition = &self.condition;
@@ -156,7 +156,7 @@ impl Finding {
     }
 }
 
-/// Returns a name as a query spells it.
+/// Returns a name in the spelling of queries.
 fn quoted(name: &str) -> String {
     let bare = |letter: char| letter.is_alphanumeric() || "-_".contains(letter);
     if !name.is_empty() && name.chars().all(bare) {
@@ -165,7 +165,7 @@ fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-/// Returns the first names of a list, and how many more there are.
+/// Returns the first names of a list, and the number of remaining ones.
 fn few(names: &[String]) -> String {
     let shown = names[..names.len().min(NAMED)].join(", ");
     match names.len().saturating_sub(NAMED) {
@@ -237,7 +237,7 @@ mod tests {
             };
             assert_eq!(finding.names(), [name]);
             assert_eq!(finding.instead(query, name).as_deref(), Some(changed));
-            // Another query, as one that names a saved search, may have no such place.
+            // Another query may not contain that place, for example one that names a saved search.
             assert_eq!(finding.instead("é", name), None);
         }
     }

@@ -1,4 +1,4 @@
-//! Findings of comparisons of components: values of the corpus that they found, or could find.
+//! Findings about comparisons of components: values of the corpus that they matched, or alternatives.
 
 use std::collections::BTreeSet;
 
@@ -12,10 +12,10 @@ use super::finding::FindingKind;
 use super::known::{KnownReading, KnownReadings};
 use crate::db::search::terms::{hands_of, phase_counts};
 
-/// How many names are offered in place of one that finds nothing.
+/// The number of names offered in place of one that matches nothing.
 const OFFERED: usize = 20;
 
-/// Reports what each value of a comparison of a component found.
+/// Reports which values of the corpus each value of a comparison matched.
 pub(crate) fn report(ask: &Ask<'_>, test: &ComponentTest) -> Asked<()> {
     let known = ask.readings(test.field.component)?;
     for (number, value) in test.comparison.values.iter().enumerate() {
@@ -31,7 +31,7 @@ pub(crate) fn report(ask: &Ask<'_>, test: &ComponentTest) -> Asked<()> {
     Ok(())
 }
 
-/// Returns the condition that one value of a comparison is.
+/// Returns the condition for a single value of a comparison.
 fn written(test: &ComponentTest, value: &Value) -> String {
     let what = What::Component(
         test.field.clone(),
@@ -101,14 +101,14 @@ fn of_value(
     }
 }
 
-/// Returns whether a reading is one of the hand and the phase of a field.
+/// Returns whether a reading has the hand and the phase of a field.
 fn is_of(field: &Field, known: &KnownReading) -> bool {
     let hands = hands_of(field.hand);
     let mut terms = known.terms.iter();
     terms.any(|(hand, phase, _)| hands.contains(hand) && phase_counts(field.phase, phase))
 }
 
-/// Returns the finding that nothing of a component, or of the part that is named, is coded.
+/// Returns the finding that no value of a component, or of the named part, is coded.
 fn not_coded(test: &ComponentTest, known: &KnownReadings) -> Option<FindingKind> {
     let coded = |part: &Option<String>| {
         let values = known.parts.get(part).into_iter();
@@ -125,7 +125,7 @@ fn not_coded(test: &ComponentTest, known: &KnownReadings) -> Option<FindingKind>
     })
 }
 
-/// Returns why a value finds nothing where something is coded, and what could be found.
+/// Returns the finding for a value that matches nothing although the component is coded, with alternatives.
 fn nothing(test: &ComponentTest, known: &KnownReadings, literal: Option<&str>) -> FindingKind {
     let field = &test.field;
     let of_part = |part: &Option<String>| -> Vec<String> {
@@ -177,7 +177,7 @@ fn nothing(test: &ComponentTest, known: &KnownReadings, literal: Option<&str>) -
     FindingKind::CannotMatch { why, names }
 }
 
-/// Returns the names that hold a text or are a slip or two away from it, the likeliest first.
+/// Returns the names that contain a text or differ from it by a slip or two, most likely first.
 pub(crate) fn like(text: &str, names: &[String]) -> Vec<String> {
     let wanted = fold(text);
     let mut found: Vec<String> = Vec::new();

@@ -1,5 +1,5 @@
-//! The index's knowledge of itself: the readings it holds, terms that fit a pattern, and the names and order of
-//! things; kept from query to query while the rows stay as they are.
+//! Cache of facts about the index and the corpus: indexed readings, terms that match a pattern, and the names and order
+//! of signs; valid from query to query while the rows stay the same.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
@@ -15,31 +15,31 @@ use crate::db::search::answers::{self, Named};
 use crate::db::search::terms;
 use crate::error::Result;
 
-/// Every reading of a component that the index holds.
+/// All indexed readings of a component.
 #[derive(Default)]
 pub(crate) struct KnownReadings {
-    /// By part, and there by folded value; readings that are no value stand under their terms' text.
+    /// By part and then by folded value; readings without a value are listed under the text of their terms.
     pub(crate) parts: BTreeMap<Option<String>, BTreeMap<String, Vec<KnownReading>>>,
 }
 
 /// A reading with its terms.
 pub(crate) struct KnownReading {
     pub(crate) reading: Reading,
-    /// Code of the hand, code of the phase, term.
+    /// Hand code, phase code, and term.
     pub(crate) terms: Vec<(char, String, String)>,
 }
 
 /// Signs in the order of their glosses.
 pub(crate) struct Signs {
-    /// Row, gloss, folded gloss, by folded gloss.
+    /// Row, gloss and folded gloss, ordered by folded gloss.
     pub(crate) rows: Vec<(i64, String, String)>,
     pub(crate) rank: HashMap<i64, u64>,
 }
 
-/// The memory between queries.
+/// Cache shared by queries.
 #[derive(Default)]
 pub(crate) struct Memory {
-    /// The state of the index that `readings` and `signs` belong to.
+    /// The state of the index for which `readings` and `signs` are valid.
     indexed: i64,
     readings: BTreeMap<Component, Arc<KnownReadings>>,
     signs: Option<Arc<Signs>>,
@@ -47,7 +47,7 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
-    /// Forgets what belongs to another state of the index than this.
+    /// Discards data that belong to another state of the index than `indexed`.
     pub(crate) fn turn_to(&mut self, indexed: i64) {
         if self.indexed != indexed {
             self.indexed = indexed;
@@ -133,7 +133,7 @@ impl Memory {
     }
 }
 
-/// Returns the terms of a field that fit a pattern.
+/// Returns the terms of a field that match a pattern.
 pub(crate) fn fitting(index: &dyn Index, field: Text, glob: &Glob) -> Result<Vec<String>> {
     if let Some(text) = glob.literal() {
         return Ok(vec![text.to_owned()]);

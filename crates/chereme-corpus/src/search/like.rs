@@ -1,4 +1,4 @@
-//! Search by example: how alike tokens are to one of them.
+//! Search by example: the similarity of tokens to given ones.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use crate::db::search::answers;
 use crate::db::search::terms::{self, hand_codes, hands_of, phase_counts};
 use crate::db::signs::TokenRow;
 
-/// How alike each document is to the examples, from 0 to 1.
+/// The similarity of each document to the examples, from 0 to 1.
 ///
 /// For each component in the comparison, the score is the share of the example's readings that the token has too.
 /// Hands are compared by their part in signing unless the component names a side, and a single value is both the
@@ -21,7 +21,7 @@ use crate::db::signs::TokenRow;
 /// Several components are weighted; several examples have equal weight.
 pub(crate) struct Scores {
     scores: BTreeMap<Doc, f64>,
-    /// Likeness to single examples, and what it must be above.
+    /// For each example, the similarity of documents and the required minimum.
     bars: Vec<(BTreeMap<Doc, f64>, f64)>,
     /// The rows of the examples.
     pub(crate) examples: Vec<i64>,
@@ -49,21 +49,21 @@ impl Scores {
         Ok(all)
     }
 
-    /// Returns how alike a document is.
+    /// Returns the similarity of a document.
     pub(crate) fn of(&self, doc: Doc) -> f64 {
         self.scores.get(&doc).copied().unwrap_or(0.0).min(1.0)
     }
 
     /// Returns whether a document reaches the required similarity to each example.
     pub(crate) fn pass(&self, doc: Doc) -> bool {
-        // Shares of a whole are added up, which is exact only to the last few digits.
+        // Shares of a whole are added, which is exact only up to the last few digits.
         const SLACK: f64 = 1e-9;
         let mut bars = self.bars.iter();
         bars.all(|(own, least)| own.get(&doc).is_some_and(|score| *score > least + SLACK))
     }
 }
 
-/// Returns how alike each document is to one example, from 0 to 1.
+/// Returns the similarity of each document to one example, from 0 to 1.
 fn scored(ask: &Ask<'_>, like: &Like, token: &TokenRow) -> Asked<BTreeMap<Doc, f64>> {
     let mut scores = BTreeMap::new();
     let on: Vec<(Field, f64)> = if like.on.is_empty() {
@@ -98,7 +98,7 @@ fn scored(ask: &Ask<'_>, like: &Like, token: &TokenRow) -> Asked<BTreeMap<Doc, f
     Ok(scores)
 }
 
-/// One thing coded of the example.
+/// One coded value of the example.
 struct Slot {
     hand: char,
     phase: Phase,
@@ -127,8 +127,8 @@ impl Slot {
     }
 }
 
-/// Returns what is coded of a token, under every way to name its hands; a single value is both the
-/// first and the last.
+/// Returns the coded values of a token, under every name of their hands; a single value counts as both the first and
+/// the last.
 fn slots(ask: &Ask<'_>, token: &TokenRow) -> Asked<Vec<Slot>> {
     let left_handed = match token.recording_id {
         Some(recording) => answers::left_handed(ask.connection, recording)?,

@@ -1,18 +1,17 @@
-//! The meaning of everyday words, in the values of the corpus.
+//! Interpretation of everyday words as conditions on values of the corpus.
 
 use chereme_sign::inventory::Inventory;
 use chereme_sign::query;
 
 use crate::{Corpus, Result, StoredInventory};
 
-/// Returns the query that is meant by words that name components before their values; see
-/// [`query::meant`].
+/// Returns the query for a text that names components before their values; see [`query::meant`].
 #[must_use]
 pub fn meant(text: &str, inventories: &[StoredInventory]) -> Option<String> {
     query::meant(text, &plain(inventories))
 }
 
-/// Returns the same where values stand without what they are values of, too; see [`query::guessed`].
+/// Returns the query for a text in which values may also stand without their components; see [`query::guessed`].
 #[must_use]
 pub fn guessed(text: &str, inventories: &[StoredInventory]) -> Option<String> {
     query::guessed(text, &plain(inventories))
@@ -23,10 +22,10 @@ fn plain(inventories: &[StoredInventory]) -> Vec<&Inventory> {
 }
 
 impl Corpus {
-    /// Returns what a query that finds nothing may mean: "handshape U" is `configuration=U`.
+    /// Returns the likely meaning of a query that finds nothing: "handshape U" is `configuration=U`.
     ///
     /// # Errors
-    /// Where the inventories cannot be read.
+    /// Fails if the inventories cannot be read.
     pub fn guess(&self, query: &str) -> Result<Option<String>> {
         Ok(guessed(query, &self.inventories_now()?))
     }

@@ -1,8 +1,8 @@
-//! Retrieval: which tokens answer a query.
+//! Retrieval: finds the tokens that answer a query.
 //!
-//! A query becomes a [plan](plan::Plan): one question to the [index](index) for the conditions that it can answer,
-//! and a look at the rows for the others (relations of time, whole texts), on as few tokens as the rest of the
-//! query leaves.
+//! A query is compiled to a [plan](plan::Plan): one request to the [index](index) for the conditions that it can
+//! evaluate, and reads of rows for the others (temporal relations, whole texts), for only those tokens that the rest of
+//! the query leaves.
 
 mod alone;
 mod answer;
@@ -55,13 +55,13 @@ pub use tally::{NO_VALUE, Tally, TallyRow};
 pub struct SearchOptions {
     /// The most tokens to show; all by default.
     pub limit: Option<usize>,
-    /// How many tokens to leave out before.
+    /// The number of tokens to skip.
     pub offset: usize,
     /// Whether to count the values of all tokens found.
     pub facets: bool,
-    /// How many values of a field to count at most.
+    /// The largest number of values to count for a field.
     pub facet_values: usize,
-    /// In which order.
+    /// The order of the tokens.
     pub order: Order,
 }
 
@@ -80,19 +80,18 @@ impl Default for SearchOptions {
 impl Corpus {
     /// Finds the tokens that answer a query; see [`chereme_sign::query`] for the language.
     ///
-    /// A search sees one state of the corpus: everything that was done before it, by this program or
-    /// another, and nothing that is being done meanwhile. `@NAME` in it stands for the query that is
-    /// [kept](Self::keep_searches) under that name.
+    /// A search sees one state of the corpus: everything stored before it, by this program or another, and nothing
+    /// stored meanwhile. `@NAME` in a query stands for the query that is [saved](Self::keep_searches) under that name.
     ///
     /// # Errors
-    /// [`Error::Wrong`] with the place in the query that cannot be understood, or that names a value,
-    /// signer… that there is not.
+    /// [`Error::Wrong`] with the place in the query that cannot be understood, or that names a value, signer or the
+    /// like that does not exist.
     pub fn search(&mut self, query: &str, options: &SearchOptions) -> Result<Answer> {
         let mut hear = unheard;
         self.search_until(query, options, &mut Progress::new(&mut hear))
     }
 
-    /// Finds the same, and stops where `progress` says so; it is asked many times a second.
+    /// Searches as [`search`](Self::search) does, and stops if `progress` asks to; it is called many times a second.
     ///
     /// # Errors
     /// Those of [`search`](Self::search), and [`Error::Stopped`].
@@ -107,7 +106,7 @@ impl Corpus {
         })
     }
 
-    /// Asks something of one state of the corpus that a query is part of.
+    /// Evaluates a query with `ask` on one state of the corpus.
     fn asked<T>(
         &mut self,
         query: &str,
@@ -164,7 +163,7 @@ pub(crate) fn tokens(
     }
 }
 
-/// Returns the failure that a query cannot be understood.
+/// Returns the error for a query that cannot be understood.
 pub(crate) fn wrong(query: &str, error: &QueryError) -> Error {
     let mut lines: Vec<String> = error.render(query).lines().map(str::to_owned).collect();
     if !error.remedy.is_empty() {
@@ -242,7 +241,7 @@ fn answer(ask: &Ask<'_>, query: &Query, options: &SearchOptions) -> Asked<Answer
     })
 }
 
-/// Returns the terms that must all hold.
+/// Returns the terms of a conjunction.
 fn joined(root: &Expr) -> &[Expr] {
     match root {
         Expr::And(terms) => terms,
@@ -258,7 +257,7 @@ fn likes(root: &Expr) -> Vec<&Like> {
     likes.collect()
 }
 
-/// Returns the places of the texts that the order depends on: plain words, and texts up to slips.
+/// Returns the places of the texts that determine the order: plain words, and texts compared up to slips.
 fn ranked_texts(ask: &Ask<'_>, root: &Expr) -> Asked<Vec<Vec<Option<plan::Plan>>>> {
     let plain = |pattern: &Pattern| pattern.as_literal().is_some();
     let ranked = |test: &&Test| match &test.what {

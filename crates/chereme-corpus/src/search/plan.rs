@@ -1,4 +1,4 @@
-//! Plans: the part of a query that the index answers, and the questions to the rows afterwards.
+//! Plans: the part of a query that the index evaluates, and the conditions on rows that are checked afterwards.
 
 use chereme_sign::query::Comparison;
 
@@ -8,11 +8,11 @@ use super::docs::{self, Docs};
 use super::probe::{Doc, Probe};
 use super::whole;
 
-/// How a query is answered.
+/// The way in which a query is evaluated.
 pub(crate) enum Plan {
-    /// The index answers it.
+    /// The index returns the documents.
     Index(Probe),
-    /// The index answers what it does not want.
+    /// The index returns the documents to exclude.
     Without(Probe),
     /// All of these.
     And(Vec<Plan>),
@@ -20,15 +20,15 @@ pub(crate) enum Plan {
     Or(Vec<Plan>),
     /// Not this.
     Not(Box<Plan>),
-    /// Another annotation of the recording must be there.
+    /// The recording must have another annotation in a given relation.
     Beside(Box<Beside>),
-    /// A whole text that is no gloss is compared.
+    /// A whole text that is not a gloss is compared.
     Whole(Box<WholeText>),
 }
 
 /// A comparison of whole texts.
 pub(crate) struct WholeText {
-    /// Translations if true, else remarks.
+    /// Whether translations are compared; otherwise remarks.
     pub(crate) translation: bool,
     pub(crate) comparison: Comparison,
     /// A condition that the index can check and that every passing token meets.
@@ -36,17 +36,17 @@ pub(crate) struct WholeText {
 }
 
 impl Plan {
-    /// Returns the plan for every token.
+    /// Returns the plan that selects every token.
     pub(crate) fn everything() -> Self {
         Self::Index(Probe::All)
     }
 
-    /// Returns the plan for no token.
+    /// Returns the plan that selects no token.
     pub(crate) fn nothing() -> Self {
         Self::Without(Probe::All)
     }
 
-    /// Returns the plan for all of these together.
+    /// Returns the conjunction of these plans.
     pub(crate) fn all(plans: Vec<Self>) -> Self {
         let (mut wanted, mut unwanted) = (Vec::new(), Vec::new());
         let mut rest = Vec::new();
@@ -72,7 +72,7 @@ impl Plan {
         }
     }
 
-    /// Returns the plan for any of these.
+    /// Returns the disjunction of these plans.
     pub(crate) fn any(plans: Vec<Self>) -> Self {
         let mut clauses: Vec<Probe> = Vec::new();
         let mut rest = Vec::new();
@@ -95,7 +95,7 @@ impl Plan {
         }
     }
 
-    /// Returns the plan for whatever this is not.
+    /// Returns the negation of this plan.
     pub(crate) fn not(self) -> Self {
         match self {
             Self::Index(query) => Self::Without(query),
@@ -105,7 +105,7 @@ impl Plan {
         }
     }
 
-    /// Returns the probe, if the index answers all of the plan.
+    /// Returns the probe, if the index can evaluate the whole plan.
     pub(crate) fn indexed(self) -> Result<Probe, Self> {
         match self {
             Self::Index(probe) => Ok(probe),
@@ -117,7 +117,7 @@ impl Plan {
 
 /// Returns the documents that a plan selects, from those in `within` if it is given.
 ///
-/// The rows are asked only about tokens that the rest of the plan leaves.
+/// Rows are read only for tokens that the rest of the plan leaves.
 pub(crate) fn evaluate(ask: &Ask<'_>, plan: &Plan, within: Option<&[Doc]>) -> Asked<Docs> {
     if within.is_some_and(<[_]>::is_empty) {
         return Ok(Docs::new());

@@ -1,7 +1,7 @@
-//! Questions to an index, and what every index has to answer.
+//! Requests to an index, and the interface that every index implements.
 //!
-//! Nothing here knows how an index works: another engine is another implementation of [`Index`] in a folder of its
-//! own, beside `index`. A [`Probe`] is handed over whole, so that the engine can answer a conjunction as one.
+//! Nothing here depends on how an index works: another engine is another implementation of [`Index`] in a folder of its
+//! own, beside `index`. A [`Probe`] is passed as a whole, so that the engine can evaluate a conjunction at once.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Bound;
@@ -11,7 +11,7 @@ use chereme_sign::query::TimeField;
 use super::docs::Docs;
 use crate::error::Result;
 
-/// A document of an index: the part of the index that holds it, and its number there.
+/// A document of an index: the segment that contains it, and its number there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Doc {
     pub(crate) part: u32,
@@ -29,7 +29,7 @@ pub(crate) enum Text {
     Translation,
     /// Words of remarks.
     Comment,
-    /// [Terms](crate::db::search::terms) of what is coded, and marks.
+    /// [Terms](crate::db::search::terms) for coded values, and marks.
     Reading,
 }
 
@@ -59,11 +59,11 @@ pub(crate) enum Probe {
     Has(RowField),
     /// The time in microseconds lies between these.
     Between(TimeField, Bound<i64>, Bound<i64>),
-    /// The words stand next to each other in this order.
+    /// The words are adjacent in this order.
     Phrase(Text, Vec<String>),
-    /// Words that fit these regular expressions stand next to each other in this order.
+    /// Words that match these regular expressions are adjacent in this order.
     Patterns(Text, Vec<String>),
-    /// A term is within so many slips of this one.
+    /// A term differs from this one by at most this number of slips.
     Near(Text, String, u8),
     /// All of the first hold, and none of the second.
     And(Vec<Probe>, Vec<Probe>),
@@ -77,13 +77,13 @@ impl Probe {
         Self::Terms(Text::Reading, terms.into_iter().map(Into::into).collect())
     }
 
-    /// Returns the probe for whatever this one does not find.
+    /// Returns the probe for all documents that this one does not match.
     pub(crate) fn inverted(self) -> Self {
         Self::And(Vec::new(), vec![self])
     }
 }
 
-/// Numbers of documents, one of each.
+/// A column with one number for each document.
 pub(crate) trait Column {
     /// Returns the number of a document, if it has one.
     fn get(&self, doc: Doc) -> Option<i64>;
@@ -92,12 +92,12 @@ pub(crate) trait Column {
 /// How many documents have each value of each field.
 pub(crate) type FacetCounts = BTreeMap<String, BTreeMap<String, usize>>;
 
-/// An index of the documents of a corpus, as it is at one moment.
+/// An index over the documents of a corpus, at one moment.
 pub(crate) trait Index {
-    /// Returns the documents that fit a probe.
+    /// Returns the documents that match a probe.
     fn docs(&self, probe: &Probe) -> Result<Docs>;
 
-    /// Returns the terms of a field that begin with `prefix` and that `wanted` wants, in order.
+    /// Returns the terms of a field that begin with `prefix` and for which `wanted` returns true, in order.
     fn terms(
         &self,
         field: Text,
@@ -105,12 +105,12 @@ pub(crate) trait Index {
         wanted: &dyn Fn(&str) -> bool,
     ) -> Result<BTreeSet<String>>;
 
-    /// Opens a field of row numbers.
+    /// Opens a column of row numbers.
     fn rows(&self, field: RowField) -> Result<Box<dyn Column>>;
 
-    /// Opens a field of times.
+    /// Opens a column of times.
     fn times(&self, field: TimeField) -> Result<Box<dyn Column>>;
 
-    /// Counts the values of documents, which are in order; `go_on` fails if nobody wants the answer any more.
+    /// Counts the values of documents, which must be in order; `go_on` fails if the caller no longer wants an answer.
     fn facets(&self, docs: &[Doc], go_on: &dyn Fn() -> Result<()>) -> Result<FacetCounts>;
 }

@@ -1,4 +1,4 @@
-//! Values that follow each other in one token: `placement=head > chest`.
+//! Successive values within one token: `placement=head > chest`.
 
 use std::collections::BTreeSet;
 
@@ -11,11 +11,11 @@ use super::plan::Plan;
 use super::probe::Probe;
 use crate::db::search::terms::hands_of;
 
-/// How many places in time may be tried for one query.
+/// The largest number of positions in time that are tried for one query.
 const MOST_PLACES: usize = 24;
 
-/// Returns the plan for the tokens that begin with the first value and move on to the others, in
-/// this order, on one hand.
+/// Returns the plan for the tokens that begin with the first value and then take the other ones, in this order, on one
+/// hand.
 pub(crate) fn plan(
     ask: &Ask<'_>,
     field: &Field,
@@ -66,10 +66,10 @@ pub(crate) fn plan(
     Ok(Plan::any(plans))
 }
 
-/// Terms with the phases that they are of.
+/// Terms with their phases.
 pub(crate) type Phased = Vec<(String, String)>;
 
-/// Returns the plan for values at any of the places, each after the one before it.
+/// Returns the plan for values at any of the places, each later than the one before it.
 fn chain(terms: &[Phased], places: &[u32]) -> Option<Plan> {
     let (step, later) = terms.split_first()?;
     if later.is_empty() {
@@ -95,7 +95,7 @@ fn any(terms: &Phased, wanted: impl Fn(u32) -> bool) -> Option<Plan> {
     (!terms.is_empty()).then(|| Plan::Index(Probe::readings(terms)))
 }
 
-/// Returns the place of a phase among successive values; the only value of a sign has none.
+/// Returns the place of a phase among successive values; nothing for the only value of a sign.
 fn place(phase: &str) -> Option<u32> {
     match phase {
         "i" => Some(0),

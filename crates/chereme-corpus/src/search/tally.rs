@@ -1,4 +1,4 @@
-//! Frequency tables: how many of the tokens found have each value of one field, or of two.
+//! Frequency tables: the number of tokens found that have each value of one field, or of two.
 
 use std::collections::BTreeMap;
 
@@ -16,15 +16,15 @@ use crate::db::search::terms::{Mark, hands_of, phase_counts};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
-/// How many cells a cross table may have.
+/// The largest number of cells in a cross table.
 const MOST_CELLS: usize = 1_000_000;
 
 /// The row or column of the tokens that have no value of a field.
 pub const NO_VALUE: &str = "unset";
 
-/// How many tokens have each value of one field, or each two values of two.
+/// Number of tokens for each value of one field, or each pair of values of two fields.
 ///
-/// A token with several values of a field counts in each of them, as a query for each would find it.
+/// A token with several values of a field is counted for each of them, as a query for each would match it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tally {
     /// The query in its canonical form.
@@ -78,7 +78,7 @@ impl Corpus {
     }
 }
 
-/// What is counted.
+/// The subject of a count.
 enum Subject {
     Component(Field),
     Property(Property),

@@ -1,9 +1,9 @@
-//! Words and patterns of words, folded: the form of texts in the index, and the comparison with one text.
+//! Words and patterns of words, folded: their form in the index, and the comparison with a text.
 
 use chereme_sign::query::{Expression, Pattern, What};
 use chereme_sign::text::{edit_distance, fold};
 
-/// Returns the words of a text: its stretches of letters and digits, folded.
+/// Returns the words of a text: its sequences of letters and digits, folded.
 pub(crate) fn words(text: &str) -> Vec<String> {
     fold(text)
         .split(|c: char| !c.is_alphanumeric())
@@ -12,8 +12,8 @@ pub(crate) fn words(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// A folded word or whole text with wildcards: the stretches between them; or a regular expression,
-/// and whether it minds case and accents.
+/// A pattern for a folded word or whole text: the pieces between wildcards; or a regular expression, and whether it
+/// distinguishes case and accents.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Glob(Vec<String>, Option<(Expression, bool)>);
 
@@ -25,14 +25,14 @@ impl Glob {
         Self(segments.collect(), expression.map(|it| (it, false)))
     }
 
-    /// Returns the pattern over a whole text that minds case and accents.
+    /// Returns the pattern over a whole text that distinguishes case and accents.
     pub(crate) fn exact(pattern: &Pattern) -> Self {
         let expression = pattern.expression().cloned();
         Self(pattern.segments().to_vec(), expression.map(|it| (it, true)))
     }
 
-    /// Returns a pattern for each word of a pattern over words; a wildcard does not reach over the
-    /// end of a word, and one that stands alone at the end or the start asks for nothing.
+    /// Returns a pattern for each word of a pattern over words. A wildcard does not extend over the end of a word, and
+    /// a single one at the start or the end is ignored.
     pub(crate) fn words(pattern: &Pattern) -> Vec<Self> {
         let mut found: Vec<Vec<String>> = Vec::new();
         let mut word: Option<Vec<String>> = None;
@@ -60,7 +60,7 @@ impl Glob {
         words.map(|word| Self(word, None)).collect()
     }
 
-    /// Returns the text where there is no wildcard.
+    /// Returns the text, if there is no wildcard.
     pub(crate) fn literal(&self) -> Option<&str> {
         match &self.0[..] {
             [text] => Some(text),
@@ -68,12 +68,12 @@ impl Glob {
         }
     }
 
-    /// Returns what every text that matches begins with.
+    /// Returns the prefix of all texts that match.
     pub(crate) fn prefix(&self) -> &str {
         self.0.first().map_or("", String::as_str)
     }
 
-    /// Returns whether the whole of a text fits, folded or not as the pattern is.
+    /// Returns whether a whole text matches, folded if the pattern is.
     pub(crate) fn matches(&self, text: &str) -> bool {
         match &self.1 {
             Some((expression, true)) => return expression.finds_exactly(text),
@@ -98,7 +98,7 @@ impl Glob {
         rest.ends_with(last.as_str())
     }
 
-    /// Returns whether a text or its folded form fits: a regular expression may name accents.
+    /// Returns whether a text or its folded form matches: a regular expression may contain accents.
     pub(crate) fn fits(&self, text: &str, folded: &str) -> bool {
         self.matches(folded) || self.1.is_some() && self.matches(text)
     }

@@ -1,4 +1,4 @@
-//! The values that queries may name: those of the corpus's inventories.
+//! The values that queries may name: the values in the corpus's inventories.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,10 +11,10 @@ use super::texts::Glob;
 use crate::error::Result;
 use crate::inventories;
 
-/// The inventories of a corpus, as queries use them.
+/// The inventories of a corpus in the form for queries.
 ///
-/// A name means every value that has it as its id, alias or name, in whichever inventory of the
-/// component: values of the same name are one value to a query.
+/// A name stands for every value that has it as id, alias or name, in any inventory of the component: values of the
+/// same name are one value to a query.
 pub(crate) struct Vocabulary(Vec<Known>);
 
 /// An inventory, and the folded spellings of each of its values.
@@ -40,11 +40,11 @@ impl Known {
     }
 }
 
-/// The stored values that pass for one wanted value.
+/// The stored values that are accepted for one wanted value.
 pub(crate) struct Accepted {
-    /// Spellings of the values that are meant, folded.
+    /// Spellings of the wanted values, folded.
     folded: BTreeSet<String>,
-    /// Spellings of the values narrower than those, folded.
+    /// Spellings of narrower values, folded.
     narrower: BTreeSet<String>,
     exact: BTreeSet<String>,
     folded_glob: Option<Glob>,
@@ -54,12 +54,12 @@ pub(crate) struct Accepted {
 }
 
 impl Accepted {
-    /// Returns whether a stored value is among them.
+    /// Returns whether a stored value is accepted.
     pub(crate) fn fits(&self, value: &str, folded: &str) -> bool {
         self.means(value, folded) || self.narrower.contains(folded)
     }
 
-    /// Returns whether a stored value is among them without being narrower than the query's value.
+    /// Returns whether a stored value is accepted as the wanted value itself, not as a narrower one.
     pub(crate) fn means(&self, value: &str, folded: &str) -> bool {
         self.folded.contains(folded)
             || self.exact.contains(value)
@@ -73,7 +73,7 @@ impl Accepted {
                 .is_some_and(|glob| glob.matches(value))
     }
 
-    /// Returns all of them, folded, if they can be listed.
+    /// Returns all accepted values, folded, if they can be listed.
     pub(crate) fn listed(&self) -> Option<impl Iterator<Item = &String>> {
         let plain =
             self.exact.is_empty() && self.folded_glob.is_none() && self.exact_glob.is_none();
@@ -112,7 +112,7 @@ impl Vocabulary {
         self.0.iter().map(|known| &known.inventory)
     }
 
-    /// Returns the parts of a component that there are inventories for.
+    /// Returns the parts of a component that have inventories.
     pub(crate) fn parts(&self, component: Component) -> BTreeSet<Option<String>> {
         let own = self.all().filter(|one| one.component == component);
         own.map(|one| one.feature.clone()).collect()
@@ -123,7 +123,7 @@ impl Vocabulary {
         self.all().map(|inventory| inventory.id.as_str())
     }
 
-    /// Returns the names of the features that values of a component have.
+    /// Returns the feature names in the values of a component.
     pub(crate) fn features(&self, component: Component, part: Option<&str>) -> BTreeSet<&str> {
         self.all()
             .filter(|one| one.component == component)
@@ -132,7 +132,7 @@ impl Vocabulary {
             .collect()
     }
 
-    /// Returns what passes for a wanted value in a part of a component.
+    /// Returns the accepted values for a wanted value in a part of a component.
     pub(crate) fn accepted(
         &self,
         component: Component,
@@ -167,7 +167,7 @@ impl Vocabulary {
             Wanted::Named(pattern) => {
                 let glob = Glob::whole(pattern);
                 let literal = glob.literal().is_some();
-                // A pattern is of the names that a value has, not of the other spellings of it.
+                // A pattern applies to the names of a value, not to its other spellings.
                 let named = |value: &InventoryValue| {
                     let names = value.names.values().chain([&value.id]);
                     names.into_iter().any(|text| glob.fits(text, &fold(text)))
@@ -236,7 +236,7 @@ impl Vocabulary {
             }
             all_meant.extend(meant.into_iter().map(|id| (number, id)));
         }
-        // A table that codes lip and mouth side by side does not mean its lip by exactly mouth.
+        // If a table codes lip and mouth separately, exactly mouth does not include its lip.
         accepted
             .exact
             .retain(|text| !beside.contains(text.as_str()));
@@ -249,8 +249,8 @@ impl Vocabulary {
         narrower.retain(|text| !folded.contains(text));
     }
 
-    /// Adds the values of inventories without an order of their own that another inventory places below the wanted
-    /// ones, as people write them: `under chin`, `side of head`, `chin ipsi`.
+    /// Adds values of inventories without a hierarchy of their own that another inventory places below the wanted ones,
+    /// in everyday spellings: `under chin`, `side of head`, `chin ipsi`.
     fn add_places_of_tables(
         &self,
         accepted: &mut Accepted,
@@ -287,8 +287,8 @@ impl Vocabulary {
     }
 }
 
-/// Returns a folded spelling as it is compared between inventories: hyphens are blanks, and the
-/// article counts for nothing.
+/// Returns a folded spelling in the form for comparisons between inventories: hyphens become blanks, and articles are
+/// removed.
 fn loose(text: &str) -> String {
     let text = text.replace(['-', '_'], " ");
     let words = text.split_whitespace();
@@ -296,23 +296,23 @@ fn loose(text: &str) -> String {
     words.join(" ")
 }
 
-/// Returns what a place is a part or a side of: `head` of `side of head`, `chin` of `chin ipsi`.
+/// Returns the larger place if a place is a part or a side of one: `head` for `side of head`, `chin` for `chin ipsi`.
 fn whole_of(place: &str) -> Option<&str> {
     const SIDES: [&str; 4] = [" ipsi", " contra", " ipsilateral", " contralateral"];
     let sided = SIDES.iter().find_map(|side| place.strip_suffix(side));
     sided.or_else(|| Some(place.rsplit_once(" of ")?.1))
 }
 
-/// The further spellings that count besides the wanted values.
+/// The spellings that are accepted for the wanted values.
 #[derive(Clone, Copy)]
 enum Reach {
-    /// No others, and case and accents matter.
+    /// Spellings of the wanted values only, with case and accents.
     Letters,
-    /// Nothing.
+    /// Spellings of the wanted values only, ignoring case and accents.
     Own,
-    /// The values within them, whichever inventory says so.
+    /// Narrower values, in the hierarchy of any inventory.
     Narrower {
-        /// Whether the other spellings of the wanted values count, too.
+        /// Whether the other spellings of the wanted values are accepted too.
         aliases: bool,
     },
 }

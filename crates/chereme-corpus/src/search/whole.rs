@@ -17,10 +17,10 @@ use super::texts::{Glob, words};
 use crate::db::search::answers;
 use crate::db::search::terms::Mark;
 
-/// The longest word that is compared up to slips: its automaton grows with the length.
+/// The longest word that is compared up to slips: the automaton grows with its length.
 const LONGEST_FUZZY: usize = 64;
 
-/// Returns the plan for comparing whole texts; where a token has several, one that passes is enough.
+/// Returns the plan for a comparison of whole texts; if a token has several, one match suffices.
 pub(crate) fn plan(ask: &Ask<'_>, field: TextField, comparison: &Comparison) -> Asked<Plan> {
     match field {
         TextField::Gloss => gloss(ask, comparison),
@@ -78,7 +78,7 @@ fn gloss(ask: &Ask<'_>, comparison: &Comparison) -> Asked<Plan> {
     })
 }
 
-/// Reports that no sign has such a gloss, with those that are near it.
+/// Reports that no sign has such a gloss, with similar ones.
 fn nobody_has(ask: &Ask<'_>, comparison: &Comparison, value: &Value) -> Asked<()> {
     let Wanted::Named(pattern) = &value.wanted else {
         return Ok(());
@@ -136,7 +136,7 @@ fn other(ask: &Ask<'_>, translation: bool, comparison: &Comparison) -> Asked<Pla
     })))
 }
 
-/// Returns a query that every token passes whose text is one of those wanted, if they have words.
+/// Returns a probe that matches at least every token with one of the wanted texts; nothing if they contain no words.
 fn narrowed(ask: &Ask<'_>, field: Text, comparison: &Comparison) -> Asked<Option<Probe>> {
     if comparison.operator == Operator::IsNot {
         return Ok(None);
@@ -158,7 +158,7 @@ fn narrowed(ask: &Ask<'_>, field: Text, comparison: &Comparison) -> Asked<Option
     Ok(Plan::any(plans).indexed().ok())
 }
 
-/// Returns the candidates whose texts pass.
+/// Returns the candidates whose texts match.
 pub(crate) fn filter(ask: &Ask<'_>, text: &WholeText, candidates: Docs) -> Asked<Docs> {
     let ids = ask.now.rows(RowField::Token)?;
     let mut found = Docs::new();
@@ -178,7 +178,7 @@ pub(crate) fn filter(ask: &Ask<'_>, text: &WholeText, candidates: Docs) -> Asked
     Ok(found)
 }
 
-/// Returns whether one of the texts passes, or that there is no text.
+/// Returns whether one of the texts matches, or there is no text and the comparison accepts that.
 fn texts_pass(comparison: &Comparison, texts: Vec<String>) -> bool {
     if texts.is_empty() {
         return comparison.accepts(&Reading::Unset, |_, _| false);
@@ -188,7 +188,7 @@ fn texts_pass(comparison: &Comparison, texts: Vec<String>) -> bool {
         .any(|text| text_passes(comparison, &Reading::Value(text)))
 }
 
-/// Returns whether a single text passes.
+/// Returns whether a single text matches.
 pub(crate) fn text_passes(comparison: &Comparison, reading: &Reading) -> bool {
     comparison.accepts(reading, |text, wanted| match wanted {
         Wanted::Named(pattern) if comparison.operator == Operator::Exactly => {
@@ -205,7 +205,7 @@ pub(crate) fn words_plan(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
     Ok(Plan::any(places.into_iter().flatten().collect()))
 }
 
-/// Returns the plans for the places of a text, the most specific first: the whole gloss, words of the gloss,
+/// Returns the plans for the places where a text may occur, most specific first: the whole gloss, words of the gloss,
 /// translations, remarks.
 pub(crate) fn places(ask: &Ask<'_>, test: &Test) -> Asked<Vec<Option<Plan>>> {
     match &test.what {
@@ -232,7 +232,7 @@ fn in_gloss(field: TextField) -> bool {
     matches!(field, TextField::Any | TextField::Gloss)
 }
 
-/// Returns the fields of words that a text is searched in, with their places.
+/// Returns the word fields in which a text is searched, with their places.
 fn fields_of(field: TextField) -> Vec<(usize, Text)> {
     let all = [
         (1, TextField::Gloss, Text::Words),

@@ -1,4 +1,4 @@
-//! The documents that have any of some terms.
+//! A query for the documents that contain any of several terms.
 
 use std::sync::Arc;
 
@@ -8,9 +8,9 @@ use tantivy::query::{
 use tantivy::schema::{Field, IndexRecordOption};
 use tantivy::{BitSet, DocId, DocSet, Score, SegmentReader, TERMINATED, TantivyError, Term};
 
-/// Asks for the documents that have any of these terms, all of one field, without scores.
+/// A query for the documents that contain any of these terms, all in one field, without scores.
 ///
-/// One term is read as it comes; several are gathered in a bit for each document of the segment.
+/// A single term is read directly; several are collected in a bit set over the documents of the segment.
 #[derive(Debug, Clone)]
 pub(crate) struct AnyTerm {
     field: Field,

@@ -1,4 +1,4 @@
-//! The files of the search index, in memory, so that they can be written with the rows.
+//! The files of the search index, held in memory so that they can be written together with the rows.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
@@ -12,7 +12,7 @@ use tantivy::directory::{
     WatchCallback, WatchHandle, WritePtr,
 };
 
-/// A folder of files in memory that knows what has changed since it was last saved.
+/// An in-memory folder of files that records its changes since it was last saved.
 #[derive(Clone, Default)]
 pub(super) struct MemoryFolder(Arc<RwLock<Files>>);
 
@@ -30,7 +30,7 @@ pub(super) struct Changes {
 }
 
 impl MemoryFolder {
-    /// Adds a file that is saved already.
+    /// Adds a file that has already been saved.
     pub(super) fn add(&mut self, name: String, data: OwnedBytes) {
         self.write().data.insert(PathBuf::from(name), data);
     }

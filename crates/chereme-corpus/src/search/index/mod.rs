@@ -1,21 +1,21 @@
-//! The search index: one document a token, derived from the rows and written in their transaction.
+//! The search index: one document for each token, derived from the rows and written in their transaction.
 //!
-//! | field | holds | asked |
+//! | field | content | used for |
 //! |---|---|---|
-//! | `id` | the token | which rows the hits are |
-//! | `sign`, `recording`, `signer` | row numbers | whose, and where; order and counts |
+//! | `id` | the token | the rows of the hits |
+//! | `sign`, `recording`, `signer` | row numbers | conditions; order and counts |
 //! | `gloss` | the whole gloss, folded | `gloss=BOL-2H`, wildcards, slips |
-//! | `words`, `translation`, `comment` | words of the gloss, of what is said, of remarks | `"slow animal"` |
-//! | `reading` | [terms](crate::db::search::terms) of what is coded, and marks | `right.configuration=U`, `origin=made` |
+//! | `words`, `translation`, `comment` | words of the gloss, of translations, of remarks | `"slow animal"` |
+//! | `reading` | [terms](crate::db::search::terms) for coded values, and marks | `right.configuration=U`, `origin=made`
+//! |
 //! | `facet` | `right.configuration=U` as printed | counts |
 //! | `start`, `end`, `duration` | microseconds | `duration<0.8s`; relations of time |
 //!
-//! Texts are [folded](chereme_sign::text::fold) before they come here; words are their stretches of letters and
-//! digits. Nothing is scored: the order of results depends on the place of a match, not on its frequency.
+//! Texts are [folded](chereme_sign::text::fold) before they are indexed; words are sequences of letters and digits.
+//! There is no scoring: the order of results depends on the place of a match, not on its frequency.
 //!
-//! Two counters in `search_state` show whether the index follows the rows: triggers of the schema count every
-//! change of the rows, whoever makes it, and the index records the count it has seen, in the rows and in its own
-//! files.
+//! Two counters in `search_state` show whether the index is up to date: triggers of the schema count every change of
+//! the rows by any program, and the index records the count that it includes, in the rows and in its own files.
 
 mod any_term;
 mod directory;
@@ -41,7 +41,7 @@ use crate::progress::{Progress, Step, Unit, unheard};
 use directory::MemoryFolder;
 use read::{KnownLabels, Reading};
 
-/// Raised whenever the form of documents changes: indexes of other numbers are rebuilt.
+/// The version of the documents' format, raised with every change of it: indexes of other versions are rebuilt.
 const FORMAT: i64 = 3;
 const WORDS: &str = "words";
 const MEMORY: usize = 64 << 20;
@@ -104,21 +104,21 @@ impl SearchIndex {
         Ok(())
     }
 
-    /// Returns whether the index had to be rebuilt because it did not follow the rows.
+    /// Returns whether the index had to be rebuilt because it was not up to date with the rows.
     #[cfg(test)]
     pub(crate) fn was_rebuilt(&self) -> bool {
         self.rebuilt.get()
     }
 
-    /// Returns the same, once.
+    /// Returns whether the index had to be rebuilt since the last call.
     pub(crate) fn take_rebuilt(&self) -> bool {
         self.rebuilt.take()
     }
 
-    /// Returns the index as it is now, to be asked.
+    /// Returns the index in its present state, for queries.
     ///
     /// # Panics
-    /// Before the first [`refresh`](Derived::refresh).
+    /// Panics before the first [`refresh`](Derived::refresh).
     pub(crate) fn now(&self) -> Reading<'_> {
         let open = self
             .open
@@ -131,29 +131,29 @@ impl SearchIndex {
         }
     }
 
-    /// Returns whether the index follows the rows, as this connection reads them now.
+    /// Returns whether the index is up to date with the rows, as this connection reads them now.
     pub(crate) fn is_current(&self, connection: &Connection) -> Result<bool> {
         let state = State::read(connection)?;
         let open = self.open.as_ref();
         Ok(follows(&state) && open.is_some_and(|open| open.indexed == state.indexed))
     }
 
-    /// Returns the memory that is kept between queries on the current state of the index.
+    /// Returns the cache that is shared by queries on the present state of the index.
     pub(crate) fn memory(&self) -> RefMut<'_, Memory> {
         let mut memory = self.memory.borrow_mut();
         memory.turn_to(self.open.as_ref().map_or(-1, |open| open.indexed));
         memory
     }
 
-    /// Returns how many documents the index holds.
+    /// Returns the number of documents in the index.
     pub(crate) fn documents(&self) -> u64 {
         self.now().searcher.num_docs()
     }
 }
 
 impl Derived for SearchIndex {
-    /// Brings the index up to date: usually nothing to do, loads it if another program has written since, rebuilds
-    /// it if it does not follow the rows.
+    /// Brings the index up to date: usually does nothing, loads it if another program has written since, and rebuilds
+    /// it if it does not match the rows.
     fn refresh(&mut self, connection: &Connection) -> Result<()> {
         let state = State::read(connection)?;
         if !follows(&state) {
@@ -169,7 +169,7 @@ impl Derived for SearchIndex {
         Ok(())
     }
 
-    /// Writes the tokens that the running operation touched into the index, in its transaction.
+    /// Indexes the tokens that the running operation touched, in its transaction.
     fn follow(&mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<()> {
         let touched = rows::touched(connection)?;
         let state = State::read(connection)?;
@@ -205,8 +205,8 @@ impl Derived for SearchIndex {
 }
 
 impl OpenIndex {
-    /// Loads the index that has seen the first `indexed` changes; of `before`, which has seen
-    /// others, the files that both have are kept.
+    /// Loads the index that includes the first `indexed` changes; reuses the files that it has in common with `before`,
+    /// an index of another state.
     fn load(connection: &Connection, indexed: i64, before: Option<&Self>) -> Result<Self> {
         let mut folder = MemoryFolder::default();
         let mut missing = 0;
@@ -398,7 +398,7 @@ fn step(progress: &mut Progress<'_>, done: &mut u64, total: Option<u64>) -> Resu
     })
 }
 
-/// The record of the last count that the index has seen, as its own files hold it.
+/// Returns the record of the last count that the index includes, for its own files.
 fn payload(content: i64) -> String {
     format!("{FORMAT}:{content}")
 }

@@ -22,22 +22,22 @@ use crate::error::Result;
 use crate::search::docs::Docs;
 use crate::search::probe::{Column, Doc, FacetCounts, Index, Probe, RowField, Text};
 
-/// How many words of the index one pattern inside a phrase may fit.
+/// The largest number of index words that one pattern inside a phrase may match.
 const MOST_EXPANSIONS: u32 = 1 << 20;
-/// From this many documents on, values are counted in a table of all of them.
+/// The smallest number of documents for which values are counted in a table over all documents.
 const MANY: usize = 1000;
 
-/// The index as it is at one moment.
+/// The index at one moment.
 pub(crate) struct Reading<'a> {
     pub(super) searcher: Searcher,
     pub(super) fields: Fields,
     pub(super) labels: &'a RefCell<KnownLabels>,
 }
 
-/// The values of the facets, for each part of the index that is in use.
+/// Facet values of each segment in use.
 pub(super) type KnownLabels = HashMap<SegmentId, Arc<Labels>>;
 
-/// The values of the facets of one part of the index, by ordinal: the number of the field, and the value.
+/// The facet values of a segment, by ordinal: the number of the field, and the value.
 pub(super) struct Labels {
     fields: Vec<String>,
     values: Vec<(u32, String)>,
@@ -71,7 +71,7 @@ impl Fields {
         }
     }
 
-    /// Returns a probe in the words of the engine; a conjunction stays one query.
+    /// Converts a probe to a query of the engine; a conjunction becomes a single query.
     fn query(&self, probe: &Probe) -> Box<dyn Query> {
         match probe {
             Probe::All => Box::new(AllQuery),
@@ -305,7 +305,7 @@ impl Column for Times {
     }
 }
 
-/// Collects every document that is found.
+/// Collects every matching document.
 struct All;
 
 struct OfSegment {
