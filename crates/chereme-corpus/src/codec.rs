@@ -36,7 +36,7 @@ mod form {
 /// Returns the bytes of columns of decimals without gaps, of `frames` numbers each.
 ///
 /// # Panics
-/// If a column is longer or shorter.
+/// Panics if a column is longer or shorter.
 pub(crate) fn encode(frames: usize, columns: &[&Decimals]) -> Vec<u8> {
     let mut bytes = begin(DECIMALS_ONLY, frames, columns.len());
     for column in columns {
@@ -50,7 +50,7 @@ pub(crate) fn encode(frames: usize, columns: &[&Decimals]) -> Vec<u8> {
 /// [`encode`] gives them.
 ///
 /// # Panics
-/// If a column is longer or shorter.
+/// Panics if a column is longer or shorter.
 pub(crate) fn encode_any(frames: usize, columns: &[Column]) -> Vec<u8> {
     let plain = columns.iter().map(|column| match column.numbers() {
         Numbers::Decimals(decimals) if column.gaps().is_empty() => Some(decimals),

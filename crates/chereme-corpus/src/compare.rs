@@ -48,7 +48,7 @@ impl CompareSide {
     /// Returns the differences between two annotation files.
     ///
     /// # Errors
-    /// If one of them is a recording, for which [`Corpus::diff`] is needed, or cannot be read.
+    /// Fails if one of them is a recording, for which [`Corpus::diff`] is needed, or cannot be read.
     pub fn diff(&self, other: &Self) -> Result<Difference> {
         let read = |side: &Self| match side {
             Self::File { name, bytes } => read(name, bytes).map(|it| it.0),
@@ -64,7 +64,7 @@ impl Corpus {
     /// Returns the differences between the tiers of two recordings, or of a recording and a file, by meaning.
     ///
     /// # Errors
-    /// If an address names no recording, or a file cannot be read.
+    /// Fails if an address names no recording, or a file cannot be read.
     pub fn diff(&self, a: &CompareSide, b: &CompareSide) -> Result<Difference> {
         Ok(compare::diff(&self.document(a)?, &self.document(b)?))
     }
@@ -84,7 +84,7 @@ impl Corpus {
 /// Merges two annotation files; `base` is the file that both were copied from, if it is known.
 ///
 /// # Errors
-/// If a file cannot be read, or the merged one cannot be written in the format of mine.
+/// Fails if a file cannot be read, or the merged one cannot be written in the format of mine.
 pub fn merge_files(
     base: Option<(&str, &[u8])>,
     mine: (&str, &[u8]),

@@ -120,7 +120,7 @@ const MOST_FILE_BYTES: u64 = 1 << 28;
 /// it is the one that contains most of the labels.
 ///
 /// # Errors
-/// If the file cannot be read, or has no such tier.
+/// Fails if the file cannot be read, or has no such tier.
 pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) -> Result<CueKeys> {
     let (read, name, mut findings) = aligned(path, tier, options)?;
     let mut keys = CueKeys::of(&read);
@@ -183,7 +183,7 @@ impl Corpus {
 /// characters of its output that have no key; `code` is the name of a code.
 ///
 /// # Errors
-/// If the code does not exist, the text is larger than 64 KiB, or `espeak-ng` cannot be run.
+/// Fails if the code does not exist, the text is larger than 64 KiB, or `espeak-ng` cannot be run.
 pub fn cue_phones_of_espeak(text: &str, code: &str) -> Result<(String, Vec<char>)> {
     const MOST: usize = 1 << 16;
     let known = cue::code(code).ok_or_else(|| unread(UtteranceError::NoCode(code.to_owned())))?;

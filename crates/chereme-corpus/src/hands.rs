@@ -35,7 +35,7 @@ impl Corpus {
     /// Generated movement is not corrected.
     ///
     /// # Errors
-    /// If there is no such recording, or rows or blocks are damaged.
+    /// Fails if there is no such recording, or rows or blocks are damaged.
     pub fn hand_corrections(&self, recording: &Name) -> Result<[HandCorrection; 2]> {
         let connection = self.store.read();
         let row = address::recording(connection, recording)?;

@@ -177,7 +177,7 @@ impl SignMap {
     /// Writes the map as an SVG: a point for each sign, with its gloss if there is room.
     ///
     /// # Errors
-    /// If the file cannot be written, or exists and `force` is false.
+    /// Fails if the file cannot be written, or exists and `force` is false.
     pub fn draw(&self, to: &Path, force: bool) -> Result<u64> {
         let text = self.svg();
         write(to, force, |out| {

@@ -144,7 +144,7 @@ impl Series {
     /// Returns the values of one channel, a value per frame.
     ///
     /// # Panics
-    /// If there is no such channel.
+    /// Panics if there is no such channel.
     #[must_use]
     pub fn column(&self, channel: usize) -> &[f64] {
         &self.values[channel * self.frames..][..self.frames]

@@ -155,7 +155,7 @@ impl Corpus {
     /// Returns the markers of a recording that the models of cued speech know, and their visibility.
     ///
     /// # Errors
-    /// If there is no such recording, or it has no markers in a room.
+    /// Fails if there is no such recording, or it has no markers in a room.
     pub fn cued_markers(&self, recording: &Name, options: &CuedOptions) -> Result<CuedMarkers> {
         let connection = self.store.read();
         let row = address::recording(connection, recording)?;
@@ -417,7 +417,7 @@ impl Cued {
 /// Returns the takes of recordings that have keys, with their markers and keys.
 ///
 /// # Errors
-/// If no recording has both markers of a hand and keys.
+/// Fails if no recording has both markers of a hand and keys.
 pub(super) fn cued(
     connection: &Connection,
     names: &[Name],

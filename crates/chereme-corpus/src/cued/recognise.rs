@@ -82,7 +82,7 @@ impl Corpus {
     /// are tested on every second recording each, in order.
     ///
     /// # Errors
-    /// If no recording has a cuer's markers and keys, or they are too few.
+    /// Fails if no recording has a cuer's markers and keys, or they are too few.
     pub fn recognise_cues(
         &self,
         train: &[Name],

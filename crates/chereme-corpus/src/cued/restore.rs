@@ -110,7 +110,7 @@ impl Corpus {
     /// position; an earlier track of that name is replaced. Captured tracks remain unchanged.
     ///
     /// # Errors
-    /// If there are no such markers, too few frames to learn from, or `progress` stops the work.
+    /// Fails if there are no such markers, too few frames to learn from, or `progress` stops the work.
     pub fn restore_markers(
         &mut self,
         recordings: &[Name],

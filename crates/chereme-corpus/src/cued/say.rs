@@ -116,7 +116,7 @@ impl Corpus {
     /// report says so.
     ///
     /// # Errors
-    /// If nothing in the text can be cued, the takes are too few, or `progress` stops the work.
+    /// Fails if nothing in the text can be cued, the takes are too few, or `progress` stops the work.
     pub fn cue_from_dictionary(
         &mut self,
         text: &str,

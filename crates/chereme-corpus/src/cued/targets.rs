@@ -90,7 +90,7 @@ impl Corpus {
     /// recordings, in one operation. A tier that a person wrote or changed remains, and the new one gets another name.
     ///
     /// # Errors
-    /// If no recording has a cuer's markers and keys, or they are too few.
+    /// Fails if no recording has a cuer's markers and keys, or they are too few.
     pub fn find_cue_targets(
         &mut self,
         recordings: &[Name],
@@ -134,7 +134,7 @@ impl Corpus {
     /// key with the same placement, or the same shape, as the one before does not count.
     ///
     /// # Errors
-    /// If no recording has a cuer's markers and keys, or they are too few.
+    /// Fails if no recording has a cuer's markers and keys, or they are too few.
     pub fn cue_phases(
         &self,
         recordings: &[Name],
@@ -168,7 +168,7 @@ impl CuePhaseStatistics {
     /// arrival, with the median, on an axis from -600 to 600 ms.
     ///
     /// # Errors
-    /// If the file exists already and `force` is not set, or it cannot be written.
+    /// Fails if the file exists already and `force` is not set, or it cannot be written.
     pub fn draw(&self, to: &Path, force: bool) -> Result<()> {
         let text = self.svg();
         let fill = |out: &mut std::io::BufWriter<std::fs::File>| {

@@ -19,7 +19,7 @@ use crate::track::{self, TrackKind};
 /// Writes the movement of a stretch as GLB, in metres, with the annotations in it, and returns their number.
 ///
 /// # Errors
-/// If the recording has no movement, or writing fails.
+/// Fails if the recording has no movement, or writing fails.
 pub(super) fn glb(
     connection: &Connection,
     stretch: &Stretch,
@@ -58,7 +58,7 @@ fn on_the_clock(track: &Track, clip: &Clip, frames: &Range<usize>) -> Span {
 /// Writes the movement of a stretch as VRMA, for avatars; non-manuals are expressions.
 ///
 /// # Errors
-/// If the recording has no movement of a humanoid, or writing fails.
+/// Fails if the recording has no movement of a humanoid, or writing fails.
 pub(super) fn vrma(connection: &Connection, stretch: &Stretch, out: &mut dyn Write) -> Result<()> {
     let track = Track::of(connection, stretch.recording.id)?;
     let frames = match stretch.token {
@@ -124,7 +124,7 @@ pub(super) fn points(
 /// Writes the curves or markers of a stretch as a table with one row for each frame.
 ///
 /// # Errors
-/// If the recording has neither, or writing fails.
+/// Fails if the recording has neither, or writing fails.
 pub(super) fn numbers(
     connection: &Connection,
     stretch: &Stretch,
@@ -182,7 +182,7 @@ fn only(
 /// two forms each, value.
 ///
 /// # Errors
-/// If the rows or files of the recording are damaged, or writing fails.
+/// Fails if the rows or files of the recording are damaged, or writing fails.
 pub(super) fn elan_table(
     connection: &Connection,
     recording: &RecordingRow,
@@ -250,7 +250,7 @@ fn notes(connection: &Connection, recording: i64, span: Span) -> Result<Vec<gltf
 /// Writes the tiers of a recording as a TextGrid in its long form.
 ///
 /// # Errors
-/// If the rows or files of the recording are damaged, or writing fails.
+/// Fails if the rows or files of the recording are damaged, or writing fails.
 pub(super) fn text_grid(
     connection: &Connection,
     recording: &RecordingRow,
@@ -267,7 +267,7 @@ pub(super) fn text_grid(
 /// Writes translations, or glosses if the recording has no translation, as subtitles.
 ///
 /// # Errors
-/// If the recording has neither, its rows are damaged, or writing fails.
+/// Fails if the recording has neither, its rows are damaged, or writing fails.
 pub(super) fn subtitles(
     connection: &Connection,
     recording: &RecordingRow,

@@ -236,7 +236,7 @@ impl Corpus {
     /// equal.
     ///
     /// # Errors
-    /// If an address has no expression, or not just one, or the two have no channel in common.
+    /// Fails if an address has no expression, or not just one, or the two have no channel in common.
     pub fn score_faces(
         &self,
         [a, b]: [&Address; 2],
@@ -275,7 +275,7 @@ impl Corpus {
     /// expression spans all of its signs. Equal scores are ordered by the names of recordings.
     ///
     /// # Errors
-    /// If the address names no such sentence, no performance can be compared, or `progress` stops the work.
+    /// Fails if the address names no such sentence, no performance can be compared, or `progress` stops the work.
     pub fn choose(
         &self,
         function: &Function,

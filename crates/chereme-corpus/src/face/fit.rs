@@ -104,7 +104,7 @@ impl Corpus {
     /// the signer's own rest, and are 1 at the signer's usual extreme.
     ///
     /// # Errors
-    /// If nothing has that address, it has no captured face, or the corpus cannot be written.
+    /// Fails if nothing has that address, it has no captured face, or the corpus cannot be written.
     pub fn fit_face(&mut self, address: &Address, store: bool) -> Result<FaceFit> {
         let connection = self.store.read();
         let recording = recording_of(connection, address)?;

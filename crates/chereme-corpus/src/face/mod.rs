@@ -116,7 +116,7 @@ impl Corpus {
     /// face.
     ///
     /// # Errors
-    /// If nothing has that address, or it has no captured face.
+    /// Fails if nothing has that address, or it has no captured face.
     pub fn face(&self, address: &Address) -> Result<FaceReport> {
         let connection = self.store.read();
         let recording = recording_of(connection, address)?;

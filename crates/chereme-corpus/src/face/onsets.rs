@@ -85,7 +85,7 @@ impl Corpus {
     /// its extreme value in the body, and ends when it comes back to half.
     ///
     /// # Errors
-    /// If there are no expressions, or `progress` stops the work.
+    /// Fails if there are no expressions, or `progress` stops the work.
     pub fn onsets(
         &self,
         function: Option<&Function>,
@@ -166,7 +166,7 @@ impl Corpus {
     /// its median.
     ///
     /// # Errors
-    /// If the file exists already and `force` is not set, or it cannot be written.
+    /// Fails if the file exists already and `force` is not set, or it cannot be written.
     pub fn draw_onsets(&self, onsets: &Onsets, to: &Path, force: bool) -> Result<()> {
         let text = svg(onsets);
         let fill = |out: &mut std::io::BufWriter<std::fs::File>| {

@@ -58,7 +58,7 @@ impl Corpus {
     /// nobody has changed.
     ///
     /// # Errors
-    /// If nothing has that address, it has no face, or the corpus cannot be written.
+    /// Fails if nothing has that address, it has no face, or the corpus cannot be written.
     pub fn propose_nonmanuals(
         &mut self,
         address: &Address,

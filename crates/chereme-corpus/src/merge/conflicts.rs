@@ -311,7 +311,7 @@ impl Corpus {
     /// Returns the conflicts of merges that nobody has decided yet, or all of them if `decided`.
     ///
     /// # Errors
-    /// If the database fails.
+    /// Fails if the database fails.
     pub fn conflicts(&self, decided: bool) -> Result<Vec<CorpusConflict>> {
         let mut all = list(self.store.read())?;
         all.retain(|it| decided || it.decided.is_none());

@@ -77,7 +77,7 @@ impl Corpus {
     /// that their histories share, or `base`.
     ///
     /// # Errors
-    /// If the corpora have no common beginning and there is no `base`.
+    /// Fails if the corpora have no common beginning and there is no `base`.
     pub fn merge(
         &mut self,
         other: &Path,

@@ -24,7 +24,7 @@ impl Corpus {
     /// Returns the tracks of a recording, oldest first.
     ///
     /// # Errors
-    /// If there is no such recording, or the database fails.
+    /// Fails if there is no such recording, or the database fails.
     pub fn tracks(&self, recording: &Name) -> Result<Vec<TrackRow>> {
         let connection = self.store.read();
         let row = address::recording(connection, recording)?;
@@ -35,7 +35,7 @@ impl Corpus {
     /// span of the recording's clock. Frame 0 is then the first frame of the span.
     ///
     /// # Errors
-    /// If there is no such track, or it is damaged.
+    /// Fails if there is no such track, or it is damaged.
     pub fn track(&self, track: i64, span: Option<Span>) -> Result<Track> {
         let connection = self.store.read();
         read::track(connection, &tracks::track(connection, track)?, span)
@@ -44,7 +44,7 @@ impl Corpus {
     /// Adds tracks to a recording as one operation, and returns their rows.
     ///
     /// # Errors
-    /// If there is no such recording, or a track has no frames.
+    /// Fails if there is no such recording, or a track has no frames.
     pub fn add_tracks(&mut self, recording: &Name, new: &[NewTrack]) -> Result<Vec<TrackRow>> {
         self.store.operation("add tracks", |connection| {
             let row = address::recording(connection, recording)?;
@@ -65,7 +65,7 @@ impl Corpus {
     /// removed like the others, and annotations keep their times on the clock.
     ///
     /// # Errors
-    /// If there is no such recording or track, or another track has the new name.
+    /// Fails if there is no such recording or track, or another track has the new name.
     pub fn change_track(
         &mut self,
         recording: &Name,

@@ -65,8 +65,8 @@ impl Corpus {
     /// marker in every frame a track of curves, `fit residual`; the markers stay. With `dry_run` nothing is stored.
     ///
     /// # Errors
-    /// If there is no such recording or track of markers, the points have no place in a room, too few labels are known,
-    /// or the skeleton is not a body's.
+    /// Fails if there is no such recording or track of markers, the points have no place in a room, too few labels are
+    /// known, or the skeleton is not a body's.
     pub fn fit_markers(
         &mut self,
         recording: &Name,

@@ -36,7 +36,7 @@ impl Corpus {
     /// Returns the points within a span of a recording, for every track of markers that has frames there.
     ///
     /// # Errors
-    /// If there is no such recording, or rows or blocks are damaged.
+    /// Fails if there is no such recording, or rows or blocks are damaged.
     pub fn points_in(&self, recording: i64, span: Span) -> Result<Vec<PointsPiece>> {
         let connection = self.store.read();
         let mut pieces = Vec::new();

@@ -23,7 +23,7 @@ use crate::movement::{self, BLOCK_FRAMES};
 /// Returns a track: all of it, or the frames within a span of the recording's clock.
 ///
 /// # Errors
-/// If rows or blocks are damaged.
+/// Fails if rows or blocks are damaged.
 pub(crate) fn track(connection: &Connection, row: &TrackRow, span: Option<Span>) -> Result<Track> {
     Ok(match row.kind {
         TrackKind::Skeleton => {

@@ -47,7 +47,7 @@ pub(super) struct MarkerLayout {
 /// Stores a track of a recording, makes the recording long enough, and returns the track's row.
 ///
 /// # Errors
-/// If the track has no frames, or the database fails.
+/// Fails if the track has no frames, or the database fails.
 pub(crate) fn store(connection: &Connection, recording: i64, new: &NewTrack) -> Result<i64> {
     let name = tracks::free_name(connection, recording, &new.name)?;
     let track = match &new.track {

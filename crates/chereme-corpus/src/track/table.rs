@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 /// columns as in the file; a gap is an empty cell.
 ///
 /// # Errors
-/// If the track is neither markers nor curves, or `out` fails.
+/// Fails if the track is neither markers nor curves, or `out` fails.
 pub(crate) fn write(track: &Track, delimiter: u8, out: &mut dyn Write) -> Result<()> {
     match track {
         Track::Markers(markers) => {

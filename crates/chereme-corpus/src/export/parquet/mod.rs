@@ -60,7 +60,7 @@ fn about(long: Long) -> String {
 /// Writes the same table of tokens as the CSV export, with typed numbers.
 ///
 /// # Errors
-/// If rows are damaged, or `out` fails.
+/// Fails if rows are damaged, or `out` fails.
 pub(super) fn tokens(
     connection: &Connection,
     tokens: &[i64],
@@ -159,7 +159,7 @@ fn plain(title: &str, taken: &mut BTreeSet<String>) -> String {
 /// Writes a row for each value of each token.
 ///
 /// # Errors
-/// If rows are damaged, or `out` fails.
+/// Fails if rows are damaged, or `out` fails.
 pub(super) fn components(
     connection: &Connection,
     tokens: &[i64],
@@ -228,7 +228,7 @@ fn tell(progress: &mut Progress<'_>, done: usize, total: usize, task: &str) -> R
 /// Writes a row for each annotation of recordings; for tokens, each annotation that overlaps their span.
 ///
 /// # Errors
-/// If rows are damaged, or `out` fails.
+/// Fails if rows are damaged, or `out` fails.
 pub(super) fn annotations(
     connection: &Connection,
     stretches: &[Stretch],
@@ -318,7 +318,7 @@ fn annotation(table: &mut Table, stretch: &Stretch, tier: &TierRow, row: &Annota
 /// room.
 ///
 /// # Errors
-/// If blocks are damaged, or `out` fails.
+/// Fails if blocks are damaged, or `out` fails.
 pub(super) fn frames(
     connection: &Connection,
     stretches: &[Stretch],
