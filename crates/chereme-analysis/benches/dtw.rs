@@ -1,9 +1,9 @@
-//! Dynamic time warping beside its peers: `cargo bench -p chereme-analysis --bench dtw`.
+//! Benchmark of dynamic time warping and other implementations: `cargo bench -p chereme-analysis --bench dtw`.
 //!
-//! Series are sums of sines from 0.2 to 3 Hz at 120 frames a second, as joint angles move; every
-//! tenth candidate is a warped, noisy copy of the first. All peers work on the squared local
-//! distance; `item/s` are cells inside the window, or queries for nearest neighbours. The peers do
-//! less (augurs one channel only) or more (dtw_rs keeps the whole table).
+//! Series are sums of sines from 0.2 to 3 Hz at 120 frames per second, similar to joint angles; every tenth candidate
+//! is a warped, noisy copy of the first. All implementations use the squared local distance; `item/s` are cells inside
+//! the window, or queries for nearest neighbours. The others do less (augurs has one channel only) or more (dtw_rs
+//! stores the whole table).
 
 use chereme_analysis::dtw::{
     Local, Options, Series, StepPattern, Window, align, distance, nearest,
@@ -14,7 +14,7 @@ fn main() {
     divan::main();
 }
 
-/// A small generator of numbers in 0..1 (splitmix64), so that runs are alike.
+/// A small generator of numbers in 0..1 (splitmix64), which gives the same numbers in every run.
 struct Numbers(u64);
 
 impl Numbers {
@@ -195,7 +195,7 @@ mod nearest_of_10000 {
     const FRAMES: usize = 200;
     const WINDOW: usize = 20;
 
-    /// A query and candidates: with near copies of the query among them, or with none.
+    /// Returns a query and candidates; with `copies`, some candidates are near copies of the query.
     fn corpus(channels: usize, copies: bool) -> (Vec<Vec<f64>>, Vec<Vec<Vec<f64>>>) {
         let base = sines(channels, &mut Numbers(1));
         let mut numbers = Numbers(7);

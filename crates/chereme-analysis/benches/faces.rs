@@ -1,6 +1,7 @@
-//! Scores of expressions of the face: one sentence against 10,000 performances of 200 frames, in four phases.
+//! Benchmark of scores for expressions of the face: one sentence against 10,000 performances of 200 frames, in four
+//! phases.
 //!
-//! `cargo bench -p chereme-analysis --bench faces`; to choose among them is to take less than a second.
+//! Run with `cargo bench -p chereme-analysis --bench faces`; the target is less than a second for a choice among them.
 
 use chereme_analysis::phases::{Options, Phased, score};
 use divan::Bencher;
@@ -9,7 +10,7 @@ fn main() {
     divan::main();
 }
 
-/// Returns a performance of about 200 frames with six channels, each seed another.
+/// Returns a performance of about 200 frames with six channels, which depends on the seed.
 fn performance(seed: u64) -> Phased {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut next = || {

@@ -1,5 +1,5 @@
-//! Alignments against cases worked out by hand, against every path tried one by one, and against
-//! numbers of the field's reference implementation.
+//! Compares alignments with cases computed by hand, with exhaustive search over all paths, and with numbers from the
+//! field's reference implementation.
 
 use chereme_analysis::dtw::{
     Alignment, DtwError, Limits, Local, Made, Obstacle, Options, Policy, Series, StepPattern,
@@ -41,9 +41,9 @@ type Case = (&'static [f64], &'static [f64], &'static str, f64, f64);
 
 const NAN: f64 = f64::NAN;
 
-/// Each is short enough to be followed with a pencil.
+/// Cases short enough to be computed by hand.
 const BY_HAND: &[Case] = &[
-    // One apart all along: three pairs; diagonal steps count twice in symmetric2 (1 + 2 + 2).
+    // One apart at every frame: three pairs; diagonal steps count twice in symmetric2 (1 + 2 + 2).
     (&[0.0, 1.0, 2.0], &[1.0, 2.0, 3.0], "symmetric1", 2.0, NAN),
     (&[4.0, 4.0, 4.0], &[5.0, 5.0, 5.0], "symmetric1", 3.0, NAN),
     (
@@ -54,7 +54,7 @@ const BY_HAND: &[Case] = &[
         5.0 / 6.0,
     ),
     (&[4.0, 4.0, 4.0], &[5.0, 5.0, 5.0], "asymmetric", 3.0, 1.0),
-    // A spike in the reference: skipped, or met by its nearer neighbour (7 - 4 = 3).
+    // A spike in the reference: it is skipped, or aligned with its nearer neighbour (7 - 4 = 3).
     (&[1.0, 4.0], &[1.0, 7.0, 4.0], "asymmetric", 0.0, 0.0),
     (&[1.0, 4.0], &[1.0, 7.0, 4.0], "symmetric1", 3.0, NAN),
     (&[1.0, 4.0], &[1.0, 7.0, 4.0], "symmetric2", 6.0, 6.0 / 5.0),
@@ -105,8 +105,8 @@ fn cases_worked_out_by_hand() {
     }
 }
 
-/// Walks every path backwards from `(i, j)` and returns the least cost, straight from the
-/// definition of each pattern; infinite without a path.
+/// Returns the least cost over all paths that end at `(i, j)`, by recursion on the definition of each pattern; infinite
+/// without a path.
 fn every_path(d: &dyn Fn(usize, usize) -> f64, name: &str, i: usize, j: usize) -> f64 {
     if (i, j) == (0, 0) {
         return d(0, 0);
@@ -460,8 +460,8 @@ fn what_would_fill_memory_is_refused_with_what_would_fit() {
     assert!(distance(&five, &five, &options).is_ok());
 }
 
-/// Reads `dtw_vectors.json`, made with dtw-python, from beside the folder that
-/// `CHEREME_SHARED_DATA` names.
+/// Reads `dtw_vectors.json`, which dtw-python computed, from the folder beside the one that `CHEREME_SHARED_DATA`
+/// names.
 #[test]
 fn every_shared_vector_is_reproduced() {
     let Ok(folder) = std::env::var("CHEREME_SHARED_DATA") else {

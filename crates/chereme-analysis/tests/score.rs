@@ -1,4 +1,4 @@
-//! Scores of performances whose likeness is known.
+//! Scores of performances whose similarity is known.
 
 use chereme_analysis::dtw::{self, StepPattern, Window};
 use chereme_analysis::score::LeftOut;
@@ -9,7 +9,7 @@ use chereme_sign::Component;
 
 const FINGERS: [&str; 4] = ["Index", "Middle", "Ring", "Pinky"];
 
-/// A standing signer in a T-pose; `size` scales it, `fingers` gives it hands that can be read.
+/// Returns a standing signer in a T-pose, scaled by `size`; with `fingers` the hands have joints for handshapes.
 fn signer(size: f64, prefix: &str, fingers: bool) -> Skeleton {
     let mut joints: Vec<Joint> = Vec::new();
     let mut add = |name: &str, parent: Option<usize>, offset: [f64; 3]| {
@@ -202,7 +202,7 @@ fn only_the_changed_component_differs() {
             "{found:?}"
         );
     }
-    // The parts say how far each component is in its own unit: half the unit, twice the part.
+    // Each part is in its own unit: half the unit doubles the part.
     let mut twice = options;
     twice.scales.configuration /= 2.0;
     let doubled = score(&clip, &open, &twice).expect("comparable");

@@ -1,10 +1,10 @@
-//! An annotation file of many annotations imported, edited one by one, and its tokens exported:
+//! Benchmark of an annotation file with many annotations: import, single edits, and export of its tokens:
 //! `cargo bench -p chereme-corpus --bench annotations [-- SIGNS]`.
 //!
-//! A session of 100,000 signs by default: a gloss tier, three component tiers below it, and a
-//! translation over every eight signs. The peer of the import in the same run is plain SQLite given the
-//! same annotations, ready in memory, with the schema's indexes. Edits are whole operations, history and
-//! search index and the write to disk included, in that session and in one of 2,000 signs.
+//! The session has 100,000 signs by default: a gloss tier, three component tiers below it, and a translation over every
+//! eight signs. The import is compared with plain SQLite that receives the same annotations from memory, with the
+//! schema's indexes. Edits are complete operations, including history, search index and the write to disk, in that
+//! session and in one of 2,000 signs.
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use std::fmt::Write as _;
@@ -19,9 +19,9 @@ use chereme_motion::Instant;
 
 /// The tiers below the glosses.
 const COMPONENTS: [&str; 3] = ["RH Configuration", "RH Placement", "LH Configuration"];
-/// From the start of one sign to that of the next, in milliseconds.
+/// The time from the start of one sign to that of the next, in milliseconds.
 const STEP: usize = 600;
-/// How long a sign is, in milliseconds.
+/// The length of a sign, in milliseconds.
 const SIGN: usize = 450;
 
 fn main() {
@@ -67,7 +67,7 @@ fn import(text: &Path, path: &Path, signs: usize) -> Corpus {
     corpus
 }
 
-/// Writes as many rows of annotations into a database without history, tokens or search index.
+/// Writes the same number of annotation rows into a database without history, tokens or search index.
 fn plain_rows(path: &Path, count: usize) -> Duration {
     let connection = rusqlite::Connection::open(path).expect("opened");
     let clock = Clock::now();
@@ -185,7 +185,7 @@ fn export(corpus: &Corpus, folder: &Path, signs: usize) {
     }
 }
 
-/// Takes back everything, the import last.
+/// Undoes all operations, the import last.
 fn take_back(corpus: &mut Corpus) {
     let edits = corpus.log(usize::MAX).expect("log").len() - 1;
     for _ in 0..edits {

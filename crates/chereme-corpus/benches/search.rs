@@ -1,10 +1,10 @@
-//! Search over a million tokens beside plain SQLite on the same rows:
+//! Benchmark of search over a million tokens, compared with plain SQLite on the same rows:
 //! `cargo bench -p chereme-corpus --bench search`.
 //!
-//! 500 recordings of 2,000 tokens each; about 4,500 glosses, 60 configurations and 40 placements on
-//! each hand, all by Zipf's law; a sentence of three to eight words over every eight tokens. Ours is
-//! everything from the text of the query to the hits with their values; the peer counts rows only.
-//! Times are the best of several runs. `CHEREME_BENCH_TOKENS` sets another number of tokens.
+//! 500 recordings of 2,000 tokens each; about 4,500 glosses, 60 configurations and 40 placements on each hand, all
+//! distributed by Zipf's law; a sentence of three to eight words over every eight tokens. The measured time of Chereme
+//! covers everything from the text of the query to the hits with their values; SQLite only counts rows. Times are the
+//! best of several runs. `CHEREME_BENCH_TOKENS` sets another number of tokens.
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use std::path::{Path, PathBuf};
@@ -106,7 +106,7 @@ fn ask(path: &Path) {
     }
 }
 
-/// Name, query, the peer's obvious join, and its EXISTS over a covering index.
+/// Name, query, the straightforward join for SQLite, and its EXISTS over a covering index.
 const QUERIES: [(&str, &str, &str, &str); 9] = [
     (
         "two components and a gloss",
@@ -266,7 +266,7 @@ fn build(path: &Path, tokens: usize) {
     transaction.commit().expect("written");
 }
 
-/// The schema's triggers count changes one by one; one for all is enough here.
+/// The schema's triggers count changes one by one; a single count for all suffices here.
 fn triggers(connection: &Connection) -> Vec<(String, String)> {
     let mut statement = connection
         .prepare("SELECT name, sql FROM sqlite_schema WHERE type = 'trigger'")
@@ -295,7 +295,7 @@ fn write_signs(connection: &Connection) {
     }
 }
 
-/// Glosses of syllables; some common ones among them, so that patterns have what to find.
+/// Returns glosses of syllables, with some common ones among them so that patterns have matches.
 fn gloss(number: usize) -> String {
     match number {
         0 => return "INDEX".to_owned(),
@@ -328,7 +328,7 @@ fn sentence(numbers: &mut Numbers) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-/// Numbers below a bound, the n-th as often as 1 / n.
+/// Random numbers below a bound; the n-th has the frequency 1 / n.
 struct Zipf(Vec<f64>);
 
 impl Zipf {
@@ -350,7 +350,7 @@ impl Zipf {
     }
 }
 
-/// A small generator of numbers in 0..1 (splitmix64), so that runs are alike.
+/// A small generator of numbers in 0..1 (splitmix64), which gives the same numbers in every run.
 struct Numbers(u64);
 
 impl Numbers {
@@ -391,7 +391,7 @@ fn index_size(path: &Path) -> i64 {
         .unwrap_or(0)
 }
 
-/// The peak memory of the process in MB, if the system reports it.
+/// Returns the peak memory of the process in MB, if the system reports it.
 fn peak_memory() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

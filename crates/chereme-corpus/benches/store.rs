@@ -1,9 +1,9 @@
-//! Import to a stored corpus, bytes per hour, partial reads and opening, beside their peers.
+//! Benchmark of import to a stored corpus, bytes per hour, partial reads and opening, compared with other programs.
 //!
-//! `cargo bench -p chereme-corpus --bench store [-- MINUTES]`; ten minutes of capture by default. The
-//! capture is synthetic: 75 joints, 228 channels, 120 frames a second, eight sinusoids a channel and
-//! a hundredth of a degree of noise, six decimals. Peers in the same run: bvh_anim reading the file
-//! and its frames stored as one blob of f32 a second, and the text under zstd.
+//! Run with `cargo bench -p chereme-corpus --bench store [-- MINUTES]`; ten minutes of capture by default. The capture
+//! is synthetic: 75 joints, 228 channels, 120 frames per second, eight sinusoids per channel and a hundredth of a
+//! degree of noise, six decimals. Compared in the same run: bvh_anim, which reads the file, with its frames stored as
+//! one blob of f32 per second; and the text under zstd.
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use std::fs::File;
@@ -154,7 +154,7 @@ fn peak_memory() -> String {
     )
 }
 
-/// Writes a capture of a body with hands whose every channel moves.
+/// Writes a capture of a body with hands in which every channel moves.
 fn write_capture(path: &Path, frames: usize) -> std::io::Result<u64> {
     let mut out = BufWriter::with_capacity(1 << 20, File::create(path)?);
     write_hierarchy(&mut out)?;
@@ -199,7 +199,7 @@ fn write_capture(path: &Path, frames: usize) -> std::io::Result<u64> {
     std::fs::metadata(path).map(|it| it.len())
 }
 
-/// Hips, a spine, two arms with five fingers of three joints, and filling joints to make 75.
+/// Writes hips, a spine, two arms with five fingers of three joints, and filler joints up to 75.
 fn write_hierarchy(out: &mut impl Write) -> std::io::Result<()> {
     writeln!(out, "HIERARCHY")?;
     let mut count = 0;

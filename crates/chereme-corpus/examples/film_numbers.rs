@@ -1,11 +1,11 @@
-//! Prints what a film is like and the SHA-256 of all its decoded numbers, to be compared with those of FFmpeg:
+//! Prints the properties of a film and the SHA-256 of all its decoded numbers, for comparison with those of FFmpeg:
 //!
 //! ```sh
 //! cargo run --release -p chereme-corpus --example film_numbers -- take.mp4
 //! ```
 //!
-//! FFmpeg's are `ffmpeg -noautorotate -i take.mp4 -f rawvideo -pix_fmt yuv420p - | sha256sum`. With a second argument
-//! the frames are decoded from the last to the first instead, so that seeking is seen to give the same numbers.
+//! FFmpeg computes its hash by `ffmpeg -noautorotate -i take.mp4 -f rawvideo -pix_fmt yuv420p - | sha256sum`. With a
+//! second argument the frames are decoded from the last to the first, which shows that seeking gives the same numbers.
 
 use std::path::Path;
 use std::time::Instant;

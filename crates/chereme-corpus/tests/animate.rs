@@ -1,4 +1,4 @@
-//! Notation made into movement: in a corpus without any, on the built-in body, and found again.
+//! Movement generated from notation: in a corpus without movement, on the built-in body, and found by search.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Files next to captures and annotation files: vocabularies, templates and settings of ELAN, points as JSON, exports of
+//! Files beside captures and annotation files: vocabularies, templates and settings of ELAN, points as JSON, exports of
 //! signs, and files that belong together by timecode or by folder.
 
 use std::fs;
@@ -14,7 +14,7 @@ use chereme_motion::Rate;
 const MOVEMENT: &str = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n\
      End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n0 0 1\n";
 
-/// An annotation file of root tiers with one annotation each: tier, start and end in ms, value.
+/// Returns an annotation file of root tiers with one annotation each: tier, start and end in ms, value.
 fn eaf(tiers: &[(&str, i64, i64, &str)]) -> String {
     let (mut slots, mut body) = (String::new(), String::new());
     for (at, (tier, start, end, value)) in tiers.iter().enumerate() {

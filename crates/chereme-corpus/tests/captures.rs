@@ -1,4 +1,4 @@
-//! Captures as people have them, and signs generated from them: findings, frames left out, and results of search.
+//! Real captures, and signs generated from them: findings, frames left out, and results of search.
 
 use std::path::{Path, PathBuf};
 

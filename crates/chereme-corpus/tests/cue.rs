@@ -1,4 +1,4 @@
-//! Cued speech through the one door: keys of alignments, a cuer stored, found and taken back.
+//! Cued speech through the public API: keys of alignments; a cuer that is stored, found and undone.
 
 use std::fs;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ fn glosses(corpus: &mut Corpus, query: &str) -> Vec<String> {
     hits.into_iter().map(|hit| hit.gloss).collect()
 }
 
-/// A TextGrid with one tier, in Praat's short form.
+/// Returns a TextGrid with one tier, in Praat's short form.
 fn grid(name: &str, phones: &[(&str, f64, f64)]) -> String {
     let end = phones.last().map_or(0.0, |phone| phone.2);
     let mut text = format!(

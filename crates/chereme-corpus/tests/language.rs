@@ -1,5 +1,5 @@
-//! Body language measured in captured signs: known sizes and times are found again, replace the usual numbers, and
-//! are reported.
+//! Body language measured in captured signs: known sizes and times are recovered, replace the usual numbers, and are
+//! reported.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use chereme_corpus::{
 };
 use chereme_motion::{Part, Side};
 
-/// Two signs that a transcriber would write so, and what they are in this signer's body language.
+/// Two signs as a transcriber would write them, with their measurements in this signer's body language.
 const SIGNS: &str = r#"<sigml>
   <hamgestural_sign gloss="AWAY"><sign_manual>
     <handconfig handshape="flat" extfidir="o" palmor="d"/>
@@ -38,7 +38,7 @@ fn import(corpus: &mut Corpus, path: &Path, options: &ImportOptions) {
     );
 }
 
-/// A corpus in which a signer makes either sign nine times, as if it had been captured.
+/// Returns a corpus in which a signer performs each sign nine times, stored as if captured.
 fn captured(folder: &Path, origin: &str) -> Corpus {
     let (signs, spoken) = (folder.join("signs.sigml"), folder.join("spoken.json"));
     fs::write(&signs, SIGNS).expect("written");

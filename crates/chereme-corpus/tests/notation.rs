@@ -1,4 +1,4 @@
-//! Notated signs in a corpus: taken in, found, listed, given back, and taken in again.
+//! Notated signs in a corpus: imported, found, listed, exported, and imported again.
 
 use std::fs;
 use std::path::PathBuf;

@@ -1,5 +1,5 @@
-//! The starter corpus: the files are what the program makes, they read cleanly, and the movement is
-//! one that a body can make.
+//! The starter corpus: its files equal those that the program generates, they are imported without warnings, and a body
+//! can perform the movement.
 
 #[path = "../examples/make_starter/all.rs"]
 mod all;
@@ -26,7 +26,7 @@ fn committed(name: &str) -> Vec<u8> {
     fs::read(folder.join(name)).unwrap_or_else(|error| panic!("corpus/{name}: {error}"))
 }
 
-/// Numbers may differ in their last digit where another machine's sines do.
+/// Compares files; numbers may differ in their last digit, since sines differ between machines.
 fn same(a: &[u8], b: &[u8]) -> bool {
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("text");
     let (a, b) = (text(a), text(b));
@@ -165,8 +165,8 @@ fn the_animator_makes_what_is_written_and_nothing_jumps() {
     let mut pulled = Vec::new();
     for (take, made) in MADE.iter() {
         let clip = &made.clip;
-        // Wrists have limits; some letters point beyond them.
-        // A joint on the back of the other hand is as deep in it as a finger is thick; hands that hit go apart.
+        // Wrists have limits, and some letters point beyond them. A joint on the back of the other hand is as deep in
+        // it as a finger is thick; hands that hit move apart.
         let missed = |warning: &&String| {
             !warning.contains("turned up to") && !warning.contains("each other")
         };
@@ -213,7 +213,7 @@ fn hands_stay_out_of_the_trunk_and_of_each_other() {
     for (take, made) in MADE.iter() {
         let clip = &made.clip;
         let anatomy = Anatomy::detect(clip.skeleton());
-        // Skin gives way: hands of these lie or hit on each other.
+        // Skin is soft: in these takes hands lie on each other or hit.
         let deepest = match take.stem {
             "escargot" | "punir" => -0.021,
             _ => 0.0,
@@ -249,7 +249,7 @@ fn hands_stay_out_of_the_trunk_and_of_each_other() {
 
 type Bone = (DVec3, DVec3, f64);
 
-/// The bones below a wrist with their radius in metres.
+/// Returns the bones below a wrist with their radius in metres.
 fn bones(clip: &Clip, anatomy: &Anatomy, model: &ModelPose, side: Side) -> Vec<Bone> {
     let skeleton = clip.skeleton();
     let bone = |joint: usize| {
@@ -272,7 +272,7 @@ fn bones(clip: &Clip, anatomy: &Anatomy, model: &ModelPose, side: Side) -> Vec<B
     anatomy.fingers(side).into_iter().map(bone).collect()
 }
 
-/// The distance of two bones from skin to skin, to a few millimetres.
+/// Returns the distance of two bones from surface to surface, to a few millimetres.
 fn distance((a, b, thick): &Bone, (c, d, other): &Bone) -> f64 {
     let along = *d - *c;
     let points = (0..=4).map(|n| a.lerp(*b, f64::from(n) / 4.0));
@@ -317,7 +317,7 @@ fn paws_of_a_walking_cat_are_in_front_in_turn() {
     assert!(turns >= 4, "they change {turns} times");
 }
 
-/// Returns where landmarks are in every frame of a recording's only sign, from a share of it to another.
+/// Returns the positions of landmarks in every frame of a recording's only sign, between two shares of its length.
 fn places<const N: usize>(stem: &str, [from, to]: [f64; 2], names: [&str; N]) -> Vec<[DVec3; N]> {
     let (_, made) = MADE
         .iter()

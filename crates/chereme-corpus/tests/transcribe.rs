@@ -1,4 +1,4 @@
-//! A token's movement in HamNoSys: told, kept as its notation, and taken back.
+//! A token's movement in HamNoSys: transcribed, stored as its notation, and undone.
 
 use std::ops::ControlFlow::Break;
 
@@ -63,7 +63,7 @@ fn what_is_transcribed_can_be_kept_and_taken_back() {
     assert!(corpus.notation(&sign).is_err());
 }
 
-/// Signs whose hands miss their place: led out of the trunk, or by a part that faces away from it.
+/// Signs whose hands miss their place: they are pushed out of the trunk, or refer to a part that faces away from it.
 const LED_AWAY: [&str; 2] = [
     "hamfinger2 hamextfingerul hampalmd hamneck hamtouch",
     "hamflathand hamthumboutmod hamextfingerul hampalmul hamchest hamlrat hambetween hamshoulders hamtouch",
@@ -93,12 +93,13 @@ fn so_it_is_on_a_body_whose_rest_pose_nobody_takes() {
     told_where_they_are_led_away(corpus);
 }
 
-/// Generates a sign, stored as S and its number, and returns its notation and its transcription.
+/// Generates a sign, stores it as S and its number, and returns its notation and its transcription.
 fn there_and_back(corpus: &mut Corpus, n: usize, names: &str) -> (Sign, Transcribed) {
     let text = from_names(names.split(' ')).expect("names of symbols");
     let written = parse(&text).expect("HamNoSys").sign;
     let gloss = format!("S{n}");
-    // A body that sways shifts the hand by millimetres, which is the distance between the neck and the chin's underside.
+    // A body that sways shifts the hand by millimetres, as much as the distance between the neck and the underside of
+    // the chin.
     let staging = Staging {
         language: Some("quiet"),
         ..Staging::default()
@@ -122,7 +123,7 @@ fn told_where_they_are_led_away(mut corpus: Corpus) {
             other => panic!("{names}: {other:?}"),
         };
         assert_eq!(sites(&told.sign), sites(&written), "{names}");
-        // The ways from and to rest are known, and left out.
+        // The transitions from and to rest are known, and left out.
         let nothing = told.sign.parts[0].actions.is_empty();
         assert!(
             nothing && told.start_us > 300_000,
@@ -132,7 +133,7 @@ fn told_where_they_are_led_away(mut corpus: Corpus) {
     }
 }
 
-/// Signs whose places alone would be read differently: one is written without a place, and in one a hand is held.
+/// Signs whose places alone would be read differently: one is written without a place, and in one a hand stays still.
 const BEGINNINGS: [&str; 2] = [
     "hamflathand hamextfingero hampalmd hammovel",
     "hamsymmlr hamfinger2 hamthumbacrossmod hamextfingeruo hampalml hamchest hamparbegin hammovel hamsmallmod hamplus \
@@ -152,12 +153,12 @@ fn how_signs_begin_is_told_as_it_was_written() {
     }
 }
 
-/// Turns the axes of the left arm's joints half round about up, so that in the rest pose both arms stick out to the
-/// right; the movement stays the same.
+/// Rotates the axes of the left arm's joints by half a turn about up, so that in the rest pose both arms stick out to
+/// the right; the movement stays the same.
 fn arm_turned_round(bvh: &str) -> String {
     let turned = |text: &str, by: f64| text.parse::<f64>().expect("a number") * by;
     let (mut depth, mut arm, mut lines) = (0, None, Vec::new());
-    // For each channel what it is multiplied by, and what is added.
+    // The factor and the addend of each channel.
     let mut channels = Vec::new();
     for line in bvh.lines() {
         let words: Vec<&str> = line.split_whitespace().collect();

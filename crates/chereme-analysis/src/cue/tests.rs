@@ -81,7 +81,7 @@ fn components_are_those_of_a_case_made_by_hand() {
     assert!((found.directions[0][1] - half).abs() < 1e-9);
     assert!((found.variances[0] - 1.0).abs() < 1e-9 && (found.variances[1] - 0.25).abs() < 1e-9);
     assert!((found.total - 1.25).abs() < 1e-9);
-    // A second way: power iteration on the covariance.
+    // An independent method: power iteration on the covariance.
     let mut random = Random::new(3);
     let rows: Vec<Vec<f64>> = (0..200)
         .map(|_| (0..6).map(|k| random.normal() * f64::from(k + 1)).collect())
@@ -154,7 +154,7 @@ fn guided_components_recover_those_that_made_the_data() {
     }
 }
 
-/// Returns the mean distance of seen markers from the model, and of hidden ones from the truth, in millimetres.
+/// Returns the mean distance of visible markers from the model, and of hidden ones from the truth, in millimetres.
 fn errors(model: &HandModel, take: &Take) -> (f64, f64) {
     let (mut seen, mut hidden) = (Vec::new(), Vec::new());
     let mut before = None;

@@ -1,4 +1,4 @@
-//! Everything that the starter corpus is made of, as files by name.
+//! The complete starter corpus, as files by name.
 
 mod bvh;
 mod eaf;
@@ -15,7 +15,7 @@ use chereme_compose::Made;
 pub(crate) use notes::glosses;
 pub(crate) use takes::Take;
 
-/// Returns every recording and its performance, in the order of their names.
+/// Returns every recording and its performance, ordered by name.
 pub(crate) fn performances() -> Vec<(Take, Made)> {
     let stage = perform::stage();
     let perform = |take| {
@@ -25,7 +25,7 @@ pub(crate) fn performances() -> Vec<(Take, Made)> {
     takes::takes().into_iter().map(perform).collect()
 }
 
-/// Returns the files by name that `performances` are written to.
+/// Returns the files, by name, to which `performances` are written.
 pub(crate) fn files(performances: &[(Take, Made)]) -> Vec<(String, Vec<u8>)> {
     let said: Vec<Vec<notes::Note>> = performances
         .iter()

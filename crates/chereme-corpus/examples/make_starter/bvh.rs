@@ -1,4 +1,4 @@
-//! A clip as BVH: centimetres, degrees.
+//! Writes a clip as BVH: centimetres, degrees.
 
 use chereme_formats::bvh::raw::{
     Block, Channel, Column, Decimal, Hierarchy, Number, RawJoint, Writer,
@@ -8,7 +8,7 @@ use chereme_motion::{Axis, Clip};
 
 use super::signer::rotation_order;
 
-/// Digits after the point of places and of angles; for fingers, whose bones are short, one less.
+/// The number of decimals of positions and of angles; for fingers, whose bones are short, one less.
 const DIGITS: u8 = 3;
 
 /// Returns the bytes of the file.
@@ -92,8 +92,7 @@ fn columns(clip: &Clip, joint: usize) -> Vec<Column> {
         .collect()
 }
 
-/// Returns a column; one that holds the same whole number throughout is written without digits
-/// after the point.
+/// Returns a column; a column with the same whole number throughout is written without decimals.
 fn column(values: &[f64], digits: u8) -> Column {
     let rounded = |digits| Column::rounded(values.iter().copied(), digits);
     let column = rounded(digits).expect("angles and places are finite");

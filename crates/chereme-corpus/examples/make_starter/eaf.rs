@@ -1,4 +1,4 @@
-//! The notes of a take as EAF: tiers with ELAN's stereotypes, vocabularies in English and French.
+//! Writes the notes of a take as EAF: tiers with ELAN's stereotypes, vocabularies in English and French.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,9 +14,9 @@ use super::notes::{Note, PHASE, TIERS};
 use super::signer;
 use super::takes::Take;
 
-/// When the first version was made; files do not change with the day on which they are made.
+/// The date of the first version, which is fixed so that files do not change from day to day.
 const DATE: &str = "2025-11-21T00:00:00Z";
-/// The licence of what the program makes.
+/// The licence of the generated files.
 pub(crate) const LICENCE: &str = "CC0-1.0";
 const PHASES: [(&str, &str, &str); 4] = [
     (
@@ -267,7 +267,7 @@ fn vocabularies(used: &Used) -> Vec<Vocabulary> {
     all
 }
 
-/// The value is the same in both languages; each language has its own description.
+/// Returns a vocabulary entry; its value is the same in both languages, and each language has its own description.
 fn entry(id: &str, english: &str, french: &str) -> Entry {
     let value = |language: &str, description: &str| EntryValue {
         language: language.to_owned(),

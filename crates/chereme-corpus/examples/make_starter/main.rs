@@ -1,4 +1,4 @@
-//! Makes the starter corpus in `corpus/`: `cargo run -p chereme-corpus --example make_starter`.
+//! Generates the starter corpus in `corpus/`: `cargo run -p chereme-corpus --example make_starter`.
 
 use std::fs;
 use std::io::{self, Write};

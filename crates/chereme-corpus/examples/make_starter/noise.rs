@@ -1,4 +1,4 @@
-//! Small slow movement without a pattern: the same for the same seed on every machine.
+//! Small slow movement without a pattern; a seed gives the same movement on every machine.
 
 /// A smooth function of time between about -1 and 1.
 #[derive(Clone, Debug)]

@@ -12,7 +12,7 @@ use super::takes::Take;
 pub(crate) struct TierKind {
     /// Its name; `@` stands for `RH` or `LH`.
     pub(crate) name: &'static str,
-    /// The inventory whose values it has.
+    /// The inventory of its values.
     pub(crate) inventory: Option<&'static str>,
     component: Component,
     feature: Option<&'static str>,
@@ -25,7 +25,7 @@ impl TierKind {
     }
 }
 
-/// The tiers below the gloss, and beside it the phases.
+/// The tiers below the gloss, including the phases.
 pub(crate) const TIERS: [TierKind; 9] = {
     use Component::{Configuration, Movement, NonManual, Orientation, Placement};
     [
@@ -69,33 +69,33 @@ const fn tier(
     }
 }
 
-/// The place of a tier in [`TIERS`].
+/// The index of the configurations in [`TIERS`].
 pub(crate) const CONFIGURATION: usize = 0;
-/// The place of the placements.
+/// The index of the placements.
 pub(crate) const PLACEMENT: usize = 1;
-/// The place of the movements.
+/// The index of the movements.
 pub(crate) const MOVEMENT: usize = 2;
-/// The place of the movements' directions.
+/// The index of the movements' directions.
 pub(crate) const DIRECTION: usize = 3;
-/// The place of the phases.
+/// The index of the phases.
 pub(crate) const PHASE: usize = 8;
 
-/// A value said of a stretch of time.
+/// A value over a stretch of time.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Note {
-    /// The place of the tier in [`TIERS`].
+    /// The index of the tier in [`TIERS`].
     pub(crate) tier: usize,
-    /// The hand; none where the tier has none.
+    /// The hand; nothing if the tier has none.
     pub(crate) side: Option<Side>,
     /// The value.
     pub(crate) value: String,
-    /// When.
+    /// The time.
     pub(crate) span: Span,
-    /// The place of the sign in the take.
+    /// The index of the sign in the take.
     pub(crate) sign: usize,
 }
 
-/// Returns when each sign of a take is made.
+/// Returns the times of a take's signs.
 pub(crate) fn glosses(made: &Made) -> Vec<Span> {
     let glosses = made.notes.iter().filter(|note| note.about == About::Gloss);
     glosses.map(|note| later(note.span)).collect()
@@ -194,7 +194,8 @@ fn of_tier(
     said
 }
 
-/// Lets a value that becomes another in a stroke last for its first third, the other one from its last on.
+/// Shortens a value that changes into another during a stroke to the stroke's first third, and starts the other one at
+/// its last third.
 fn change(one: &mut Span, other: &mut Span, stroke: Span) {
     if one.end() < other.start() {
         return;
@@ -204,7 +205,7 @@ fn change(one: &mut Span, other: &mut Span, stroke: Span) {
     *other = Span::between(thirds[2].start(), other.end());
 }
 
-/// Returns as many equal parts of a span.
+/// Divides a span into `count` equal parts.
 fn shares(span: Span, count: usize) -> Vec<Span> {
     let (start, end) = (span.start().seconds(), span.end().seconds());
     let at = |n: usize| {
@@ -250,7 +251,7 @@ fn phases(made: &Made, side: Side) -> Vec<Note> {
     all
 }
 
-/// Returns a span of the animator's movement in the take, which begins with rest; in whole milliseconds.
+/// Converts a span of the animator's movement to the time of the take, which begins with rest; in whole milliseconds.
 fn later(span: Span) -> Span {
     let rest = REST as f64 / 60.0;
     let at = |at: Instant| Instant::from_millis(((at.seconds() + rest) * 1000.0).round() as i64);

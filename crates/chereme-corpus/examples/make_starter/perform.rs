@@ -1,4 +1,4 @@
-//! From a take to its movement: the animator's, between moments of rest, by a signer who breathes.
+//! Performs a take: the animator's movement between moments of rest, by a signer who breathes.
 
 use std::sync::Arc;
 
@@ -13,12 +13,12 @@ use super::noise::Noise;
 use super::signer;
 use super::takes::Take;
 
-/// Frames a second.
+/// Frames per second.
 const FPS: u32 = 60;
-/// How many frames the signer rests before the animator's movement, and after it.
+/// The number of frames for which the signer rests before and after the animator's movement.
 pub(crate) const REST: usize = 15;
 
-/// Returns the signer before the first movement.
+/// Returns the signer at the beginning.
 pub(crate) fn stage() -> Material {
     let skeleton = Arc::new(signer::skeleton());
     let anatomy = Arc::new(Anatomy::detect(&skeleton));
@@ -36,12 +36,12 @@ pub(crate) fn stage() -> Material {
     }
 }
 
-/// Performs `take`: the movement with rest before and after it, and what the animator says about it,
-/// whose times are those of the movement without the rest before.
+/// Performs `take`: the movement with rest before and after it, and the animator's notes, whose times count from the
+/// end of the first rest.
 pub(crate) fn perform(stage: &Material, take: &Take) -> Made {
     let signs: Vec<Notated> = take.signs.iter().map(|sign| sign.notated()).collect();
     let signs: Vec<&Notated> = signs.iter().collect();
-    // This signer sways by the noise below.
+    // The noise below adds this signer's sway.
     let mut settings = Settings {
         language: BodyLanguage::usual().without_life(),
         ..Settings::default()
@@ -58,7 +58,7 @@ pub(crate) fn perform(stage: &Material, take: &Take) -> Made {
     Made { clip, ..made }
 }
 
-/// Returns a channel that rests before its first frame and after its last.
+/// Returns a channel that holds its first and last frame for the time of rest.
 fn rested(channel: &Channel) -> Channel {
     fn longer<T: Clone>(frames: &[T]) -> Vec<T> {
         let (first, last) = (frames.first(), frames.last());
@@ -74,7 +74,7 @@ fn rested(channel: &Channel) -> Channel {
 
 /// Returns the movement of a signer who breathes, sways a little, and whose fingers are never quite still.
 ///
-/// The trunk carries both arms and the head, so hands stay where they touch.
+/// The trunk carries both arms and the head, so hands keep their contact.
 fn alive(clip: &Clip, busy: &[Side], seed: u64) -> Clip {
     let noise: Vec<Noise> = (0..32).map(|channel| Noise::new(seed, channel)).collect();
     let poses: Vec<Pose> = (0..clip.frames())
@@ -93,7 +93,7 @@ fn alive(clip: &Clip, busy: &[Side], seed: u64) -> Clip {
         .expect("poses of this skeleton")
 }
 
-/// Breathing and small sways of the spine, and the head's own.
+/// Adds breathing and small sways of the spine, and movement of the head.
 fn sway(pose: &mut Pose, clip: &Clip, at: &impl Fn(usize) -> f64, time: f64) {
     let breath = (time * std::f64::consts::TAU / 3.9).sin();
     let spine = DVec3::new(at(0) * 0.35, at(1) * 0.5, at(2) * 0.3);
@@ -115,7 +115,7 @@ fn sway(pose: &mut Pose, clip: &Clip, at: &impl Fn(usize) -> f64, time: f64) {
     }
 }
 
-/// Bends the fingers a little more or less, by a number between -1 and 1 for each.
+/// Bends the fingers slightly more or less, by a number between -1 and 1 for each.
 fn fidget(pose: &mut Pose, clip: &Clip, side: Side, at: impl Fn(usize) -> f64) {
     let prefix = match side {
         Side::Left => "Left",

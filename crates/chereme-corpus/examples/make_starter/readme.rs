@@ -1,4 +1,4 @@
-//! The two files for people: the description of the folder, and the lexicon.
+//! The two files for readers: the description of the folder, and the lexicon.
 
 use chereme_motion::Side;
 

@@ -1,4 +1,4 @@
-//! The body of the signer: a skeleton of our own design with the names that MotionBuilder uses.
+//! The body of the signer: a skeleton of the project's own design with the names that MotionBuilder uses.
 
 use chereme_motion::axes::Axis;
 use chereme_motion::glam::DVec3;
@@ -19,7 +19,7 @@ const SPINE: [(&str, &str, [f64; 3]); 7] = [
     ("Head", "Neck1", [0.0, 4.0, 1.0]),
 ];
 
-/// Those of the left; the right has the first number negated. `@` stands for the side's name.
+/// The joints of the left arm; for the right arm the first number is negated. `@` stands for the side's name.
 const ARM: [(&str, &str, [f64; 3]); 23] = [
     ("@Shoulder", "Spine2", [2.5, 11.2, 1.0]),
     ("@Arm", "@Shoulder", [14.3, -0.6, -1.5]),
@@ -53,7 +53,7 @@ const LEG: [(&str, &str, [f64; 3]); 4] = [
     ("@ToeBase", "@Foot", [0.0, -5.0, 13.0]),
 ];
 
-/// The ends of the bones that have no joint after them, in centimetres; those of the left.
+/// The ends of bones without a following joint, in centimetres, for the left side.
 const TIPS: [(&str, [f64; 3]); 7] = [
     ("Head", [0.0, 17.0, 1.0]),
     ("@HandThumb3", [2.1, -0.6, 1.6]),
@@ -101,8 +101,8 @@ fn placed([x, y, z]: [f64; 3], side: Option<Side>) -> DVec3 {
 
 /// Returns the order of the rotation channels of a joint.
 ///
-/// A forearm turns about its length (X) by more than a right angle, which is no place for the
-/// middle axis; with that one last its angles never jump.
+/// A forearm rotates about its length (X) by more than a right angle, which the middle axis cannot represent; with X as
+/// the last axis its angles never jump.
 pub(crate) fn rotation_order(joint: &str) -> RotationOrder {
     let turned = RotationOrder::new([Axis::Y, Axis::Z, Axis::X]);
     match turned {

@@ -1,4 +1,5 @@
-//! The signs of the founding paper in HamNoSys, as plausible forms of LSF: approximations, nobody's production.
+//! The signs of the founding paper in HamNoSys, as plausible forms of LSF: approximations, not recorded from any
+//! signer.
 
 use chereme_motion::Side::{self, Left, Right};
 use chereme_sign::hamnosys::{Act, NonmanualPart, NonmanualPart as Of, Notated, parse};
@@ -9,19 +10,19 @@ use super::notes::{DIRECTION, MOVEMENT, PLACEMENT};
 /// One sign.
 #[derive(Clone, Debug)]
 pub(crate) struct Sign {
-    /// The name, in French capitals as usual.
+    /// The gloss, in French capitals as usual.
     pub(crate) gloss: String,
     /// Its meaning in French and in English.
     pub(crate) means: [&'static str; 2],
-    /// The names of its symbols, without the `ham` that each begins with.
+    /// The names of its symbols, without the prefix `ham`.
     pub(crate) symbols: &'static str,
     /// The activity of body and head, by the codes of SiGML, and its amount; brows are annotated only, not moved.
     pub(crate) acts: &'static [(NonmanualPart, &'static str, f64)],
-    /// Values that say more than the symbols can, or one of several said at once.
+    /// Values that are more precise than the symbols, or one of several simultaneous values.
     pub(crate) finer: &'static [Finer],
 }
 
-/// Values of a tier in their order, by the tier's place and the hand, in place of those of the notation.
+/// Values of a tier in order, by the index of the tier and the hand, which replace those of the notation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Finer(
     pub(crate) usize,
@@ -39,7 +40,7 @@ impl Sign {
             .join(" ")
     }
 
-    /// Returns the sign as the animator takes it.
+    /// Returns the sign in the form for the animator.
     pub(crate) fn notated(&self) -> Notated {
         let read = parse(&self.hamnosys());
         let read = read.unwrap_or_else(|error| panic!("{}: {error}", self.gloss));
@@ -75,7 +76,7 @@ fn sign(gloss: &str, means: [&'static str; 2], symbols: &'static str) -> Sign {
     }
 }
 
-/// The flat hand strokes up the chest and leaves it forward.
+/// The flat hand strokes up the chest and moves forward from it.
 pub(crate) fn aimer() -> Sign {
     Sign {
         acts: &[(Of::Head, "NO", 0.5), (Of::Brows, "RB", 1.0)],
@@ -129,7 +130,7 @@ pub(crate) fn chat() -> Sign {
     }
 }
 
-/// The flat hand pats the signer's side twice, as one calls a dog.
+/// The flat hand pats the signer's side twice, like someone who calls a dog.
 pub(crate) fn chien() -> Sign {
     Sign {
         acts: &[(Of::Body, "TR", 0.4)],
@@ -146,7 +147,7 @@ pub(crate) fn chien() -> Sign {
     }
 }
 
-/// Closed hands before the face open while they part and rise: light spreads.
+/// Closed hands before the face open while they separate and rise: light spreads.
 pub(crate) fn clair() -> Sign {
     Sign {
         acts: &[(Of::Head, "NB", 0.4), (Of::Brows, "RB", 1.0)],
@@ -248,7 +249,7 @@ pub(crate) fn week_end() -> Sign {
     }
 }
 
-/// Returns the paws of three animals, which the hands only hold.
+/// Returns signs for the paws of three animals, which the hands only hold.
 pub(crate) fn paws() -> Vec<Sign> {
     vec![
         sign(
@@ -269,8 +270,8 @@ pub(crate) fn paws() -> Vec<Sign> {
     ]
 }
 
-/// Returns the letters of the French manual alphabet as the inventory notates them, beside the right
-/// shoulder, or lower where the hand points down, each glossed `DS:` and the letter.
+/// Returns the letters of the French manual alphabet as notated in the inventory, beside the right shoulder, or lower
+/// if the hand points down; each gloss is `DS:` and the letter.
 pub(crate) fn letters() -> Vec<Sign> {
     let alphabet = builtin_by_id("lsf-alphabet").map_or(&[][..], |inventory| &inventory.values);
     alphabet.iter().filter_map(letter).collect()

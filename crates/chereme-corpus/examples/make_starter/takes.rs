@@ -1,4 +1,4 @@
-//! The recordings: which signs, one after the other.
+//! The recordings: sequences of signs.
 
 use super::signs::{self, Sign};
 
@@ -11,7 +11,7 @@ pub(crate) struct Take {
     pub(crate) about: &'static str,
     /// The signs.
     pub(crate) signs: Vec<Sign>,
-    /// How long postures are held in seconds, where not as usual.
+    /// How long postures are held, in seconds, if not for the usual time.
     pub(crate) hold: Option<f64>,
     /// The meaning of the whole in French and in English, if it is an utterance.
     pub(crate) phrase: Option<[&'static str; 2]>,

@@ -1,4 +1,4 @@
-//! The tier rules through the store, and what follows from changes.
+//! Tests of the tier rules through the store, and of derived changes.
 
 mod arrange;
 mod copies;
@@ -20,9 +20,9 @@ use crate::progress::unheard;
 
 const RECORDING: &str = "Take 1";
 
-/// A corpus with a recording of ten seconds at 100 frames a second that has these tiers:
-/// `G` and `H` glosses of the right and left hand, `C` configurations, `L` places of any text, and
-/// below `G` by the four stereotypes `T`, `I`, `S` and `A`.
+/// Returns a corpus with a recording of ten seconds at 100 frames per second that has these tiers: `G` and `H` for
+/// glosses of the right and left hand, `C` for configurations, `L` for places with any text, and below `G`, with the
+/// four stereotypes, `T`, `I`, `S` and `A`.
 fn corpus() -> (tempfile::TempDir, Corpus) {
     static MADE: std::sync::LazyLock<Vec<u8>> = std::sync::LazyLock::new(|| {
         let folder = tempfile::tempdir().expect("a folder");
@@ -188,7 +188,7 @@ fn annotate(corpus: &mut Corpus, text: &str) -> Result<AnnotateReport> {
     )
 }
 
-/// The annotations as `G 1 0-100 BOL`, those below another as `T 2<1 0-50 x`, in milliseconds.
+/// Returns the annotations as `G 1 0-100 BOL`, those with a parent as `T 2<1 0-50 x`, in milliseconds.
 fn shown(corpus: &Corpus) -> String {
     let sql = "SELECT t.name || ' ' || a.id || coalesce('<' || a.parent_id, '') || ' '
                    || (a.start_us / 1000) || '-' || (a.end_us / 1000) || ' '
@@ -198,7 +198,7 @@ fn shown(corpus: &Corpus) -> String {
     strings(corpus.store.read(), sql).join("; ")
 }
 
-/// The tokens as `BOL 0-100: right.configuration=5`.
+/// Returns the tokens as `BOL 0-100: right.configuration=5`.
 fn tokens_shown(corpus: &Corpus) -> String {
     let sql = "SELECT s.gloss || ' ' || (t.start_us / 1000) || '-' || (t.end_us / 1000)
                    || coalesce((SELECT ': ' || group_concat(coalesce(v.phase || '.', '') || coalesce(v.hand || '.', '')
@@ -214,7 +214,7 @@ fn strings(connection: &Connection, sql: &str) -> Vec<String> {
     rows.collect::<rusqlite::Result<_>>().expect("rows")
 }
 
-/// Every row of the tables that annotations reach.
+/// Returns every row of the tables that annotations affect.
 fn rows(connection: &Connection) -> Vec<Vec<Value>> {
     let mut all = Vec::new();
     for table in [
@@ -475,13 +475,13 @@ fn tokens_signs_and_search_follow() {
 #[test]
 fn components_change_hands_when_the_gloss_beside_changes() {
     for (before, change, want) in [
-        // A component that reaches out of the changed time stays with the gloss it lies in most.
+        // A component that extends beyond the changed time stays with the gloss that contains most of it.
         (
             "add G 0-40 BOL; add G 50-200 CHAT; add C 10-200 U",
             "set 1 = LION",
             "LION 0-40; CHAT 50-200: right.configuration=U",
         ),
-        // Where that gloss goes, the one before it takes over, though it lies outside the change.
+        // If that gloss is removed, the one before it takes over, although it lies outside the change.
         (
             "add G 0-40 BOL; add G 50-200 CHAT; add C 10-200 U",
             "remove 2",

@@ -1,4 +1,4 @@
-//! Exports come back when they are imported.
+//! Tests that exports can be imported again without loss.
 
 use std::path::{Path, PathBuf};
 
@@ -34,7 +34,7 @@ impl Place {
         path
     }
 
-    /// A new corpus of these files.
+    /// Returns a new corpus of these files.
     fn corpus(&mut self, files: &[PathBuf]) -> Corpus {
         self.corpora += 1;
         let path = self.folder.path().join(format!("{}.chereme", self.corpora));
@@ -258,7 +258,7 @@ fn made_recordings_say_so_in_their_file() {
 /// A gloss, its translations, and its values.
 type Coded = (String, Vec<(String, String)>, Vec<String>);
 
-/// The codings of each sign's lexicon entry, in an order that does not depend on columns.
+/// Returns the codings of each sign's lexicon entry, in an order that does not depend on columns.
 fn codings(corpus: &Corpus) -> Vec<Coded> {
     let connection = corpus.store.read();
     let mut all = Vec::new();
@@ -503,7 +503,7 @@ fn several_recordings_go_into_one_folder_a_file_each() {
     assert_eq!(bytes, std::fs::read(to.join("one.eaf")).expect("read"));
 }
 
-/// Returns the BVH files of a folder and the folders in it, up to a size.
+/// Returns the BVH files of a folder and its subfolders, up to a size.
 fn captures(folder: &Path, most: u64) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -523,7 +523,7 @@ fn captures(folder: &Path, most: u64) -> Vec<PathBuf> {
     found
 }
 
-/// Returns the places of all joints in all frames, with their names as GLB has them.
+/// Returns the positions of all joints in all frames, with their names in GLB.
 fn places(corpus: &Corpus) -> (Vec<String>, Vec<Vec<chereme_motion::glam::DVec3>>) {
     let clip = corpus
         .movement(&"recording:1".parse().expect("an address"))

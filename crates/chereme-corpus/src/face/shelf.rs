@@ -31,7 +31,7 @@ fn path(function: &Function, channels: &[usize]) -> String {
     format!("faces/{function}/{}", channels.join("-"))
 }
 
-/// Returns the performances cached for the state after an operation; `None` if there are none, or they are damaged.
+/// Returns the performances cached for the state after an operation, unless they are missing or damaged.
 pub(super) fn read(
     connection: &Connection,
     function: &Function,

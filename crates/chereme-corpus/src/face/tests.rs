@@ -1,4 +1,4 @@
-//! Faces from capture files to milestones, scores and choices.
+//! Tests of faces from capture files to milestones, scores and choices.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -21,8 +21,8 @@ const SIGNS: [(&str, i64, i64); 4] = [
     ("QUOI", 1700, 2300),
 ];
 
-/// Writes a capture in the house's own numbers at 60 frames a second: brows that rise to `most` in the question, times
-/// stretched by `slow`, a head that nods as far, and a jaw that no one else has.
+/// Writes a capture in the program's own numbers at 60 frames per second: brows that rise to `most` in the question,
+/// times stretched by `slow`, a head that nods by the same amount, and a jaw curve that no other capture has.
 fn write_face(path: &Path, most: f64, slow: f64, jaw: usize) {
     let mut text = String::from(
         "time [s],brow_raise_right,brow_raise_left,brow_squeeze,jaw_open,head_pitch,head_yaw,head_roll\n",
@@ -83,7 +83,7 @@ fn add(
         .expect("annotated");
 }
 
-/// Returns a corpus of wh questions: each by its name with the height of its brows and its slowness.
+/// Returns a corpus of wh-questions, given by name, height of the brows and slowness.
 fn case(sentences: &[(&str, f64, f64)]) -> Case {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
@@ -329,7 +329,7 @@ fn equal_scores_are_ordered_by_name_and_strict_lengths_are_refused_by_name() {
         ("SLOW", 0.5, 2.0),
     ]);
     let found = choose(&case, "W1", &ChooseOptions::default());
-    // The ratio of lengths favours what is squeezed, so SLOW may come first.
+    // The ratio of lengths favours compressed performances, so SLOW may come first.
     let mut order = names(&found);
     order.retain(|name| *name != "SLOW");
     assert_eq!(order, ["B", "M", "Z"]);
@@ -468,7 +468,7 @@ fn proposals_are_written_as_tiers_and_a_persons_annotation_stays() {
         .corpus
         .propose_nonmanuals(&recording("W1"), false, progress)
         .expect("found");
-    // The brows are up for most of the take, so they are raised against their median at no time.
+    // The brows are up for most of the take, so relative to their median they are never raised.
     assert!(
         found
             .proposals
@@ -503,7 +503,7 @@ fn onsets_are_measured_against_the_signs() {
         .find(|row| row.channel == "brow_raise_right")
         .expect("brows");
     assert_eq!((row.n, found.without_face), (3, 0));
-    // The brows are half up at 0.65 s of 0.7 s, and half down at 2.45 s of 2.3 s.
+    // The brows are half raised at 0.65 s instead of 0.7 s, and half lowered at 2.45 s instead of 2.3 s.
     assert!((row.onset_s.median + 0.05).abs() < 0.02, "{row:?}");
     assert!((row.offset_s.median - 0.15).abs() < 0.02, "{row:?}");
     assert!(found.rows.iter().any(|row| row.channel == "head_pitch"));

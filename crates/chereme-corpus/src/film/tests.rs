@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use super::colours::Planes;
 use super::*;
 
-/// Squares that wander over a slope, so that pictures differ from each other and move.
+/// Squares that wander over a gradient, so that pictures differ from each other and move.
 struct Squares {
     size: [usize; 2],
     frames: usize,
@@ -54,7 +54,7 @@ fn painted([width, height]: [usize; 2], colour: impl Fn(usize, usize) -> [u8; 3]
     image
 }
 
-/// Writes a film of squares, and returns where it lies.
+/// Writes a film of squares, and returns its path.
 pub(crate) fn film(folder: &Path, size: [usize; 2], frames: usize) -> PathBuf {
     let path = folder.join(format!("{}x{}.mp4", size[0], size[1]));
     let out = std::fs::File::create(&path).expect("made");
@@ -69,7 +69,7 @@ fn never() -> bool {
     false
 }
 
-/// Returns the hash of all numbers of a film, frame by frame: brightness, then both colours.
+/// Returns the hash of all numbers of a film, frame by frame: luma, then both colour differences.
 fn hash(film: &mut Film) -> String {
     let mut hash = Sha256::new();
     for frame in 0..film.times().frames() {
@@ -89,7 +89,7 @@ fn hash(film: &mut Film) -> String {
 #[test]
 fn a_film_that_is_written_is_decoded_to_what_ffmpeg_decodes() {
     let folder = tempfile::tempdir().expect("a folder");
-    // Of these very films FFmpeg decodes numbers of this hash.
+    // FFmpeg decodes these films to numbers with this hash.
     for (size, frames, known) in [([128, 96], 60, HASHES[0]), ([161, 91], 30, HASHES[1])] {
         let mut film = Film::open(&film(folder.path(), size, frames)).expect("opened");
         let facts = film.facts().clone();

@@ -1,4 +1,4 @@
-//! How annotation files are read.
+//! Tests of the import of annotation files.
 
 mod again;
 mod captured;
@@ -16,7 +16,7 @@ use crate::{ListFilter, ListKind, SearchOptions};
 const MOVEMENT: &str = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n\
      End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n0 0 1\n";
 
-/// An annotation file of root tiers with one annotation each: tier, start and end in ms, value.
+/// Returns an annotation file of root tiers with one annotation each: tier, start and end in ms, value.
 fn eaf(tiers: &[(&str, i64, i64, &str)]) -> String {
     let (mut slots, mut body) = (String::new(), String::new());
     for (at, (tier, start, end, value)) in tiers.iter().enumerate() {
@@ -75,7 +75,7 @@ fn assert_whole(corpus: &mut Corpus) {
     assert!(faults.is_empty(), "{faults:?}");
 }
 
-/// Role and hand of each tier, by recording and position.
+/// Returns role and hand of each tier, by recording and position.
 fn roles(corpus: &Corpus) -> Vec<String> {
     let recordings = recordings_of(corpus);
     let tiers = recordings
@@ -206,7 +206,7 @@ fn phases_of_movement_cut_time_and_are_no_values_of_a_token() {
     assert_eq!(all.expect("listed").total, 3);
 }
 
-/// The annotations: tier, start in ms, value.
+/// Returns the annotations: tier, start in ms, value.
 fn said(corpus: &Corpus) -> Vec<String> {
     let connection = corpus.store.read();
     let tiers = recordings_of(corpus)

@@ -1,9 +1,9 @@
-//! Maps of small lexicons.
+//! Tests of maps of small lexicons.
 
 use super::*;
 use crate::{ImportOptions, unheard};
 
-/// Two families of signs: fists at the chin, flat hands at the chest; four of each.
+/// Returns a corpus with two families of four signs each: fists at the chin, flat hands at the chest.
 fn lexicon(folder: &Path) -> Corpus {
     let file = folder.join("t.csv");
     let mut table = "gloss,handshape,location,movement\n".to_owned();

@@ -17,7 +17,7 @@ struct Desk {
 }
 
 impl Desk {
-    /// Two copies of a corpus with one annotated film.
+    /// Returns two copies of a corpus with one annotated film.
     fn new() -> (Self, Corpus, Corpus) {
         let desk = Self {
             folder: tempfile::tempdir().expect("a folder"),
@@ -62,7 +62,7 @@ fn act(corpus: &mut Corpus, action: AnnotationAction) {
         .expect("annotated");
 }
 
-/// The annotations as `tier start-end value` in milliseconds.
+/// Returns the annotations as `tier start-end value` in milliseconds.
 fn said(corpus: &Corpus) -> Vec<String> {
     let mut out = Vec::new();
     let what = ExportWhat::Address(Address::Recording(Name::Text("film".into())));
@@ -165,7 +165,7 @@ fn copies_that_went_apart_come_together() {
         .search("gloss:T", &Default::default())
         .expect("searched");
     assert_eq!(found.hits.len(), 1);
-    // A second time nothing is left to do, and one undo takes all of it back.
+    // A second merge has nothing to do, and one undo reverts the whole merge.
     let again = desk.merge(&mut mine);
     assert!(
         again.added.is_empty() && again.changed.is_empty(),
@@ -174,7 +174,7 @@ fn copies_that_went_apart_come_together() {
     mine.undo().expect("undone");
     assert!(said(&mine).contains(&"Gloss RH 3000-3500 LION".to_owned()));
     is_whole(&mut mine);
-    // The other one merges what this one has, and says the same.
+    // The other copy merges this one, and then has the same contents.
     mine.redo().expect("redone");
     desk.merge(&mut theirs);
     assert_eq!(said(&theirs), want);
@@ -225,7 +225,7 @@ fn conflicts_keep_both_candidates_and_are_decided_one_by_one() {
     assert_eq!(said(&mine), want);
     is_whole(&mut mine);
     assert!(mine.conflicts(false).expect("listed").is_empty());
-    // Decided conflicts are not asked again.
+    // Decided conflicts are not listed again.
     let again = desk.merge(&mut mine);
     assert_eq!(again.conflicts, []);
     for _ in 0..3 {
@@ -325,7 +325,7 @@ fn copies_are_merged_again_and_again_in_both_directions() {
             "{value}"
         );
     }
-    // The other one follows, and goes on from there.
+    // The other copy merges too, and continues from there.
     let report = desk.merge(&mut theirs);
     assert_eq!(report.conflicts, []);
     assert_eq!(said(&theirs), said(&mine));

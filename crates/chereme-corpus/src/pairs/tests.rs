@@ -1,4 +1,4 @@
-//! Minimal pairs of small tables, and of one that was counted independently.
+//! Tests of minimal pairs in small tables, and in one that was counted independently.
 
 use super::*;
 use crate::progress::Progress;

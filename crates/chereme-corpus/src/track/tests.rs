@@ -1,4 +1,4 @@
-//! Tracks of every kind go into a corpus and come back, number for number.
+//! Tests that tracks of every kind are stored and read back exactly, number for number.
 
 use std::f64::consts::PI;
 
@@ -23,7 +23,7 @@ fn rate(frames: u32) -> Rate {
     Rate::new(frames, 1).expect("a rate")
 }
 
-/// A corpus with one captured recording.
+/// Returns a corpus with one captured recording.
 fn corpus() -> (tempfile::TempDir, Corpus, Name) {
     let folder = tempfile::tempdir().expect("a folder");
     let paths = unpack_starter(&folder.path().join("files")).expect("unpacked");
@@ -45,7 +45,7 @@ fn wave(frame: usize, phase: f64) -> f64 {
     (frame as f64 * 0.037 + phase).sin() * 700.0 + phase
 }
 
-/// A column of each form, each with gaps of its own.
+/// Returns a column of each form, each with gaps of its own.
 fn columns() -> Vec<Column> {
     let frames = 0..FRAMES;
     let text = |frame: usize| format!("{:.3}", wave(frame, 0.1));

@@ -1,4 +1,4 @@
-//! Tiers in another place, and below another tier.
+//! Tests of moving tiers, and of putting them below another tier.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Tiers copied and put in another order.
+//! Tests of copying and reordering tiers.
 
 use super::*;
 
@@ -14,7 +14,7 @@ fn names(corpus: &Corpus) -> Vec<String> {
     tiers(corpus).into_iter().map(|tier| tier.name).collect()
 }
 
-/// Returns what a tier says, as `(start, value)`.
+/// Returns the annotations of a tier as `(start, value)`.
 fn said(corpus: &Corpus, name: &str) -> Vec<(i64, String)> {
     let id = tiers(corpus)
         .into_iter()

@@ -1,4 +1,4 @@
-//! Whatever changes people make: the rules hold, tokens follow, and each change can be undone.
+//! Laws under random changes: the rules hold, tokens are up to date, and each change can be undone.
 
 use chereme_sign::tier::{TierSet, check};
 use proptest::prelude::*;
@@ -11,7 +11,7 @@ use crate::db::tiers as tier_rows;
 use crate::error::{Error, Result};
 use crate::tokens;
 
-/// One of many changes that may or may not be legal.
+/// Generates one change that may or may not be legal.
 fn wish() -> impl Strategy<Value = String> {
     let id = 1u32..14;
     let tier = prop::sample::select(vec!["G", "G", "H", "C", "C", "L", "T", "I"]);
@@ -76,7 +76,7 @@ fn check_rules(corpus: &Corpus) {
     assert!(found.is_empty(), "{found:?}");
 }
 
-/// Tokens near a change are what deriving all of them again gives, and search holds as many.
+/// Checks that tokens near a change equal those derived again from everything, and that search finds the same number.
 fn check_tokens(corpus: &mut Corpus, change: &str) {
     let near = token_rows(corpus.store.read());
     let again: Result<()> = corpus.store.operation("derive", |connection| {
@@ -95,7 +95,7 @@ fn check_tokens(corpus: &mut Corpus, change: &str) {
     assert_eq!(index.documents(), tokens as u64);
 }
 
-/// The rows of tokens and their values, a text each.
+/// Returns the rows of tokens and their values, as one text each.
 fn token_rows(connection: &Connection) -> Vec<String> {
     let sql = "SELECT concat_ws(' ', 'token', t.id, s.gloss, t.annotation_id, t.start_us, t.end_us, t.hand)
                    FROM token t JOIN sign s ON s.id = t.sign_id

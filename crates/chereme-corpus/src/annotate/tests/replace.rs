@@ -1,4 +1,4 @@
-//! Values found and replaced, tiers shifted, and annotations that give way.
+//! Tests of replacing values, shifting tiers, and annotations that move out of the way.
 
 use super::*;
 use crate::annotate::replace::{Find, Within};

@@ -1,4 +1,4 @@
-//! Whole sets of tiers at once.
+//! Tests of adding whole sets of tiers.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Tiers are added, changed and removed.
+//! Tests of adding, changing and removing tiers.
 
 use super::*;
 

@@ -38,7 +38,7 @@ impl Desk {
         self.folder.path().join(name)
     }
 
-    /// Exports and reads the rows back, by another reader than ours.
+    /// Exports, and reads the rows back with an independent reader.
     fn rows(&self, what: &ExportWhat, name: &str) -> Vec<Row> {
         let path = self.path(name);
         let mut hear = unheard;

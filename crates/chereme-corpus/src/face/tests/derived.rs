@@ -1,4 +1,4 @@
-//! Faces that are derived: weights fitted to a signer, trunks that lean, points on film.
+//! Tests of derived faces: weights fitted to a signer, leaning trunks, points on film.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -58,7 +58,7 @@ fn add(corpus: &mut Corpus, name: &str, tier: &str, role: TierRole, spans: &[(&s
         .expect("annotated");
 }
 
-/// Writes a face whose brows go up to `most` and whose eyes stay.
+/// Writes a face whose brows rise to `most` and whose eyes do not move.
 fn write_brows(path: &Path, most: f64) {
     let mut text = String::from("time [s],brow_raise_right,brow_raise_left,jaw_open,head_yaw\n");
     for frame in 0..120 {
@@ -123,7 +123,7 @@ fn weights_fitted_on_one_take_are_those_of_all_faces_of_the_signer_and_undo_take
     assert_eq!(brows(&corpus, "W1"), (0.2, None));
 }
 
-/// Writes a capture of OpenFace whose head comes forward by 0.2 m in the middle, and that loses the face for a frame.
+/// Writes an OpenFace capture in which the head moves forward by 0.2 m in the middle, with one frame without a face.
 fn write_open_face(path: &Path) {
     let mut text = String::from(
         "frame,timestamp,confidence,success,gaze_angle_x,gaze_angle_y,pose_Tx,pose_Ty,pose_Tz,pose_Rx,pose_Ry,pose_Rz,\
@@ -183,7 +183,7 @@ fn a_head_that_comes_forward_leans_the_trunk_and_lost_faces_count_as_gaps() {
     assert!(turned < 1e-3, "and does not nod with the trunk: {turned}");
 }
 
-/// Points on film by other people are faces: they are shown, proposed, cut by milestones and scored.
+/// Points on film from other programs are faces: they can be displayed, proposed from, cut by milestones and scored.
 #[test]
 fn points_on_film_are_faces_for_every_use() {
     let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {

@@ -1,8 +1,8 @@
-//! Files that are imported again, files of one name, and files that hold nothing for a corpus.
+//! Tests of files that are imported again, files of one name, and files without content for a corpus.
 
 use super::*;
 
-/// Imports paths and returns the whole report.
+/// Imports paths and returns the complete report.
 fn take(corpus: &mut Corpus, paths: &[PathBuf], options: &ImportOptions) -> ImportReport {
     let mut hear = unheard;
     let report = corpus.import(paths, options, &mut Progress::new(&mut hear));
@@ -25,7 +25,7 @@ fn has(findings: &[ReportFinding], what: &str) -> bool {
     findings.iter().any(|it| it.message.contains(what))
 }
 
-/// Says something else in the annotation of this value.
+/// Changes the annotation with this value.
 fn edit(corpus: &mut Corpus, from: &str, to: Option<&str>) {
     use crate::db::tiers;
     let done = corpus.store.operation("annotate", |connection| {
@@ -51,7 +51,7 @@ fn edit(corpus: &mut Corpus, from: &str, to: Option<&str>) {
     done.expect("edited");
 }
 
-/// Four free annotations of 0.5 s, one a tier.
+/// Returns four free annotations of 0.5 s, one per tier.
 fn four(values: [&str; 4]) -> String {
     let tiers: Vec<(String, &str)> = values
         .iter()
@@ -85,7 +85,7 @@ fn files_of_one_name_in_two_folders_are_two_recordings() {
     let again = take(&mut corpus, &folders, &ImportOptions::default());
     let unchanged = |it: &FileReport| it.status == FileStatus::Unchanged;
     assert!(again.files.iter().all(unchanged), "{again:?}");
-    // One at a time it is the same.
+    // Importing them one at a time has the same effect.
     let mut apart = desk.corpus("d.chereme");
     for folder in folders {
         take(&mut apart, &[folder], &ImportOptions::default());
@@ -180,7 +180,7 @@ fn edits_that_a_changed_file_would_take_back_are_asked_about() {
     let path = desk.file("one.eaf", &four(["A", "B", "C", "D"]));
     let paths = [path];
     let theirs = four(["A2", "B", "C2", "D"]);
-    // Mine: B and C; the file's: A and C.
+    // The corpus changed B and C; the file changed A and C.
     for (choice, after) in [
         (OwnEdits::Ask, ["A", "mine B", "mine C", "D"]),
         (OwnEdits::Mine, ["A", "mine B", "mine C", "D"]),
@@ -268,7 +268,7 @@ fn what_was_removed_or_added_here_is_merged_too() {
         let mut corpus = desk.corpus(&format!("{choice:?}.chereme"));
         desk.file("one.eaf", &four(["A", "B", "C", "D"]));
         take(&mut corpus, &paths, &ImportOptions::default());
-        // B goes here alone; C goes here and changes there; D goes there alone.
+        // B is removed only here; C is removed here and changed there; D is removed only there.
         edit(&mut corpus, "B", None);
         edit(&mut corpus, "C", None);
         desk.file("one.eaf", &theirs);
@@ -479,7 +479,7 @@ fn stopping_an_import_of_any_kind_leaves_the_corpus_as_it_was() {
         }
         corpus.undo().expect("taken back");
         let before = corpus.log(9).expect("log").len();
-        // Wherever it is stopped, nothing is left.
+        // Wherever it is stopped, nothing is stored.
         for at in [0, steps.len() / 3, steps.len() / 2, steps.len() - 1] {
             let mut told = 0;
             let mut hear = |_: Step<'_>| {

@@ -1,4 +1,4 @@
-//! Captures of other formats, with the tiers of other programs next to them.
+//! Tests of captures in other formats, with tiers of other programs beside them.
 
 use chereme_formats::gltf;
 

@@ -1,10 +1,10 @@
-//! Films of an import: linked to their recordings, or recordings of their own.
+//! Tests of the import of films: linked to their recordings, or as recordings of their own.
 
 use super::*;
 use crate::film::tests::film as write_film;
 use crate::{Address, Name};
 
-/// Writes a film of a second under a name, in a folder that is made.
+/// Writes a film of one second under a name; creates its folder.
 fn film(desk: &Desk, name: &str) -> PathBuf {
     let path = desk.folder.path().join(name);
     fs::create_dir_all(path.parent().expect("a folder")).expect("made");
@@ -122,7 +122,7 @@ fn a_film_far_from_the_corpus_is_found_where_it_was_imported_from() {
     assert_eq!(media.len(), 1);
     assert!(media[0].is_there, "{media:?}");
     assert_eq!(export(&corpus, "other name"), text);
-    // It was moved, and is imported again.
+    // It was moved, and is imported from its new path.
     let new = film(&far, "elsewhere/take.mp4");
     fs::remove_file(&path).expect("removed");
     assert!(!corpus.media(&name).expect("media")[0].is_there);
@@ -138,7 +138,7 @@ fn a_film_goes_into_a_recording_at_a_time_and_next_to_movement_of_its_name() {
     let movement = desk.file("take.bvh", MOVEMENT);
     let front = film(&desk, "take.mp4");
     let side = film(&desk, "side.mp4");
-    // Another film than that of the front.
+    // A film other than the frontal one.
     let mut bytes = fs::read(&side).expect("bytes");
     bytes.extend(*b"\x00\x00\x00\x08free");
     fs::write(&side, bytes).expect("written");

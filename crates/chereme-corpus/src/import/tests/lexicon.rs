@@ -1,5 +1,5 @@
-//! How rows of lexicons are read: homonyms, spellings, attributes, notation in a wrong encoding; and to whom the
-//! tokens of several participants belong.
+//! Tests of lexicon rows: homonyms, spellings, attributes, notation in a wrong encoding; and the assignment of tokens
+//! to several participants.
 
 use super::*;
 use crate::{ListFilter, ListKind, Name, SignerChange, TierChange, TierName};

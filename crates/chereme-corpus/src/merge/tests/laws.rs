@@ -1,4 +1,4 @@
-//! Laws of merges, on corpora that random changes drive apart, and an hour of two annotators.
+//! Laws of merges, on corpora that random changes drive apart, and on one hour annotated by two people.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -79,13 +79,13 @@ fn annotations(corpus: &Corpus) -> Vec<Said> {
     rows.map(|row| row.expect("a row")).collect()
 }
 
-/// The annotations without their rows, which differ from copy to copy.
+/// Returns the annotations without their rows, which differ from copy to copy.
 fn said(corpus: &Corpus) -> Vec<(String, i64, i64, String)> {
     let all = annotations(corpus).into_iter();
     all.map(|it| (it.1, it.2, it.3, it.4)).collect()
 }
 
-/// Changes a corpus in one operation; reports whether its rules allowed that.
+/// Changes a corpus in one operation; returns whether its rules allowed that.
 fn change(corpus: &mut Corpus, actions: Vec<AnnotationAction>) -> bool {
     let changes: Vec<AnnotationChange> = actions.into_iter().map(Into::into).collect();
     let mut hear = unheard;
@@ -119,7 +119,7 @@ fn add(tier: i64, start: i64, end: i64, value: String) -> AnnotationAction {
     }
 }
 
-/// A change: which annotation, what, and how far.
+/// A change: the index of the annotation, the kind, and the amount.
 type Deed = (usize, u8, i64);
 
 fn work(corpus: &mut Corpus, deeds: &[Deed], name: &str) {
@@ -205,7 +205,7 @@ proptest! {
         if one.conflicts.is_empty() && two.conflicts.is_empty() {
             prop_assert_eq!(said(&mine), said(&theirs));
         }
-        // Every value that either side wrote stands, or waits as a candidate.
+        // Every value that either side wrote is in the corpus, or in a conflict as a candidate.
         let is_new = |it: &&(String, i64, i64, String)| base.iter().all(|old| old.3 != it.3);
         for (merged, report) in [(said(&mine), &one), (said(&theirs), &two)] {
             for row in own.iter().chain(&other).filter(is_new) {
@@ -252,7 +252,7 @@ proptest! {
     }
 }
 
-/// An hour of annotations, one every three seconds.
+/// The number of annotations in an hour, one every three seconds.
 const HOUR: i64 = 1200;
 
 fn hour() -> String {
@@ -326,7 +326,7 @@ fn actions(corpus: &Corpus, name: &str, gap: i64, does: fn(i64) -> Edit) -> Vec<
     .collect()
 }
 
-/// Returns the outcome of both changes by the rules of a merge alone, and whether they disagree.
+/// Returns the expected result of both changes, computed only from the rules of a merge, and whether they conflict.
 fn expected(at: i64) -> (Vec<(i64, i64, String)>, bool) {
     let (start, end) = (3000 * at, 3000 * at + 1500);
     let (mine, theirs) = (mine_does(at), theirs_does(at));
