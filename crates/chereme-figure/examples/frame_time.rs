@@ -1,8 +1,8 @@
 //! Measures drawing: `cargo run --release --example frame_time -- [FRAMES]`.
 //!
-//! Prints the time of one picture of 400 by 500 pixels of a whole signer with full hands, posing
-//! the body included, of the body alone, of the window's stage with two signers by one thread and
-//! by two, and of a little figure; of each so many frames, at most 64. With two threads, the time is the first one's: the other works at the same time.
+//! Prints the time of one picture of 400 by 500 pixels of a whole signer with full hands, posing the body included, of
+//! the body alone, of the window's stage with two signers by one thread and by two, and of a little figure; each over
+//! FRAMES frames, at most 64. With two threads, the time is that of the first one, as the other works at the same time.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -16,8 +16,8 @@ use chereme_motion::Anatomy;
 #[path = "common/signer.rs"]
 mod signer;
 
-/// Returns the time on this thread's own clock of processor time if the system has one, else on the wall's: on a
-/// busy machine only the first measures drawing.
+/// Returns the time on this thread's processor clock if the system has one, else the elapsed time: on a busy machine
+/// only the first measures drawing.
 fn now(begun: Instant) -> Duration {
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let used = told.and_then(|text| text.split(' ').next()?.parse().ok());

@@ -1,7 +1,7 @@
 //! Measures how well handshapes are distinguished in small pictures: `cargo run --release --example legible -- FILE [VIEW]`.
 //!
-//! VIEW is `three-quarter` as usual, `palm`, `thumb`, `back`, or `two`: three-quarter and from the thumb's side, next to
-//! each other, each of the size that is measured.
+//! VIEW is `three-quarter` as usual, `palm`, `thumb`, `back`, or `two`: three-quarter and from the thumb's side, next
+//! to each other, each of the measured size.
 //!
 //! FILE is an inventory of handshapes, such as `schema/inventories/configurations.json`. Draws every handshape at 24,
 //! 48 and 96 pixels, and prints for each size the mean and the fifth percentile of the distance to the nearest other
@@ -18,7 +18,7 @@ use serde_json::Value;
 const CLEAR: [&str; 12] = [
     "flat", "S", "1", "V", "Y", "claw", "F", "O", "L", "C", "5", "pinch",
 ];
-/// How often each shape is drawn with noise.
+/// The number of noisy pictures of each shape.
 const TRIES: usize = 3;
 
 #[allow(clippy::print_stdout, reason = "the table is the program's result")]

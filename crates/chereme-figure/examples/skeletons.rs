@@ -63,7 +63,7 @@ fn is_finger(name: &str) -> bool {
         .any(|finger| name.contains(finger))
 }
 
-/// Returns the clip without the joints that `stays` leaves out; none of them may have a child that stays.
+/// Returns the clip without the joints for which `stays` is false; none of them may have a child that stays.
 fn kept(clip: &Clip, stays: impl Fn(&str) -> bool) -> Result<Clip, Box<dyn Error>> {
     let skeleton = clip.skeleton();
     let all: Vec<usize> = (0..skeleton.len())

@@ -30,7 +30,7 @@ pub struct AnimationOptions {
     pub height: usize,
     /// Duration of each picture in hundredths of a second, 1 to 100; 4 gives 25 pictures per second.
     pub centiseconds: u16,
-    /// Pictures per second, for films; it goes before `centiseconds`, in which a GIF counts.
+    /// Pictures per second, for films; it overrides `centiseconds`, the unit of GIFs.
     pub rate: Option<u32>,
     /// Playback speed, one of [`SPEEDS`]; 0.5 is half the original speed.
     pub speed: f64,
@@ -56,7 +56,7 @@ impl Default for AnimationOptions {
 }
 
 impl AnimationOptions {
-    /// Returns how long a picture is shown.
+    /// Returns the time for which a picture is shown, in seconds.
     fn seconds(&self) -> f64 {
         match self.rate {
             Some(rate) => 1.0 / f64::from(rate.clamp(1, 240)),
@@ -65,18 +65,18 @@ impl AnimationOptions {
     }
 }
 
-/// Pictures that follow each other and are drawn one at a time.
+/// A sequence of pictures that are drawn one at a time.
 pub trait Pictures {
-    /// Returns how many there are.
+    /// Returns the number of pictures.
     fn frames(&self) -> usize;
 
-    /// Returns width and height of each in pixels.
+    /// Returns width and height of each picture in pixels.
     fn size(&self) -> [usize; 2];
 
-    /// Returns how long each is shown in a GIF, in hundredths of a second.
+    /// Returns the time for which each picture is shown in a GIF, in hundredths of a second.
     fn centiseconds(&self) -> u16;
 
-    /// Draws one of them.
+    /// Draws one picture.
     fn draw(&mut self, frame: usize) -> Image;
 }
 

@@ -4,13 +4,13 @@ use std::ops::Range;
 
 /// The depth of paper.
 const PAPER: f32 = f32::INFINITY;
-/// Smallest distance in metres by which a veiled layer must be nearer than the surface that hides it, so
-/// that parts that hardly moved do not show through.
+/// Least distance in metres by which a veiled layer must be in front of the surface that hides it, so that parts that
+/// hardly moved do not show through.
 const VEIL: f32 = 0.015;
 /// Factor on colours stored in a byte, so that light beyond white is not lost before shade falls on it.
 const SCALE: f32 = 0.875;
 
-/// The nearest surface at every sample; a margin of paper all around saves the test for the edge.
+/// The nearest surface at every sample; a margin of paper all around makes tests for the edge unnecessary.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Buffers {
     /// Columns and rows of samples, the margin not counted.

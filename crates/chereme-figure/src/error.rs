@@ -10,7 +10,7 @@ pub const MAX_PIXELS: usize = 64_000_000;
 /// The most pixels of one view of a figure, which is drawn several times larger.
 pub const MAX_VIEW_PIXELS: usize = 4_000_000;
 
-/// The speeds at which animations run, 1 being that of the movement.
+/// The allowed speeds of animations; 1 is the speed of the movement.
 pub const SPEEDS: RangeInclusive<f64> = 0.05..=20.0;
 /// The most pictures of an animation.
 pub const MAX_FRAMES: usize = 12_000;

@@ -11,7 +11,7 @@ const UNIT: i32 = SUBPIXELS as i32;
 /// bits.
 const NARROW: i32 = 1 << 14;
 
-/// A vertex in the picture: snapped place; depth and lit colour; the part it belongs to.
+/// A vertex in the picture: snapped position, depth, lit colour, and the part of the body.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Corner {
     pub(crate) at: [i32; 2],

@@ -1,6 +1,4 @@
-//! A small letter for labels: five dots wide, drawn for this crate, as data.
-//!
-//! It covers ASCII and the accented letters of Latin-1 and French; other characters are drawn by [`letters`](crate::letters).
+//! A small bitmap font for labels: five dots wide, drawn for this crate, as data.
 
 use crate::letters;
 
@@ -199,7 +197,7 @@ pub(crate) fn width(text: &str) -> usize {
 
 /// Returns `text` cut to a width of `dots` dots, with an ellipsis at its end if something is left out.
 pub(crate) fn fitted(text: &str, dots: usize) -> String {
-    // Marks need no room; a text with more marks than letters is not text.
+    // Marks have no width; a text with more marks than letters is not text.
     let most = dots.saturating_mul(2) + 1;
     let beginning = |count: usize| text.chars().take(count).collect::<String>();
     if text.chars().nth(most).is_none() && width(text) <= dots {

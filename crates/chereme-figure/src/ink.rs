@@ -19,12 +19,11 @@ use crate::raster::Style;
 const SHADE: f32 = 2.5;
 /// Strength of the darkest shade.
 const SHADE_STRENGTH: f32 = 0.38;
-/// The depth step at which a shade begins, and the one beyond it at which it is full, in metres.
+/// The depth steps at which a shade begins and at which it is full, in metres.
 const SHADE_STEPS: [f32; 2] = [0.006, 0.033];
 /// The depth step from which a line between two parts is drawn at full strength, in metres.
 const CLEAR_STEP: f32 = 0.004;
-/// The depth step from which a line between two parts that touch is drawn, in metres: skin that goes on from one part
-/// to the next has none.
+/// The depth step from which a line between two parts that touch is drawn, in metres; continuous skin has no such step.
 const TOUCH_STEP: f32 = 0.0018;
 /// Strengths of lines: within a part, between parts that touch, between parts apart.
 const STRENGTHS: [f32; 3] = [0.75, 0.5, 0.9];

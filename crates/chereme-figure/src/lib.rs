@@ -32,7 +32,7 @@
 //! | [`body`] | the signer's surface from a skeleton's joints |
 //! | [`mesh`] | triangles with colours and parts; trails |
 //! | [`palette`] | colours of body and paper |
-//! | [`camera`], [`view`] | where the eye stands; presets fitted to a clip |
+//! | [`camera`], [`view`] | the position of the eye; presets fitted to a clip |
 //! | [`raster`] | triangles to pixels, with lines between parts |
 //! | [`image`], [`writer`] | pixels, and PNG |
 //! | [`sheet`] | contact sheets, thumbnails |
@@ -40,9 +40,9 @@
 //! | [`animation`] | moving pictures, and GIF |
 //! | [`strip`] | several of them next to each other, with captions |
 //! | [`handshape`] | a hand alone, from joint angles |
-//! | [`chart`] | how two clips are aligned |
+//! | [`chart`] | a chart of the alignment of two clips |
 //! | [`letters`] | text in any script, and the fonts of the computer |
-//! | [`error`] | what keeps a picture from being made |
+//! | [`error`] | the reasons why a picture cannot be drawn |
 
 pub mod animation;
 pub mod body;

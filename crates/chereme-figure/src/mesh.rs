@@ -1,4 +1,4 @@
-//! Triangles with normals, colours and outline groups, and the closed forms they are built from.
+//! Triangles with normals, colours and outline groups, and the closed forms from which bodies are built.
 
 use glam::{Vec2, Vec3};
 
@@ -87,11 +87,11 @@ pub fn trail(points: &[Vec3], radius: f32, [from, to]: [Colour; 2], group: u8) -
 
 /// A closed surface of rings from a first pole to a last one, described in its own space.
 ///
-/// The rings lie across the Z axis. `X` of the ring is the direction that [`Grid::facing`] counts
-/// as towards, so that one side of a finger can have another colour than the other.
+/// The rings lie across the Z axis. [`Grid::facing`] gives each vertex's position along the ring's +X, so that the two
+/// sides of a finger can have different colours.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Grid {
-    /// Points on the unit circle, one a column, from +X towards +Y.
+    /// Points on the unit circle, one per column, from +X towards +Y.
     pub(crate) circle: Vec<Vec2>,
     /// The number of rings, each of `circle.len()` points, without the poles.
     pub(crate) rings: usize,

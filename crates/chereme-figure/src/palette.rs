@@ -116,7 +116,7 @@ pub struct Palette {
     pub iris: Colour,
     /// The brows.
     pub brows: Colour,
-    /// How the hair, which has the colour of the crown, is cut.
+    /// The cut of the hair, whose colour is `crown`.
     pub cut: Hair,
     /// Chest and belly.
     pub torso: Colour,
@@ -136,7 +136,7 @@ pub enum Hair {
     Bob,
     /// Tied in a knot behind the head.
     Tied,
-    /// None.
+    /// No hair.
     None,
 }
 
@@ -146,12 +146,12 @@ const TONES: [u32; 10] = [
     0x42_2F_28, 0x30_24_1F,
 ];
 
-/// Shares of light in the palms of each tone, small if the clothes are light too.
+/// The share of light colour in the palms of each tone; small for tones whose clothes are light too.
 const PALMS: [f32; 10] = [0.55, 0.55, 0.55, 0.55, 0.55, 0.06, 0.20, 0.28, 0.34, 0.38];
 
 impl Palette {
-    /// Returns the colours of a signer with a tone of skin, from 1, the lightest, to 10; other numbers are taken to
-    /// the nearest. Clothes are dark before light hands and light before dark ones.
+    /// Returns the colours of a signer with a tone of skin, from 1, the lightest, to 10; other numbers are clamped.
+    /// Clothes are dark behind light hands and light behind dark ones.
     #[must_use]
     pub fn of_tone(tone: usize) -> Self {
         let tone = tone.clamp(1, 10);

@@ -16,23 +16,23 @@ use crate::raster::{Raster, Style};
 use crate::sheet::Progress;
 use crate::view::View;
 
-/// The number of frames that are looked at to find the space that points take.
+/// The number of frames that are sampled to find the space of the points.
 const LOOKS: usize = 200;
-/// The share of places on either side of an axis that may be outliers.
+/// The share of positions at either end of an axis that may be outliers.
 const OUTLIERS: f32 = 0.01;
 /// A dot's radius as a share of the height of the points' space; in groups with many points a smaller share.
 const DOT: f32 = 0.009;
 const SMALL_DOT: f32 = 0.0035;
-/// A group with more points than this has small dots.
+/// The largest number of points in a group whose dots have the full size.
 const MANY: usize = 60;
-/// A point that is less sure than this is drawn faintly.
+/// The confidence below which a point is drawn faintly.
 const UNSURE: f64 = 0.3;
 /// The eye's distance relative to half the height of the visible area.
 const DISTANCE: f32 = 7.0;
 const LABEL: usize = 18;
 const GAP: usize = 6;
 
-/// The dots and limbs of a track of points, with the space they take; it holds the points or a reference to them.
+/// The dots and limbs of a track of points, with their space; it holds the points or a reference to them.
 #[derive(Debug, Clone)]
 pub struct PointCloud<M> {
     markers: M,
@@ -44,7 +44,7 @@ pub struct PointCloud<M> {
 }
 
 impl<M: Borrow<Markers>> PointCloud<M> {
-    /// Looks at the points of a track; `None` if no frame has any.
+    /// Returns the cloud of a track's points; `None` if no frame has any.
     #[must_use]
     pub fn of(held: M, theme: Theme) -> Option<Self> {
         let markers = held.borrow();
@@ -104,13 +104,13 @@ impl<M: Borrow<Markers>> PointCloud<M> {
         self.markers.borrow()
     }
 
-    /// Returns whether the points have no place in depth, so that only the view from the front shows them.
+    /// Returns whether the points have no depth, so that only the view from the front shows them.
     #[must_use]
     pub fn is_flat(&self) -> bool {
         !matches!(self.markers.borrow().space(), Space::World(_))
     }
 
-    /// Returns the dots and limbs of a frame; points without a place there are left out.
+    /// Returns the dots and limbs of a frame; points without a position in it are left out.
     #[must_use]
     pub fn mesh(&self, frame: usize) -> Mesh {
         let mut mesh = Mesh::default();
@@ -182,7 +182,7 @@ impl<M: Borrow<Markers>> PointCloud<M> {
         (wide / size.y.max(1e-6)).clamp(0.45, 1.6)
     }
 
-    /// Returns a note for points that cameras did not measure in a room.
+    /// Returns a note for points that were not measured by cameras in a room.
     #[must_use]
     pub fn note(&self) -> Option<&'static str> {
         let estimated = self.markers.borrow().capture() == Capture::Estimated;
@@ -204,7 +204,7 @@ fn place(markers: &Markers, point: usize, frame: usize) -> Option<Vec3> {
     at.is_finite().then_some(at)
 }
 
-/// Returns the colour of a point: those of the hands by its group or name, else that of the face or the text.
+/// Returns the colour of a point: a hand's for points of a hand, by group or name; else that of the face or of text.
 fn colour(palette: &Palette, theme: Theme, group: &str, name: &str) -> Colour {
     let upper = group.to_ascii_uppercase();
     let hand = upper.contains("HAND");
@@ -253,8 +253,8 @@ fn dot(mesh: &mut Mesh, at: Vec3, radius: f32, colour: Colour) {
     }
 }
 
-/// Draws a contact sheet of points: `frames` pictures side by side, from the front and, if the points have a place in
-/// a room, from the right; a line below the title says that they are estimated or have no depth.
+/// Draws a contact sheet of points: `frames` pictures side by side, from the front and, if the points are in a room,
+/// from the right; a line below the title says that they are estimated or have no depth.
 ///
 /// # Errors
 /// [`FigureError`] if no frame has a point, the sheet would be too large, or `progress` stops it.

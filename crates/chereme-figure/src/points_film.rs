@@ -22,7 +22,7 @@ pub struct PointsOptions {
     pub height: usize,
     /// Duration of each picture in hundredths of a second, 1 to 100.
     pub centiseconds: u16,
-    /// Pictures per second, for films; it goes before `centiseconds`, in which a GIF counts.
+    /// Pictures per second, for films; it overrides `centiseconds`, the unit of GIFs.
     pub rate: Option<u32>,
     /// Playback speed, one of [`SPEEDS`].
     pub speed: f64,
@@ -42,8 +42,8 @@ impl Default for PointsOptions {
     }
 }
 
-/// An animation of points whose pictures are drawn on demand: from the front, and from the left if the points have a
-/// place in a room.
+/// An animation of points whose pictures are drawn on demand: from the front, and from the left if the points are in a
+/// room.
 pub struct PointsAnimation<'a> {
     markers: &'a Markers,
     cloud: PointCloud<&'a Markers>,
@@ -97,7 +97,7 @@ impl<'a> PointsAnimation<'a> {
     }
 }
 
-/// Returns how much of the track's time a picture stands for, in seconds.
+/// Returns the time in the track from one picture to the next, in seconds.
 fn step(options: &PointsOptions) -> f64 {
     let seconds = match options.rate {
         Some(rate) => 1.0 / f64::from(rate.clamp(1, 240)),
@@ -192,7 +192,7 @@ mod tests {
             let rows = (0..110).flat_map(|y| (0..image.width()).map(move |x| (x, y)));
             rows.filter(|&(x, y)| image.pixel(x, y) != paper).count()
         };
-        // The line between the two views is there always.
+        // The line between the two views is always drawn.
         assert!(ink(0) > ink(19) + 20, "{} {}", ink(0), ink(19));
         let mut bytes = Vec::new();
         let mut go = |_, _| ControlFlow::Continue(());

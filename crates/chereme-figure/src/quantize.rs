@@ -44,8 +44,8 @@ struct Box6 {
 }
 
 impl Box6 {
-    /// Returns the axis along which the colours are farthest apart, with their distance, weighted so that
-    /// boxes of many pixels are cut first.
+    /// Returns the axis with the widest range of colours and that range, weighted so that boxes of many pixels are
+    /// split first.
     fn widest(&self) -> (usize, f64) {
         let mut best = (0, -1.0);
         for axis in 0..3 {

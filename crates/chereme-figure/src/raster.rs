@@ -72,9 +72,9 @@ pub struct Raster {
 pub struct Layer<'a> {
     /// Its surface.
     pub mesh: &'a Mesh,
-    /// How much of the background it hides, from 0 to 1.
+    /// The share of the background that it hides, from 0 to 1.
     pub opacity: f32,
-    /// Whether it is hidden behind the last layer that is not veiled.
+    /// Whether it is drawn only in front of the last layer that is not veiled.
     pub veiled: bool,
 }
 

@@ -31,7 +31,7 @@ fn camera(distance: f32) -> Camera {
     }
 }
 
-/// Lines only between parts: at this scale a ball's own slope is steeper than a finger's step.
+/// A style with lines only between parts: at this scale a ball's own slope is steeper than a finger's step.
 const PLAIN: fn() -> Style = || Style {
     step: 1.0,
     ..Style::default()
@@ -80,7 +80,7 @@ fn the_nearer_ball_hides_the_farther_whatever_the_order() {
 
 #[test]
 fn neighbouring_triangles_leave_no_gap_and_no_sample_twice() {
-    // A fan of slivers about a point off the grid: inside its hull every sample is covered.
+    // A fan of thin triangles about a point off the grid: inside its hull every sample is covered.
     let corner = |position| crate::mesh::Vertex {
         position,
         normal: Vec3::Z,
@@ -108,7 +108,7 @@ fn neighbouring_triangles_leave_no_gap_and_no_sample_twice() {
     }
 }
 
-/// A square facing the eye, from its middle half as wide as `half`.
+/// Returns a square that faces the eye; `half` is half of its width.
 fn plate(half: f32, z: f32, group: u8) -> Mesh {
     let corner = |x: f32, y: f32| Vertex {
         position: Vec3::new(x * half, y * half, z),

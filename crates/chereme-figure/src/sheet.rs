@@ -19,14 +19,14 @@ pub enum Frames {
     /// This number of frames, evenly spaced over the signing: from the first to the last frame with a hand up, without
     /// odd frames at both ends; all of these if there are fewer.
     Spaced(usize),
-    /// Exactly these.
+    /// Exactly these frames.
     At(Vec<usize>),
 }
 
 /// Options of a contact sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SheetOptions {
-    /// The line above the pictures; no line if empty.
+    /// The line above the pictures; empty for no line.
     pub title: String,
     /// The columns.
     pub frames: Frames,
@@ -57,14 +57,14 @@ impl Default for SheetOptions {
 }
 
 impl SheetOptions {
-    /// Returns the options with a row for each hand from near.
+    /// Returns the options with a row for each hand from nearby.
     #[must_use]
     pub fn with_hands(mut self) -> Self {
         self.views.extend(Side::BOTH.map(View::Hand));
         self
     }
 
-    /// Returns the options with a row for the face from near, whether it moves or not.
+    /// Returns the options with a row for the face from nearby, whether it moves or not.
     #[must_use]
     pub fn with_face_row(mut self) -> Self {
         if !self.views.contains(&View::Face) {
@@ -73,8 +73,7 @@ impl SheetOptions {
         self
     }
 
-    /// Returns the options with facial expressions, and with a row for the face from near if it moves at
-    /// all.
+    /// Returns the options with facial expressions, and with a row for the face from nearby if it moves at all.
     #[must_use]
     pub fn with_faces(mut self, faces: Vec<Face>) -> Self {
         if faces.iter().any(|face| !face.is_at_rest()) {
@@ -185,14 +184,14 @@ pub fn thumbnail(
     Ok(Raster::default().draw(&mesh, &camera, size, style))
 }
 
-/// The share of a small picture's height that a face in its corner takes.
+/// The height of a face in the corner of a small picture, as a share of the picture's height.
 const INSET: f32 = 0.45;
 
-/// Draws one small picture as [`thumbnail`] does, with the face from near in its upper right corner: `faces` are those of
-/// the clip's frames, at rest beyond them.
+/// Draws one small picture as [`thumbnail`] does, with the face from nearby in its upper right corner: `faces` are
+/// those of the clip's frames, at rest beyond them.
 ///
 /// # Errors
-/// As there.
+/// The same as [`thumbnail`]'s.
 pub fn thumbnail_with_face(
     clip: &Clip,
     anatomy: &Anatomy,

@@ -1,4 +1,4 @@
-//! Animations next to each other that run together, with captions below them.
+//! Animations next to each other that play together, with captions below them.
 
 use chereme_motion::Span;
 
@@ -8,10 +8,10 @@ use crate::font;
 use crate::image::Image;
 use crate::palette::Theme;
 
-/// A text that stands below an animation for a while.
+/// A text that is shown below an animation for a time.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Caption {
-    /// When, on the clock of the clip.
+    /// The time at which it is shown, on the clock of the clip.
     pub span: Span,
     /// The text, in any script.
     pub text: String,

@@ -21,11 +21,11 @@ pub enum View {
     Right,
     /// From above, the signer's front towards the upper edge.
     Top,
-    /// A hand from the front and near, followed as it moves; anything that hides it is left out.
+    /// A hand from the front and nearby, followed as it moves; anything that hides it is left out.
     Hand(Side),
-    /// The face from the front and near, followed as it moves, with the hands before it.
+    /// The face from the front and nearby, followed as it moves, with the hands in front of it.
     Face,
-    /// A hand with its palm towards the eye and its fingers up, however it is turned: the same handshape looks the
+    /// A hand with its palm towards the eye and its fingers up, whatever its rotation: the same handshape looks the
     /// same everywhere.
     Palm(Side),
 }
@@ -62,7 +62,7 @@ impl View {
         }
     }
 
-    /// Returns the direction towards the eye and the picture's up, as left, up and forwards.
+    /// Returns the direction towards the eye and the picture's up, in the signer's left, up and forwards.
     const fn axes(self) -> [Vec3; 2] {
         match self {
             Self::Addressee | Self::Hand(_) | Self::Palm(_) | Self::Face => [Vec3::Z, Vec3::Y],
@@ -86,9 +86,9 @@ pub struct Framing {
     hand: f32,
     /// The joint that the corners are relative to if the body travels: the camera follows it.
     follow: Option<usize>,
-    /// Whether the camera goes round with the body, because it turns far.
+    /// Whether the camera rotates with the body, because the body turns far.
     turns: bool,
-    /// Whether the lower edge stays at the hips where a picture is narrower than the space: legs are not shown.
+    /// Whether the lower edge stays at the hips if a picture is narrower than the space: legs are not shown.
     seated: bool,
 }
 
@@ -98,13 +98,13 @@ const LOOKS: usize = 400;
 const DISTANCE: f32 = 7.0;
 /// Largest distance of a body from its middle, in metres, before the camera follows it.
 const TRAVELS: f32 = 0.25;
-/// Cosine of the largest angle between a body and its mean direction before the camera goes round with it.
+/// Cosine of the largest angle between a body and its mean direction before the camera rotates with it.
 const TURNS: f32 = 0.5;
 
 impl Framing {
-    /// Returns the space of `clip`: from the hips to above the head, with the reach of both arms while they
-    /// sign; all joints if the skeleton is not a known body. Hands at rest below the hips, odd frames at both ends,
-    /// and the body's travel and turning are left out. `None` if the clip has no frames.
+    /// Returns the space of `clip`: from the hips to above the head, and as far as both arms reach while they sign; all
+    /// joints if the skeleton is not a known body. Hands at rest below the hips, odd frames at both ends, and the
+    /// body's travel and turning are left out. `None` if the clip has no frames.
     #[must_use]
     pub fn of(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
         let poses = looks(clip, anatomy)?;
@@ -191,10 +191,10 @@ impl Framing {
         }
     }
 
-    /// Returns the space of head, shoulders and hands alone, for small pictures: hands that hang at rest
-    /// below the hips are left out, unless they are there all the time.
+    /// Returns the space of head, shoulders and hands alone, for small pictures: hands that hang at rest below the hips
+    /// are left out, unless they always do.
     ///
-    /// `poses` must not be empty; of a skeleton that is not a known body all joints are taken.
+    /// `poses` must not be empty; for a skeleton that is not a known body, it is the space of all joints.
     #[must_use]
     pub fn signing(poses: &[ModelPose], anatomy: &Anatomy) -> Self {
         let whole = Self::around(poses, anatomy);
@@ -240,9 +240,9 @@ impl Framing {
         }
     }
 
-    /// Returns the camera of a view for a picture whose width is `aspect` times its height; the hand views
-    /// look at that hand in `pose`, the face view at the head. A picture too narrow for the space shows more room
-    /// above the head, no legs.
+    /// Returns the camera of a view for a picture whose width is `aspect` times its height; the hand views look at that
+    /// hand in `pose`, the face view at the head. A picture too narrow for the space shows more room above the head,
+    /// but no legs.
     #[must_use]
     pub fn camera(&self, view: View, aspect: f32, pose: &ModelPose, anatomy: &Anatomy) -> Camera {
         let view = match view {
@@ -300,7 +300,7 @@ impl Framing {
         own.place(middle + raised, [towards, up], half_height)
     }
 
-    /// Returns the signer's left, up and forwards in a posture as the camera takes them.
+    /// Returns the signer's left, up and forwards in a posture, as the camera sees them.
     fn facing(&self, pose: &ModelPose, anatomy: &Anatomy) -> Mat3 {
         if self.turns {
             facing(std::slice::from_ref(pose), anatomy)
@@ -356,8 +356,8 @@ pub fn stroke(clip: &Clip, anatomy: &Anatomy) -> usize {
     up.get(up.len() / 2).copied().unwrap_or(middle)
 }
 
-/// Returns the frames of `clip` from the first to the last with a hand up, without odd frames at both ends; all that are
-/// not odd if no hand ever is.
+/// Returns the frames of `clip` from the first to the last with a hand up, without odd frames at both ends; if no hand
+/// is ever up, all frames except odd ones.
 #[must_use]
 pub fn signed(clip: &Clip, anatomy: &Anatomy) -> Range<usize> {
     if clip.frames() == 0 {
@@ -370,7 +370,7 @@ pub fn signed(clip: &Clip, anatomy: &Anatomy) -> Range<usize> {
     }
 }
 
-/// Returns the frames that are not odd, and those of up to [`LOOKS`] of them in which a hand is up.
+/// Returns the range of frames that are not odd and, of up to [`LOOKS`] of them, those in which a hand is up.
 fn signing(clip: &Clip, anatomy: &Anatomy) -> (Range<usize>, Vec<usize>) {
     let sound = Ends::of(clip, anatomy).sound;
     let count = sound.len().min(LOOKS);
@@ -380,8 +380,8 @@ fn signing(clip: &Clip, anatomy: &Anatomy) -> (Range<usize>, Vec<usize>) {
     (sound, up)
 }
 
-/// Returns whether a hand is above the lower fifth of the trunk: it signs, and does not rest. `false` if the skeleton
-/// is not a known body.
+/// Returns whether a hand is above the lower fifth of the trunk, so that it signs and does not rest. `false` if the
+/// skeleton is not a known body.
 #[must_use]
 pub fn has_hand_up(pose: &ModelPose, anatomy: &Anatomy) -> bool {
     let (Some(hips), Some(size)) = (anatomy.joint(Part::Hips), anatomy.measures()) else {
@@ -393,7 +393,7 @@ pub fn has_hand_up(pose: &ModelPose, anatomy: &Anatomy) -> bool {
     hands.any(|&hand| pose.position(hand).y > least)
 }
 
-/// Returns the point that the camera follows; the origin if it stands still.
+/// Returns the point that the camera follows; the origin if it follows none.
 fn based(follow: Option<usize>, pose: &ModelPose) -> Vec3 {
     follow.map_or(Vec3::ZERO, |joint| pose.position(joint).as_vec3())
 }
@@ -410,8 +410,7 @@ fn travelling(poses: &[ModelPose], anatomy: &Anatomy) -> Option<usize> {
     ((high - low).length() * 0.5 > TRAVELS).then_some(joint)
 }
 
-/// Returns postures of a clip from its first to its last frame, evenly spaced if there are many; odd first
-/// and last frames are left out.
+/// Returns postures of a clip, evenly spaced if there are many, without odd first and last frames.
 fn looks(clip: &Clip, anatomy: &Anatomy) -> Option<Vec<ModelPose>> {
     clip.frames().checked_sub(1)?;
     let sound = Ends::of(clip, anatomy).sound;
@@ -455,7 +454,7 @@ fn head_middle(pose: &ModelPose, anatomy: &Anatomy) -> Option<(Vec3, f32)> {
     Some((target.as_vec3(), measures.head as f32))
 }
 
-/// Returns the room that a head takes around its joint.
+/// Returns the space that a head needs around its joint.
 fn above(anatomy: &Anatomy, size: f32) -> Vec3 {
     let top = anatomy.measures().map_or(0.0, |it| it.head_top as f32);
     let top = top.clamp(0.19 * size, 0.36 * size) + 0.035 * size;

@@ -8,7 +8,7 @@ use crate::image::Image;
 /// Writes a picture as PNG, eight bits each of red, green and blue.
 ///
 /// # Errors
-/// [`FigureError::Png`] where `out` cannot be written.
+/// [`FigureError::Png`] if `out` cannot be written.
 pub fn write_png(image: &Image, out: impl Write) -> Result<(), FigureError> {
     let mut encoder = png::Encoder::new(out, image.width() as u32, image.height() as u32);
     encoder.set_color(png::ColorType::Rgb);

@@ -407,7 +407,7 @@ fn a_face_moves_only_what_it_should_and_comes_to_rest() {
     assert_eq!(again, rest, "the next posture has it at rest");
 }
 
-/// Skeletons that are less than a signer with full hands.
+/// Tests skeletons with fewer joints than a signer with full hands.
 #[test]
 fn odd_skeletons_are_drawn_too() {
     let (clip, _) = clip();
@@ -548,7 +548,7 @@ fn odd_first_frames_are_in_no_picture_and_do_not_move_the_camera() {
     assert!((a.half_height - b.half_height).abs() < 0.02, "{a:?} {b:?}");
 }
 
-/// The example's clip with the root somewhere else in each frame.
+/// Returns the example's clip with the root displaced in each frame.
 fn elsewhere(way: impl Fn(usize) -> DVec3) -> (Clip, Anatomy) {
     let (clip, anatomy) = clip();
     let (skeleton, rate) = (clip.skeleton().clone(), clip.rate());
@@ -593,7 +593,7 @@ fn a_figure_far_from_the_origin_or_on_its_way_is_framed_like_one_that_stands() {
     }
 }
 
-/// The number of torso, shoulders and neck among the groups of a body's surface.
+/// The index of torso, shoulders and neck among the groups of a body's surface.
 const TORSO: u8 = 1;
 
 #[test]

@@ -1,11 +1,11 @@
-//! A made signer whose hands take eight handshapes, for trying pictures out.
+//! A synthetic signer whose hands take eight handshapes, for testing pictures.
 
 use std::error::Error;
 
 use chereme_motion::glam::{DMat3, DQuat, DVec3};
 use chereme_motion::{Clip, Joint, Pose, Rate, Side, Skeleton};
 
-/// Flexions of index, middle, ring, little, spread, and of the thumb: out and across.
+/// Flexions of the index, middle, ring and little finger; spread; the thumb's angles: out and across.
 const SHAPES: [([f64; 4], f64, [f64; 2]); 8] = [
     ([0.0, 0.0, 0.0, 0.0], 0.28, [0.7, 0.0]),
     ([0.0, 0.0, 0.0, 0.0], 0.0, [0.1, 0.8]),

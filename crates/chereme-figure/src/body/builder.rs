@@ -1,4 +1,4 @@
-//! Puts a body together from the parts that a skeleton has joints for.
+//! Assembles a body from the parts for which a skeleton has joints.
 
 use chereme_motion::{Anatomy, Face, ModelPose, Side, Skeleton, anatomy::Part};
 use glam::{Mat3, Quat, Vec3};
@@ -18,7 +18,7 @@ use crate::palette::{HandColours, Palette};
 
 /// The arm's length from shoulder to wrist for which the measures below are defined, in metres.
 const ARM: f32 = 0.535;
-/// The stature for which they are defined, in metres.
+/// The stature for which those measures are defined, in metres.
 const STATURE: f32 = 1.756;
 
 /// A body under construction.
@@ -36,7 +36,7 @@ pub(super) struct Builder<'a> {
     surface: Mesh,
 }
 
-/// Numbers of an arm's followers.
+/// Indices of an arm's followers.
 #[derive(Clone, Copy)]
 struct ArmFollowers {
     upper: [usize; 3],
@@ -347,7 +347,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Returns the place of the head's joint in bind space, and the turn from there to the joint's space.
+    /// Returns the position of the head's joint in bind space, and the rotation from bind space to the joint's space.
     fn head_seat(&self, joint: usize, head: &Head) -> (Vec3, Quat) {
         let turn = Quat::from_mat3(&head.axes).normalize();
         let standing = self.rig.trunk.as_ref().filter(|trunk| trunk.stands());
@@ -413,17 +413,18 @@ impl Builder<'_> {
     }
 }
 
-/// The measures that clothes are cut to, in metres.
+/// The measures of the clothes, in metres.
 struct Shape {
     trunk: f32,
     wide: f32,
-    /// Factors on heights above the shoulders, and on breadths of the hips.
+    /// The factor on heights above the shoulders.
     collar: f32,
+    /// The factor on breadths of the hips.
     hips: f32,
 }
 
 impl Shape {
-    /// Returns a vertex of the clothes in bind space.
+    /// Returns the position of a vertex of the clothes in bind space.
     fn place(&self, cloth: &super::clothed::Cloth, size: f32, places: [Vec3; 3]) -> Vec3 {
         let metre = 0.001;
         let low = ((-cloth.at.y - 120.0) / 300.0).clamp(0.0, 1.0);
@@ -450,7 +451,7 @@ impl Shape {
     }
 }
 
-/// Returns the shares of two neighbours in a row of followers, at `at` from 0 to 1 along it.
+/// Returns the shares of two neighbours in a row of followers, for a place `at` from 0 to 1 along the row.
 fn between(row: &[usize], at: f32, share: f32) -> [(usize, f32); 2] {
     let last = row.len() - 1;
     let at = at.clamp(0.0, 1.0) * last as f32;
@@ -462,7 +463,7 @@ fn between(row: &[usize], at: f32, share: f32) -> [(usize, f32); 2] {
     ]
 }
 
-/// Returns the size of a body relative to an adult's, by its arms and its stature.
+/// Returns the size of a body relative to an adult's, from its arms and its stature.
 fn size(anatomy: &Anatomy) -> f32 {
     let Some(measures) = anatomy.measures() else {
         return 1.0;

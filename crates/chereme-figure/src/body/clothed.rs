@@ -1,4 +1,4 @@
-//! The canonical trunk with both arms in clothes: rings thrown onto an implicit body, one closed surface.
+//! The canonical trunk with both arms in clothes: rings projected onto an implicit body, one closed surface.
 //!
 //! Millimetres in bind space: x to the signer's left, y up, z forwards, the origin between the shoulder joints.
 //! Measures follow ANSUR II (Gordon et al. 2014, NATICK/TR-15/007), means of men.
@@ -11,13 +11,16 @@ use glam::Vec3;
 use super::form::{Solid, grown, joined, on_skin, slope, smooth_step};
 use super::trunk::arm_direction;
 
-/// Half the distance of the shoulder joints, the trunk's length, and the lengths of upper arm and forearm.
+/// Half of the distance between the shoulder joints.
 pub(super) const SHOULDER: f32 = 172.0;
+/// The length of the trunk.
 pub(super) const TRUNK: f32 = 500.0;
+/// The length of the upper arm.
 pub(super) const UPPER: f32 = 290.0;
+/// The length of the forearm.
 pub(super) const FORE: f32 = 245.0;
 
-/// Shares of everything that moves a vertex of the clothes.
+/// The shares of the followers that move a vertex of the clothes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Shares {
     pub(super) pelvis: f32,
@@ -26,7 +29,7 @@ pub(super) struct Shares {
     /// The joint halfway between chest and upper arm.
     pub(super) armpit: f32,
     pub(super) upper: f32,
-    /// How much of the upper arm's turn about its length this place takes.
+    /// The share of the upper arm's rotation about its length.
     pub(super) upper_turn: f32,
     pub(super) elbow: f32,
     pub(super) fore: f32,
@@ -38,8 +41,9 @@ pub(super) struct Shares {
 pub(super) struct Cloth {
     pub(super) at: Vec3,
     pub(super) side: Side,
-    /// The place along the arm from the shoulder, and how much the arm's own measures count for it.
+    /// The position along the arm, from the shoulder.
     pub(super) along: f32,
+    /// The weight of the arm's own measures for its position.
     pub(super) arm: f32,
     pub(super) open: f32,
     pub(super) shares: Shares,
@@ -81,9 +85,9 @@ const ROWS: [[f32; 3]; 15] = [
     [4.0, 152.0, 86.0],
     [36.0, 140.0, 72.0],
 ];
-/// Rows and columns about an arm whose faces are left out.
+/// The rows about an arm that have no faces: the hole for the arm.
 const HOLE_ROWS: std::ops::Range<usize> = 10..14;
-/// Places of an arm's rings along it, with half their height and half their breadth.
+/// Positions of an arm's rings along it, with half their height and half their breadth.
 const ARM: [[f32; 3]; 19] = [
     [44.0, 43.0, 47.0],
     [72.0, 45.0, 48.0],
@@ -476,7 +480,7 @@ impl Maker {
         self.triangles.iter().map(sixth).sum()
     }
 
-    /// Returns the clothes without vertices that no triangle has.
+    /// Returns the clothes without unused vertices.
     fn compact(self) -> Clothed {
         let mut numbers = vec![u32::MAX; self.cloths.len()];
         let mut cloths = Vec::new();
@@ -498,7 +502,7 @@ fn shoulder(side: Side) -> (Vec3, Vec3) {
     (Vec3::X * SHOULDER * sign, arm_direction(side))
 }
 
-/// Returns cosines and sines around a circle.
+/// Returns cosines and sines of `count` even steps around a circle.
 fn circle(count: usize) -> impl Iterator<Item = [f32; 2]> {
     (0..count).map(move |k| {
         let (sine, cosine) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();

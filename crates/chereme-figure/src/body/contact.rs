@@ -1,4 +1,4 @@
-//! The shade of hands on trunk and face, which grows as a hand comes near the skin.
+//! The shade of hands on trunk and face, which darkens as a hand comes near the skin.
 
 use chereme_motion::{Anatomy, Finger, ModelPose, Part, Side, Skeleton};
 use glam::Vec3;
@@ -7,10 +7,11 @@ use super::group;
 use super::shape::Point;
 use crate::mesh::Mesh;
 
-/// How much light a hand that touches takes away, and the distance in metres at which about a third of that is left.
+/// The share of light that a touching hand takes away.
 const STRENGTH: f32 = 0.36;
+/// The distance in metres at which about a third of the shade is left.
 const REACH: f32 = 0.06;
-/// Hands farther than this many reaches shade nothing.
+/// The distance beyond which hands give no shade, as a multiple of the reach.
 const FAR: f32 = 2.5;
 
 /// Points of both hands, and the vertices of a mesh that they shade.
@@ -38,7 +39,7 @@ impl Contact {
         }
     }
 
-    /// Shades the vertices of a mesh in a posture; their colours are otherwise those of `plain`.
+    /// Shades the vertices of a mesh in a posture; otherwise their colours are those of `plain`.
     pub(super) fn shade(&self, pose: &ModelPose, plain: &Mesh, mesh: &mut Mesh) {
         let places = || self.vertices.iter().map(|&index| index as usize);
         for index in places() {

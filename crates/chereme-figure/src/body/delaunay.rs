@@ -1,4 +1,4 @@
-//! A net of triangles over points of a plane, each as near to even as the points let it be (Bowyer 1981, Watson 1981).
+//! A net of triangles over points of a plane, each triangle as even as the points allow (Bowyer 1981, Watson 1981).
 
 use glam::DVec2;
 

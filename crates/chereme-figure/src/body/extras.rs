@@ -1,4 +1,4 @@
-//! Forms in and on the canonical head: eyeballs, brows, teeth, tongue, ears, and hair that hangs.
+//! Parts of the canonical head: eyeballs, brows, teeth, tongue, ears, and hair that hangs.
 
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
@@ -146,7 +146,7 @@ fn brow(
     finish(mesh, base, triangles, sign < 0.0);
 }
 
-/// Appends the triangles of vertices from `base` on, turned over for the other side, with smooth normals.
+/// Appends the triangles of the vertices from `base` on, reversed for the other side, with smooth normals.
 fn finish(mesh: &mut Mesh, base: usize, mut triangles: Vec<[u32; 3]>, flip: bool) {
     if flip {
         for triangle in &mut triangles {
@@ -330,7 +330,7 @@ fn vertex(position: Vec3, colour: Colour) -> Vertex {
     }
 }
 
-/// Adds what a cut has beyond the cap: a knot behind the head, or hair that hangs to the chin.
+/// Adds the parts of a haircut beyond the cap: a knot behind the head, or hair that hangs to the chin.
 pub(super) fn cut(mesh: &mut Mesh, palette: &Palette) {
     match palette.cut {
         Hair::None | Hair::Short => {}

@@ -1,6 +1,6 @@
 //! The canonical head: one closed net around mouth and eyes, in head heights from the middle between chin and crown.
 //!
-//! x to the signer's left, y up, z forwards. The net is laid out once over directions from the middle of the head;
+//! x to the signer's left, y up, z forwards. The net is built once over directions from the middle of the head;
 //! expressions move its vertices.
 
 use std::f32::consts::{PI, TAU};
@@ -11,27 +11,29 @@ use glam::{DVec2, Vec2, Vec3};
 use super::delaunay;
 use super::form::{Solid, crossing, joined, smooth_step};
 
-/// Corners of the mouth's loops and of the eyes' loops.
+/// The number of vertices in each loop of the mouth.
 pub(super) const MOUTH: usize = 24;
+/// The number of vertices in each loop of an eye.
 pub(super) const EYE: usize = 18;
 /// Height of the line between the lips.
 pub(super) const LIPS: f32 = -0.292;
 /// Middle and radius of the signer's left eyeball.
 pub(super) const BALL: (Vec3, f32) = (Vec3::new(0.140, 0.0, 0.232), 0.064);
-/// The point that directions are counted from.
+/// The point from which directions are measured.
 const MIDDLE: Vec3 = Vec3::new(0.0, -0.05, -0.03);
 
 /// The part of the face that a vertex belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Place {
-    /// The skin, with whether hair grows there.
+    /// The skin.
     Skin,
-    /// A loop of the mouth from its inner edge outwards, and the place around it.
+    /// A loop of the mouth, counted from its inner edge outwards, and the index in the loop.
     Mouth(usize, usize),
-    /// A loop of the right or left eye from its edge outwards, and the place around it.
+    /// The side (0 for right), a loop of the eye, counted from its edge outwards, and the index in the loop.
     Eye(usize, usize, usize),
-    /// Inside the mouth, and behind the lids.
+    /// The inside of the mouth.
     Bowl(usize),
+    /// The surface behind the lids.
     Socket(usize, usize),
 }
 
@@ -40,7 +42,7 @@ pub(super) enum Place {
 pub(super) struct Knot {
     pub(super) at: Vec3,
     pub(super) place: Place,
-    /// How much light reaches it.
+    /// The share of light that reaches it.
     pub(super) open: f32,
 }
 
@@ -54,8 +56,9 @@ pub(super) struct Canon {
     front: Vec<f32>,
 }
 
-/// Steps of the table of the front's surface, and its reach.
+/// The number of steps in each direction of the table of the front's surface.
 const TABLE: usize = 72;
+/// The reach of that table from the middle, to every side.
 const REACH: f32 = 0.52;
 
 impl Canon {
@@ -65,7 +68,7 @@ impl Canon {
         CANON.get_or_init(Self::make)
     }
 
-    /// Returns how far forwards the surface is at a place seen from the front.
+    /// Returns the depth, forwards, of the surface at a place seen from the front.
     pub(super) fn front(&self, x: f32, y: f32) -> f32 {
         let at = |v: f32| {
             ((v / REACH + 1.0) * 0.5 * (TABLE - 1) as f32).clamp(0.0, TABLE as f32 - 1.001)
@@ -104,7 +107,7 @@ impl Canon {
 
     fn lay_out(&mut self, field: &dyn Fn(Vec3) -> f32) {
         let mut places: Vec<(Vec3, Place)> = Vec::new();
-        // Laid out with the lips apart, so that no two vertices lie in one place.
+        // Built with open lips, so that no two vertices coincide.
         for ring in 0..4 {
             for k in 0..MOUTH {
                 let [x, y] = lip(ring, k, 0.7);
@@ -120,7 +123,7 @@ impl Canon {
             }
         }
         let loops = places.len();
-        // The line where the hair begins, then the nose, then the rest.
+        // The hairline, then the nose, then the rest.
         for k in 0..44 {
             let around = TAU * k as f32 / 44.0;
             let way = Vec3::new(around.sin(), hairline(around), around.cos());
@@ -180,7 +183,7 @@ impl Canon {
         let points: Vec<DVec2> = places.iter().map(|(at, _)| flat(*at)).collect();
         let mut triangles = delaunay::net(&points);
         triangles.retain(|t| !is_opening(t.map(|i| places[i].1)));
-        // Seen from outside, left of the signer is right: the net is anticlockwise as it is.
+        // Seen from outside, the signer's left is at the right: the net is anticlockwise already.
         for (at, place) in &places {
             self.knots.push(Knot {
                 at: *at,
@@ -194,7 +197,7 @@ impl Canon {
         self.grow_hair();
     }
 
-    /// Moves the loops to their places at rest.
+    /// Moves the loops to their positions at rest.
     fn rest(&mut self) {
         let moved: Vec<Vec3> = self
             .knots
@@ -283,7 +286,7 @@ impl Canon {
     }
 }
 
-/// Gives all triangles of a connected net one sense, outwards.
+/// Orients all triangles of a connected net outwards.
 fn orient(triangles: &mut [[u32; 3]], knots: &[Knot]) {
     use std::collections::BTreeMap;
     let mut edges: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
@@ -326,8 +329,8 @@ fn orient(triangles: &mut [[u32; 3]], knots: &[Knot]) {
     }
 }
 
-/// Returns a place of the plane on which the net is laid out: the direction from the middle of the head, by its angle
-/// from straight ahead.
+/// Returns a place in the plane on which the net is built: the direction from the middle of the head, by its angle from
+/// straight ahead.
 fn flat(at: Vec3) -> DVec2 {
     let way = (at - MIDDLE).as_dvec3().normalize();
     let angle = way.z.clamp(-1.0, 1.0).acos();
@@ -340,12 +343,12 @@ fn direction(at: Vec2) -> Vec3 {
     Vec3::new(way.x * angle.sin(), way.y * angle.sin(), angle.cos())
 }
 
-/// Returns the surface in a direction from the middle of the head.
+/// Returns the point of the surface in a direction from the middle of the head.
 fn thrown(field: &dyn Fn(Vec3) -> f32, towards: Vec3) -> Vec3 {
     crossing(field, MIDDLE, towards, (0.1, 0.9), 18)
 }
 
-/// Returns the surface at a height in a level direction from the middle of the head.
+/// Returns the point of the surface at a height, in a horizontal direction from the middle of the head.
 fn level(field: &dyn Fn(Vec3) -> f32, towards: Vec3, y: f32) -> Vec3 {
     let from = Vec3::new(0.0, y, MIDDLE.z);
     crossing(field, from, towards, (0.05, 0.7), 18)
@@ -393,7 +396,7 @@ fn is_opening(places: [Place; 3]) -> bool {
         || places.iter().all(|it| matches!(it, Place::Eye(1, 0, _)))
 }
 
-/// Returns a corner of the mouth's loops with the lips apart by a share.
+/// Returns a vertex of the mouth's loops with the lips open by a share.
 fn lip(ring: usize, k: usize, apart: f32) -> [f32; 2] {
     let (sine, cosine) = (TAU * k as f32 / MOUTH as f32).sin_cos();
     let far = sine.abs();
@@ -410,11 +413,11 @@ fn lip(ring: usize, k: usize, apart: f32) -> [f32; 2] {
     [0.110 * wide * cosine, LIPS + y]
 }
 
-/// Returns a corner of the loops of the right (0) or left (1) eye.
+/// Returns a vertex of the loops of the right (0) or left (1) eye.
 pub(super) fn lid(side: usize, ring: usize, k: usize) -> [f32; 2] {
     let half = EYE as f32 / 2.0;
     let upper = k < EYE / 2;
-    // From the inner corner to the outer one above, and back below.
+    // From the inner corner to the outer one along the upper lid, and back along the lower one.
     let t = if upper {
         k as f32 / half
     } else {
@@ -459,7 +462,7 @@ fn hairline(around: f32) -> f32 {
     })
 }
 
-/// Returns how far above the hairline a place of the head is.
+/// Returns the height of a place of the head above the hairline.
 pub(super) fn scalp(at: Vec3) -> f32 {
     at.y - hairline(at.x.atan2(at.z - MIDDLE.z).rem_euclid(TAU))
 }

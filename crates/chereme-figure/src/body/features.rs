@@ -1,4 +1,4 @@
-//! Facial expressions: how the numbers of a face move the canonical head, in head heights.
+//! Facial expressions: movements of the canonical head by the numbers of a face, in head heights.
 
 use std::f32::consts::{PI, TAU};
 
@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::face::{BALL, Canon, EYE, LIPS, MOUTH, Place, lid};
 use super::form::smooth_step;
 
-/// A [`Face`] in the figure's numbers.
+/// A [`Face`] in this module's numbers.
 #[derive(Debug, Clone)]
 pub(super) struct Features {
     pub(super) brows: [f32; 2],
@@ -30,7 +30,7 @@ pub(super) struct Features {
     pub(super) cheeks: [f32; 2],
 }
 
-/// How far the chin moves down with the jaw.
+/// The distance that the chin moves down with the jaw.
 const CHIN: f32 = 0.150;
 /// Half the width of the mouth at rest.
 const WIDTH: f32 = 0.110;
@@ -65,12 +65,12 @@ impl Features {
         }
     }
 
-    /// Returns whether the lips are apart.
+    /// Returns whether the lips are open.
     pub(super) fn is_open(&self) -> bool {
         self.gap().iter().sum::<f32>() > 0.006
     }
 
-    /// Returns how far the mouth is open above and below the line between the lips.
+    /// Returns the opening of the mouth above and below the line between the lips.
     pub(super) fn gap(&self) -> [f32; 2] {
         let shut = 1.0 - self.pressed;
         let tongue = if self.tongue > 0.0 { 0.35 } else { 0.0 };
@@ -91,12 +91,12 @@ impl Features {
             * (1.0 - 0.10 * self.jaw)
     }
 
-    /// Returns how far forwards the lips are pushed.
+    /// Returns the distance by which the lips are pushed forwards.
     pub(super) fn out(&self) -> f32 {
         0.055 * self.pout + 0.018 * (-self.wide).max(0.0) - 0.010 * self.pressed
     }
 
-    /// Returns how far the lower jaw moves what lies at a place.
+    /// Returns the displacement of a place by the lower jaw.
     pub(super) fn jawed(&self, at: Vec3) -> Vec3 {
         let low = smooth_step((LIPS + 0.055 - at.y) / 0.10);
         let front = smooth_step((at.z + 0.06) / 0.26);
@@ -108,7 +108,7 @@ impl Features {
         ) * much
     }
 
-    /// Returns the corner of the mouth's loop `ring` at `k` around it; the depth is relative to rest.
+    /// Returns vertex `k` of the mouth's loop `ring`; the depth is relative to rest.
     pub(super) fn lip(&self, ring: usize, k: usize) -> Vec3 {
         let (sine, cosine) = (TAU * k as f32 / MOUTH as f32).sin_cos();
         let far = sine.abs();
@@ -149,13 +149,13 @@ impl Features {
         )
     }
 
-    /// Returns the canonical head's vertices with this expression.
+    /// Returns the positions of the canonical head's vertices with this expression.
     pub(super) fn moved(&self, canon: &Canon) -> Vec<Vec3> {
         let rest = Self::of(&Face::default());
         let mut rim = Vec::with_capacity(MOUTH);
         let mut places: Vec<Vec3> = canon.knots.iter().map(|knot| knot.at).collect();
         let drawn = |own: Vec3, still: Vec3, at: Vec3| {
-            // Around the teeth the lips go back as they go aside.
+            // The lips curve back around the teeth as they widen.
             let round = 1.1 * (still.x * still.x - own.x * own.x);
             let jaw = if own.y < LIPS {
                 0.16 * (own.y - still.y).min(0.0)
@@ -202,7 +202,7 @@ impl Features {
         places
     }
 
-    /// Returns how brows, cheeks and nose move the skin.
+    /// Returns the displacement of the skin by brows, cheeks and nose.
     pub(super) fn landmarks(&self, at: Vec3) -> Vec3 {
         if at.z < 0.0 {
             return Vec3::ZERO;
@@ -247,7 +247,7 @@ impl Features {
         by
     }
 
-    /// Returns where a lid's corner is: its edge slides over the eyeball.
+    /// Returns the position of a lid's vertex: the lid's edge slides over the eyeball.
     fn lidded(&self, side: usize, ring: usize, k: usize, at: Vec3) -> Vec3 {
         let upper = k <= EYE / 2;
         let shut = self.lids[side];
@@ -291,7 +291,7 @@ impl Features {
     }
 }
 
-/// Returns how the edge of the lips pulls the skin at a place.
+/// Returns the displacement of the skin at a place by the edge of the lips.
 fn pulled(rim: &[(Vec3, Vec3)], at: Vec3) -> Vec3 {
     let (mut sum, mut by, mut nearest) = (0.0, Vec3::ZERO, f32::INFINITY);
     for &(home, moved) in rim {

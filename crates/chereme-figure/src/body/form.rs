@@ -1,11 +1,11 @@
-//! Implicit solids that a surface is thrown onto, and rays and steps towards their skin.
+//! Implicit solids onto which a surface is projected, with rays and steps to their skin.
 
 use glam::Vec3;
 
 /// A simple solid; lengths in any one unit.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Solid {
-    /// Everything near a segment: its ends, the radii there, and how much thinner it is along a direction.
+    /// Everything near a segment: its ends, the radii there, and the factor by which it is thinner along a direction.
     Rod {
         ends: [Vec3; 2],
         radii: [f32; 2],
@@ -31,7 +31,7 @@ impl Solid {
         }
     }
 
-    /// Returns the solid, thinner by `factor` along `direction`.
+    /// Returns a rod that is thinner by `factor` along `direction`; a ball stays unchanged.
     pub(super) fn flat(self, direction: Vec3, factor: f32) -> Self {
         match self {
             Self::Rod { ends, radii, .. } => Self::Rod {
@@ -43,7 +43,7 @@ impl Solid {
         }
     }
 
-    /// Returns about how far a point is outside; negative inside.
+    /// Returns the approximate distance of a point outside; negative inside.
     pub(super) fn distance(&self, point: Vec3) -> f32 {
         match *self {
             Self::Rod {
@@ -71,13 +71,13 @@ impl Solid {
     }
 }
 
-/// Returns the smaller of two distances, rounded over a width.
+/// Returns the smaller of two distances, with a transition rounded over a width.
 pub(super) fn joined(a: f32, b: f32, width: f32) -> f32 {
     let near = (width - (a - b).abs()).max(0.0) / width.max(1e-9);
     a.min(b) - near * near * width * 0.25
 }
 
-/// Returns the distance to several solids that grow together over a width.
+/// Returns the distance to several solids that blend together over a width.
 pub(super) fn grown(solids: &[Solid], width: f32, point: Vec3) -> f32 {
     let distances = solids.iter().map(|solid| solid.distance(point));
     distances.fold(f32::INFINITY, |all, one| joined(all, one, width))
@@ -121,8 +121,8 @@ pub(super) fn thrown(field: &dyn Fn(Vec3) -> f32, from: Vec3, towards: Vec3, ste
     crossing(field, from, towards, ((far - step * 2.0).max(0.0), far), 12)
 }
 
-/// Returns the point on the surface between two distances along a line, by bisection: the field is below 0 at the
-/// first and above at the second. Each of `rounds` halves the doubt.
+/// Returns the point on the surface between two distances along a line, by bisection: the field is below 0 at the first
+/// and above at the second. Each of `rounds` halves the uncertainty.
 pub(super) fn crossing(
     field: &dyn Fn(Vec3) -> f32,
     from: Vec3,
@@ -141,7 +141,7 @@ pub(super) fn crossing(
     from + towards * high
 }
 
-/// Returns 0 below 0, 1 above 1, and a smooth rise between.
+/// Returns a smooth rise from 0 to 1 for shares from 0 to 1; clamped outside.
 pub(super) fn smooth_step(share: f32) -> f32 {
     let share = share.clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)

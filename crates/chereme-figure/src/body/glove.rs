@@ -1,8 +1,8 @@
-//! The canonical right hand: a fixed net of vertices thrown onto an implicit hand, with skin weights.
+//! The canonical right hand: a fixed net of vertices projected onto an implicit hand, with skin weights.
 //!
-//! Millimetres; x towards the thumb, y along the hand, z out of the palm, the wrist at the origin. Thirty-six
-//! columns run around the palm and twelve around each digit, so that no vertex is invented at the root of a
-//! finger. Measures follow Buryanov and Kotiuk 2010 (Int. J. Morphol. 28(3), table I).
+//! Millimetres; x towards the thumb, y along the hand, z out of the palm, the wrist at the origin. Thirty-six columns
+//! run around the palm and twelve around each digit, so that the roots of fingers need no extra vertices. Measures
+//! follow Buryanov and Kotiuk 2010 (Int. J. Morphol. 28(3), table I).
 
 use std::sync::OnceLock;
 
@@ -15,9 +15,9 @@ use super::form::{Solid, grown, joined, on_skin, thrown};
 pub(super) const BONES: usize = 16;
 /// The bone of the palm.
 pub(super) const PALM: usize = 0;
-/// Numbers from here on are joints turned halfway between a bone and its parent.
+/// The first index of joints halfway between a bone and its parent.
 pub(super) const HALF: usize = 16;
-/// The forearm at the wrist, turned with the hand.
+/// The index of the forearm at the wrist, which rotates with the hand.
 pub(super) const CUFF: usize = 32;
 /// The bones inside the palm of ring and little finger.
 pub(super) const ARCH: [usize; 2] = [33, 34];
@@ -35,16 +35,16 @@ pub(super) struct Skin {
     pub(super) place: Vec3,
     /// The digit, or `None` for the palm.
     pub(super) digit: Option<usize>,
-    /// From 0 on the back to 1 on the palm's side.
+    /// 0 on the back to 1 on the palm's side.
     pub(super) palmar: f32,
-    /// Light that reaches it, 1 if nothing is near.
+    /// The share of light that reaches it; 1 if nothing is near.
     pub(super) open: f32,
     pub(super) nail: f32,
     /// Followers with weights that sum to one.
     pub(super) weights: [(usize, f32); 4],
 }
 
-/// A bone in the posture in which the hand was made.
+/// A bone in the posture in which the canonical hand is built.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bone {
     pub(super) from: Vec3,
@@ -61,7 +61,7 @@ pub(super) struct Glove {
     pub(super) bones: [Bone; BONES],
 }
 
-/// Base of each finger across and along the hand, and lengths of its bones.
+/// The base of each finger across and along the hand, and the lengths of its bones.
 const FINGERS: [([f32; 2], [f32; 3]); 4] = [
     ([30.0, 88.0], [43.0, 25.0, 22.0]),
     ([9.5, 91.0], [47.0, 29.0, 23.0]),
@@ -81,7 +81,7 @@ pub(super) const RADII: [[f32; 7]; 5] = [
 const AROUND: [f32; 12] = [
     0.0, 38.0, 62.0, 90.0, 118.0, 142.0, 180.0, 218.0, 242.0, 270.0, 298.0, 322.0,
 ];
-/// The posture of the hand's making, in degrees: fingers apart, or they would grow together.
+/// The posture in which the hand is built, in degrees: fingers apart, as they would grow together otherwise.
 const SPREAD: [f32; 4] = [11.0, 2.0, -7.0, -16.0];
 const BENT: [f32; 3] = [6.0, 6.0, 4.0];
 const THUMB_ANGLES: [f32; 5] = [42.0, 24.0, 10.0, 4.0, 4.0];
@@ -93,7 +93,7 @@ impl Glove {
         GLOVE.get_or_init(|| Maker::new().make())
     }
 
-    /// Returns the posture in which the hand was made, as joint angles.
+    /// Returns the posture in which the hand is built, as joint angles.
     pub(super) fn angles() -> HandAngles {
         let radians = |degrees: f32| f64::from(degrees).to_radians();
         let [radial, palmar, opposition, middle, end] = THUMB_ANGLES.map(radians);
@@ -112,7 +112,7 @@ impl Glove {
     }
 }
 
-/// Returns the directions of the thumb's bones and of the pad on each.
+/// Returns the directions of the thumb's bones, and of the pad on each.
 fn thumb_axes() -> [[Vec3; 2]; 3] {
     let [radial, palmar, opposition, middle, end] = THUMB_ANGLES.map(f32::to_radians);
     let turn = Quat::from_axis_angle(Vec3::NEG_Z, radial)
@@ -123,8 +123,8 @@ fn thumb_axes() -> [[Vec3; 2]; 3] {
     turns.map(|turn| [turn * Vec3::Y, turn * Vec3::NEG_X])
 }
 
-/// Returns the turn from the y axis to the line from the wrist to the middle finger's base, which joint angles are
-/// relative to.
+/// Returns the rotation from the y axis to the line from the wrist to the middle finger's base, to which joint angles
+/// are relative.
 fn tilt() -> Quat {
     let [x, y] = FINGERS[1].0;
     Quat::from_rotation_arc(Vec3::Y, Vec3::new(x, y, 0.0).normalize())
@@ -163,14 +163,14 @@ fn bones() -> [Bone; BONES] {
     all
 }
 
-/// A hand in the making.
+/// A canonical hand under construction.
 pub(super) struct Maker {
     pub(super) bones: [Bone; BONES],
     digits: [Vec<Solid>; 5],
     palm: Vec<(Vec<Solid>, f32)>,
     pub(super) skins: Vec<Skin>,
     triangles: Vec<[u32; 3]>,
-    /// Vertices that are relaxed over the palm.
+    /// Vertices that are spread evenly over the palm.
     loose: Vec<usize>,
 }
 
@@ -203,7 +203,7 @@ impl Maker {
         })
     }
 
-    /// Returns how far a point is outside a palm without a thumb, somewhat swollen.
+    /// Returns the distance of a point from a somewhat swollen palm without a thumb.
     fn bare(&self, point: Vec3) -> f32 {
         let palm = self.palm[..4]
             .iter()
@@ -275,7 +275,7 @@ impl Maker {
             let length = first.from.distance(first.to);
             let radius = RADII[finger + 1][1];
             let [side, along, pad] = [first.axes.x_axis, first.axes.y_axis, first.axes.z_axis];
-            // The side axis points away from the palm's order: towards the thumb is positive x.
+            // The side axis follows the palm's order: positive x is towards the thumb.
             let side = if side.x < 0.0 { -side } else { side };
             let front = if finger == 3 { 16.0 } else { 20.0 };
             let mut ring = vec![usize::MAX; 12];
@@ -289,7 +289,7 @@ impl Maker {
                     }
                     5..=7 if finger == 3 => [17.0, 15.0, 13.0][k - 5],
                     0 | 1 | 11 => {
-                        // Shared with the neighbour towards the thumb.
+                        // Shared with the neighbour on the thumb's side.
                         let before: &Vec<usize> = &rings[finger - 1];
                         *slot = before[match k {
                             0 => 6,
@@ -372,7 +372,7 @@ impl Maker {
             rings.push(ring);
         }
         rings.push(last);
-        // Leave out the hole of the thumb: three by three quads on its side.
+        // Leave out a hole for the thumb: three by three quads on its side.
         for (row, pair) in rings.clone().windows(2).enumerate() {
             for column in 0..36 {
                 let hole = (3..6).contains(&row) && matches!(column, 0..=2);
@@ -458,7 +458,7 @@ impl Maker {
                     let towards = side * cosine + pad * sine;
                     let field = |p: Vec3| self.digit(digit, p);
                     if place == 2 && at > end {
-                        // The round of the tip: out of the middle of its ball.
+                        // The round tip: rays from the middle of its ball.
                         let ball = own.from + own.axes.y_axis * end;
                         let lean = ((at - end) / tip).asin();
                         let out = towards * lean.cos() + own.axes.y_axis * lean.sin();
@@ -468,7 +468,7 @@ impl Maker {
                     }
                 })
                 .collect();
-            // Turn the first ring so that it meets the base without a twist.
+            // Rotate the first ring so that it meets the base without a twist.
             let fresh = start.is_none();
             let (shift, back) = *start.get_or_insert_with(|| self.best(&before, &points));
             let order = |k: usize| {
@@ -509,7 +509,7 @@ impl Maker {
         }
     }
 
-    /// Returns the shift and sense in which twelve points lie nearest the vertices of a ring.
+    /// Returns the shift and the direction in which twelve points are nearest to the vertices of a ring.
     fn best(&self, ring: &[usize], points: &[Vec3]) -> (usize, bool) {
         let centre = |all: &mut dyn Iterator<Item = Vec3>| all.sum::<Vec3>() / 12.0;
         let from = centre(&mut ring.iter().map(|&i| self.skins[i].place));

@@ -1,4 +1,4 @@
-//! The canonical hand fitted to a skeleton's hand, whatever joints it has.
+//! Fits the canonical hand to a skeleton's hand, whatever joints it has.
 
 use chereme_motion::{Anatomy, Finger, ModelPose, Side, Skeleton, anatomy::Part};
 use glam::{Mat3, Quat, Vec3};
@@ -13,10 +13,11 @@ use crate::palette::{Colour, HandColours};
 /// The length of the canonical hand from wrist to fingertip, in millimetres.
 const LENGTH: f32 = 190.0;
 
-/// Directions of a hand: towards the thumb, along it, out of the palm; of a left hand they are left-handed.
+/// The directions of a hand: towards the thumb, along it, out of the palm; for a left hand they form a left-handed
+/// system.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct HandAxes {
-    /// In the space of the hand's joint.
+    /// The direction along the hand, in the space of its joint.
     pub(super) along: Vec3,
     pub(super) palm: Vec3,
 }
@@ -52,7 +53,7 @@ pub(super) fn frame(side: Side, along: Vec3, palm: Vec3) -> Mat3 {
     Mat3::from_cols(thumb, along, palm)
 }
 
-/// A hand's place in bind space: its wrist, and its axes there.
+/// A hand's position in bind space: its wrist and its axes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seat {
     pub(super) wrist: Vec3,
@@ -65,11 +66,11 @@ struct Fitted {
     joint: Option<usize>,
     from: Vec3,
     axes: Mat3,
-    /// Scale across, along and out of the palm.
+    /// The scale across, along and out of the palm.
     scale: Vec3,
 }
 
-/// Adds the hand of `side` to a skin.
+/// A fit of the canonical hand to one side, to be added to a skin.
 #[derive(Debug)]
 pub(super) struct HandFit<'a> {
     pub(super) skeleton: &'a Skeleton,
@@ -77,13 +78,14 @@ pub(super) struct HandFit<'a> {
     pub(super) side: Side,
     pub(super) axes: HandAxes,
     pub(super) seat: Seat,
-    /// Numbers of the followers that are the hand and the forearm before it.
+    /// The index of the follower that is the hand.
     pub(super) hand: usize,
+    /// The index of the follower that is the forearm at the wrist.
     pub(super) cuff: usize,
 }
 
 impl HandFit<'_> {
-    /// Adds surface and followers.
+    /// Adds the hand's surface and followers.
     pub(super) fn add(
         &self,
         rig: &mut Rig,
@@ -103,7 +105,7 @@ impl HandFit<'_> {
         };
         let turned = rotation(&bind, wrist);
         let own = frame(self.side, turned * self.axes.along, turned * self.axes.palm);
-        // From model space, with the hand as it was made, to bind space.
+        // From model space, with the hand in the posture in which it was built, to bind space.
         let to_bind = |at: Vec3| {
             self.seat.wrist + self.seat.axes * (own.transpose() * (at - place(&bind, wrist)))
         };
@@ -155,7 +157,7 @@ impl HandFit<'_> {
         }));
     }
 
-    /// Returns the fitted bones in model space in the posture of the making, and the hand's size.
+    /// Returns the fitted bones in model space, in the posture in which the hand is built, and the hand's size.
     fn bones(
         &self,
         glove: &Glove,
@@ -219,7 +221,7 @@ impl HandFit<'_> {
                 let made = glove.bones[index];
                 let parent = above(index);
                 let within = |point: Vec3| {
-                    // Where a joint is missing, the bone lies as it was made relative to the one before it.
+                    // Without a joint, the bone keeps its canonical position relative to the one before it.
                     let (fitted, made) = (bones[parent], glove.bones[parent]);
                     fitted.from
                         + fitted.axes * (made.axes.transpose() * (point - made.from) * fitted.scale)
@@ -333,7 +335,7 @@ impl HandFit<'_> {
     }
 }
 
-/// Returns the bone before another.
+/// Returns the index of the bone before another.
 fn above(index: usize) -> usize {
     if index == PALM || (index - 1).is_multiple_of(3) {
         PALM
@@ -342,7 +344,7 @@ fn above(index: usize) -> usize {
     }
 }
 
-/// Returns the end of the bone of a last joint in its space, if the skeleton knows it.
+/// Returns the end of the bone of a last joint, in the joint's space, if the skeleton has it.
 fn tip(skeleton: &Skeleton, joint: usize) -> Option<Vec3> {
     let own = skeleton.joint(joint).tip.map(|tip| tip.as_vec3());
     own.or_else(|| {
@@ -351,7 +353,7 @@ fn tip(skeleton: &Skeleton, joint: usize) -> Option<Vec3> {
     })
 }
 
-/// The palm's fit: scaled to the hand, and pulled so that knuckles and thumb lie where the skeleton has them.
+/// The fit of the palm: scaled to the hand, and moved so that knuckles and thumb match those of the skeleton.
 struct Warp {
     from: Mat3,
     palm: Fitted,

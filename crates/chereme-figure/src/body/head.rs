@@ -11,7 +11,7 @@ use super::group;
 use crate::mesh::{Mesh, Vertex, smooth};
 use crate::palette::{Colour, Hair, Palette};
 
-/// The head's place and measures in the space of its joint.
+/// The head's position and measures in the space of its joint.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Head {
     /// The middle between chin and crown.
@@ -22,7 +22,7 @@ pub(super) struct Head {
     pub(super) axes: Mat3,
 }
 
-/// How far the canonical head lies before the middle of the skull, in head heights.
+/// The distance of the canonical head in front of the middle of the skull, in head heights.
 const FORWARDS: f32 = 0.05;
 
 impl Head {
@@ -64,7 +64,7 @@ impl Head {
     }
 }
 
-/// Adds a shell over the scalp, and what else the cut has.
+/// Adds a shell over the scalp, and the other parts of the haircut.
 fn hair(mesh: &mut Mesh, canon: &Canon, palette: &Palette) {
     if palette.cut == Hair::None {
         return;
@@ -126,14 +126,14 @@ fn colour(place: Place, at: Vec3, features: &Features, palette: &Palette) -> Col
     let skin = palette.face;
     match place {
         Place::Skin => {
-            // Colour in the cheeks, stubble of hair where none is drawn.
+            // Blush in the cheeks, and stubble if no hair is drawn.
             let side = if at.x > 0.0 { 1.0 } else { -1.0 };
             let cheek = (at - Vec3::new(0.185 * side, -0.14, 0.25)).length();
             let warm = (1.0 - smooth_step(cheek / 0.15)) * 0.16;
             let (wrinkled, widened) = (features.nose.max(0.0), (-features.nose).max(0.0));
             let fold = (0.10 * wrinkled + 0.22 * widened)
                 * (1.0 - smooth_step((at - Vec3::new(0.09 * side, -0.13, 0.33)).length() / 0.06));
-            // A cheek that stands out catches light, one that is drawn in does not.
+            // A puffed cheek catches light, a sucked-in one does not.
             let puff = (at - Vec3::new(0.175 * side, -0.23, 0.20)).length();
             let puffed =
                 features.cheeks[usize::from(side > 0.0)] * (1.0 - smooth_step(puff / 0.13));

@@ -33,9 +33,9 @@ use skin::{Bound, Rig};
 
 /// A signer's body, built once for a skeleton and moved to any posture of it.
 ///
-/// Trunk, arms and hands are one skin whose vertices follow several joints, in clothes that leave head and hands
-/// free; the head has a face. A hand without finger joints is a hand at ease. Parts that the anatomy lacks are
-/// left out or plain; a skeleton without arms is drawn bone by bone.
+/// Trunk, arms and hands are one skin whose vertices follow several joints, in clothes that leave head and hands free;
+/// the head has a face. A hand without finger joints has a relaxed posture. Parts that the anatomy lacks are left out
+/// or plain; a skeleton without arms is drawn bone by bone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
     template: Mesh,
@@ -82,7 +82,7 @@ struct Expressive {
     vertices: Range<usize>,
 }
 
-/// Numbers of the parts between which lines are drawn; 0 is the paper.
+/// Indices of the parts between which lines are drawn; 0 is the paper.
 pub mod group {
     use chereme_motion::Side;
 
@@ -95,7 +95,7 @@ pub mod group {
     /// Hair.
     pub const HAIR: u8 = 4;
 
-    /// Numbers from here on are marks in space, such as a grid or a trail, without light and lines.
+    /// The first index of marks in space, such as a grid or a trail, which have no light and no lines.
     pub const FLAT: u8 = 128;
 
     /// Returns the number of an arm.
@@ -125,7 +125,7 @@ pub mod group {
 }
 
 impl Body {
-    /// Returns the body of `skeleton` in the usual colours.
+    /// Returns the body of `skeleton` in the default colours.
     #[must_use]
     pub fn new(skeleton: &Skeleton, anatomy: &Anatomy) -> Self {
         Self::with_palette(skeleton, anatomy, &Palette::default())
@@ -198,8 +198,8 @@ impl Body {
         }
     }
 
-    /// Applies a facial expression to `mesh`, which [`shape`](Self::shape) moved to `pose`; a body without
-    /// a head is unchanged. The next `shape` puts the face at rest again.
+    /// Applies a facial expression to `mesh`, which [`shape`](Self::shape) moved to `pose`; a body without a head is
+    /// unchanged. The next `shape` resets the face to rest.
     ///
     /// # Panics
     /// The same as [`shape`](Self::shape)'s.

@@ -1,4 +1,4 @@
-//! Plain forms for what a skeleton lacks the joints of a dressed body for: rods, and a slab for the trunk.
+//! Plain forms for skeletons that lack joints of a dressed body: rods, and a slab for the trunk.
 
 use chereme_motion::{Side, anatomy::Part};
 use glam::Vec3;
@@ -7,7 +7,7 @@ use super::builder::Builder;
 use super::group;
 use super::shape::{Loft, Paint, Point, Rod, Section, place, rotation};
 
-/// Points of a trunk without joints, below the middle of the shoulders.
+/// A reference for points of a trunk without joints, below the middle of the shoulders.
 struct Hang {
     joint: usize,
     at: Vec3,
@@ -27,7 +27,7 @@ impl Hang {
 }
 
 impl Builder<'_> {
-    /// Adds a rod between two joints; radii are an adult's.
+    /// Adds a rod between two joints; radii are those of an adult.
     pub(super) fn limb(&mut self, from: usize, to: usize, radii: [f32; 3], paint: Paint) {
         let bone =
             rotation(self.rest, from).inverse() * (place(self.rest, to) - place(self.rest, from));
@@ -151,8 +151,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns the point that the trunk hangs on if joints of it are missing: the joint that carries both
-    /// arms.
+    /// Returns the reference for the trunk's points if it lacks joints: the joint that carries both arms.
     fn hang(&self, right: usize, left: usize) -> Hang {
         let above: Vec<usize> = self.skeleton.ancestors(right).collect();
         let shared = self.skeleton.ancestors(left).find(|it| above.contains(it));

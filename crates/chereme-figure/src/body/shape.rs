@@ -44,7 +44,7 @@ pub(super) fn rotation(pose: &ModelPose, joint: usize) -> Quat {
 pub(super) enum Shape {
     /// A rod with round ends.
     Rod(Rod),
-    /// A surface that turns with one joint, in that joint's space.
+    /// A surface that rotates with one joint, in that joint's space.
     Rigid {
         joint: usize,
         places: Vec<Vec3>,
@@ -109,13 +109,13 @@ impl Rod {
     }
 }
 
-/// Middles of rings nearer than this are the same, in metres.
+/// The distance in metres below which the middles of two rings are equal.
 const SAME: f32 = 1e-3;
 
 /// A surface through rings; the rings belong to [`Section`]s.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Loft {
-    /// From the first to the last ring.
+    /// The rings from the first to the last.
     pub(super) sections: Vec<Section>,
     pub(super) columns: usize,
     /// The shape of the rings: 1 is an ellipse, and values towards 0 approach a rectangle.
@@ -129,7 +129,7 @@ pub(super) struct Section {
     pub(super) spine: Vec<Vec<(Point, f32)>>,
     /// Extension of the ring beyond the first and the last point of the spine, in metres.
     pub(super) beyond: f32,
-    /// Half its thickness to the side it faces and to the other side, in metres.
+    /// Half its thickness on the side that it faces, and on the other side, in metres.
     pub(super) thickness: [f32; 2],
     /// Shift of the ring along the surface, in metres.
     pub(super) shift: f32,
@@ -184,7 +184,7 @@ fn mean(mix: &[(Point, f32)], pose: &ModelPose) -> Vec3 {
         .sum()
 }
 
-/// Returns the place a share `v` (-1 to 1) along a spine that reaches `beyond` its ends.
+/// Returns the point at `v` (-1 to 1) along a spine that extends by `beyond` at its ends.
 fn along_spine(spine: &[Vec3], beyond: Vec3, v: f32) -> Vec3 {
     let last = spine.len() - 1;
     let (first_end, last_end) = (spine[0] - beyond, spine[last] + beyond);
@@ -199,7 +199,7 @@ fn along_spine(spine: &[Vec3], beyond: Vec3, v: f32) -> Vec3 {
     point(piece).lerp(point(piece + 1), at - piece as f32)
 }
 
-/// A form with its place in the body's mesh.
+/// A form with its position in the body's mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Element {
     shape: Shape,
@@ -240,7 +240,7 @@ pub(super) struct Assembly {
     pub(super) elements: Vec<Element>,
 }
 
-/// The colours of a form: of the side it faces, and of the other.
+/// The colours of a form: of the side that it faces, and of the other.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Paint {
     pub(super) front: Colour,
@@ -290,7 +290,7 @@ impl Assembly {
         });
     }
 
-    /// Adds a surface that turns with `joint`; `local` is in that joint's space.
+    /// Adds a surface that rotates with `joint`; `local` is in that joint's space.
     pub(super) fn rigid(&mut self, joint: usize, local: &Mesh) {
         let start = self.mesh.vertices.len();
         self.mesh.append(local);
@@ -306,8 +306,8 @@ impl Assembly {
     }
 }
 
-/// Returns an ellipsoid about `centre`, with its axes rotated by `turn`; `colour` maps a point of the unit
-/// sphere to a colour.
+/// Returns an ellipsoid about `centre`, with its axes rotated by `turn`; `colour` gives the colour for a point of the
+/// unit sphere.
 pub(crate) fn ellipsoid(
     centre: Vec3,
     radii: Vec3,

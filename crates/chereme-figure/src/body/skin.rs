@@ -1,4 +1,4 @@
-//! A skin whose vertices follow several joints, and the joints between joints that keep it full at bends.
+//! A skin whose vertices follow several joints, with extra joints halfway between that keep it full at bends.
 
 use chereme_motion::ModelPose;
 use glam::{Mat3, Quat, Vec3};
@@ -6,11 +6,11 @@ use glam::{Mat3, Quat, Vec3};
 use super::shape::{place, rotation};
 use super::trunk::{ArmRig, TrunkRig};
 
-/// Something that moves vertices of a skin. Turns are relative to the posture in which the skin was fitted, the
-/// bind posture, in a space of its own: the signer's left, up and forwards about the middle of the shoulders.
+/// Something that moves vertices of a skin. Rotations are relative to the bind posture, in which the skin was fitted,
+/// in its own space: the signer's left, up and forwards from the middle of the shoulders.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Follower {
-    /// A joint; `turn` takes bind space to the joint's space, `at` is its place in bind space.
+    /// A joint; `turn` rotates bind space to the joint's space, `at` is its position in bind space.
     Joint {
         joint: usize,
         turn: Quat,
@@ -18,7 +18,7 @@ pub(super) enum Follower {
     },
     /// The same as another follower.
     Same(usize),
-    /// A joint turned halfway between two followers about a place of bind space, thicker across a bend.
+    /// A joint halfway between two followers, about a point of bind space; it becomes thicker across a bend.
     Half {
         parent: usize,
         child: usize,
@@ -26,20 +26,20 @@ pub(super) enum Follower {
         along: Vec3,
         swell: f32,
     },
-    /// The pelvis, and the chest.
+    /// The pelvis, or the chest.
     Pelvis,
     Chest,
-    /// The skin over a shoulder: turned with the chest, moved with the shoulder's joint.
+    /// The skin over a shoulder: rotates with the chest, moves with the shoulder's joint.
     Shoulder(usize),
-    /// The upper arm with a share of its turn about its length.
+    /// The upper arm with a share of its rotation about its length.
     Upper(usize, f32),
-    /// The forearm with a share of the hand's turn about its length.
+    /// The forearm with a share of the hand's rotation about its length.
     Fore(usize, f32),
     /// The hand.
     Hand(usize),
 }
 
-/// How a follower moves what is fixed to it.
+/// The motion of a follower: it rotates by `turn` about `from`, and moves that point to `to`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Motion {
     pub(super) turn: Quat,
@@ -58,7 +58,7 @@ impl Motion {
         }
     }
 
-    /// Returns the turned axes and the offset of this motion.
+    /// Returns the rotated axes and the offset of this motion.
     fn matrix(&self) -> (Mat3, Vec3) {
         let mut turn = Mat3::from_quat(self.turn);
         if let Some((direction, factor)) = self.stretch {
@@ -73,7 +73,7 @@ impl Motion {
     }
 }
 
-/// A vertex of a skin: its place in bind space, and the followers that move it.
+/// A vertex of a skin: its position in bind space, and the followers that move it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bound {
     pub(super) at: Vec3,
@@ -82,7 +82,7 @@ pub(super) struct Bound {
 }
 
 impl Bound {
-    /// Returns a vertex moved by the four strongest of weighted followers.
+    /// Returns a vertex that is moved by the four strongest of its weighted followers.
     pub(super) fn new(at: Vec3, shares: &[(usize, f32)]) -> Self {
         let mut sorted: Vec<(usize, f32)> = Vec::with_capacity(shares.len());
         for &(follower, share) in shares {
@@ -107,7 +107,7 @@ impl Bound {
     }
 }
 
-/// The followers of a body and how they move.
+/// The followers of a body, with the joints that move them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Rig {
     pub(super) followers: Vec<Follower>,
@@ -116,13 +116,13 @@ pub(super) struct Rig {
 }
 
 impl Rig {
-    /// Adds a follower and returns its number.
+    /// Adds a follower and returns its index.
     pub(super) fn add(&mut self, follower: Follower) -> usize {
         self.followers.push(follower);
         self.followers.len() - 1
     }
 
-    /// Returns how each follower moves in `pose`.
+    /// Returns the motion of each follower in `pose`.
     pub(super) fn motions(&self, pose: &ModelPose) -> Vec<(Mat3, Vec3)> {
         let trunk = self.trunk.as_ref().map(|trunk| trunk.posed(pose));
         let chest = trunk.map_or(Quat::IDENTITY, |it| it.chest.turn);
@@ -155,7 +155,7 @@ impl Rig {
     }
 }
 
-/// Returns the motion halfway between two, about a place of the child.
+/// Returns the motion halfway between two, about a point of the child.
 fn half([parent, child]: [Motion; 2], at: Vec3, along: Vec3, swell: f32) -> Motion {
     let other = if parent.turn.dot(child.turn) < 0.0 {
         -child.turn
@@ -183,7 +183,7 @@ fn half([parent, child]: [Motion; 2], at: Vec3, along: Vec3, swell: f32) -> Moti
     }
 }
 
-/// Returns a rotation about `axis` by the part of `turn` that turns about it, in radians.
+/// Returns the angle by which `turn` rotates about `axis`, in radians.
 pub(super) fn twist(turn: Quat, axis: Vec3) -> f32 {
     let sine = Vec3::new(turn.x, turn.y, turn.z).dot(axis);
     let angle = 2.0 * sine.atan2(turn.w);

@@ -1,4 +1,4 @@
-//! How trunk and arms of a skeleton turn, whatever its joints' own axes are.
+//! The rotations of trunk and arms of a skeleton, whatever its joints' own axes are.
 
 use chereme_motion::{Anatomy, ModelPose, Side, Skeleton, anatomy::Part};
 use glam::{Mat3, Quat, Vec3};
@@ -7,7 +7,7 @@ use super::hand::HandAxes;
 use super::shape::{place, rotation};
 use super::skin::{Motion, twist};
 
-/// The arm's direction below level in the bind posture, in radians.
+/// The angle of an arm below the horizontal in the bind posture, in radians.
 const LOWERED: f32 = 0.70;
 
 /// Returns the direction of an arm in the bind posture.
@@ -16,22 +16,22 @@ pub(super) fn arm_direction(side: Side) -> Vec3 {
     Vec3::new(cosine * side.sign() as f32, -sine, 0.0)
 }
 
-/// The joints of the trunk, and their places in bind space.
+/// The joints of the trunk, and their positions in bind space.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TrunkRig {
     /// Right and left shoulder.
     shoulders: [usize; 2],
-    /// Joints on the right and the left whose line turns with the chest, and with the pelvis.
+    /// Joints on the right and the left: the line between them rotates with the chest, and with the pelvis.
     lines: [Option<[usize; 2]>; 2],
     /// The joint in the middle of the spine.
     middle: Option<usize>,
     hips: Option<usize>,
-    /// A joint and the upward direction in its space, if nothing below the shoulders is known.
+    /// A joint, and the upward direction in its space, for skeletons without hips.
     upright: (usize, Vec3),
-    /// The joint that the chest is fixed to, and its place in bind space.
+    /// The joint to which the chest is fixed, and its position in bind space.
     anchor: Option<(usize, Vec3)>,
     hips_at: Vec3,
-    /// The joints that turn with chest and pelvis, each with the turn from bind space to its own space, if the
+    /// The joints that rotate with chest and pelvis, each with the rotation from bind space to its own space, if the
     /// skeleton stands at rest.
     turning: Option<[(usize, Quat); 2]>,
 }
@@ -43,7 +43,7 @@ pub(super) struct TrunkPosed {
     pub(super) chest: Motion,
 }
 
-/// Returns the rotation whose first axis is `left` and whose second is as near to `up` as it can be.
+/// Returns the rotation whose first axis is `left` and whose second is as near to `up` as possible.
 fn turned(left: Vec3, up: Vec3) -> Quat {
     let left = left.normalize_or(Vec3::X);
     let up = (up - left * left.dot(up)).normalize_or(left.any_orthonormal_vector());
@@ -118,7 +118,7 @@ impl TrunkRig {
         Some(rig)
     }
 
-    /// Returns whether the skeleton stands at rest, so that places at rest count.
+    /// Returns whether the skeleton stands at rest, so that positions at rest are meaningful.
     pub(super) fn stands(&self) -> bool {
         self.turning.is_some()
     }
@@ -175,21 +175,21 @@ impl TrunkRig {
     }
 }
 
-/// The joints of an arm, and their places in bind space.
+/// The joints of an arm, and their positions in bind space.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ArmRig {
     joints: [usize; 3],
-    /// In the space of the upper arm: the direction of the elbow.
+    /// The direction of the elbow, in the space of the upper arm.
     elbow: Vec3,
     hand: HandAxes,
     along: Vec3,
     /// Shoulder, elbow and wrist in bind space.
     pub(super) places: [Vec3; 3],
-    /// From bind space to the canonical axes of upper arm and hand there, turned back.
+    /// The inverse rotations from bind space to the canonical axes of upper arm and hand.
     bind: [Quat; 2],
 }
 
-/// How an arm moves in a posture.
+/// The motion of an arm in a posture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ArmPosed {
     pub(super) shoulder: Motion,
@@ -198,12 +198,12 @@ pub(super) struct ArmPosed {
     straight: Motion,
     along: Vec3,
     forearm: Vec3,
-    /// The turns of upper arm and hand about their lengths, in radians.
+    /// The rotations of upper arm and hand about their lengths, in radians.
     twists: [f32; 2],
 }
 
 impl ArmRig {
-    /// Returns the arm of `side` with its shoulder at a place of bind space.
+    /// Returns the arm of `side` with its shoulder at a point of bind space.
     pub(super) fn of(
         anatomy: &Anatomy,
         side: Side,
@@ -277,7 +277,7 @@ impl ArmRig {
 }
 
 impl ArmPosed {
-    /// Returns the upper arm's motion with a share of its turn about its length.
+    /// Returns the upper arm's motion with a share of its rotation about its length.
     pub(super) fn upper(&self, share: f32) -> Motion {
         let back = Quat::from_axis_angle(self.along, self.twists[0] * (share - 1.0));
         Motion {
@@ -286,7 +286,7 @@ impl ArmPosed {
         }
     }
 
-    /// Returns the forearm's motion with a share of the hand's turn about its length.
+    /// Returns the forearm's motion with a share of the hand's rotation about its length.
     pub(super) fn fore(&self, share: f32) -> Motion {
         let on = Quat::from_axis_angle(self.forearm, self.twists[1] * share);
         Motion {

@@ -28,7 +28,7 @@ impl Maker {
         }
     }
 
-    /// Returns how much each bone and half joint moves a vertex.
+    /// Returns the share of each bone and half joint in a vertex.
     fn shares(&self, skin: &Skin) -> [f32; FOLLOWERS] {
         let mut shares = [0.0; FOLLOWERS];
         let place = skin.place;
@@ -76,7 +76,7 @@ impl Maker {
             }
             return shares;
         }
-        // The palm: towards each knuckle by how near it lies across the hand.
+        // The palm: each knuckle's share depends on its distance across the hand.
         let near: [f32; 4] = std::array::from_fn(|finger| {
             let first = self.bones[bone(finger + 1, 0)];
             let root = Vec3::new(first.from.x * 0.25, 3.0, 0.0);
@@ -112,7 +112,7 @@ impl Maker {
             *share *= 1.0 - thumb;
         }
         shares[bone(0, 0)] += thumb;
-        // Behind the wrist it is the forearm that carries the skin.
+        // Behind the wrist, the forearm carries the skin.
         let t = ((place.y + 14.0) / 28.0).clamp(0.0, 1.0);
         let (hand, half, arm) = (
             (2.0 * t - 1.0).max(0.0),
@@ -127,7 +127,7 @@ impl Maker {
         shares
     }
 
-    /// Returns the shares of a finger's first bone and of the palm in the skin about its knuckle.
+    /// Returns the shares of a finger's first bone and of the palm in the skin around its knuckle.
     fn knuckle(&self, digit: usize, place: Vec3, shift: f32) -> (f32, f32) {
         let first = self.bones[bone(digit, 0)];
         let s = (place - first.from).dot(first.axes.y_axis) - shift;

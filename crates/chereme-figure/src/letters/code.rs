@@ -1,5 +1,4 @@
-//! Draws a character without a font as a frame with its number, so that two such names remain
-//! distinguishable.
+//! Draws a character that no font has as a frame with its number, so that two such names remain distinguishable.
 
 /// The height of a frame, in dots.
 pub const CODE_HEIGHT: usize = 15;

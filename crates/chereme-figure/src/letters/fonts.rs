@@ -34,7 +34,7 @@ impl AsRef<[u8]> for FontFile {
 }
 
 impl FontFile {
-    /// Returns the font as its tables.
+    /// Returns the tables of the font.
     pub(super) fn tables(&self) -> Option<FontRef<'_>> {
         FontRef::from_index(&self.data, self.index).ok()
     }
@@ -48,7 +48,7 @@ static SHARED: OnceLock<SystemFonts> = OnceLock::new();
 #[derive(Debug)]
 pub struct SystemFonts {
     faces: Database,
-    /// Plain fonts come first.
+    /// The fonts in the order of the search; plain ones come first.
     order: Vec<ID>,
     known: Mutex<Known>,
 }
@@ -174,8 +174,8 @@ fn draws(data: &[u8], index: u32, letter: char) -> bool {
     glyph.is_some_and(|glyph| font.outline_glyphs().get(glyph).is_some())
 }
 
-/// The difference of a font from a plain upright one, then its name, so that the same fonts always give
-/// the same order.
+/// The rank of a font: its difference from a plain upright one, then its name, so that the same fonts always have the
+/// same order.
 type Rank = (u32, bool, String, u32);
 
 fn rank(face: &FaceInfo) -> Rank {

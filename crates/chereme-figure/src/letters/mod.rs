@@ -90,7 +90,7 @@ impl Drawn {
     }
 }
 
-/// Lays a line of text out; the fonts of the computer are searched only for characters that the small font
+/// Returns the layout of a line of text; the fonts of the computer are searched only for characters that the small font
 /// lacks.
 pub(crate) fn line(text: &str) -> Line {
     if !text.chars().all(font::knows) {
@@ -101,7 +101,7 @@ pub(crate) fn line(text: &str) -> Line {
     line
 }
 
-/// Lays a line of text out with the given fonts.
+/// Returns the layout of a line of text with the given fonts.
 fn lay_out(text: &str, fonts: &SystemFonts) -> Line {
     let mut line = Line::default();
     for run in runs(text) {
@@ -116,7 +116,7 @@ fn lay_out(text: &str, fonts: &SystemFonts) -> Line {
     line
 }
 
-/// Splits a run into parts that one font draws.
+/// Splits a run into parts, each drawn by one font.
 fn parts<'a>(run: &'a str, fonts: &SystemFonts) -> Vec<(&'a str, Drawn)> {
     let mut parts: Vec<(std::ops::Range<usize>, Drawn)> = Vec::new();
     for (at, letter) in run.char_indices() {

@@ -17,7 +17,7 @@ pub struct Run {
 /// Returns whether a part of a text is read from the right.
 #[must_use]
 pub fn any_from_right(text: &str) -> bool {
-    // No character below U+0590 is.
+    // No character below U+0590 is read from the right.
     text.bytes().any(|byte| byte >= 0xD6)
         && text.chars().any(|c| {
             matches!(
@@ -29,8 +29,8 @@ pub fn any_from_right(text: &str) -> bool {
 
 /// Returns the runs of a line in visual order from left to right.
 ///
-/// The line as a whole goes left to right if it has a letter that does: a sentence of the window stays a sentence of
-/// its own language, even if it begins with an Arabic gloss. A line of right-to-left letters alone goes right to left.
+/// The line as a whole runs left to right if it has a letter that does: a sentence of the window keeps the direction of
+/// its language, even if it begins with an Arabic gloss. A line of right-to-left letters alone runs right to left.
 #[must_use]
 pub fn runs(line: &str) -> Vec<Run> {
     if !any_from_right(line) {

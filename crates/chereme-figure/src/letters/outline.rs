@@ -103,7 +103,7 @@ impl Path {
             (low.floor(), high.ceil())
         };
         let ((left, right), (top, bottom)) = (bound(0), bound(1));
-        // A letter is not much larger than its font; a broken one could be of any size.
+        // A letter is not much larger than its font, but a broken one could be of any size.
         let most = size * 8.0 + 8.0;
         if !(right > left && right - left < most && bottom - top < most) {
             return;
@@ -127,8 +127,8 @@ impl Path {
     }
 }
 
-/// Adds the changes by a side from each pixel to the next: the sum along a row is the share of a pixel to
-/// the right of it.
+/// Adds, for one side of an outline, the change of coverage from each pixel to the next. The sum along a row is the
+/// share of a pixel that lies to the right of the side.
 fn side(area: &mut [f32], width: usize, from: [f32; 2], to: [f32; 2]) {
     let (sign, from, to) = if from[1] < to[1] {
         (1.0, from, to)
@@ -247,7 +247,7 @@ mod tests {
             (&[[0.1, 0.0], [0.4, 0.0], [0.4, 9.0], [0.1, 9.0]], 2.7),
         ] {
             let (sum, most) = covered(points);
-            // Products of 32-bit numbers, a few hundred of them.
+            // The rounding errors of a few hundred 32-bit products add up.
             assert!((sum - area).abs() < 0.02, "{points:?}: {sum}");
             assert!(most <= 1.0);
         }
