@@ -99,8 +99,7 @@ impl Corpus {
     /// | `.elan.txt` | the same in the form of ELAN's tab-delimited export |
     /// | `.srt`, `.vtt` | the glosses and translations of one recording as subtitles |
     /// | `.parquet`, `.components.parquet` | one row for each token, or each value of a token (feature `parquet`) |
-    /// | `.annotations.parquet`, `.frames.parquet` | one row for each annotation, or each joint of a frame (the same
-    /// feature) |
+    /// | `.annotations.parquet`, `.frames.parquet` | one row for each annotation, or joint of a frame (same feature) |
     /// | `.sigml` | notated tokens as gestural SiGML |
     /// | `.hsigml` | notated tokens as H-SiGML, HamNoSys's symbols as elements |
     /// | `.hns`, `.txt` | notated tokens as HamNoSys text, one line for each sign: the gloss, a tab, the text |

@@ -6,8 +6,7 @@
 //! | `sign`, `recording`, `signer` | row numbers | conditions; order and counts |
 //! | `gloss` | the whole gloss, folded | `gloss=BOL-2H`, wildcards, slips |
 //! | `words`, `translation`, `comment` | words of the gloss, of translations, of remarks | `"slow animal"` |
-//! | `reading` | [terms](crate::db::search::terms) for coded values, and marks | `right.configuration=U`, `origin=made`
-//! |
+//! | `reading` | [terms](crate::db::search::terms) of values, and marks | `right.configuration=U`, `origin=made` |
 //! | `facet` | `right.configuration=U` as printed | counts |
 //! | `start`, `end`, `duration` | microseconds | `duration<0.8s`; relations of time |
 //!
