@@ -1,4 +1,4 @@
-//! Units and axes of a file, and the way to model space and back.
+//! Units and axes of a file, and the conversion to model space and back.
 
 use std::fmt;
 use std::str::FromStr;
@@ -38,14 +38,14 @@ impl Axis {
         }
     }
 
-    /// Returns the right-handed turn by `angle` radians about the axis.
+    /// Returns the right-handed rotation by `angle` radians about the axis.
     #[must_use]
     pub fn rotation(self, angle: f64) -> DQuat {
         DQuat::from_axis_angle(self.vector(), angle)
     }
 }
 
-/// An axis and which way along it, written `+Y` or `-Z`.
+/// An axis and the direction along it, written `+Y` or `-Z`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Direction {
@@ -56,7 +56,7 @@ pub struct Direction {
 }
 
 impl Direction {
-    /// Returns the direction nearest to `vector`; of equal ones the first axis.
+    /// Returns the direction nearest to `vector`; of equally near ones that of the first axis.
     #[must_use]
     pub fn nearest(vector: DVec3) -> Self {
         let size = vector.abs();
@@ -95,7 +95,7 @@ impl fmt::Display for Direction {
     }
 }
 
-/// A text that names no direction or no pair of axes.
+/// A text that is not a direction or a pair of axes.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{0:?} names no axes; write a direction as +X, -Z …, and axes as up,left: for example +Y,+X"
@@ -133,7 +133,7 @@ impl From<Direction> for String {
     }
 }
 
-/// Which of a file's directions are the signer's up and left; the third follows by the right hand.
+/// The directions in a file that are the signer's up and left; the third follows from the right-hand rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Axes {
     up: Direction,
@@ -153,31 +153,31 @@ impl Axes {
         },
     };
 
-    /// Returns the axes whose up and left are those directions; nothing where they lie on one axis.
+    /// Returns the axes with these directions for up and left; `None` if both are on one axis.
     #[must_use]
     pub fn new(up: Direction, left: Direction) -> Option<Self> {
         (up.axis != left.axis).then_some(Self { up, left })
     }
 
-    /// Returns the file's direction that is up.
+    /// Returns the direction that is up in the file.
     #[must_use]
     pub fn up(self) -> Direction {
         self.up
     }
 
-    /// Returns the file's direction to the signer's left.
+    /// Returns the direction to the signer's left in the file.
     #[must_use]
     pub fn left(self) -> Direction {
         self.left
     }
 
-    /// Returns the file's direction that the signer faces.
+    /// Returns the direction that the signer faces in the file.
     #[must_use]
     pub fn forward(self) -> Direction {
         Direction::nearest(self.left.vector().cross(self.up.vector()))
     }
 
-    /// Returns the rotation that takes the file's directions to those of model space.
+    /// Returns the rotation from the file's directions to those of model space.
     #[must_use]
     pub fn to_model(self) -> DQuat {
         let (left, up, forward) = (
@@ -204,10 +204,10 @@ impl FromStr for Axes {
     }
 }
 
-/// How a file's numbers become metres in model space: its unit and its axes.
+/// The conversion of a file's numbers to metres in model space: its unit and its axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Convention {
-    /// How many metres one unit of the file is; above zero.
+    /// Metres per unit of the file; above zero.
     pub metres_per_unit: f64,
     /// The file's axes.
     pub axes: Axes,
@@ -220,29 +220,28 @@ impl Convention {
         axes: Axes::MODEL,
     };
 
-    /// Returns the place `at` of the file in metres in model space.
+    /// Converts a position in the file to metres in model space.
     #[must_use]
     pub fn point(&self, at: DVec3) -> DVec3 {
         self.axes.to_model() * (at * self.metres_per_unit)
     }
 
-    /// Returns `skeleton`, measured in the file's unit and axes, in metres and model axes.
+    /// Converts `skeleton` from the file's unit and axes to metres and model axes.
     #[must_use]
     pub fn skeleton(&self, skeleton: &Skeleton) -> Skeleton {
         self.map_skeleton(skeleton, self.axes.to_model(), self.metres_per_unit)
     }
 
-    /// Returns `clip`, measured in the file's unit and axes, in metres and model axes.
+    /// Converts `clip` from the file's unit and axes to metres and model axes.
     ///
-    /// Every joint's own space is turned alike, so that offsets o, translations t and rotations q
-    /// become s·(C o), s·(C t) and C q C⁻¹, with C the change of axes and s the metres a unit.
+    /// The own space of every joint is rotated in the same way, so that offsets o, translations t and rotations q
+    /// become s·(C o), s·(C t) and C q C⁻¹, with C the change of axes and s the metres per unit.
     #[must_use]
     pub fn clip(&self, clip: &Clip) -> Clip {
         self.map_clip(clip, self.axes.to_model(), self.metres_per_unit)
     }
 
-    /// Returns `clip`, in metres and model axes, in the file's unit and axes: the inverse of
-    /// [`clip`](Self::clip).
+    /// Converts `clip` from metres and model axes to the file's unit and axes: the inverse of [`clip`](Self::clip).
     #[must_use]
     pub fn clip_back(&self, clip: &Clip) -> Clip {
         self.map_clip(

@@ -12,13 +12,13 @@ use crate::time::{Instant, Rate, Span};
 /// The movement of one joint in its parent's space.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Channel {
-    /// One unit quaternion a frame.
+    /// One unit quaternion per frame.
     pub rotations: Vec<DQuat>,
-    /// One place a frame in metres where the joint also moves; else it stays at its offset.
+    /// One position per frame in metres if the joint also moves; otherwise it stays at its offset.
     pub translations: Option<Vec<DVec3>>,
 }
 
-/// A stretch of movement: one [`Channel`] a joint, all of the same length.
+/// A movement: one [`Channel`] per joint, all of the same length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clip {
     skeleton: Arc<Skeleton>,
@@ -30,7 +30,7 @@ pub struct Clip {
 /// Why channels do not form a clip.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ClipError {
-    /// There is not one channel a joint.
+    /// There is not one channel per joint.
     #[error("{channels} channels were given for a skeleton of {joints} joints")]
     Joints {
         /// The channels given.
@@ -48,7 +48,7 @@ pub enum ClipError {
         /// The frames of the first channel.
         expected: usize,
     },
-    /// A rotation or place is not finite, or a rotation is not of length one.
+    /// A rotation or position is not finite, or a rotation is not of length one.
     #[error("joint {joint:?} has a value that is no rotation or place at frame {frame}")]
     Value {
         /// The joint's name.
@@ -59,10 +59,10 @@ pub enum ClipError {
 }
 
 impl Clip {
-    /// Returns the clip of one channel a joint.
+    /// Returns the clip with one channel per joint.
     ///
     /// # Errors
-    /// [`ClipError`] where channels are missing, differ in length, or hold what is no rotation.
+    /// [`ClipError`] if channels are missing, differ in length, or contain invalid values.
     pub fn new(
         skeleton: Arc<Skeleton>,
         rate: Rate,
@@ -127,11 +127,10 @@ impl Clip {
         }
     }
 
-    /// Returns the clip that holds `poses`, a frame each; joints that never leave their offset get
-    /// no translations.
+    /// Returns the clip with one of `poses` per frame; joints that never leave their offset get no translations.
     ///
     /// # Errors
-    /// [`ClipError`] where a pose has another number of joints, or holds what is no rotation.
+    /// [`ClipError`] if a pose has another number of joints, or contains invalid values.
     pub fn from_poses(
         skeleton: Arc<Skeleton>,
         rate: Rate,
@@ -177,7 +176,7 @@ impl Clip {
         self.frames
     }
 
-    /// Returns the time the clip takes, from zero on.
+    /// Returns the time of the clip, which starts at zero.
     #[must_use]
     pub fn span(&self) -> Span {
         self.rate.span(0..self.frames)
@@ -195,13 +194,13 @@ impl Clip {
         &self.channels
     }
 
-    /// Returns the channels, for a new clip to be made of them.
+    /// Returns the channels, to build another clip from them.
     #[must_use]
     pub fn into_channels(self) -> Vec<Channel> {
         self.channels
     }
 
-    /// Returns the place of `joint` in its parent's space at `frame`, in metres.
+    /// Returns the position of `joint` in its parent's space at `frame`, in metres.
     #[must_use]
     pub fn translation(&self, joint: usize, frame: usize) -> DVec3 {
         match &self.channels[joint].translations {
@@ -213,7 +212,7 @@ impl Clip {
     /// Returns the posture at `frame`, in local space.
     ///
     /// # Panics
-    /// Where `frame` is not below [`frames`](Self::frames).
+    /// Panics if `frame` is not below [`frames`](Self::frames).
     #[must_use]
     pub fn pose(&self, frame: usize) -> Pose {
         Pose {
@@ -231,14 +230,14 @@ impl Clip {
     /// Returns the posture at `frame`, in model space.
     ///
     /// # Panics
-    /// Where `frame` is not below [`frames`](Self::frames).
+    /// Panics if `frame` is not below [`frames`](Self::frames).
     #[must_use]
     pub fn model_pose(&self, frame: usize) -> ModelPose {
         ModelPose::of(&self.skeleton, &self.pose(frame))
     }
 
-    /// Returns the posture at `instant`: between two frames the rotations are slerped and the
-    /// places blended; outside the clip it is that of the nearest frame. An empty clip is at rest.
+    /// Returns the posture at `instant`: between two frames, rotations are interpolated by slerp and positions
+    /// linearly; outside the clip it is that of the nearest frame. An empty clip is at rest.
     #[must_use]
     pub fn sample(&self, instant: Instant) -> Pose {
         if self.frames == 0 {
@@ -264,9 +263,9 @@ impl Clip {
         }
     }
 
-    /// Returns where `joint` is in model space at every frame, in metres.
+    /// Returns the position of `joint` in model space at every frame, in metres.
     ///
-    /// Only the joints between it and the root are looked at.
+    /// Computes only the joints between it and the root.
     #[must_use]
     pub fn path(&self, joint: usize) -> Vec<DVec3> {
         let mut up: Vec<usize> = self.skeleton.ancestors(joint).collect();
@@ -283,7 +282,7 @@ impl Clip {
             .collect()
     }
 
-    /// Returns the frames in `frames`, cut to those there are.
+    /// Returns the part of the clip in `frames`, as far as it exists.
     #[must_use]
     pub fn slice(&self, frames: Range<usize>) -> Self {
         let end = frames.end.min(self.frames);
@@ -307,8 +306,8 @@ impl Clip {
         }
     }
 
-    /// Returns the same movement at another frame rate; the first frame stays, and no frame lies
-    /// after the last one here.
+    /// Returns the same movement at another frame rate; the first frame stays, and no frame lies after the last one of
+    /// this clip.
     #[must_use]
     pub fn resampled(&self, rate: Rate) -> Self {
         if rate == self.rate || self.frames == 0 {
@@ -322,7 +321,7 @@ impl Clip {
         self.retimed(rate, frames, |frame| rate.instant(frame))
     }
 
-    /// Returns `frames` frames at `rate`, each sampled from the instant that `source` gives for it.
+    /// Returns `frames` frames at `rate`, each sampled at the instant that `source` returns for it.
     #[must_use]
     pub fn retimed(&self, rate: Rate, frames: usize, source: impl Fn(usize) -> Instant) -> Self {
         let poses: Vec<Pose> = (0..frames)

@@ -1,4 +1,4 @@
-//! Named scalar channels over time: face parameters, analog signals, forces, any number that is not a place.
+//! Named scalar channels over time: face parameters, analog signals, forces, any number that is not a position.
 
 use std::collections::BTreeSet;
 
@@ -9,11 +9,11 @@ use crate::times::Times;
 /// One scalar channel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// The name as the file has it; unique among the curves of a track.
+    /// The name in the file; unique among the curves of a track.
     pub name: String,
     /// The unit of the numbers, such as `rad`, `N` or `mV`; empty for a plain number or an unknown unit.
     pub unit: String,
-    /// One number a frame.
+    /// One number per frame.
     pub values: Column,
 }
 
@@ -37,7 +37,7 @@ pub struct Curves {
     curves: Vec<Curve>,
 }
 
-/// A reason why channels are no track.
+/// A reason why channels are not a track.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum TrackError {
     /// There is no channel.
@@ -46,7 +46,7 @@ pub enum TrackError {
     /// A channel has no name.
     #[error("channel {0} has no name")]
     Nameless(usize),
-    /// Two channels have one name.
+    /// Two channels have the same name.
     #[error("two channels have the name {0:?}")]
     Twice(String),
     /// A channel is longer or shorter than the first.
@@ -77,22 +77,22 @@ pub enum TrackError {
         /// The coordinates of its space.
         expected: usize,
     },
-    /// A limb joins points that do not exist, or a point with itself.
+    /// A limb joins points that do not exist, or a point to itself.
     #[error("a limb joins the points {from} and {to} of {points}")]
     Limb {
         /// Its first point.
         from: usize,
         /// Its second point.
         to: usize,
-        /// The points there are.
+        /// The number of points.
         points: usize,
     },
-    /// The unit of places is not a positive number.
+    /// The unit of positions is not a positive number.
     #[error("{0} is no length for a unit of places")]
     Unit(String),
 }
 
-/// Checks the lengths of channels, and returns their frames.
+/// Checks the lengths of channels, and returns their number of frames.
 pub(crate) fn frames_of<'a>(
     times: &Times,
     mut channels: impl Iterator<Item = (&'a str, &'a Column)>,
@@ -112,7 +112,7 @@ pub(crate) fn frames_of<'a>(
     }
 }
 
-/// Checks that every channel has a name of its own.
+/// Checks that every channel has a name, and that names are unique.
 pub(crate) fn check_names<'a>(
     names: impl Iterator<Item = (&'a str, &'a str)>,
 ) -> Result<(), TrackError> {
@@ -146,7 +146,7 @@ impl Curves {
         })
     }
 
-    /// Returns when the frames are.
+    /// Returns the times of the frames.
     #[must_use]
     pub fn times(&self) -> &Times {
         &self.times
@@ -158,7 +158,7 @@ impl Curves {
         self.frames
     }
 
-    /// Returns the time the track takes, from its own start on.
+    /// Returns the span of the track, counted from its own start.
     #[must_use]
     pub fn span(&self) -> Span {
         self.times.span(self.frames)
@@ -170,7 +170,7 @@ impl Curves {
         &self.curves
     }
 
-    /// Returns the curve of this name; letters may be large or small if no other name fits so.
+    /// Returns the curve of this name; ignores case if exactly one name matches that way.
     #[must_use]
     pub fn curve(&self, name: &str) -> Option<&Curve> {
         let exact = self.curves.iter().find(|curve| curve.name == name);
@@ -181,7 +181,7 @@ impl Curves {
         exact.or_else(|| alike.next().filter(|_| alike.next().is_none()))
     }
 
-    /// Returns every curve's number at `instant`: blended between the two frames around it, that of the nearest
+    /// Returns every curve's number at `instant`: interpolated between the two frames around it, or that of the nearest
     /// frame outside the track; `None` in a gap.
     #[must_use]
     pub fn sample(&self, instant: Instant) -> Vec<Option<f64>> {

@@ -1,8 +1,8 @@
-//! The ends of a clip: bind poses, T-poses and jumps that are no part of the movement, and rest.
+//! The ends of a clip: bind poses, T-poses and jumps that are not part of the movement, and rest.
 //!
-//! Capture programs write calibration poses into first and last frames: every bone as the skeleton has it, the arms
-//! out to both sides, the body metres away or turned round. [`Ends`] finds them with their frames, so that measures
-//! and pictures can leave them out; [`activity`] finds the movement between two rests. Neither changes a clip.
+//! Capture programs write calibration poses into first and last frames: every bone at rest, the arms stretched out to
+//! both sides, the body metres away or turned round. [`Ends`] finds these frames, so that measures and pictures can
+//! leave them out; [`activity`] finds the movement between two rests. Neither changes a clip.
 
 use std::fmt;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::clip::Clip;
 use crate::hand::Side;
 use crate::pose::ModelPose;
 
-/// A run of frames at an end of a clip that is no part of its movement.
+/// A range of frames at an end of a clip that is not part of its movement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OddFrames {
     /// The frames, counted from 0.
@@ -23,18 +23,18 @@ pub struct OddFrames {
     pub what: Oddity,
 }
 
-/// The reason why frames are no part of a movement.
+/// The reason why frames are not part of a movement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Oddity {
-    /// All joints are as the skeleton has them at rest, and leap from there.
+    /// All joints have the skeleton's rest rotations, and a hand jumps to the next frame.
     Bind,
     /// Both arms are straight and stretched out to the sides.
     Tee,
-    /// The body is so many metres away from the next (or the last) frame.
+    /// The body is this many metres away from its position in the next (or the last) frame.
     Jump(f64),
-    /// The body is turned by so many radians against the next (or the last) frame.
+    /// The body is turned by this many radians compared with the next (or the last) frame.
     Turn(f64),
-    /// A hand is so many metres away from the next (or the last) frame.
+    /// A hand is this many metres away from its position in the next (or the last) frame.
     Leap(f64),
 }
 
@@ -64,34 +64,35 @@ impl fmt::Display for OddFrames {
 /// The sound frames of a clip, and the odd ones before and after them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ends {
-    /// The frames that are left; never empty where the clip has frames.
+    /// The remaining frames; not empty if the clip has frames.
     pub sound: Range<usize>,
     /// The odd frames, in order of time.
     pub odd: Vec<OddFrames>,
 }
 
-/// Jumps are looked for in this many seconds at each end, and in a quarter of the clip at most.
+/// Length of each end in which jumps are searched, in seconds; at most a quarter of the clip.
 const WINDOW: f64 = 1.0;
-/// The least jump of a body in metres, and its speed in metres per second.
+/// The least distance of a body's jump in metres, and its least speed in metres per second.
 const JUMP: (f64, f64) = (0.5, 20.0);
-/// The least turn of a body in radians, and its speed in radians per second.
+/// The least turn of a body's jump in radians, and its least speed in radians per second.
 const TURN: (f64, f64) = (0.8, 20.0);
-/// The least jump of a wrist against the body in metres, and its speed in metres per second.
+/// The least jump of a wrist relative to the body in metres, and its least speed in metres per second.
 const LEAP: (f64, f64) = (0.2, 12.0);
-/// The least jump of a wrist that leaves a bind pose, in metres.
+/// The least jump of a wrist after a bind pose, in metres.
 const UNBIND: f64 = 0.05;
-/// Rotations within this angle of the rest posture, in radians, are that posture.
+/// Rotations within this angle of the rest pose, in radians, count as the rest pose.
 const SAME: f64 = 1e-3;
-/// The share of its length over which the arm of a T-pose is stretched, and the cosine to the side.
+/// The least distance from shoulder to wrist in a T-pose as a share of the arm's length, and the least cosine of the
+/// angle to the side.
 const TEE: (f64, f64) = (0.93, 0.9);
-/// How far below its shoulder a wrist at rest is, in lengths of the arm, and its greatest speed in metres per second.
+/// The least depth of a resting wrist below its shoulder in arm lengths, and its greatest speed in metres per second.
 const REST: (f64, f64) = (0.7, 0.15);
-/// How far below its shoulder a hand that waits in front of the body is, in lengths of the arm, how far in metres it may
-/// drift from where the movement begins or ends, and how long in seconds both hands must wait so.
+/// The least depth of a waiting hand below its shoulder in arm lengths, its greatest drift from its first or last
+/// position in metres, and the time in seconds for which both hands must wait.
 const WAIT: (f64, f64, f64) = (0.45, 0.03, 0.3);
 
 impl Ends {
-    /// Looks at both ends of `clip`; `anatomy` is its skeleton's.
+    /// Examines both ends of `clip`; `anatomy` belongs to its skeleton.
     #[must_use]
     pub fn of(clip: &Clip, anatomy: &Anatomy) -> Self {
         let all = clip.frames();
@@ -188,10 +189,10 @@ impl Ends {
     }
 }
 
-/// The frames of a clip between the rest before its movement and the rest after it. A hand is at rest while it hangs
-/// or lies low and stays still, or while both hands wait in front of the belly where the clip begins or ends. Odd frames at
-/// the ends are left out, and so is the path of the arms from a T-pose to the first rest. Returns `None` if no hand is ever
-/// active, or the skeleton has no arm.
+/// Returns the frames of a clip between the rest before its movement and the rest after it. A hand is at rest while it
+/// hangs or lies low and stays still, or while both hands wait in front of the belly at the beginning or end of the
+/// clip. Odd frames at the ends are left out, and so is the movement of the arms from a T-pose to the first rest.
+/// Returns `None` if no hand is ever active, or if the skeleton has no arm.
 #[must_use]
 pub fn activity(clip: &Clip, anatomy: &Anatomy) -> Option<Range<usize>> {
     let ends = Ends::of(clip, anatomy);
@@ -248,8 +249,8 @@ pub fn activity(clip: &Clip, anatomy: &Anatomy) -> Option<Range<usize>> {
     Some(first..last + 1)
 }
 
-/// Counts the frames over which both hands wait low in front of the body, where the first of `frames` has them. Returns 0
-/// if they wait in all of them: then nothing is a rest between movements.
+/// Counts the frames in which both hands wait low in front of the body, as they do in the first of `frames`.
+/// Returns 0 if they wait in all of them: then there is no rest between movements.
 fn waits(poses: &[Look], mut frames: impl Iterator<Item = usize> + Clone) -> usize {
     let Some(start) = frames.clone().next().map(|frame| &poses[frame]) else {
         return 0;
@@ -273,13 +274,13 @@ fn waits(poses: &[Look], mut frames: impl Iterator<Item = usize> + Clone) -> usi
     }
 }
 
-/// A body in one frame, as far as its ends are judged by it.
+/// The data about a body in one frame that decide about its ends.
 struct Look {
     body: DVec3,
     left: Option<DVec3>,
-    /// Wrists against the body.
+    /// Positions of the wrists relative to the body.
     wrists: [Option<DVec3>; 2],
-    /// How far each wrist is below its shoulder, in lengths of the arm.
+    /// The depth of each wrist below its shoulder, in arm lengths.
     low: [Option<f64>; 2],
     tee: bool,
 }
@@ -333,7 +334,7 @@ impl Looks<'_> {
         })
     }
 
-    /// Returns what breaks between two frames that follow one another.
+    /// Returns the jump between two successive frames, if there is one.
     fn break_between(&self, a: &Look, b: &Look) -> Option<Oddity> {
         let rate = self.clip.rate().per_second();
         let beyond = |found: f64, (least, speed): (f64, f64)| found > least && found * rate > speed;
@@ -353,7 +354,7 @@ impl Looks<'_> {
         beyond(leap, LEAP).then_some(Oddity::Leap(leap))
     }
 
-    /// Returns how many frames from the first on have all joints but the root at rest.
+    /// Returns how many of the first frames have all joints except the root at rest.
     fn bound(&self, frames: Range<usize>) -> usize {
         let skeleton = self.clip.skeleton();
         let at_rest = |frame: &usize| {
@@ -365,7 +366,7 @@ impl Looks<'_> {
         frames.take_while(at_rest).count()
     }
 
-    /// Returns whether a hand leaps from the last frame of a bind pose to the next.
+    /// Returns whether a hand jumps from the last frame of a bind pose to the next.
     fn unbinds(&self, bound: usize) -> bool {
         let (a, b) = (self.at(bound - 1), self.at(bound));
         let ways = (0..2).filter_map(|side| Some(a.wrists[side]?.distance(b.wrists[side]?)));
@@ -384,7 +385,7 @@ mod tests {
     use crate::clip::Channel;
     use crate::time::Rate;
 
-    /// A body with hanging arms that raises its right hand and lowers it again, over 100 frames.
+    /// Returns a clip of 100 frames in which a body with hanging arms raises and lowers its right hand.
     fn clip(change: impl Fn(usize, usize, &mut Vec<DQuat>, &mut Vec<DVec3>)) -> (Clip, Anatomy) {
         let skeleton = Arc::new(body(PLAIN));
         let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");

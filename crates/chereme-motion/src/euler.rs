@@ -8,8 +8,8 @@ use crate::axes::Axis;
 
 /// The order in which a joint's three angles are written and multiplied.
 ///
-/// With the order abc and the angles α, β, γ the rotation is `A(α) · B(β) · C(γ)`: the axes turn
-/// with the joint, and the last one written is applied to a point first.
+/// With the order abc and the angles α, β, γ the rotation is `A(α) · B(β) · C(γ)`: the axes rotate with the joint, and
+/// the last written rotation is applied to a point first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct RotationOrder([Axis; 3]);
 
@@ -18,10 +18,10 @@ impl RotationOrder {
     pub const ZXY: Self = Self([Axis::Z, Axis::X, Axis::Y]);
     /// The order about Y, then X, then Z.
     pub const YXZ: Self = Self([Axis::Y, Axis::X, Axis::Z]);
-    /// The order of the alphabet.
+    /// The alphabetical order.
     pub const XYZ: Self = Self([Axis::X, Axis::Y, Axis::Z]);
 
-    /// Returns the order of three different axes; nothing where one occurs twice.
+    /// Returns the order of three different axes; `None` if one occurs twice.
     #[must_use]
     pub fn new(axes: [Axis; 3]) -> Option<Self> {
         let [a, b, c] = axes;
@@ -43,9 +43,9 @@ impl RotationOrder {
 
     /// Returns the three angles in radians whose rotation is `q`.
     ///
-    /// Of the two triples that exist, each up to whole turns, the one nearest to `near` is taken,
-    /// so that a path of rotations gives a path of angles without jumps. Where the middle angle is
-    /// a right angle (gimbal lock) the first keeps the value of `near`.
+    /// There are two such triples, each up to whole turns. Returns the one nearest to `near`, so that a path of
+    /// rotations gives a path of angles without jumps. If the middle angle is a right angle (gimbal lock), the first
+    /// angle keeps the value of `near`.
     #[must_use]
     pub fn angles(self, q: DQuat, near: [f64; 3]) -> [f64; 3] {
         let [i, j, k] = self.0.map(Axis::index);

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::time::{Instant, Rate};
 
-/// The posture of a face: each number is 0 at rest and 1 where the face usually goes no farther.
+/// The posture of a face: each number is 0 at rest, and 1 at the usual limit of the movement.
 ///
 /// Pairs are of the signer's right and left, in this order. Numbers that say so go down to -1 for the opposite.
 /// Data spells each number as the field does ([`Face::NAMES`]); shorter names of older data are read as well.
@@ -20,7 +20,7 @@ pub struct Face {
     /// The eyes closed; -1 is wide open.
     #[serde(rename = "eye_close", alias = "lids")]
     pub lids: [f64; 2],
-    /// Where the eyes look: to the signer's left and up; -1 is to the right and down.
+    /// The direction of the eyes: to the signer's left, and up; -1 is to the right or down.
     pub gaze: [f64; 2],
     /// The nose wrinkled; -1 is the nostrils widened.
     #[serde(rename = "nose_wrinkle", alias = "nose")]
@@ -31,7 +31,7 @@ pub struct Face {
     /// The jaw moved to the signer's left; -1 is to the right.
     #[serde(rename = "jaw_left", alias = "aside")]
     pub aside: f64,
-    /// The lips apart from each other, wherever the jaw is.
+    /// The lips apart from each other, regardless of the jaw.
     #[serde(rename = "lips_part", alias = "parted")]
     pub parted: f64,
     /// The mouth stretched sideways; -1 is rounded.
@@ -40,13 +40,13 @@ pub struct Face {
     /// The corners of the mouth raised; -1 is lowered.
     #[serde(rename = "lip_corner", alias = "corners")]
     pub corners: [f64; 2],
-    /// The lips closed on each other and drawn in, wherever the jaw is.
+    /// The lips pressed together and drawn in, regardless of the jaw.
     #[serde(rename = "lip_press", alias = "pressed")]
     pub pressed: f64,
     /// The lips pushed forward.
     #[serde(rename = "lip_pucker", alias = "pout")]
     pub pout: f64,
-    /// The teeth shown, as far as the mouth is open.
+    /// The teeth visible, as far as the mouth is open.
     #[serde(rename = "teeth_show", alias = "teeth")]
     pub teeth: f64,
     /// The tongue out of the mouth.
@@ -106,7 +106,7 @@ impl Face {
         }
     }
 
-    /// Returns the face of these numbers, each kept between its ends; a NaN becomes 0.
+    /// Returns the face with these numbers, each clamped to its range; NaN becomes 0.
     #[must_use]
     pub fn from_numbers(numbers: [f64; Self::LEN]) -> Self {
         let mut face = Self::default();
@@ -120,7 +120,7 @@ impl Face {
         face
     }
 
-    /// Returns the face as the mirror shows it: right and left change places.
+    /// Returns the mirror image of the face: right and left change places.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let swap = |[a, b]: [f64; 2]| [b, a];
@@ -158,7 +158,7 @@ impl Face {
         }
     }
 
-    /// Returns the face on the way from this one to another, `share` being 0 here and 1 there.
+    /// Interpolates between this face and another; `share` is 0 for this one and 1 for the other.
     #[must_use]
     pub fn towards(&self, other: &Self, share: f64) -> Self {
         let mut face = *self;

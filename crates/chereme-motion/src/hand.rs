@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Which side of the signer's body, always the signer's own.
+/// A side of the signer's body, always from the signer's own point of view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
@@ -44,7 +44,7 @@ impl Side {
     }
 }
 
-/// One of the four fingers that are not the thumb.
+/// One of the four fingers other than the thumb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Finger {
@@ -59,10 +59,10 @@ pub enum Finger {
 }
 
 impl Finger {
-    /// The four fingers from the thumb's side outwards.
+    /// The four fingers, from the thumb's side outwards.
     pub const ALL: [Self; 4] = [Self::Index, Self::Middle, Self::Ring, Self::Little];
 
-    /// Returns the place of this finger in [`HandAngles::fingers`].
+    /// Returns the index of this finger in [`HandAngles::fingers`].
     #[must_use]
     pub fn index(self) -> usize {
         self as usize
@@ -97,9 +97,9 @@ pub struct ThumbAngles {
     pub radial: f64,
     /// Angle of the metacarpal out of the plane of the palm, towards the palm's side.
     pub palmar: f64,
-    /// Turn of the thumb about its own length, positive towards facing the little finger's base.
-    /// At zero, with the thumb beside the index finger, its pad faces that finger and it bends in
-    /// the plane of the palm; a skeleton's rest pose is taken for zero.
+    /// Rotation of the thumb about its own length, positive towards facing the little finger's base. At zero, with the
+    /// thumb beside the index finger, its pad faces that finger and it bends in the plane of the palm; a skeleton's
+    /// rest pose counts as zero.
     pub opposition: f64,
     /// Flexion of the middle and the end joint, positive across the palm.
     pub flexion: [f64; 2],
@@ -157,7 +157,7 @@ impl HandAngles {
         Self::from_array(self.to_array().map(f))
     }
 
-    /// Returns the posture a share `weight` of the way from `self` to `other`, angle by angle.
+    /// Interpolates between `self` (`weight` 0) and `other` (1), angle by angle.
     #[must_use]
     pub fn lerp(&self, other: &Self, weight: f64) -> Self {
         let (a, b) = (self.to_array(), other.to_array());

@@ -1,10 +1,10 @@
-//! Reaching: where the elbow goes and how an arm turns so that the hand is where it should be.
+//! Inverse kinematics: moves the elbow and rotates the joints of an arm so that the hand reaches its target.
 //!
-//! [`two_bone`] is the analytic solution for an arm; it keeps the swivel of the source (the turn of
-//! the elbow about the line from shoulder to wrist), and is continuous wherever the source is and
-//! the target does not pass straight behind the shoulder. [`fabrik`] is the iterative method of
-//! Aristidou & Lasenby 2011 (Graphical Models 73, DOI 10.1016/j.gmod.2011.05.003) on chains of any
-//! length. [`reach_wrist`] moves the wrist of a posture with either and turns the joints to match.
+//! [`two_bone`] is the analytic solution for an arm; it keeps the swivel of the source (the rotation of the elbow about
+//! the line from shoulder to wrist). It is continuous if the source is, and if the target does not pass straight behind
+//! the shoulder. [`fabrik`] is the iterative method of Aristidou & Lasenby 2011 (Graphical Models 73, DOI
+//! 10.1016/j.gmod.2011.05.003) for chains of any length. [`reach_wrist`] moves the wrist of a posture with either, and
+//! rotates the joints to match.
 
 mod fabrik;
 mod reach;
@@ -18,13 +18,13 @@ use glam::DVec3;
 
 use crate::hand::Side;
 
-/// Why a reach has no solution at all; a target out of reach is not one of them.
+/// Why a reach has no solution; a target out of reach is not an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum IkError {
-    /// A coordinate or an option is no finite number.
+    /// A coordinate or an option is not a finite number.
     #[error("the {0} of the reach is no finite number")]
     NotFinite(&'static str),
-    /// A bone has no length, so that nothing says which way it points.
+    /// A bone has no length, so that its direction is unknown.
     #[error("the {0} has no length, so there is no way to turn it towards a target")]
     ZeroBone(&'static str),
     /// A chain has fewer than two points.

@@ -1,9 +1,9 @@
-//! The ways from one rotation to another, after Naert, Larboulette & Gibet 2021, section 4.2.
+//! Interpolation between two rotations, after Naert, Larboulette & Gibet 2021, section 4.2.
 
 use glam::DQuat;
 use serde::{Deserialize, Serialize};
 
-/// How a weight from 0 to 1 runs from a first rotation to a second.
+/// The course of an interpolation as its weight goes from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Interpolation {
@@ -11,8 +11,8 @@ pub enum Interpolation {
     Slerp,
     /// The blend `(1 - c)·a + c·b` with `c = (1 - cos πw)/2` (eq. 2).
     Cosine,
-    /// The blend of eq. 3 with `s = 1/(1 + exp(-10(w - 0.5)))`. As printed s runs from 0.0067 to
-    /// 0.9933; here it is stretched to run from 0 to 1, so that both ends are met.
+    /// The blend of eq. 3 with `s = 1/(1 + exp(-10(w - 0.5)))`. As printed, s goes from 0.0067 to 0.9933; here it is
+    /// scaled to go from 0 to 1, so that both ends are reached.
     #[default]
     Sigmoid,
     /// The blend with `10w³ - 15w⁴ + 6w⁵`: the point-to-point path of least jerk (Flash & Hogan
@@ -21,10 +21,10 @@ pub enum Interpolation {
 }
 
 impl Interpolation {
-    /// Every way there is.
+    /// Every kind of interpolation.
     pub const ALL: [Self; 4] = [Self::Slerp, Self::Cosine, Self::Sigmoid, Self::MinimumJerk];
 
-    /// Returns the name as recipes write it.
+    /// Returns the name in recipes.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -35,8 +35,8 @@ impl Interpolation {
         }
     }
 
-    /// Returns the share of the way done at weight `w`, which is clamped to 0..=1; it is 0 at 0,
-    /// ½ at ½ and 1 at 1, and never falls.
+    /// Returns the share of the path that is done at weight `w`, which is clamped to 0..=1; it is 0 at 0, ½ at ½ and 1
+    /// at 1, and never decreases.
     #[must_use]
     pub fn share(self, w: f64) -> f64 {
         let w = w.clamp(0.0, 1.0);
@@ -52,10 +52,10 @@ impl Interpolation {
         }
     }
 
-    /// Returns the rotation at weight `w` from `a` to `b`, the short way round.
+    /// Returns the rotation at weight `w` from `a` to `b`, along the shorter path.
     ///
-    /// [`Slerp`](Self::Slerp) goes along the great circle; the others are normalised linear blends,
-    /// as the paper's equations 2 and 3 are.
+    /// [`Slerp`](Self::Slerp) follows the great circle; the others are normalised linear blends, like the paper's
+    /// equations 2 and 3.
     #[must_use]
     pub fn rotation(self, a: DQuat, b: DQuat, w: f64) -> DQuat {
         match self {

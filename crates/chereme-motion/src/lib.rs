@@ -2,7 +2,7 @@
 //!
 //! Lengths are metres, angles radians, rotations unit quaternions. *Model space* is right-handed,
 //! Y up, the signer facing +Z with the left side at +X; *local space* is that of a joint's parent.
-//! Nothing here reads files, knows a word of sign language, or uses unseeded randomness.
+//! No function reads files, depends on sign language, or uses unseeded randomness.
 //!
 //! ```
 //! use chereme_motion::{Clip, Joint, Rate, Skeleton, glam::DVec3};
@@ -26,16 +26,16 @@
 //! | [`markers`] | named points: optical markers, points estimated from film |
 //! | [`curves`] | named scalar channels: face parameters, analog signals |
 //! | [`column`](mod@column) | the numbers of a channel exactly as a file gives them, gaps as gaps |
-//! | [`times`] | when the frames of a track are: at an even rate or each at its own time |
+//! | [`times`] | the times of a track's frames: at an even rate, or each with its own time |
 //! | [`ends`] | odd first and last frames, and the movement between two rests |
 //! | [`euler`] | rotation orders and angles, as files write them |
-//! | [`axes`] | units and axes of a file, and the way to model space and back |
-//! | [`interpolation`] | the ways from one posture to another |
-//! | [`anatomy`] | which joint is what, whatever the skeleton calls it; landmarks, measures, finger angles |
+//! | [`axes`] | units and axes of a file, and the conversion to model space and back |
+//! | [`interpolation`] | the transitions from one posture to another |
+//! | [`anatomy`] | the part of each joint, whatever its name; landmarks, measures, finger angles |
 //! | [`hand`] | the posture of a hand as joint angles |
 //! | [`face`] | the posture of a face as a few numbers |
 //! | [`fit`] | a skeleton that follows optical markers |
-//! | [`ik`] | where the elbow goes when the wrist is moved |
+//! | [`ik`] | the position of the elbow when the wrist is moved |
 
 pub use glam;
 

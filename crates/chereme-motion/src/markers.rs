@@ -8,15 +8,15 @@ use crate::curves::{TrackError, check_names, frames_of};
 use crate::time::{Instant, Span};
 use crate::times::Times;
 
-/// The space in which a file gives places.
+/// The space of a file's positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Space {
-    /// Three coordinates in a room; the convention takes them to metres in model space.
+    /// Three coordinates in metric space; the convention converts them to metres in model space.
     World(Convention),
     /// Two coordinates on a picture: pixels to the right and *down* from its upper left corner.
     Image(Frame),
-    /// Two coordinates on a picture, and a depth of roughly the same scale, negative toward the camera. Depths
-    /// are relative: they compare points of one frame, and are no distances in a room.
+    /// Two coordinates on a picture, and a depth of roughly the same scale, negative toward the camera. Depths are
+    /// relative: they compare points of one frame, and are not metric distances.
     Depth(Frame),
 }
 
@@ -30,7 +30,7 @@ pub struct Frame {
 }
 
 impl Space {
-    /// Returns how many coordinates a place has: two or three.
+    /// Returns how many coordinates a position has: two or three.
     #[must_use]
     pub fn coordinates(&self) -> usize {
         match self {
@@ -49,8 +49,8 @@ impl Space {
         }
     }
 
-    /// Returns a place for a picture of the points: metres in model space for a room. A picture of points stands
-    /// upright on the floor, two metres high, facing the viewer as the person in it does.
+    /// Returns a position for a picture of the points: in model space, in metres. Points on a picture stand upright on
+    /// the floor, two metres high, and face the viewer as the person in the picture does.
     #[must_use]
     pub fn shown(&self, at: DVec3) -> DVec3 {
         let (frame, depth) = match self {
@@ -77,7 +77,7 @@ impl Space {
     }
 }
 
-/// How places came about.
+/// How positions were obtained.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Capture {
     /// Measured by cameras or sensors that see the points themselves.
@@ -98,12 +98,12 @@ impl Capture {
     }
 }
 
-/// The meaning of the number that goes with a place.
+/// The meaning of the quality number of a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Quality {
-    /// How far the cameras' rays miss each other, in the unit of the places; smaller is better.
+    /// The distance by which the cameras' rays miss each other, in the unit of the positions; smaller is better.
     Residual,
-    /// How sure the estimate is, from 0 to 1.
+    /// The confidence of the estimate, from 0 to 1.
     Confidence,
 }
 
@@ -144,7 +144,8 @@ impl Marker {
         }
     }
 
-    /// Returns the place at `frame` in the file's unit and axes (the third coordinate of two is 0), `None` in a gap.
+    /// Returns the position at `frame` in the file's unit and axes; `None` in a gap. The third coordinate is 0 if there
+    /// are two.
     #[must_use]
     pub fn at(&self, frame: usize) -> Option<DVec3> {
         let mut at = DVec3::ZERO;
@@ -201,13 +202,13 @@ impl Markers {
         })
     }
 
-    /// Returns the track with a note of how its places came about.
+    /// Returns the track with a note of how its positions were obtained.
     #[must_use]
     pub fn captured(self, capture: Capture) -> Self {
         Self { capture, ..self }
     }
 
-    /// Returns the track with a note of what the points' `quality` columns say.
+    /// Returns the track with a note of the meaning of its `quality` columns.
     #[must_use]
     pub fn rated(self, quality: Quality) -> Self {
         Self {
@@ -216,10 +217,10 @@ impl Markers {
         }
     }
 
-    /// Returns the track with limbs, pairs of numbers of points that are drawn as lines.
+    /// Returns the track with limbs: pairs of indices of points that are drawn as lines.
     ///
     /// # Errors
-    /// [`TrackError::Limb`] if a limb joins a point that does not exist, or a point with itself.
+    /// [`TrackError::Limb`] if a limb joins a point that does not exist, or a point to itself.
     pub fn joined(self, limbs: Vec<[usize; 2]>) -> Result<Self, TrackError> {
         let points = self.points.len();
         let odd = limbs
@@ -231,7 +232,7 @@ impl Markers {
         }
     }
 
-    /// Returns when the frames are.
+    /// Returns the times of the frames.
     #[must_use]
     pub fn times(&self) -> &Times {
         &self.times
@@ -243,25 +244,25 @@ impl Markers {
         self.frames
     }
 
-    /// Returns the time the track takes, from its own start on.
+    /// Returns the span of the track, counted from its own start.
     #[must_use]
     pub fn span(&self) -> Span {
         self.times.span(self.frames)
     }
 
-    /// Returns the space of the places.
+    /// Returns the space of the positions.
     #[must_use]
     pub fn space(&self) -> &Space {
         &self.space
     }
 
-    /// Returns how the places came about.
+    /// Returns how the positions were obtained.
     #[must_use]
     pub fn capture(&self) -> Capture {
         self.capture
     }
 
-    /// Returns what the points' quality columns say, `None` if the file says nothing.
+    /// Returns the meaning of the quality columns; `None` if the file does not specify it.
     #[must_use]
     pub fn quality(&self) -> Option<Quality> {
         self.quality
@@ -279,14 +280,14 @@ impl Markers {
         &self.limbs
     }
 
-    /// Returns where the points are for a picture at `frame`, see [`Space::shown`]; `None` in gaps.
+    /// Returns the positions of the points for a picture at `frame`, see [`Space::shown`]; `None` in gaps.
     #[must_use]
     pub fn shown(&self, frame: usize) -> Vec<Option<DVec3>> {
         let shown = |point: &Marker| point.at(frame).map(|at| self.space.shown(at));
         self.points.iter().map(shown).collect()
     }
 
-    /// Returns where the points are for a picture at the frame that `instant` shows.
+    /// Returns the positions of the points for a picture at the frame that `instant` shows.
     #[must_use]
     pub fn shown_at(&self, instant: Instant) -> Vec<Option<DVec3>> {
         match self.times.frame_at(instant, self.frames) {

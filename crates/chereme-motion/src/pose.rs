@@ -1,4 +1,4 @@
-//! Postures in local and in model space, and the way from one to the other.
+//! Postures in local and in model space, and the conversion between them.
 
 use glam::{DQuat, DVec3};
 
@@ -9,11 +9,11 @@ use crate::skeleton::Skeleton;
 pub struct Pose {
     /// The rotation of each joint in its parent's space, a unit quaternion.
     pub rotations: Vec<DQuat>,
-    /// The place of each joint in its parent's space, in metres; the root's is in model space.
+    /// The position of each joint in its parent's space, in metres; the root's is in model space.
     pub translations: Vec<DVec3>,
 }
 
-/// A posture in model space: where each joint is and how it is turned.
+/// A posture in model space: the position and the rotation of each joint.
 ///
 /// With R the rotation and p the position of a joint in model space, q and t its rotation and
 /// translation in its parent's space, and P its parent: `R = R_P · q` and `p = p_P + R_P · t`.
@@ -27,7 +27,7 @@ impl ModelPose {
     /// Returns `pose` in model space (forward kinematics).
     ///
     /// # Panics
-    /// Where `pose` has another number of joints than `skeleton`.
+    /// Panics if `pose` has another number of joints than `skeleton`.
     #[must_use]
     pub fn of(skeleton: &Skeleton, pose: &Pose) -> Self {
         let mut model = Self {
@@ -38,10 +38,10 @@ impl ModelPose {
         model
     }
 
-    /// Replaces this posture by `pose` in model space without a new allocation.
+    /// Replaces this posture by `pose` in model space, without a new allocation.
     ///
     /// # Panics
-    /// Where `pose` has another number of joints than `skeleton`.
+    /// Panics if `pose` has another number of joints than `skeleton`.
     pub fn set(&mut self, skeleton: &Skeleton, pose: &Pose) {
         assert_eq!(
             pose.rotations.len(),
@@ -72,31 +72,31 @@ impl ModelPose {
         }
     }
 
-    /// Returns where `joint` is, in metres.
+    /// Returns the position of `joint`, in metres.
     #[must_use]
     pub fn position(&self, joint: usize) -> DVec3 {
         self.positions[joint]
     }
 
-    /// Returns how `joint` is turned.
+    /// Returns the rotation of `joint`.
     #[must_use]
     pub fn rotation(&self, joint: usize) -> DQuat {
         self.rotations[joint]
     }
 
-    /// Returns where every joint is, in metres.
+    /// Returns the positions of all joints, in metres.
     #[must_use]
     pub fn positions(&self) -> &[DVec3] {
         &self.positions
     }
 
-    /// Returns how every joint is turned.
+    /// Returns the rotations of all joints.
     #[must_use]
     pub fn rotations(&self) -> &[DQuat] {
         &self.rotations
     }
 
-    /// Returns the point `local` of `joint`'s space in model space.
+    /// Converts the point `local` in `joint`'s space to model space.
     #[must_use]
     pub fn point(&self, joint: usize, local: DVec3) -> DVec3 {
         self.positions[joint] + self.rotations[joint] * local

@@ -1,4 +1,4 @@
-//! The tree of joints, parents before children, checked once and never invalid.
+//! The tree of joints, parents before children; it is checked once and never invalid.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -8,20 +8,20 @@ use crate::pose::{ModelPose, Pose};
 /// One joint of a skeleton.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
-    /// The name as its source has it.
+    /// The name in its source.
     pub name: String,
     /// The index of the parent joint; only the root has none.
     pub parent: Option<usize>,
-    /// Where the joint is in its parent's space at rest, in metres.
+    /// The position of the joint in its parent's space at rest, in metres.
     pub offset: DVec3,
-    /// The local rotation at rest; the identity where the source knows none.
+    /// The local rotation at rest; the identity if the source does not specify one.
     pub rest: DQuat,
-    /// The end of the bone where no joint follows (an End Site), in this joint's space, in metres.
+    /// The end of a bone without a further joint (an End Site), in this joint's space, in metres.
     pub tip: Option<DVec3>,
 }
 
 impl Joint {
-    /// Returns a joint that is not turned at rest and has no tip.
+    /// Returns a joint without a rotation at rest and without a tip.
     #[must_use]
     pub fn new(name: impl Into<String>, parent: Option<usize>, offset: DVec3) -> Self {
         Self {
@@ -91,7 +91,7 @@ impl Skeleton {
     /// Returns the skeleton of `joints`, the root first and every parent before its children.
     ///
     /// # Errors
-    /// [`SkeletonError`] where the joints are not one tree in that order, or a number is not finite.
+    /// [`SkeletonError`] if the joints are not one tree in that order, or if a number is not finite.
     pub fn new(joints: Vec<Joint>) -> Result<Self, SkeletonError> {
         if joints.is_empty() {
             return Err(SkeletonError::Empty);
@@ -151,7 +151,7 @@ impl Skeleton {
     /// Returns the joint at `index`.
     ///
     /// # Panics
-    /// Where `index` is not below [`len`](Self::len).
+    /// Panics if `index` is not below [`len`](Self::len).
     #[must_use]
     pub fn joint(&self, index: usize) -> &Joint {
         &self.joints[index]
@@ -169,7 +169,7 @@ impl Skeleton {
         self.joints[index].parent
     }
 
-    /// Returns the first joint called `name`, letter by letter.
+    /// Returns the first joint whose name is exactly `name`.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<usize> {
         self.joints.iter().position(|joint| joint.name == name)
@@ -180,7 +180,7 @@ impl Skeleton {
         std::iter::successors(Some(index), |&joint| self.parent(joint))
     }
 
-    /// Returns `index` and all joints below it, parents first.
+    /// Returns `index` and all its descendants, parents first.
     #[must_use]
     pub fn subtree(&self, index: usize) -> Vec<usize> {
         let mut inside = vec![false; self.len()];

@@ -23,8 +23,8 @@ impl Instant {
         Self(micros)
     }
 
-    /// Returns the instant `millis` milliseconds after the start, as ELAN counts; it saturates at
-    /// the ends of the range.
+    /// Returns the instant `millis` milliseconds after the start, as ELAN counts; it saturates at the ends of the
+    /// range.
     #[must_use]
     pub const fn from_millis(millis: i64) -> Self {
         Self(millis.saturating_mul(1000))
@@ -67,7 +67,7 @@ impl fmt::Display for Instant {
     }
 }
 
-/// A half-open stretch of time: it holds its start and not its end, and is never negative.
+/// A half-open span of time: it includes its start and excludes its end, and is never negative.
 #[derive(
     Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize,
 )]
@@ -99,21 +99,21 @@ impl From<Span> for RawSpan {
     }
 }
 
-/// A span whose end lies before its start.
+/// A span whose end is before its start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("a span cannot end ({end}) before it starts ({start})")]
 pub struct SpanError {
-    /// The start that was asked for.
+    /// The requested start.
     pub start: Instant,
-    /// The end that was asked for.
+    /// The requested end.
     pub end: Instant,
 }
 
 impl Span {
-    /// Returns the span from `start` up to and without `end`; equal ends give an empty span.
+    /// Returns the span from `start` up to `end`, excluding `end`; equal ends give an empty span.
     ///
     /// # Errors
-    /// [`SpanError`] where `end` lies before `start`.
+    /// [`SpanError`] if `end` is before `start`.
     pub fn new(start: Instant, end: Instant) -> Result<Self, SpanError> {
         if end < start {
             Err(SpanError { start, end })
@@ -155,7 +155,7 @@ impl Span {
         self.micros() as f64 / 1e6
     }
 
-    /// Returns whether the span holds no instant.
+    /// Returns whether the span contains no instant.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.start == self.end
@@ -167,13 +167,13 @@ impl Span {
         self.start <= instant && instant < self.end
     }
 
-    /// Returns whether `other` lies wholly in the span.
+    /// Returns whether `other` lies completely in the span.
     #[must_use]
     pub fn covers(self, other: Self) -> bool {
         self.start <= other.start && other.end <= self.end
     }
 
-    /// Returns the part that both spans hold, or nothing where they share no instant.
+    /// Returns the common part of both spans; `None` if they share no instant.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         let (start, end) = (self.start.max(other.start), self.end.min(other.end));
@@ -226,7 +226,7 @@ impl From<Rate> for RawRate {
     }
 }
 
-/// A frame rate that cannot be.
+/// An invalid frame rate.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RateError {
     /// One of the two numbers of the fraction is zero.
@@ -242,7 +242,7 @@ pub enum RateError {
     FrameTime(f64),
 }
 
-/// Frame rates that exporters round when they write a frame time, as frames and seconds.
+/// Frame rates that exporters round in a frame time, as frames and seconds.
 const COMMON_RATES: [(u32, u32); 6] = [
     (24_000, 1001),
     (30_000, 1001),
@@ -256,7 +256,7 @@ impl Rate {
     /// Returns the rate of `frames` frames in `seconds` seconds.
     ///
     /// # Errors
-    /// [`RateError::Zero`] where either is zero.
+    /// [`RateError::Zero`] if either is zero.
     pub fn new(frames: u32, seconds: u32) -> Result<Self, RateError> {
         if frames == 0 || seconds == 0 {
             return Err(RateError::Zero { frames, seconds });
@@ -268,13 +268,12 @@ impl Rate {
         })
     }
 
-    /// Returns the rate that a frame time of `seconds`, written with `decimals` decimals, stands
-    /// for: the whole or broadcast (n·1000/1001, often typed as 23.976 or 29.97) rate that it is a rounding
-    /// or a truncation of within two millionths or its last decimal, else
-    /// the nearest fraction in whole microseconds.
+    /// Returns the rate for a frame time of `seconds`, written with `decimals` decimals. If the frame time is a
+    /// rounding or truncation of a whole or broadcast rate (n·1000/1001, often typed as 23.976 or 29.97), within two
+    /// millionths or its last decimal, it is that rate; else the nearest fraction in whole microseconds.
     ///
     /// # Errors
-    /// [`RateError::FrameTime`] where `seconds` is not between a microsecond and a day.
+    /// [`RateError::FrameTime`] if `seconds` is not between a microsecond and a day.
     pub fn from_frame_time(seconds: f64, decimals: u32) -> Result<Self, RateError> {
         if !(1e-6..=86_400.0).contains(&seconds) {
             return Err(RateError::FrameTime(seconds));
@@ -307,7 +306,7 @@ impl Rate {
         self.frames
     }
 
-    /// Returns the denominator: the seconds that [`frames`](Self::frames) frames take.
+    /// Returns the denominator: the seconds for [`frames`](Self::frames) frames.
     #[must_use]
     pub const fn per_seconds(self) -> u32 {
         self.seconds
@@ -344,14 +343,14 @@ impl Rate {
         usize::try_from(frame).unwrap_or(usize::MAX)
     }
 
-    /// Returns the frames whose starts lie in `span`, where a start within half a microsecond of
-    /// the span's ends counts as on it.
+    /// Returns the frames whose starts lie in `span`; a start within half a microsecond of the span's ends counts as
+    /// exactly there.
     #[must_use]
     pub fn frames_in(self, span: Span) -> Range<usize> {
         self.first_from(span.start)..self.first_from(span.end)
     }
 
-    /// Returns the span that `frames` frames from `first` on take.
+    /// Returns the span of the frames in `frames`.
     #[must_use]
     pub fn span(self, frames: Range<usize>) -> Span {
         Span::between(self.instant(frames.start), self.instant(frames.end))

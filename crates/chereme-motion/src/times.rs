@@ -1,4 +1,4 @@
-//! When the frames of a track are: at an even rate, or each at a time of its own.
+//! The times of a track's frames: at an even rate, or each with its own time.
 
 use crate::column::Column;
 use crate::time::{Instant, Rate, Span};
@@ -12,11 +12,11 @@ pub enum Times {
     Listed(Listed),
 }
 
-/// Times in seconds, exactly as the file gives them: no gaps, each later than the one before.
+/// Times in seconds, exactly as the file gives them: without gaps, each later than the one before.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Listed(Column);
 
-/// A reason why numbers are no times.
+/// A reason why numbers are not times.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TimesError {
     /// A frame has no time.
@@ -69,8 +69,8 @@ impl Listed {
         &self.0
     }
 
-    /// Returns the even rate whose frames lie within `tolerance` seconds of the times counted from the first one,
-    /// `None` if there is no such rate or there are fewer than two times.
+    /// Returns the even rate whose frames are within `tolerance` seconds of the times, counted from the first one;
+    /// `None` if there is no such rate, or if there are fewer than two times.
     #[must_use]
     pub fn even(&self, tolerance: f64) -> Option<Rate> {
         let times: Vec<f64> = self.0.values().flatten().collect();
@@ -88,12 +88,12 @@ impl Times {
     /// Returns the times of a column of seconds.
     ///
     /// # Errors
-    /// Those of [`Listed::new`].
+    /// The errors of [`Listed::new`].
     pub fn listed(seconds: Column) -> Result<Self, TimesError> {
         Listed::new(seconds).map(Self::Listed)
     }
 
-    /// Returns the even rate, `None` if frames have times of their own.
+    /// Returns the even rate; `None` if frames have their own times.
     #[must_use]
     pub fn rate(&self) -> Option<Rate> {
         match self {
@@ -102,7 +102,7 @@ impl Times {
         }
     }
 
-    /// Returns the number of frames that have a time, `None` if any number does.
+    /// Returns the number of frames that have a time; `None` if there is no limit.
     #[must_use]
     pub fn frames(&self) -> Option<usize> {
         match self {
@@ -111,7 +111,7 @@ impl Times {
         }
     }
 
-    /// Returns when `frame` is, rounded to the microsecond; after the last listed time that one's.
+    /// Returns the time of `frame`, rounded to the microsecond; after the last listed frame, its time.
     #[must_use]
     pub fn instant(&self, frame: usize) -> Instant {
         match self {
@@ -123,8 +123,8 @@ impl Times {
         }
     }
 
-    /// Returns the frame of `frames` that `instant` shows: the last one that is not after it, else the first.
-    /// At an even rate it is the nearest one, as for a clip.
+    /// Returns the index of the frame that `instant` shows, out of `frames`: the last one that is not after it, else
+    /// the first. At an even rate it is the nearest one, as for a clip.
     #[must_use]
     pub fn frame_at(&self, instant: Instant, frames: usize) -> Option<usize> {
         let last = frames.checked_sub(1)?;
@@ -134,8 +134,8 @@ impl Times {
         })
     }
 
-    /// Returns the span that `frames` frames take: from the first to the end of the last. The last of listed
-    /// frames takes as long as the median of the others, a single one no time.
+    /// Returns the span of `frames` frames: from the first to the end of the last. The last listed frame lasts as long
+    /// as the median of the others, and a single one has no duration.
     #[must_use]
     pub fn span(&self, frames: usize) -> Span {
         let Self::Listed(Listed(seconds)) = self else {
@@ -155,7 +155,7 @@ impl Times {
         Span::between(self.instant(0), self.instant(last).shifted(step))
     }
 
-    /// Returns the frames of `frames` whose times lie in `span`.
+    /// Returns those of `frames` whose times lie in `span`.
     #[must_use]
     pub fn frames_in(&self, span: Span, frames: usize) -> std::ops::Range<usize> {
         match self {

@@ -1,4 +1,4 @@
-//! The unit and the axes in which a skeleton was written, from the body it describes.
+//! Infers the unit and the axes in which a skeleton was written, from the body that it describes.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ use crate::skeleton::Skeleton;
 /// The likely unit and axes of a skeleton, and the reasons.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConventionGuess {
-    /// The unit and axes; those of model space if nothing shows others.
+    /// The unit and axes; those of model space if there is no evidence for others.
     pub convention: Convention,
     /// `m`, `cm`, `mm`, `inch`, `acclaim` (1/0.45 inch) or `unknown`.
     pub unit_name: &'static str,
@@ -32,7 +32,7 @@ const UNITS: [(&str, f64); 5] = [
     ("acclaim", 0.0254 / 0.45),
 ];
 
-/// The statures, in metres, of a body that a unit must give; children are signers too.
+/// The statures that a unit may give to a body, in metres; they include children.
 const STATURE: std::ops::Range<f64> = 1.2..2.3;
 
 /// The stature in metres assumed for a body whose unit is not one of the usual units of files.
@@ -179,7 +179,8 @@ fn unit(
     (name, metres, sure)
 }
 
-/// Returns metres, or centimetres where the skeleton would be larger than three metres.
+/// Returns the scale for an unknown unit and its name: metres, or centimetres if the skeleton would be larger than
+/// three metres.
 fn fallback_scale(skeleton: &Skeleton, rest: &ModelPose) -> (f64, &'static str) {
     let root = rest.position(0);
     let ends = (0..skeleton.len()).map(|j| rest.tip(skeleton, j).unwrap_or(rest.position(j)));

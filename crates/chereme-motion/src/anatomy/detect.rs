@@ -9,14 +9,14 @@ use super::{Ambiguity, Anatomy, Evidence};
 use crate::hand::Side;
 use crate::skeleton::Skeleton;
 
-/// What was found.
+/// The result of the detection.
 pub(super) struct Detected {
     pub(super) found: BTreeMap<Part, (usize, Evidence)>,
     pub(super) ambiguous: Vec<Ambiguity>,
     pub(super) markers: Vec<usize>,
 }
 
-/// Finds the parts; `said` is the user's word, nothing for a part the skeleton does not have.
+/// Finds the parts; `said` are the user's assignments, `None` for a part that the skeleton does not have.
 pub(super) fn detect(skeleton: &Skeleton, said: &BTreeMap<Part, Option<usize>>) -> Detected {
     let mut finder = Finder::new(skeleton, said);
     finder.head_and_trunk();
@@ -73,7 +73,7 @@ impl<'a> Finder<'a> {
         finder
     }
 
-    /// Gives labels without a side that of the joints above, else that of the joints below.
+    /// Gives labels without a side the side of the joints above, else that of the joints below.
     fn inherit_sides(&mut self) {
         let count = self.labels.len();
         let mut near: Vec<Option<Side>> = vec![None; count];
@@ -118,8 +118,8 @@ impl<'a> Finder<'a> {
         self.skeleton.ancestors(joint).any(|j| j == above)
     }
 
-    /// Takes the first of the words that occurs for `part`; a joint of the same name that is not
-    /// in one chain with it makes the part ambiguous.
+    /// Assigns `part` to the first joint with one of the words, in the order of `words`. Other joints with the same
+    /// word make the part ambiguous, unless they are below that joint.
     fn take(&mut self, part: Part, words: &[Word]) {
         let side = part.side();
         let all = words.iter().map(|&word| self.labelled(side, word));
@@ -163,7 +163,7 @@ impl<'a> Finder<'a> {
         self.take_upper_of(Part::Hand(side), [Word::Wrist, Word::Hand]);
     }
 
-    /// Of two words for joints of one chain (wrist and hand) takes the one nearer the body.
+    /// Assigns `part` to the one of two joints in a chain (wrist and hand) that is nearer to the body.
     fn take_upper_of(&mut self, part: Part, words: [Word; 2]) {
         let first = |word| self.labelled(part.side(), word).first().copied();
         let words = match words.map(first) {
@@ -217,7 +217,7 @@ impl<'a> Finder<'a> {
         self.assign_digit(side, digit, &joints, metacarpal, Evidence::Name);
     }
 
-    /// Gives the joints of a digit their parts, from the metacarpal or the base on.
+    /// Assigns the parts of a digit to its joints, from the metacarpal or the base on.
     pub(super) fn assign_digit(
         &mut self,
         side: Side,
@@ -239,8 +239,8 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Whether the first joint of a finger of three or more lies inside the hand: nearer to the
-    /// wrist than to its second joint, as a metacarpal does and a base joint does not.
+    /// Returns whether the first joint of a finger with three or more joints lies inside the hand: nearer to the wrist
+    /// than to its second joint. That is so for a metacarpal, and not for a base joint.
     pub(super) fn starts_inside(&self, chain: &[usize]) -> bool {
         let [first, second, _, ..] = *chain else {
             return false;
@@ -249,7 +249,8 @@ impl<'a> Finder<'a> {
         length(first) < length(second)
     }
 
-    /// The chest is where the arms (or one arm and the neck) part; the spine begins above the hips.
+    /// Finds the chest, where the arms (or one arm and the neck) branch off, and the spine, which begins above the
+    /// hips.
     fn chest_and_spine(&mut self) {
         let arms: Vec<usize> = Side::BOTH
             .iter()
@@ -288,7 +289,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Returns the lowest joint above both.
+    /// Returns the lowest common ancestor of two joints, which may be one of them.
     pub(super) fn common(&self, a: usize, b: usize) -> Option<usize> {
         let above: Vec<usize> = self.skeleton.ancestors(b).collect();
         self.skeleton
@@ -297,8 +298,7 @@ impl<'a> Finder<'a> {
     }
 }
 
-/// Pairs joints by part, then by name with the sides exchanged, then by their place below paired
-/// joints.
+/// Pairs joints by part, then by name with the sides exchanged, then by their position below paired joints.
 pub(super) fn mirror_map(anatomy: &Anatomy, skeleton: &Skeleton) -> Vec<Option<usize>> {
     let mut map: Vec<Option<usize>> = Vec::with_capacity(skeleton.len());
     let mut names: BTreeMap<&str, usize> = BTreeMap::new();
@@ -333,7 +333,7 @@ pub(super) fn mirror_map(anatomy: &Anatomy, skeleton: &Skeleton) -> Vec<Option<u
     map
 }
 
-/// Returns the name with its word for a side exchanged.
+/// Returns the name with its word for a side exchanged, if it has one.
 fn other_side(name: &str) -> Option<String> {
     for (a, b) in [("Left", "Right"), ("left", "right"), ("LEFT", "RIGHT")] {
         for (from, to) in [(a, b), (b, a)] {

@@ -1,8 +1,8 @@
-//! Finger and hand angles to local rotations and back, and the directions of the hand.
+//! Conversion between hand angles and local rotations, and the directions of the hand.
 //!
-//! All axes come from the rest geometry, so that the same angles look alike on any skeleton. With
-//! *along* from the wrist to the base of the middle finger, *radial* towards the thumb's side and
-//! *palm* out of the palm, all at right angles, a finger joint is turned in the hand's space by
+//! All axes come from the rest geometry, so that the same angles look alike on any skeleton. With *along* from the
+//! wrist to the base of the middle finger, *radial* towards the thumb's side and *palm* out of the palm, all
+//! perpendicular, a finger joint has the rotation D in the hand's space:
 //!
 //! `D = B(flexion) · N(spread)` at the base, `· B(flexion)` at each joint further out,
 //!
@@ -27,11 +27,11 @@ pub(super) struct HandFrame {
     pub(super) along: DVec3,
     pub(super) radial: DVec3,
     pub(super) palm: DVec3,
-    /// Turns vectors from the frame's (B, N, third) axes to the hand's space.
+    /// Rotation from the axes of B, N and O to the hand's space.
     basis: DQuat,
     thumb: [Option<Zero>; 3],
     fingers: [[Option<Zero>; 3]; 4],
-    /// The bones inside the palm, of each finger that has one.
+    /// The metacarpal joint of each finger that has one.
     metacarpals: [Option<usize>; 4],
 }
 
@@ -42,15 +42,15 @@ struct Zero {
     rotation: DQuat,
 }
 
-/// How far the bones inside the palm turn at most, in radians: 10 degrees for the ring finger and 23 for the little
-/// finger, less than hands can (El-Shennawy et al. 2001, J. Hand Surg. 26A: some 20 and 27 degrees).
+/// The greatest turn of the metacarpals, in radians: 10 degrees for the ring finger and 23 for the little finger, less
+/// than hands can (El-Shennawy et al. 2001, J. Hand Surg. 26A: some 20 and 27 degrees).
 const ARCH: [f64; 4] = [0.0, 0.0, 0.17, 0.40];
-/// How far the base of a finger is bent in a hand at ease, in radians: so far the palm stays flat.
+/// The flexion of a finger's base in a relaxed hand, in radians; up to it the palm stays flat.
 const LAX: f64 = 0.5;
-/// The spread of a finger in a wide spread hand, in radians.
+/// The spread of a finger in a widely spread hand, in radians.
 const WIDE: f64 = 0.35;
 
-/// Returns how far the bone inside the palm of a finger turns towards the palm.
+/// Returns the turn of a finger's metacarpal towards the palm, in radians.
 fn arch(place: usize, finger: &FingerAngles) -> f64 {
     let bent = ((finger.flexion[0] - LAX) / (FRAC_PI_2 - LAX)).clamp(0.0, 1.0);
     let outwards = (-finger.spread / WIDE).clamp(0.0, 1.0);
@@ -58,7 +58,7 @@ fn arch(place: usize, finger: &FingerAngles) -> f64 {
 }
 
 impl HandFrame {
-    /// Returns the frame of a hand with at least one finger, if the side of the thumb can be found.
+    /// Returns the frame of a hand with at least one finger; `None` if the side of the thumb cannot be found.
     pub(super) fn of(anatomy: &Anatomy, skeleton: &Skeleton, side: Side) -> Option<Self> {
         let hand = anatomy.joint(Part::Hand(side))?;
         let at = |part| {
@@ -108,7 +108,7 @@ impl HandFrame {
         Some(frame)
     }
 
-    /// Returns the rotations that joints of one digit have when it is straight along the hand.
+    /// Returns the rotations of a digit's joints when it is straight along the hand.
     fn zeros(
         &self,
         skeleton: &Skeleton,
@@ -143,7 +143,7 @@ impl HandFrame {
         zeros
     }
 
-    /// Returns the turn from *along* to `bone` that has no turn about the bone's own length.
+    /// Returns the rotation from *along* to `bone` without a twist about the bone's own length.
     fn base_turn(&self, bone: DVec3, thumb: bool) -> DQuat {
         let (a, r, p) = (
             bone.dot(self.along),
@@ -167,8 +167,8 @@ impl HandFrame {
         self.basis * order.to_quat(angles) * self.basis.inverse()
     }
 
-    /// Returns how far a turn bends a thumb's bone across the palm: the angle between the bones as they lie, however
-    /// the hinge is turned, negative if it is bent back.
+    /// Returns by how much a rotation bends a thumb's bone across the palm, in radians: the angle between the bones
+    /// regardless of the hinge's direction, negative if it is bent back.
     fn across(&self, turn: DQuat) -> f64 {
         let bone = turn * self.along;
         let bend = bone.dot(self.along).clamp(-1.0, 1.0).acos();
@@ -181,7 +181,7 @@ impl HandFrame {
     }
 }
 
-/// Returns where `joint` is and how it is turned at rest in the space of `hand` above it.
+/// Returns the position and the rotation of `joint` at rest, in the space of its ancestor `hand`.
 pub(super) fn in_hand(skeleton: &Skeleton, hand: usize, joint: usize) -> (DVec3, DQuat) {
     let (mut place, mut turned) = (DVec3::ZERO, DQuat::IDENTITY);
     for above in skeleton.ancestors(joint).take_while(|&j| j != hand) {
@@ -192,7 +192,7 @@ pub(super) fn in_hand(skeleton: &Skeleton, hand: usize, joint: usize) -> (DVec3,
     (place, turned.normalize())
 }
 
-/// Returns where the bone of `joint` ends: at the digit's next joint, its tip, or its only child.
+/// Returns the end of the bone of `joint`: the digit's next joint, its tip, or its only child.
 fn bone_end(skeleton: &Skeleton, hand: usize, joint: usize, next: Option<usize>) -> Option<DVec3> {
     let child = match *skeleton.children(joint) {
         [child] => Some(child),
@@ -205,9 +205,9 @@ fn bone_end(skeleton: &Skeleton, hand: usize, joint: usize, next: Option<usize>)
     skeleton.joint(joint).tip.map(|tip| place + turned * tip)
 }
 
-/// Returns whether thumb and fingers at rest lie and bend clearly away from the palm that the side implies: the
-/// skeleton was mirrored without its names. Both must do so by at least 0.3 rad, so that a hand at ease is never
-/// counted.
+/// Returns whether thumb and fingers at rest clearly point and bend away from the palm that the side implies: then the
+/// skeleton was mirrored without renaming its joints. Both must do so by at least 0.3 rad, so that a relaxed hand is
+/// never affected.
 fn is_inside_out(anatomy: &Anatomy, skeleton: &Skeleton, side: Side, axes: [DVec3; 3]) -> bool {
     let Some(hand) = anatomy.joint(Part::Hand(side)) else {
         return false;
@@ -233,12 +233,12 @@ fn is_inside_out(anatomy: &Anatomy, skeleton: &Skeleton, side: Side, axes: [DVec
 impl Anatomy {
     /// Returns the posture of the hand of `side`; angles of joints that the skeleton lacks are zero.
     ///
-    /// Returns `None` if the hand has no finger, or if the side of the thumb is unknown. Turns of a finger about
-    /// its length and sideways bends of its outer joints have no angle and are left out. The thumb's opposition is
-    /// relative to the rest pose, which counts as zero.
+    /// Returns `None` if the hand has no finger, or if the side of the thumb is unknown. Twists of a finger about its
+    /// length and sideways bends of its outer joints have no angle and are left out. The thumb's opposition is relative
+    /// to the rest pose, which counts as zero.
     ///
     /// # Panics
-    /// Where `pose` has fewer joints than `skeleton`.
+    /// Panics if `pose` has fewer joints than `skeleton`.
     #[must_use]
     pub fn hand_angles(&self, skeleton: &Skeleton, side: Side, pose: &Pose) -> Option<HandAngles> {
         let frame = self.hand_frame(side)?;
@@ -275,15 +275,15 @@ impl Anatomy {
         Some(HandAngles { thumb, fingers })
     }
 
-    /// Gives the hand of `side` in `pose` the posture `angles` and returns whether it has fingers.
+    /// Sets the hand of `side` in `pose` to the posture `angles`, and returns whether it has fingers.
     ///
     /// Only rotations below the wrist change: finger joints are set, angles of joints that the skeleton lacks are
-    /// left out, and everything else stays. Metacarpals go to rest, but for those of ring and little finger, which
-    /// carry their fingers towards the palm where these are bent and spread at once, as around a ball
-    /// (Kennaway, *Avatar-independent scripting for real-time gesture animation*, section 4.3).
+    /// ignored, and everything else stays. Metacarpals return to rest, except those of ring and little finger: they
+    /// carry their fingers towards the palm if these are bent and spread at once, as around a ball (Kennaway,
+    /// *Avatar-independent scripting for real-time gesture animation*, section 4.3).
     ///
     /// # Panics
-    /// Where `pose` has fewer joints than `skeleton`.
+    /// Panics if `pose` has fewer joints than `skeleton`.
     pub fn set_hand_angles(
         &self,
         skeleton: &Skeleton,
@@ -348,8 +348,8 @@ impl Anatomy {
         Some(model.rotation(hand) * self.hand_frame(side)?.palm)
     }
 
-    /// Returns the unit vector from the wrist of `side` to the base of its middle finger in model
-    /// space; without fingers along the hand's bone, else along the forearm's.
+    /// Returns the unit vector from the wrist of `side` to the base of its middle finger in model space; for a hand
+    /// without fingers, along the hand's bone, else along the forearm's.
     #[must_use]
     pub fn hand_direction(&self, side: Side, model: &ModelPose) -> Option<DVec3> {
         let hand = self.joint(Part::Hand(side))?;
@@ -365,10 +365,10 @@ impl Anatomy {
     }
 
     /// Returns the rotation of the hand joint of `side` in model space for which
-    /// [`hand_direction`](Self::hand_direction) is `direction` and
-    /// [`palm_normal`](Self::palm_normal) as near to `palm` as the right angle between them lets it.
+    /// [`hand_direction`](Self::hand_direction) is `direction` and [`palm_normal`](Self::palm_normal) is as near to
+    /// `palm` as a right angle between them allows.
     ///
-    /// Returns `None` if the hand has too few fingers, or if the two directions lie on one line.
+    /// Returns `None` if the hand has too few fingers, or if the two directions are parallel.
     #[must_use]
     pub fn hand_rotation(&self, side: Side, direction: DVec3, palm: DVec3) -> Option<DQuat> {
         let frame = self.hand_frame(side)?;
@@ -380,7 +380,7 @@ impl Anatomy {
     }
 }
 
-/// Returns how `joint` is turned in the space of `hand`, which is it or above it.
+/// Returns the rotation of `joint` in the space of `hand`, which is the same joint or an ancestor.
 fn below(skeleton: &Skeleton, hand: usize, joint: usize, pose: &Pose) -> DQuat {
     skeleton
         .ancestors(joint)

@@ -1,4 +1,4 @@
-//! Skeletons for tests: one body, worn in many ways.
+//! Skeletons for tests: one body with many variations.
 
 pub(crate) mod conventions;
 pub(crate) mod real;
@@ -9,24 +9,24 @@ use super::Part;
 use crate::hand::{Finger, Side};
 use crate::skeleton::{Joint, Skeleton};
 
-/// How the body is worn.
+/// The variation of the body.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Wear {
-    /// Turns each joint's own space by `turn(n)` for the n-th joint.
+    /// Rotates the own space of the n-th joint by `frames(n)`.
     pub(crate) frames: fn(usize) -> DQuat,
-    /// Turns the whole body, as another choice of axes does.
+    /// Rotates the whole body, like another choice of axes.
     pub(crate) axes: DQuat,
-    /// The length of a metre.
+    /// The length of a metre in the skeleton's unit.
     pub(crate) unit: f64,
     /// Whether fingers have metacarpals.
     pub(crate) metacarpals: bool,
-    /// How many joints a finger has from the base on.
+    /// The number of joints per finger, from the base on.
     pub(crate) joints: u8,
     /// Whether bones end in tips.
     pub(crate) tips: bool,
-    /// How far the finger joints are bent at rest, in radians.
+    /// The flexion of the finger joints at rest, in radians.
     pub(crate) bent: f64,
-    /// How far the arms hang down at rest, in radians.
+    /// The lowering of the arms at rest, in radians; 0 is a T-pose.
     pub(crate) lowered: f64,
 }
 
@@ -41,7 +41,7 @@ pub(crate) const PLAIN: Wear = Wear {
     lowered: 0.0,
 };
 
-/// Returns a rotation that looks arbitrary and is the same for the same number.
+/// Returns a rotation that looks arbitrary; the same for the same number.
 pub(crate) fn any_turn(n: usize) -> DQuat {
     let x = n as f64;
     let axis = DVec3::new(
@@ -137,7 +137,7 @@ impl Builder {
     }
 }
 
-/// Returns a body 1.75 m tall in a T pose (or with lowered arms), joints named after their parts.
+/// Returns a body 1.75 m tall in a T-pose (or with lowered arms), whose joints are named after their parts.
 pub(crate) fn body(wear: Wear) -> Skeleton {
     let mut b = Builder(Vec::new());
     let hips = b.add(Part::Hips, None, [0.0, 0.95, 0.0]);
@@ -230,7 +230,7 @@ fn finish(b: Builder, wear: Wear) -> Skeleton {
     Skeleton::new(joints).expect("the body is a tree")
 }
 
-/// Returns the same skeleton with joints called otherwise.
+/// Returns the same skeleton with other joint names.
 pub(crate) fn renamed(skeleton: &Skeleton, name: impl Fn(usize, &str) -> String) -> Skeleton {
     let joints = skeleton.joints().iter().enumerate();
     let joints = joints.map(|(n, joint)| Joint {
@@ -240,8 +240,8 @@ pub(crate) fn renamed(skeleton: &Skeleton, name: impl Fn(usize, &str) -> String)
     Skeleton::new(joints.collect()).expect("names do not matter")
 }
 
-/// Returns the roles that give every joint of [`body`] the part it is named after, so that tests
-/// do not rest on names.
+/// Returns roles that give every joint of [`body`] the part that it is named after, so that tests do not depend on the
+/// detection of names.
 pub(crate) fn roles(skeleton: &Skeleton) -> super::Roles {
     let joints = skeleton.joints().iter();
     let named = joints.filter_map(|joint| Some((joint.name.parse().ok()?, joint.name.clone())));

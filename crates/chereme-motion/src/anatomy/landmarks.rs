@@ -1,4 +1,4 @@
-//! Places on the body, from the skeleton's own measures.
+//! Places on the body, computed from the skeleton's own measures.
 //!
 //! Places of the face are fixed to the head and follow its rotation. Heights are shares of the
 //! head's height from chin to top: the eyes at one half (Drillis & Contini 1966 give eye height
@@ -15,8 +15,8 @@ use crate::hand::{Finger, Side};
 use crate::pose::ModelPose;
 use crate::skeleton::Skeleton;
 
-/// Places of the head: name, and left, up and forward from the chin's height below the middle of
-/// the skull, in head heights. Those that are not in the middle exist on both sides.
+/// Places of the head: name, and the offset to the left, up and forward from the middle of the skull at the height of
+/// the chin, in head heights. Those off the middle exist on both sides.
 const HEAD: [(&str, [f64; 3]); 19] = [
     ("head-top", [0.0, 1.0, 0.0]),
     ("head-back", [0.0, 0.58, -0.43]),
@@ -39,8 +39,8 @@ const HEAD: [(&str, [f64; 3]); 19] = [
     ("under-chin", [0.0, -0.03, 0.33]),
 ];
 
-/// Places of the trunk: name, left and forward in shoulder widths, up in trunk lengths, all from
-/// the middle between the shoulder joints.
+/// Places of the trunk: name, offset to the left and forward in shoulder widths, and up in trunk lengths, all from the
+/// point midway between the shoulder joints.
 const TRUNK: [(&str, [f64; 3]); 12] = [
     ("throat", [0.0, 0.18, 0.16]),
     ("neck", [0.0, 0.24, 0.12]),
@@ -56,7 +56,7 @@ const TRUNK: [(&str, [f64; 3]); 12] = [
     ("waist", [0.42, -0.78, 0.0]),
 ];
 
-/// Names for the same place.
+/// Other names for places.
 const SYNONYMS: [(&str, &str); 11] = [
     ("top-of-head", "head-top"),
     ("back-of-head", "head-back"),
@@ -89,20 +89,20 @@ const ARM: [&str; 14] = [
     "little-tip",
 ];
 
-/// Places of the trunk that exist on one side each.
+/// Places of the trunk that exist on both sides.
 const SIDED: [&str; 4] = ["neck-side", "chest-side", "armpit", "waist"];
 
-/// The head's directions and the place of its chin, in the space of the head's joint.
+/// The head's directions and the position of its chin, in the space of the head's joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct HeadFrame {
-    /// Turns left, up and forward to the joint's space.
+    /// Rotation from left, up and forward to the joint's space.
     axes: DQuat,
     /// The middle of the skull at the height of the chin.
     chin: DVec3,
 }
 
 impl HeadFrame {
-    /// Returns the frame of a head that faces where the trunk faces in the posture `model`.
+    /// Returns the frame of a head that has the same direction as the trunk in the posture `model`.
     pub(super) fn of(
         anatomy: &Anatomy,
         model: &ModelPose,
@@ -131,9 +131,9 @@ impl HeadFrame {
 }
 
 impl Anatomy {
-    /// Returns the names that [`landmark`](Self::landmark) knows, in order of the alphabet.
+    /// Returns the names that [`landmark`](Self::landmark) accepts, in alphabetical order.
     ///
-    /// Which of them a skeleton has depends on its parts.
+    /// Not every skeleton has the joints for all of them.
     #[must_use]
     pub fn landmarks() -> Vec<String> {
         let sided = |name: &str, each: bool| -> Vec<String> {
@@ -164,11 +164,11 @@ impl Anatomy {
         names
     }
 
-    /// Returns the place called `name` on the body in the posture `model`, in metres.
+    /// Returns the position of the place `name` on the body in the posture `model`, in metres.
     ///
-    /// The side stands before or after the name (`left-ear`, `ear left`); blanks and underscores count as hyphens.
-    /// Places on the skin lie at the distance from the bone that a person of this size has. Returns `None` for a
-    /// name that is not in [`landmarks`](Self::landmarks), or if the skeleton lacks the joints for it.
+    /// The side comes before or after the name (`left-ear`, `ear left`); blanks and underscores count as hyphens. The
+    /// distance of places on the skin from the bone is that of a person of this size. Returns `None` for a name that is
+    /// not in [`landmarks`](Self::landmarks), or if the skeleton lacks the joints for it.
     #[must_use]
     pub fn landmark(&self, skeleton: &Skeleton, model: &ModelPose, name: &str) -> Option<DVec3> {
         let (side, name) = split(name);
@@ -266,8 +266,8 @@ impl Anatomy {
         }
     }
 
-    /// Returns places on the hand's palm, back and edges, half a hand's thickness or breadth from
-    /// its middle; the middle lies half-way from the wrist to the base of the middle finger.
+    /// Returns a place on the hand's palm, back or edges, half a hand's thickness or breadth from its middle; the
+    /// middle lies half-way from the wrist to the base of the middle finger.
     fn on_hand(&self, model: &ModelPose, side: Side, wrist: DVec3, name: &str) -> Option<DVec3> {
         let length = self.measures()?.hand;
         let along = self.hand_direction(side, model)?;
@@ -287,7 +287,7 @@ impl Anatomy {
         Some(middle + out)
     }
 
-    /// Returns the end of a digit: its last joint's tip, else on from the last bone for 0.8 of its
+    /// Returns the end of a digit: its last joint's tip, else a point beyond the last joint by 0.8 of the last bone's
     /// length.
     fn fingertip(
         &self,
@@ -317,9 +317,9 @@ impl Anatomy {
 
     /// Returns the frame of the trunk in the posture `model`.
     ///
-    /// Up runs from the hips to the shoulders. Left runs along the collar bones if they are apart, else along the
-    /// shoulders, else along the hips; so a signer turned away from +Z is still measured in body space. Returns
-    /// `None` if the skeleton lacks these joints, or if they lie in a line.
+    /// Up is the direction from the hips to the shoulders. Left follows the collar bones if they are apart, else the
+    /// shoulders, else the hips; so a signer turned away from +Z is still measured in body space. Returns `None` if the
+    /// skeleton lacks these joints, or if they lie in a line.
     #[must_use]
     pub fn body_frame(&self, model: &ModelPose) -> Option<BodyFrame> {
         let [left, up, forward] = super::measures::trunk_axes(self, model)?;
@@ -338,7 +338,7 @@ impl Anatomy {
     }
 }
 
-/// Cuts a landmark's name into its side and the canonical rest.
+/// Splits a landmark's name into its side and the canonical rest.
 fn split(name: &str) -> (Option<Side>, String) {
     let lower = name.to_lowercase().replace(['_', ' '], "-");
     let mut side = None;

@@ -1,31 +1,31 @@
-//! Optical markers that stand beside a skeleton: leaves in the root's space, which no part of the body is.
+//! Optical markers stored beside a skeleton: leaves in the root's space that are not parts of the body.
 //!
-//! Capture programs export them together with the skeleton that was solved from them. Some are called like joints
-//! (`RTOE`, `RMID0`, `C7`), so that names alone would give them the parts of toes, fingers and neck.
+//! Capture programs export them together with the skeleton that was solved from them. Some have names like joints
+//! (`RTOE`, `RMID0`, `C7`), so that names alone would make them toes, fingers and neck.
 
 use super::names::{self, Label, Word};
 use crate::skeleton::Skeleton;
 
-/// Labels of markers that stand on both sides, after their `L` or `R`: those of Plug-in Gait, of the set of 41 markers
-/// that CMU used, of Helen Hayes, and of hands.
+/// Labels of markers that exist on both sides, without their `L` or `R`: those of Plug-in Gait, of the set of 41
+/// markers that CMU used, of Helen Hayes, and of hands.
 const SIDED: [&str; 51] = [
     "FHD", "BHD", "SHO", "UPA", "ELB", "IEL", "OEL", "MEL", "FRM", "FRA", "WRA", "WRB", "IWR",
     "OWR", "WRI", "FIN", "HND", "ASI", "PSI", "ILC", "FWT", "BWT", "THI", "KNE", "KNI", "MKN",
     "TIB", "SHN", "ANK", "MAN", "HEE", "HEL", "TOE", "MT1", "MT5", "ARM", "BAK", "CLA", "SCA",
     "TH", "THM", "IN", "IDX", "MID", "RIN", "RNG", "PIN", "PNK", "LIT", "MCP", "PIP",
 ];
-/// Labels of markers of the middle.
+/// Labels of markers on the middle line.
 const MIDDLE: [&str; 16] = [
     "C7", "T8", "T10", "T12", "L5", "CLAV", "STRN", "SACR", "ARIEL", "MFHD", "MBHD", "TOPHEAD",
     "VSACRAL", "BACK", "TSPN", "LSPN",
 ];
-/// The fewest markers that are recognised by name: single leaves with such names may be joints.
+/// The least number of markers that are recognised by name: single leaves with such names may be joints.
 const FEWEST: usize = 4;
-/// The fewest joints of the skeleton of a whole body.
+/// The least number of joints of a whole body's skeleton.
 const WHOLE: usize = 10;
 
-/// Returns the markers: leaves beside the root of a whole body's skeleton, whatever they are called, and leaves below
-/// the root or the hips that have names of markers, where there are several.
+/// Returns the markers: leaves beside the body of a whole skeleton, whatever their names; and leaves below the root or
+/// the hips with names of markers, if there are at least [`FEWEST`].
 pub(super) fn find(skeleton: &Skeleton, names: &[&str], labels: &[Option<Label>]) -> Vec<usize> {
     let leaf = |joint: usize| skeleton.children(joint).is_empty();
     let body = body(skeleton, labels);
@@ -52,7 +52,7 @@ pub(super) fn find(skeleton: &Skeleton, names: &[&str], labels: &[Option<Label>]
         .collect()
 }
 
-/// Returns the joint from which both arms, and legs where there are any, hang.
+/// Returns the joint that carries both arms, and the legs if there are any.
 fn body(skeleton: &Skeleton, labels: &[Option<Label>]) -> Option<usize> {
     let limb = |joint: &usize| {
         let inner = !skeleton.children(*joint).is_empty();
@@ -90,7 +90,7 @@ fn body(skeleton: &Skeleton, labels: &[Option<Label>]) -> Option<usize> {
     above.first().copied()
 }
 
-/// Returns whether a name is that of a marker, such as `LFHD`, `NS:C7` or `RMID6`; `R.Shoulder.1` is a joint.
+/// Returns whether a name is that of a marker, such as `LFHD`, `NS:C7` or `RMID6`; `R.Shoulder.1` is that of a joint.
 fn is_marker(name: &str) -> bool {
     let bare = names::without_rig(name).trim();
     if bare.is_empty() || bare.chars().any(|c| c.is_lowercase()) {
@@ -117,7 +117,7 @@ mod tests {
     use crate::hand::{Finger, Side};
     use crate::skeleton::Joint;
 
-    /// The body with markers below `parent` of a wrapper (0) or of the hips (1), as capture programs write them.
+    /// Returns a body with markers below `parent` of a wrapper (0) or of the hips (1), like those of capture programs.
     fn with_markers(wrapped: bool, space: &str) -> Skeleton {
         let plain = renamed(&body(PLAIN), |_, name| {
             let words = name.split(' ').map(|word| {

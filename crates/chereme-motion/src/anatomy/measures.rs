@@ -7,23 +7,23 @@ use crate::hand::{Finger, Side};
 use crate::pose::ModelPose;
 use crate::skeleton::Skeleton;
 
-/// Shares of stature after Drillis & Contini 1966, as in Winter, *Biomechanics and Motor Control
-/// of Human Movement*, fig. 4.1.
+/// Shares of stature after Drillis & Contini 1966, as in Winter, *Biomechanics and Motor Control of Human Movement*,
+/// fig. 4.1.
 pub(super) const ARM: f64 = 0.186 + 0.146;
 pub(super) const HAND: f64 = 0.108;
 const LEG: f64 = 0.245 + 0.246;
 const ANKLE: f64 = 0.039;
 const HEAD: f64 = 0.130;
 const TRUNK: f64 = 0.818 - 0.530;
-/// The distance of the shoulder joints' centres: the breadth of the shoulders there, 0.259, less
-/// some 5 cm of bone and flesh on either side at a stature of 1.7 m.
+/// The distance of the shoulder joints' centres as a share of stature: the breadth of the shoulders, 0.259, less some 5
+/// cm of bone and flesh on either side at a stature of 1.7 m.
 const SHOULDERS: f64 = 0.200;
 
 /// The size of a body, in the unit of its skeleton: metres in model space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measures {
-    /// From the sole to the top of the head; from the whole body where the skeleton has it, else
-    /// from the arm's, the leg's or the hand's share of it.
+    /// From the sole to the top of the head; measured on the whole body if the skeleton has it, else inferred from the
+    /// arm, the leg or the hand.
     pub stature: f64,
     /// Between the two shoulder joints.
     pub shoulder_width: f64,
@@ -90,7 +90,7 @@ fn both(measure: impl Fn(Side) -> Option<f64>) -> Option<f64> {
     (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
 }
 
-/// Returns the lengths of the bones from `above` down to `joint`, one after the other.
+/// Returns the length of the bones from `above` down to `joint`.
 fn length(skeleton: &Skeleton, joint: usize, above: usize) -> f64 {
     let path = skeleton.ancestors(joint).take_while(|&j| j != above);
     path.map(|j| skeleton.joint(j).offset.length()).sum()
@@ -133,7 +133,7 @@ fn head_top(anatomy: &Anatomy, skeleton: &Skeleton, stature: f64) -> f64 {
     }
 }
 
-/// Returns the way from the hip joints up to the head's joint.
+/// Returns the distance from the hip joints up to the head's joint.
 fn trunk_and_neck(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<f64> {
     let (head, hips) = (anatomy.joint(Part::Head)?, anatomy.joint(Part::Hips)?);
     if !anatomy.is_below(head, hips) {
@@ -153,8 +153,8 @@ fn trunk_length(anatomy: &Anatomy, model: &ModelPose) -> Option<f64> {
     Some(shoulders.distance(hips))
 }
 
-/// Returns the distance of the shoulders in the posture where it fits the stature; else that of
-/// collar bones in one line; else its share of the stature.
+/// Returns the distance of the shoulders in the posture if it fits the stature; else the distance that they have when
+/// both collar bones lie in one line, if that fits; else the usual share of the stature.
 fn shoulder_width(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose, stature: f64) -> f64 {
     let joint = |side| anatomy.joint(Part::UpperArm(side));
     let fits = |width: &f64| (0.12 * stature..0.35 * stature).contains(width);
@@ -176,7 +176,7 @@ fn shoulder_width(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose, sta
         .unwrap_or(SHOULDERS * stature)
 }
 
-/// Returns the middle between a part of the right and of the left, or the one there is.
+/// Returns the point midway between a part on the right and on the left, or the position of the only one.
 pub(super) fn middle(
     anatomy: &Anatomy,
     model: &ModelPose,
@@ -189,54 +189,54 @@ pub(super) fn middle(
     }
 }
 
-/// The frame of a signer's trunk in a posture: a place, three directions, a size.
+/// The frame of a signer's trunk in a posture: an origin, three directions, a size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyFrame {
     /// The middle between the shoulder joints, in model space.
     pub origin: DVec3,
     /// The unit vector to the signer's left.
     pub left: DVec3,
-    /// The unit vector up along the trunk, at right angles to `left`.
+    /// The unit vector up along the trunk, perpendicular to `left`.
     pub up: DVec3,
     /// The unit vector that the chest faces.
     pub forward: DVec3,
-    /// The distance of the shoulder joints in metres, the unit of body space.
+    /// The distance of the shoulder joints in metres, which is the unit of body space.
     pub scale: f64,
 }
 
 impl BodyFrame {
-    /// Returns the place `at` of model space in shoulder widths left, up and forward of the origin.
+    /// Converts a position in model space to shoulder widths to the left, up and forward of the origin.
     #[must_use]
     pub fn to_body(&self, at: DVec3) -> DVec3 {
         self.direction_to_body(at - self.origin) / self.scale
     }
 
-    /// Returns the place in model space of shoulder widths left, up and forward of the origin.
+    /// Converts a position in shoulder widths to the left, up and forward of the origin to model space.
     #[must_use]
     pub fn to_model(&self, at: DVec3) -> DVec3 {
         self.origin + self.direction_to_model(at * self.scale)
     }
 
-    /// Returns a direction or distance of model space along left, up and forward, in metres.
+    /// Converts a direction or distance in model space to components to the left, up and forward, in metres.
     #[must_use]
     pub fn direction_to_body(&self, v: DVec3) -> DVec3 {
         DVec3::new(v.dot(self.left), v.dot(self.up), v.dot(self.forward))
     }
 
-    /// Returns a direction or distance along left, up and forward in model space, in metres.
+    /// Converts components to the left, up and forward to a direction or distance in model space, in metres.
     #[must_use]
     pub fn direction_to_model(&self, v: DVec3) -> DVec3 {
         self.left * v.x + self.up * v.y + self.forward * v.z
     }
 
-    /// Returns the rotation that takes model axes to left, up and forward.
+    /// Returns the rotation from the model axes to left, up and forward.
     #[must_use]
     pub fn rotation(&self) -> DQuat {
         DQuat::from_mat3(&DMat3::from_cols(self.left, self.up, self.forward)).normalize()
     }
 }
 
-/// Returns left, up and forward of the trunk; nothing where the joints do not span a plane.
+/// Returns left, up and forward of the trunk; `None` if the joints do not span a plane.
 pub(super) fn trunk_axes(anatomy: &Anatomy, model: &ModelPose) -> Option<[DVec3; 3]> {
     let at = |part| anatomy.joint(part).map(|j| model.position(j));
     let low = at(Part::Hips)

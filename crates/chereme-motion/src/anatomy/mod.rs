@@ -1,4 +1,4 @@
-//! Which joint is what, whatever the skeleton calls it, and what follows from that.
+//! The parts of the body that a skeleton's joints stand for, and the measures and directions that follow.
 //!
 //! ```
 //! use chereme_motion::anatomy::{Anatomy, Part};
@@ -18,16 +18,16 @@
 //! | module | holds |
 //! |---|---|
 //! | `part` | the parts of the body and their names |
-//! | `names` | what joint names say, over the conventions people meet |
+//! | `names` | the meaning of joint names, in common conventions |
 //! | `detect` | parts found by name |
-//! | `markers` | optical markers beside a skeleton, which are no parts |
-//! | `topology` | parts found by how joints hang together |
-//! | `roles` | the user's word on it |
+//! | `markers` | optical markers beside a skeleton, which are not parts |
+//! | `topology` | parts found by the hierarchy of joints |
+//! | `roles` | the user's assignment of joints to parts |
 //! | `measures` | the size of the body, the frame of the trunk |
 //! | `convention` | the unit and axes a skeleton was written in |
 //! | `landmarks` | places on the body |
-//! | `range` | where a signer's fingers are straight and fully bent, from the takes themselves |
-//! | `fingers` | finger angles to local rotations and back, directions of the hand |
+//! | `range` | the angles of straight and fully bent fingers, from a signer's own takes |
+//! | `fingers` | conversion between finger angles and local rotations, directions of the hand |
 
 mod convention;
 mod detect;
@@ -66,11 +66,11 @@ use crate::skeleton::Skeleton;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Evidence {
-    /// The user said so.
+    /// By the user's assignment.
     Roles,
     /// By the joint's name.
     Name,
-    /// By its place among the other joints.
+    /// By its position in the hierarchy of joints.
     Topology,
 }
 
@@ -79,16 +79,16 @@ pub enum Evidence {
 pub struct Ambiguity {
     /// The part.
     pub part: Part,
-    /// The joint that was taken.
+    /// The joint that was chosen.
     pub taken: usize,
-    /// Other joints whose names mean the same; empty if only the side is unknown.
+    /// Other joints whose names have the same meaning; empty if only the side is unknown.
     pub others: Vec<usize>,
 }
 
 /// The joints of an arm, from the body outwards.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ArmChain {
-    /// The collar bone's joint, where there is one.
+    /// The joint of the collar bone, if any.
     pub clavicle: Option<usize>,
     /// The shoulder.
     pub upper: usize,
@@ -98,10 +98,10 @@ pub struct ArmChain {
     pub hand: usize,
 }
 
-/// Which joint of a skeleton is which part of the body.
+/// The assignment of a skeleton's joints to parts of the body.
 ///
-/// It belongs to the skeleton it was found in: indices are that skeleton's, and methods that take
-/// a skeleton or a posture expect the same one.
+/// It belongs to the skeleton that it was detected in: indices are that skeleton's, and methods that take a skeleton or
+/// a posture expect the same one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Anatomy {
     found: BTreeMap<Part, (usize, Evidence)>,
@@ -117,7 +117,7 @@ pub struct Anatomy {
     posed: bool,
 }
 
-/// The place of a side in pairs, right first.
+/// Returns the index of a side in pairs, right first.
 fn place(side: Side) -> usize {
     usize::from(side == Side::Left)
 }
@@ -129,10 +129,10 @@ impl Anatomy {
         Self::of(skeleton, detect::detect(skeleton, &BTreeMap::new()))
     }
 
-    /// Finds the parts of the body as [`detect`](Self::detect) does, after the user's word.
+    /// Finds the parts of the body like [`detect`](Self::detect), with the user's assignments first.
     ///
     /// # Errors
-    /// [`RolesError`] where the roles name a joint that the skeleton does not have.
+    /// [`RolesError`] if the roles name a joint that the skeleton does not have.
     pub fn with_roles(skeleton: &Skeleton, roles: &Roles) -> Result<Self, RolesError> {
         let said = roles.resolve(skeleton)?;
         Ok(Self::of(skeleton, detect::detect(skeleton, &said)))
@@ -164,7 +164,7 @@ impl Anatomy {
         anatomy.with_reference(skeleton, &skeleton.rest_model_pose())
     }
 
-    /// Returns the same anatomy measured in the posture `model` in place of the rest pose.
+    /// Returns the same anatomy, measured in the posture `model` instead of the rest pose.
     ///
     /// Pass a posture in which the signer stands upright and looks ahead if [`is_posed`](Self::is_posed) returns
     /// false: many files keep every bone along one local axis and put the body together by rotations only. The
@@ -195,8 +195,9 @@ impl Anatomy {
         right.dot(left) > 0.9 && right.dot(up).abs() < 0.5
     }
 
-    /// Returns which way the elbow points, in the upper arm's space: as it is bent in `model`, else
-    /// away from where the body faces. Nothing where the arm points along that line.
+    /// Returns the direction in which the elbow points, in the upper arm's space: as it is bent in `model`; if it is
+    /// straight, the opposite of the direction that the body faces. Returns `None` if a straight arm is parallel to
+    /// that direction.
     fn elbow_at(&self, side: Side, model: &ModelPose, forward: DVec3) -> Option<DVec3> {
         let arm = self.arm(side)?;
         let at = |joint| model.position(joint);
@@ -213,8 +214,8 @@ impl Anatomy {
         Some(model.rotation(arm.upper).inverse() * out.try_normalize()?)
     }
 
-    /// Returns the same anatomy with the first frame of `clip` as its reference if no body takes the rest pose; the
-    /// clip has the same skeleton.
+    /// Returns the same anatomy with the first frame of `clip` as its reference if the rest pose is not possible for a
+    /// body; the clip must have the same skeleton.
     #[must_use]
     pub fn with_clip(self, clip: &Clip) -> Self {
         if self.posed || clip.frames() == 0 {
@@ -223,21 +224,21 @@ impl Anatomy {
         self.with_reference(clip.skeleton(), &clip.model_pose(0))
     }
 
-    /// Returns whether a body can take the reference posture: it shows up, left and forward, and the arms do not
+    /// Returns whether the reference posture is possible for a body: it shows up, left and forward, and the arms do not
     /// both point in the same direction.
     #[must_use]
     pub fn is_posed(&self) -> bool {
         self.posed
     }
 
-    /// Returns the size of the body; nothing where the skeleton has no arm, leg or hand.
+    /// Returns the size of the body; `None` if the skeleton has no arm, leg or hand.
     #[must_use]
     pub fn measures(&self) -> Option<Measures> {
         self.measures
     }
 
-    /// Returns the unit vector that the elbow of `side` points to, in the space of the upper arm's joint and across
-    /// the arm: the opposite of the direction in which it bends. Returns `None` if it is unknown.
+    /// Returns the unit vector in which the elbow of `side` points, in the space of the upper arm's joint and
+    /// perpendicular to the arm: the opposite of the direction in which it bends. Returns `None` if it is unknown.
     #[must_use]
     pub fn elbow(&self, side: Side) -> Option<DVec3> {
         self.elbows[place(side)]
@@ -259,13 +260,13 @@ impl Anatomy {
         self.found.get(&part).map(|&(_, evidence)| evidence)
     }
 
-    /// Returns the part that `joint` plays; the chest if one joint is both spine and chest.
+    /// Returns the part of `joint`; the chest if the joint is both spine and chest.
     #[must_use]
     pub fn part_of(&self, joint: usize) -> Option<Part> {
         self.parts.get(joint).copied().flatten()
     }
 
-    /// Returns every part found, with its joint and how it was found, in the order of parts.
+    /// Returns every part found, with its joint and its evidence, in the order of parts.
     pub fn found(&self) -> impl Iterator<Item = (Part, usize, Evidence)> + '_ {
         self.found
             .iter()
@@ -280,19 +281,19 @@ impl Anatomy {
         all
     }
 
-    /// Returns the parts that names do not settle, in the order of parts.
+    /// Returns the parts that names do not determine, in the order of parts.
     #[must_use]
     pub fn ambiguous(&self) -> &[Ambiguity] {
         &self.ambiguous
     }
 
-    /// Returns the joints that are optical markers beside the skeleton, in order: they play no part's role.
+    /// Returns the joints that are optical markers beside the skeleton, in order; they have no part.
     #[must_use]
     pub fn markers(&self) -> &[usize] {
         &self.markers
     }
 
-    /// Returns the arm of `side` where shoulder, elbow and wrist are found and hang together.
+    /// Returns the arm of `side` if shoulder, elbow and wrist are found and form a chain.
     #[must_use]
     pub fn arm(&self, side: Side) -> Option<ArmChain> {
         let upper = self.joint(Part::UpperArm(side))?;
@@ -354,8 +355,8 @@ impl Anatomy {
             .all(|&finger| self.found.contains_key(&Part::Finger(side, finger, 1)))
     }
 
-    /// Returns for each joint its counterpart on the other side: itself for one of the middle or
-    /// one that no part or name places on a side, nothing where the other side has no such joint.
+    /// Returns for each joint its counterpart on the other side: itself for a joint in the middle, or if neither part
+    /// nor name give it a side; `None` if the other side has no such joint.
     #[must_use]
     pub fn mirror_map(&self, skeleton: &Skeleton) -> Vec<Option<usize>> {
         detect::mirror_map(self, skeleton)
@@ -365,7 +366,7 @@ impl Anatomy {
         std::iter::successors(Some(joint), |&joint| self.parents[joint])
     }
 
-    /// Whether `joint` is `above` or hangs below it.
+    /// Returns whether `joint` is `above` or a descendant of it.
     fn is_below(&self, joint: usize, above: usize) -> bool {
         self.up_from(joint).any(|joint| joint == above)
     }

@@ -1,6 +1,6 @@
 //! The meaning of a joint's name, across the naming conventions in use.
 //!
-//! Cuts a name into words at separators, digits and capitals, takes out words for the side, the rig's prefix and
+//! Splits a name into words at separators, digits and capitals, removes words for the side, the rig's prefix and
 //! fillers, and looks up the rest in one table.
 
 use std::collections::BTreeMap;
@@ -35,7 +35,7 @@ pub(super) enum Word {
 }
 
 impl Word {
-    /// Whether there is one of it on each side.
+    /// Returns whether such a joint exists on each side.
     pub(super) fn sided(self) -> bool {
         !matches!(
             self,
@@ -61,7 +61,7 @@ impl Digit {
     ];
 }
 
-/// Which bone of a digit a name means.
+/// The bone of a digit that a name describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Segment {
     Metacarpal,
@@ -72,14 +72,14 @@ pub(super) enum Segment {
     Unsaid,
 }
 
-/// What one name says.
+/// The meaning of one name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Label {
     pub(super) side: Option<Side>,
     pub(super) word: Word,
 }
 
-/// Returns what each of a skeleton's names says, nothing where it says nothing known.
+/// Returns the meaning of each name of a skeleton; `None` for an unknown name.
 pub(super) fn read_all(names: &[&str]) -> Vec<Option<Label>> {
     let bare: Vec<&str> = names.iter().map(|name| without_rig(name)).collect();
     let prefix = common_prefix(&bare);
@@ -94,7 +94,7 @@ pub(super) fn read_all(names: &[&str]) -> Vec<Option<Label>> {
     bare.iter().map(|name| read(name, from_zero)).collect()
 }
 
-/// Cuts off namespaces and the prefixes of well-known rigs.
+/// Removes namespaces and the prefixes of well-known rigs.
 pub(super) fn without_rig(name: &str) -> &str {
     let name = name.rsplit([':', '|']).next().unwrap_or(name);
     for rig in [
@@ -119,7 +119,7 @@ pub(super) fn without_rig(name: &str) -> &str {
     name
 }
 
-/// Returns the leading word that four joints in five share, with its separator: a character's name.
+/// Returns the leading word that four of five joints share, with its separator: a character's name.
 fn common_prefix<'a>(names: &[&'a str]) -> &'a str {
     let head = |name: &'a str| {
         let end = name.find(['_', '-', '.', ' '])?;
@@ -140,7 +140,7 @@ fn common_prefix<'a>(names: &[&'a str]) -> &'a str {
     }
 }
 
-/// Cuts a name into lower-case words at separators, between letters and digits, and at capitals.
+/// Splits a name into lower-case words at separators, between letters and digits, and at capitals.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = vec![String::new()];
     let letters: Vec<char> = name.chars().collect();
@@ -175,7 +175,7 @@ fn side(word: &str) -> Option<Side> {
     }
 }
 
-/// Words that make a joint a helper, whatever else its name says.
+/// Words that mark a joint as a helper, regardless of the other words in its name.
 const HELPERS: [&str; 25] = [
     "twist",
     "roll",
@@ -204,12 +204,12 @@ const HELPERS: [&str; 25] = [
     "correctiveroot",
 ];
 
-/// Words that say nothing.
+/// Words without a meaning.
 const FILLERS: [&str; 12] = [
     "joint", "jnt", "bone", "def", "org", "mch", "bip", "bend", "smplhf", "c", "center", "b",
 ];
 
-/// Returns what one name says; `from_zero` where the skeleton counts its fingers from the thumb, 0.
+/// Returns the meaning of one name; `from_zero` if the skeleton counts its fingers from the thumb, which is 0.
 fn read(name: &str, from_zero: bool) -> Option<Label> {
     let all = words(name);
     if let [letter, number] = all.as_slice()

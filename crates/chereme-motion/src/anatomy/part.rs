@@ -1,4 +1,4 @@
-//! The parts of a signer's body that joints stand for, and their names.
+//! The parts of a signer's body, and their names.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::hand::{Finger, Side};
 
-/// A part of the body; its joint is the one at which the part turns.
+/// A part of the body; its joint is the one about which the part turns.
 ///
 /// A joint is named after what moves when it turns: the shoulder joint is the upper arm's, the
 /// elbow the forearm's, the wrist the hand's, the hip the thigh's, the knee the shin's.
@@ -38,8 +38,7 @@ pub enum Part {
     Hand(Side),
     /// A joint of the thumb: 0 at the wrist (CMC), 1 in the middle (MCP), 2 at the end (IP).
     Thumb(Side, u8),
-    /// A joint of a finger: 0 the metacarpal's, where there is one, 1 the base (MCP), 2 the middle
-    /// (PIP), 3 the end (DIP).
+    /// A joint of a finger: 0 the metacarpal's, if there is one, 1 the base (MCP), 2 the middle (PIP), 3 the end (DIP).
     Finger(Side, Finger, u8),
     /// The thigh, which turns at the hip.
     Thigh(Side),
@@ -55,7 +54,7 @@ const THUMB: [&str; 3] = ["base", "middle", "end"];
 const FINGER: [&str; 4] = ["metacarpal", "base", "middle", "end"];
 
 impl Part {
-    /// Returns every part there is, in order.
+    /// Returns every part, in order.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let mut all = vec![
@@ -87,7 +86,7 @@ impl Part {
         all
     }
 
-    /// Returns the side, or nothing for a part of the middle.
+    /// Returns the side; `None` for a part in the middle.
     #[must_use]
     pub fn side(self) -> Option<Side> {
         match self {
@@ -106,7 +105,7 @@ impl Part {
         }
     }
 
-    /// Returns the same part of the other side; a part of the middle is its own.
+    /// Returns the same part on the other side; a part in the middle is returned unchanged.
     #[must_use]
     pub fn mirrored(self) -> Self {
         match self {
@@ -165,17 +164,17 @@ impl fmt::Display for Part {
     }
 }
 
-/// A text that names no part.
+/// A text that is not the name of a part.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{text:?} is no part of the body; did you mean {suggestion:?}?")]
 pub struct PartError {
     /// The text.
     pub text: String,
-    /// The name of a part that is spelt most like it.
+    /// The name of a part with the most similar spelling.
     pub suggestion: String,
 }
 
-/// The words that people use for the same joint.
+/// Common synonyms for parts.
 const SYNONYMS: [(&str, &str); 15] = [
     ("pelvis", "hips"),
     ("pinky", "little"),
@@ -196,8 +195,8 @@ const SYNONYMS: [(&str, &str); 15] = [
 
 impl FromStr for Part {
     type Err = PartError;
-    /// Reads a part's name whatever its case and separators, `right-hand` as `right hand`; common
-    /// synonyms (`left elbow`, `right pinky base`) are understood.
+    /// Reads a part's name, ignoring case and separators, so that `right-hand` is `right hand`; common synonyms (`left
+    /// elbow`, `right pinky base`) are understood.
     fn from_str(text: &str) -> Result<Self, PartError> {
         let name = text.to_lowercase().replace(['-', '_', '.'], " ");
         let words: Vec<&str> = name.split_whitespace().collect();
@@ -241,7 +240,7 @@ impl From<Part> for String {
     }
 }
 
-/// Returns the candidate spelt most like `text`, case aside; of equal ones the first.
+/// Returns the candidate with the spelling most similar to `text`, ignoring case; the first of equal ones.
 pub(super) fn nearest<'a>(text: &str, candidates: impl Iterator<Item = &'a str>) -> &'a str {
     let text: String = text.to_lowercase().chars().take(100).collect();
     candidates
@@ -249,7 +248,7 @@ pub(super) fn nearest<'a>(text: &str, candidates: impl Iterator<Item = &'a str>)
         .unwrap_or_default()
 }
 
-/// Returns how many letters to add, drop or change to make `b` of `a` (Levenshtein).
+/// Returns the number of letters to add, drop or change to turn `a` into `b` (Levenshtein distance).
 fn edits(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

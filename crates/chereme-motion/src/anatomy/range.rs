@@ -1,43 +1,44 @@
-//! Finds from a signer's takes where each finger joint is straight and fully bent.
+//! Infers from a signer's takes at which angles each finger joint is straight and fully bent.
 //!
-//! Solvers, gloves and suits bend fingers that are straight by some 10 to 30 degrees, and stop short of a fist. The
-//! angles of one signer, looked at over all takes, show both: the straightest and the most bent that each joint
-//! ever is. [`HandRange`] collects them, and [`HandCorrection`] moves angles to where they belong.
+//! Solvers, gloves and suits bend straight fingers by some 10 to 30 degrees, and stop short of a fist. The angles of
+//! one signer over all takes show both: the straightest and the most bent posture of each joint. [`HandRange`] collects
+//! them, and [`HandCorrection`] corrects angles.
 
 use super::Anatomy;
 use crate::clip::Clip;
 use crate::hand::{HandAngles, Side};
 
-/// Angles are counted in degrees from here.
+/// The lowest counted angle, in degrees.
 const LEAST: f64 = -60.0;
-/// Degrees that are counted.
+/// The number of counted degrees.
 const BINS: usize = 220;
-/// The share of frames below the straightest and above the most bent.
+/// The share of frames that is ignored as outliers at each end.
 const TAIL: f64 = 0.02;
-/// Fewer frames than these show nothing.
+/// The least number of frames that allow a correction.
 const FEWEST: u32 = 10;
 
-/// A joint that is never less bent than this, in degrees, is straight there; if it is seen to bend over
-/// [`MOVES`] degrees, up to [`LAX_MOVING`].
+/// The greatest least bend of a joint, in degrees, that is taken for straight; if the joint's range is more than
+/// [`MOVES`] degrees, that is up to [`LAX_MOVING`].
 const LAX: f64 = 25.0;
 const LAX_MOVING: f64 = 40.0;
 const MOVES: f64 = 35.0;
-/// How far base, middle and end joints bend backwards in people, in degrees.
+/// The limit to which base, middle and end joints bend backwards in people, in degrees.
 const BACK: [f64; 3] = [-15.0, -10.0, -10.0];
 /// The bends of base, middle and end joint in a fist, in degrees.
 const FIST: [f64; 3] = [88.0, 98.0, 68.0];
-/// The share of [`FIST`], in the mean of a finger's joints, from which its most bent posture is a fist; joints with a
-/// share between these ends are bent more.
+/// The share of [`FIST`], averaged over a finger's joints, above which its most bent posture is taken for a fist;
+/// joints whose share lies in [`SHORT`] are then bent more.
 const NEARLY: f64 = 0.66;
 const SHORT: std::ops::Range<f64> = 0.55..0.92;
-/// A joint that is bent by less than this, in degrees, is straight: no correction is needed.
+/// A joint that is bent by less than this, in degrees, is straight and needs no correction.
 const SLIGHT: f64 = 6.0;
-/// The least radial and palmar angle of a thumb next to the index finger, in degrees, and the largest that is one.
+/// The range of the least radial and of the least palmar angle, in degrees, that is taken for a thumb next to the index
+/// finger.
 const BESIDE: [(f64, f64); 2] = [(12.0, 35.0), (2.0, 30.0)];
-/// The range in degrees over which a thumb is seen to move.
+/// The least range of a thumb's angle that counts as movement, in degrees.
 const THUMB_MOVES: f64 = 25.0;
 
-/// The angles that one signer's hand takes, counted by degree.
+/// The angles of one signer's hand, counted by degree.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct HandRange {
     counts: Vec<[u32; BINS]>,
@@ -54,7 +55,7 @@ impl Default for HandRange {
 }
 
 impl HandRange {
-    /// Adds every `step`th frame of a clip; hands without fingers add nothing.
+    /// Adds every `step`th frame of a clip; does nothing for hands without fingers.
     pub fn observe(&mut self, clip: &Clip, anatomy: &Anatomy, side: Side, step: usize) {
         for frame in (0..clip.frames()).step_by(step.max(1)) {
             let pose = clip.pose(frame);
@@ -89,7 +90,7 @@ impl HandRange {
         )
     }
 
-    /// Returns the correction that these postures show; the identity for few postures.
+    /// Returns the correction that the postures suggest; the identity if there are few postures.
     #[must_use]
     pub fn correction(&self) -> HandCorrection {
         let mut found = HandCorrection::default();
@@ -123,7 +124,7 @@ impl HandRange {
         found
     }
 
-    /// Returns how far a joint of a finger is bent when it is straight and when it is closed.
+    /// Returns the range of a finger's joint, from straight to closed.
     fn bend(&self, angle: usize, joint: usize) -> Bend {
         let (low, high) = self.ends(angle);
         let moves = high - low > MOVES;
@@ -144,15 +145,15 @@ impl HandRange {
 
 /// The range of one joint.
 struct Bend {
-    /// The angle at which it is straight, in degrees.
+    /// The angle that is straight, in degrees.
     zero: f64,
-    /// Its largest bend from there as a share of that in a fist.
+    /// Its largest bend from there, as a share of the bend in a fist.
     share: f64,
-    /// Whether it is seen straight and bent.
+    /// Whether it is straight in some frames and bent in others.
     is_whole: bool,
 }
 
-/// Returns the first degree after more than `most` frames.
+/// Returns the first degree that exceeds a cumulative count of `most` frames.
 fn end(counts: &[u32; BINS], mut bins: impl Iterator<Item = usize>, most: u32) -> f64 {
     let mut passed = 0;
     let bin = bins.find(|&bin| {
@@ -162,7 +163,7 @@ fn end(counts: &[u32; BINS], mut bins: impl Iterator<Item = usize>, most: u32) -
     bin.map_or(0.0, |bin| LEAST + bin as f64 + 0.5)
 }
 
-/// Moves the angles of one signer's hand to where they belong: `(angle - zero) * gain`.
+/// A correction of the angles of one signer's hand: `(angle - zero) * gain`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HandCorrection {
     zero: [f64; HandAngles::LEN],
@@ -189,13 +190,13 @@ impl HandCorrection {
         }))
     }
 
-    /// Returns whether nothing is changed.
+    /// Returns whether the correction changes nothing.
     #[must_use]
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Returns the largest change of where a finger is straight, in radians.
+    /// Returns the largest correction of a joint's zero, in radians.
     #[must_use]
     pub fn largest(&self) -> f64 {
         self.zero.iter().map(|zero| zero.abs()).fold(0.0, f64::max)
@@ -207,7 +208,7 @@ mod tests {
     use super::*;
     use crate::hand::FingerAngles;
 
-    /// A hand whose fingers are all bent by this share of a fist.
+    /// Returns a hand whose fingers are all bent by this share of a fist.
     fn bent(share: f64) -> HandAngles {
         let flexion = FIST.map(|fist| (fist * share).to_radians());
         HandAngles {

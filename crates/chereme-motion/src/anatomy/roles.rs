@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::part::{Part, PartError, nearest};
 use crate::skeleton::Skeleton;
 
-/// Which joint is which part, by the user's word; it overrides what is detected.
+/// The joints of parts as assigned by the user; they override the detection.
 ///
-/// Written as lines `part = joint`, where `#` starts a comment and an empty joint says that the
-/// skeleton has no such part, or as a JSON object of the same:
+/// The text has lines `part = joint`, in which `#` starts a comment and an empty joint means that the skeleton has no
+/// such part; or it is a JSON object with the same contents:
 ///
 /// ```
 /// use chereme_motion::anatomy::{Part, Roles};
@@ -36,15 +36,15 @@ pub enum RolesError {
     Line {
         /// The line, from 1.
         line: usize,
-        /// What it says.
+        /// Its text.
         text: String,
     },
-    /// A line names no part.
+    /// A line does not name a part.
     #[error("line {line} of the roles: {error}")]
     Part {
         /// The line, from 1.
         line: usize,
-        /// Why it is refused.
+        /// The reason for the refusal.
         #[source]
         error: PartError,
     },
@@ -66,10 +66,10 @@ pub enum RolesError {
         part: Part,
         /// The name given for its joint.
         joint: String,
-        /// The name of a joint that is spelt most like it.
+        /// The name of a joint with the most similar spelling.
         suggestion: String,
     },
-    /// Two parts that differ are given the same joint.
+    /// Two different parts are given the same joint.
     #[error(
         "joint {joint:?} is given to both {first} and {second}; only spine and chest may share"
     )]
@@ -115,7 +115,7 @@ impl FromStr for Roles {
 }
 
 impl Roles {
-    /// Returns each part's joint, nothing for a part that is said to be missing.
+    /// Returns each part's joint, `None` for a part that the user marked as missing.
     ///
     /// # Errors
     /// [`RolesError::Joint`] or [`RolesError::Shared`].

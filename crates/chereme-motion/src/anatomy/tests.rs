@@ -16,7 +16,7 @@ fn worn(wear: Wear) -> (Skeleton, Anatomy) {
     (skeleton, anatomy)
 }
 
-/// Angles that hands can take, by weights from 0 to 1.
+/// Returns angles that hands can have, from weights between 0 and 1.
 fn plausible(weights: [f64; HandAngles::LEN]) -> HandAngles {
     let mut all = [0.0; HandAngles::LEN];
     let thumb = [
@@ -192,7 +192,7 @@ fn a_hand_around_a_ball_has_an_arch_inside_the_palm() {
         ..PLAIN
     };
     let (skeleton, anatomy) = worn(wear);
-    // How far towards the palm the fingers' bases are carried, in metres.
+    // The distance by which the fingers' bases are carried towards the palm, in metres.
     let arched = |side: Side, bend: f64, spread: f64| {
         let mut angles = HandAngles::default();
         for (finger, outwards) in angles.fingers.iter_mut().zip([0.5, 0.0, -0.5, -1.0]) {

@@ -13,7 +13,7 @@ use crate::hand::Side;
 use crate::skeleton::Skeleton;
 
 impl Finder<'_> {
-    /// Finds arms and legs as pairs of like chains, fills gaps in chains, and finds digits.
+    /// Finds arms and legs as pairs of similar chains, fills gaps in chains, and finds digits.
     pub(super) fn by_topology(&mut self) {
         let unnamed = |finder: &Self, part: fn(Side) -> Part| {
             Side::BOTH
@@ -31,7 +31,7 @@ impl Finder<'_> {
         self.hips();
     }
 
-    /// The hips are where the thighs part.
+    /// Finds the hips, where the thighs branch off.
     fn hips(&mut self) {
         let thighs = Side::BOTH.map(|side| self.joint(Part::Thigh(side)));
         if let [Some(right), Some(left)] = thighs
@@ -41,7 +41,7 @@ impl Finder<'_> {
         }
     }
 
-    /// Finds neck and head as the chain that goes on from the chest beside the arms.
+    /// Finds neck and head as the chain that continues from the chest beside the arms.
     pub(super) fn neck_and_head(&mut self) {
         let Some(chest) = self.joint(Part::Chest) else {
             return;
@@ -73,7 +73,7 @@ impl Finder<'_> {
         }
     }
 
-    /// Gives the middle or the last of three joints of a limb where its neighbours are found.
+    /// Finds the middle or the last of three joints of a limb if its neighbours are known.
     fn fill(&mut self, [first, second, third]: [Part; 3]) {
         let joints = [first, second, third].map(|part| self.joint(part));
         match joints {
@@ -103,8 +103,8 @@ impl Finder<'_> {
         self.labels[joint].is_none() && !self.found.values().any(|&(taken, _)| taken == joint)
     }
 
-    /// Finds two pairs of like chains: the one nearer the root are the legs, the other the arms; a
-    /// single pair are the arms where something else, a neck, goes on beside them.
+    /// Finds two pairs of similar chains: the one nearer to the root are the legs, the other the arms. A single pair
+    /// are the arms if something else, a neck, continues beside them.
     fn limbs(&mut self) {
         let pairs = pairs(self.skeleton);
         let rest = self.skeleton.rest_model_pose();
@@ -173,9 +173,8 @@ impl Finder<'_> {
         }
     }
 
-    /// Finds thumb and fingers of a hand that has five chains and none found by name: the thumb is
-    /// the one that points away from the rest and begins near the wrist, and the others follow from
-    /// it outwards.
+    /// Finds thumb and fingers of a hand that has five chains, none of them found by name: the thumb is the chain that
+    /// points away from the others and begins near the wrist, and the others follow from it outwards.
     fn digits_by_shape(&mut self, side: Side) {
         let Some(hand) = self.joint(Part::Hand(side)) else {
             return;
@@ -221,15 +220,15 @@ impl Finder<'_> {
     }
 }
 
-/// Two like chains that leave one joint.
+/// Two similar chains that branch off at one joint.
 #[derive(Debug, Clone, Copy)]
 struct Pair {
     fork: usize,
     limbs: [usize; 2],
 }
 
-/// Returns the pairs of limbs, from the root outwards: two children of one joint below which hangs
-/// a like tree of at least three joints, whose bones are alike in length.
+/// Returns the pairs of limbs, from the root outwards: two children of one joint with similar subtrees of at least
+/// three joints, whose bones have similar lengths.
 fn pairs(skeleton: &Skeleton) -> Vec<Pair> {
     let shapes = shapes(skeleton);
     let reach = |joint: usize| -> f64 {
@@ -270,7 +269,7 @@ fn pairs(skeleton: &Skeleton) -> Vec<Pair> {
     pairs
 }
 
-/// Returns for each joint how many joints the longest way down has, itself included.
+/// Returns for each joint the number of joints on the longest path down, including itself.
 fn depths(skeleton: &Skeleton) -> Vec<usize> {
     let mut depths = vec![1; skeleton.len()];
     for joint in (0..skeleton.len()).rev() {
@@ -281,7 +280,7 @@ fn depths(skeleton: &Skeleton) -> Vec<usize> {
     depths
 }
 
-/// Returns for each joint a number that joints share below which like trees hang.
+/// Returns a number for each joint; joints with the same number have subtrees of the same shape.
 fn shapes(skeleton: &Skeleton) -> Vec<usize> {
     let mut known: std::collections::BTreeMap<Vec<usize>, usize> =
         std::collections::BTreeMap::new();
@@ -299,7 +298,7 @@ fn shapes(skeleton: &Skeleton) -> Vec<usize> {
     shapes
 }
 
-/// Returns `joint` and what follows as long as there is one child; the joint that forks is the last.
+/// Returns `joint` and its descendants as long as each has one child; a joint with several is the last.
 fn chain(skeleton: &Skeleton, joint: usize) -> Vec<usize> {
     let mut joints = vec![joint];
     while let [child] = *skeleton.children(joints[joints.len() - 1]) {

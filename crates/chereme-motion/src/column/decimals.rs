@@ -10,7 +10,7 @@ use super::number::{Decimal, Number};
 /// otherwise (as for `123.4` next to `2e-16`) the scale fits most of them and the others are exceptions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decimals {
-    /// How many of the mantissas' digits stand after the point.
+    /// How many digits of the mantissas are after the point.
     pub scale: u8,
     /// The digits without the point, |mantissa| < 10^18; 0 for an exception.
     pub mantissas: Vec<i64>,
@@ -61,7 +61,7 @@ impl Decimals {
 
     /// Returns a column of values rounded to `decimals` digits after the point.
     ///
-    /// A value that is not finite, or has more than eighteen digits, is `None` of the whole.
+    /// Returns `None` if any value is not finite, or has more than eighteen digits.
     #[must_use]
     pub fn rounded(values: impl IntoIterator<Item = f64>, decimals: u8) -> Option<Self> {
         let round = |value| Decimal::rounded(value, decimals).map(|decimal| decimal.mantissa);
@@ -73,7 +73,7 @@ impl Decimals {
         })
     }
 
-    /// Chooses the scale at which the most numbers fit, the smallest of equals.
+    /// Chooses the scale that fits the most numbers; the smallest of equally good ones.
     pub fn fit_most(&mut self) {
         let numbers: Vec<Number> = (0..self.mantissas.len())
             .filter_map(|frame| self.number(frame))
@@ -165,7 +165,7 @@ impl Decimals {
         self.mantissas.is_empty()
     }
 
-    /// Returns the numbers of the frames `rows`, cut to those that exist.
+    /// Returns the numbers of the frames `rows`, as far as they exist.
     #[must_use]
     pub fn slice(&self, rows: Range<usize>) -> Self {
         let end = rows.end.min(self.mantissas.len());

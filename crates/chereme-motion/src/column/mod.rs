@@ -23,14 +23,14 @@ pub use decimals::Decimals;
 pub use gaps::Gaps;
 pub use number::{Decimal, MANTISSA_LIMIT, NotANumber, Number, POW10};
 
-/// One number a frame, in the form in which the file has them; some frames may have none.
+/// One number per frame, in the form of the file; some frames may have none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     numbers: Numbers,
     gaps: Gaps,
 }
 
-/// The numbers of a column; at a gap stands a nought that means nothing.
+/// The numbers of a column; at a gap the number is zero and has no meaning.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Numbers {
     /// Decimals of a text file.
@@ -43,24 +43,24 @@ pub enum Numbers {
     Integers(Integers),
 }
 
-/// Integers that stand for `(value - zero) * unit`.
+/// Integers that represent `(value - zero) * unit`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Integers {
     /// The integers of the file, whatever their width there.
     pub values: Vec<i32>,
-    /// The integer that stands for nought; finite.
+    /// The integer that represents zero; finite.
     pub zero: f64,
-    /// The value of one step; finite and not nought.
+    /// The value of one step; finite and not zero.
     pub unit: f64,
 }
 
-/// A reason why numbers are no column.
+/// A reason why numbers are not a column.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ColumnError {
-    /// The zero or the unit of integers is not finite, or the unit is nought.
+    /// The zero or the unit of integers is not finite, or the unit is zero.
     #[error("integers with the zero {zero} and the unit {unit} stand for no numbers")]
     Scale {
-        /// The integer that stands for nought.
+        /// The integer that represents zero.
         zero: f64,
         /// The value of one step.
         unit: f64,
@@ -99,7 +99,7 @@ impl Column {
         }
     }
 
-    /// Returns the column of floats of 32 bits; where one is not finite there is a gap.
+    /// Returns the column of 32-bit floats; a float that is not finite is a gap.
     #[must_use]
     pub fn singles(mut values: Vec<f32>) -> Self {
         let gaps = Gaps::at(
@@ -118,7 +118,7 @@ impl Column {
         }
     }
 
-    /// Returns the column of floats of 64 bits; where one is not finite there is a gap.
+    /// Returns the column of 64-bit floats; a float that is not finite is a gap.
     #[must_use]
     pub fn doubles(mut values: Vec<f64>) -> Self {
         let gaps = Gaps::at(
@@ -137,10 +137,10 @@ impl Column {
         }
     }
 
-    /// Returns the column of integers that stand for `(value - zero) * unit`.
+    /// Returns the column of integers that represent `(value - zero) * unit`.
     ///
     /// # Errors
-    /// [`ColumnError::Scale`] if `zero` or `unit` is not finite, or `unit` is nought.
+    /// [`ColumnError::Scale`] if `zero` or `unit` is not finite, or `unit` is zero.
     pub fn integers(values: Vec<i32>, zero: f64, unit: f64) -> Result<Self, ColumnError> {
         Self::new(
             Numbers::Integers(Integers { values, zero, unit }),
@@ -148,11 +148,11 @@ impl Column {
         )
     }
 
-    /// Returns the column of `numbers` with those `gaps`; floats that are not finite are gaps too, and the
-    /// numbers at gaps become nought.
+    /// Returns the column of `numbers` with `gaps`; floats that are not finite are gaps too, and the numbers at gaps
+    /// become zero.
     ///
     /// # Errors
-    /// [`ColumnError`] if a gap lies after the last number, or a scale of integers stands for no numbers.
+    /// [`ColumnError`] if a gap lies after the last number, or the zero or unit of integers is invalid.
     pub fn new(numbers: Numbers, gaps: Gaps) -> Result<Self, ColumnError> {
         let column = match numbers {
             Numbers::Singles(values) => Self::singles(values),
@@ -173,7 +173,7 @@ impl Column {
         column.with_gaps(&gaps)
     }
 
-    /// Returns the column with `gaps` besides its own.
+    /// Returns the column with further `gaps`.
     ///
     /// # Errors
     /// [`ColumnError::Gap`] if a gap lies after the last number.
@@ -200,13 +200,13 @@ impl Column {
         Ok(self)
     }
 
-    /// Returns the numbers in the form of the file; at gaps they mean nothing.
+    /// Returns the numbers in the form of the file; they have no meaning at gaps.
     #[must_use]
     pub fn numbers(&self) -> &Numbers {
         &self.numbers
     }
 
-    /// Returns the numbers in the form of the file; at gaps they mean nothing.
+    /// Returns the numbers in the form of the file; they have no meaning at gaps.
     #[must_use]
     pub fn into_numbers(self) -> Numbers {
         self.numbers
@@ -218,7 +218,7 @@ impl Column {
         &self.gaps
     }
 
-    /// Returns how many frames there are, gaps included.
+    /// Returns how many frames there are, including gaps.
     #[must_use]
     pub fn len(&self) -> usize {
         match &self.numbers {
@@ -256,8 +256,8 @@ impl Column {
         (0..self.len()).map(|frame| self.value(frame))
     }
 
-    /// Returns the number in a frame as text that reads back as the same number: decimals as they are, floats
-    /// by the fewest digits, integers as their value; `None` in a gap and after the last frame.
+    /// Returns the number in a frame as text that reads back as the same number: decimals unchanged, floats with the
+    /// fewest digits, integers as their value; `None` in a gap and after the last frame.
     #[must_use]
     pub fn text(&self, frame: usize) -> Option<String> {
         let value = self.value(frame)?;
@@ -268,7 +268,7 @@ impl Column {
         })
     }
 
-    /// Returns the frames `rows`, cut to those that exist.
+    /// Returns the frames `rows`, as far as they exist.
     #[must_use]
     pub fn slice(&self, rows: Range<usize>) -> Self {
         let end = rows.end.min(self.len());

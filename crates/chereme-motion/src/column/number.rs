@@ -27,13 +27,13 @@ const POW10_F64: [f64; 23] = [
 
 /// An exact decimal of at most eighteen digits: `mantissa / 10^scale`.
 ///
-/// The scale is the number of digits after the point as written, so `1.50` keeps its look; equality compares
-/// values: `1.50 == 1.5`, `-0 == 0`.
+/// The scale is the number of digits after the point as written, so that `1.50` is written back unchanged; equality
+/// compares values: `1.50 == 1.5`, `-0 == 0`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Decimal {
     /// The digits without the point, |mantissa| < 10^18.
     pub mantissa: i64,
-    /// How many of the digits stand after the point.
+    /// How many of the digits are after the point.
     pub scale: u8,
 }
 
@@ -52,7 +52,7 @@ impl Decimal {
 
     /// Returns the `f64` rounded to `decimals` digits after the point.
     ///
-    /// `None` if it is not finite or does not fit eighteen digits.
+    /// Returns `None` if the value is not finite or needs more than eighteen digits.
     #[must_use]
     pub fn rounded(value: f64, decimals: u8) -> Option<Self> {
         let scaled = (value * POW10_F64.get(usize::from(decimals))?).round();
@@ -62,7 +62,8 @@ impl Decimal {
         })
     }
 
-    /// Returns the same value with the scale given, `None` where digits would be lost or added beyond eighteen.
+    /// Returns the mantissa of the same value with another scale; `None` if digits would be lost, or more than eighteen
+    /// were needed.
     #[must_use]
     pub fn at_scale(self, scale: u8) -> Option<i64> {
         if scale >= self.scale {
@@ -147,7 +148,7 @@ fn push_decimal(text: &mut Vec<u8>, Decimal { mantissa, scale }: Decimal) {
 
 /// A number as a file gives it: a [`Decimal`], or the original text if it has too many digits.
 ///
-/// Equality is that of decimals whatever the form: `1e-3 == 0.001`, `-0 == 0`.
+/// Equality compares values whatever the form: `1e-3 == 0.001`, `-0 == 0`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub enum Number {
@@ -158,16 +159,16 @@ pub enum Number {
 }
 
 impl Number {
-    /// The number nought.
+    /// The number zero.
     pub const ZERO: Self = Self::Decimal(Decimal {
         mantissa: 0,
         scale: 0,
     });
 
-    /// Returns the number that a token of a file says, such as `-1.50` or `3e-3`.
+    /// Reads a number from a token of a file, such as `-1.50` or `3e-3`.
     ///
     /// # Errors
-    /// [`NotANumber`] for text that is no finite decimal number.
+    /// [`NotANumber`] for text that is not a finite decimal number.
     pub fn parse(token: &[u8]) -> Result<Self, NotANumber> {
         parse_number(token)
     }
@@ -189,7 +190,7 @@ impl Number {
         }
     }
 
-    /// Returns sign, digits without zeros at either end, and the power of ten of the last digit.
+    /// Returns the sign, the digits without zeros at either end, and the power of ten of the last digit.
     fn canonical(&self) -> (bool, String, i64) {
         let text = self.to_string();
         let parts = Parts::of(text.as_bytes()).unwrap_or_default();
@@ -267,13 +268,13 @@ impl FromStr for Number {
     }
 }
 
-/// Why a token is no number.
+/// Why a token is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotANumber {
     /// `nan`, `inf` and their like.
     #[error("is not a finite number")]
     NotFinite,
-    /// A number with a comma where the point belongs.
+    /// A number with a comma in place of the point.
     #[error("has a decimal comma")]
     Comma,
     /// A number beyond the largest `f64`.
@@ -284,7 +285,7 @@ pub enum NotANumber {
     Garbage,
 }
 
-/// Returns the number that the token says.
+/// Reads a number from a token.
 fn parse_number(token: &[u8]) -> Result<Number, NotANumber> {
     let parts = Parts::of(token).ok_or_else(|| why_not(token))?;
     if let Some(decimal) = parts.decimal() {
@@ -392,7 +393,7 @@ fn leading_digits(text: &[u8]) -> usize {
     text.iter().take_while(|b| b.is_ascii_digit()).count()
 }
 
-/// Returns the exponent; one beyond a thousand million is held there, since no number is that fine.
+/// Returns the exponent, clamped to a thousand million, since no number needs more.
 fn exponent(text: &[u8]) -> Option<i64> {
     let (negative, digits) = signed(text);
     if digits.is_empty() || leading_digits(digits) < digits.len() {

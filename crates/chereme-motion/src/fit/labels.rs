@@ -1,16 +1,16 @@
-//! The bones that markers are on, by their labels: Plug-in Gait, the set of 41 markers of CMU, Helen Hayes.
+//! The bones of markers, by the markers' labels: Plug-in Gait, the set of 41 markers of CMU, Helen Hayes.
 
 use crate::anatomy::Part;
 use crate::hand::{Finger, Side};
 
-/// Where a marker is on a skeleton.
+/// The place of a marker on a skeleton.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Attachment {
-    /// The part whose joint carries it; the first that the skeleton has.
+    /// The parts that may carry it, in order of preference; the first one that the skeleton has is used.
     pub on: [Part; 2],
-    /// Its expected place: the share of the way from that joint to the joint of this part.
+    /// Its expected place: a part, and the share of the distance from the carrying joint to that part's joint.
     pub towards: Option<(Part, f64)>,
-    /// The joint that it is next to, if it is, for measuring limbs.
+    /// The joint that it is next to, if any; used to measure limbs.
     pub near: Option<Part>,
 }
 
@@ -101,7 +101,7 @@ const SIDED: [(&str, Bone); 40] = [
     ("MT5", Bone::Toe),
 ];
 
-/// Returns where a marker is by its label, such as `LSHO`, `Anna:RWRA` or `R.Elbow`; `None` for an unknown label.
+/// Returns the place of a marker by its label, such as `LSHO`, `Anna:RWRA` or `R.Elbow`; `None` for an unknown label.
 #[must_use]
 pub fn attachment(label: &str) -> Option<Attachment> {
     let bare = label.rsplit(':').next().unwrap_or(label);

@@ -1,9 +1,9 @@
-//! Fits a skeleton to optical markers: the rotations of its joints that bring it nearest to them.
+//! Fits a skeleton to optical markers: finds the joint rotations that bring it nearest to them.
 //!
-//! Each marker whose label is known belongs to a bone (module `labels`). The skeleton is scaled to the distances of
-//! the markers, then turned frame by frame by damped least squares; the place of each marker on its bone is found from
-//! the frames themselves, as skin and clothing put it elsewhere than any table. The error of every marker comes with the
-//! result, so that nobody takes a fit for a capture unseen.
+//! Each marker with a known label belongs to a bone (module `labels`). The skeleton is scaled to the distances of the
+//! markers, then turned frame by frame by damped least squares. The place of each marker on its bone is inferred from
+//! the frames themselves, as skin and clothing make it differ from any table. The error of every marker is part of the
+//! result, so that nobody takes a fit for a capture without checking.
 
 mod labels;
 mod solve;
@@ -26,10 +26,10 @@ use crate::times::Times;
 pub use labels::{Attachment, attachment};
 use solve::{Solver, Target};
 
-/// A skeleton that moves as markers do.
+/// A skeleton that moves with the markers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fitted {
-    /// The movement, in metres and model space, of the skeleton in the markers' size.
+    /// The movement in metres and model space; the skeleton has the size of the markers' body.
     pub clip: Clip,
     /// The size of the skeleton relative to the given one.
     pub scale: f64,
@@ -37,16 +37,16 @@ pub struct Fitted {
     pub markers: Vec<FittedMarker>,
     /// The labels of markers that belong to no known bone.
     pub unused: Vec<String>,
-    /// Frames with too few markers: the posture before is held.
+    /// The number of frames with too few markers, in which the posture before is held.
     pub held: usize,
 }
 
-/// How far a marker is from where the skeleton would have it.
+/// The distance of a marker from its place on the skeleton.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FittedMarker {
     /// Its label.
     pub name: String,
-    /// The joint whose bone it is on.
+    /// The joint of its bone.
     pub joint: usize,
     /// Its place in that joint's space, in metres.
     pub place: DVec3,
@@ -54,9 +54,9 @@ pub struct FittedMarker {
     pub seen: f64,
     /// The median distance in metres.
     pub median: f64,
-    /// The distance in metres that 19 of 20 frames are below.
+    /// The distance in metres that is not exceeded in 19 of 20 frames.
     pub most: f64,
-    /// The distance in every frame, in metres; not a number where the marker is not seen.
+    /// The distance in every frame, in metres; NaN in frames in which the marker is not seen.
     pub distances: Vec<f64>,
 }
 
@@ -71,7 +71,7 @@ impl Fitted {
 /// A reason why a skeleton cannot be fitted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FitError {
-    /// The points are not in a room.
+    /// The points are not in metric space.
     #[error("the points have no place in a room; only markers in three dimensions can be fitted")]
     Flat,
     /// Too few labels are known.
@@ -101,15 +101,15 @@ pub enum FitError {
     Clip(#[from] ClipError),
 }
 
-/// The fewest markers with a known label, in all and in a frame.
+/// The least number of markers with a known label, in all and in a frame.
 const FEWEST: usize = 8;
 const FEWEST_SEEN: usize = 6;
-/// The number of frames that show the places of markers on their bones, and the number of rounds.
+/// The number of frames that are used to find the places of markers on their bones, and the number of rounds.
 const SAMPLES: usize = 40;
 const ROUNDS: usize = 4;
-/// The farthest that a marker is from its expected place on the bone, in metres.
+/// The greatest distance of a marker from its expected place on the bone, in metres.
 const FARTHEST: f64 = 0.18;
-/// Steps of the solver on a frame after its neighbour, and from scratch.
+/// The number of solver steps for a frame after its neighbour, and from scratch.
 const STEPS: usize = 6;
 const FIRST_STEPS: usize = 60;
 
@@ -124,8 +124,8 @@ struct Used {
 /// Fits a skeleton in metres and model space to markers.
 ///
 /// # Errors
-/// [`FitError`] if the points are not in a room, too few labels are known, no frame has enough markers, or the skeleton
-/// is not a body's.
+/// [`FitError`] if the points are not in metric space, too few labels are known, no frame has enough markers, or the
+/// skeleton is not that of a body.
 pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<Fitted, FitError> {
     if !matches!(markers.space(), Space::World(_)) {
         return Err(FitError::Flat);
@@ -239,7 +239,7 @@ fn calibrate(
     }
 }
 
-/// The postures of all frames, and how many of them are held for want of markers.
+/// The postures of all frames, and how many of them are held because of missing markers.
 struct Moved {
     poses: Vec<Pose>,
     held: usize,
@@ -332,8 +332,8 @@ fn anchored(
     Some((joint, rest.rotation(joint).inverse() * (at - from)))
 }
 
-/// Returns how much larger the body of the markers is than the skeleton, from the distances of markers at the
-/// ends of its limbs.
+/// Returns the size of the markers' body relative to the skeleton, from the distances of markers at the ends of its
+/// limbs.
 fn scale(
     shown: &[Vec<Option<DVec3>>],
     labels: &[Option<Attachment>],

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use crate::pose::{ModelPose, Pose};
 use crate::skeleton::Skeleton;
 
-/// A point of a joint's space, and where it should be.
+/// A point in a joint's space, and its target position.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Target {
     pub(super) joint: usize,
@@ -13,23 +13,24 @@ pub(super) struct Target {
     pub(super) at: DVec3,
 }
 
-/// Pull of every joint toward its rest, in square metres a square radian: it settles what no marker shows.
+/// Weight of the pull of every joint towards its rest, in square metres per square radian; it determines the joints
+/// that no marker shows.
 const PULL: f64 = 2e-4;
-/// Damping of the first step, and how it changes with success and failure.
+/// Damping of the first step, and its factors after success and failure.
 const DAMPING: f64 = 1e-3;
 const EASIER: f64 = 0.4;
 const HARDER: f64 = 6.0;
-/// A step that gains less than this share ends the search.
+/// A step with a relative gain below this ends the search.
 const ENOUGH: f64 = 1e-5;
 /// The largest turn of a joint in a step, in radians.
 const LARGEST: f64 = 0.6;
 
-/// The joints that are turned.
+/// The solver, with the joints that it turns.
 pub(super) struct Solver<'s> {
     skeleton: &'s Skeleton,
     /// The joints with markers on them or below, parents first.
     joints: Vec<usize>,
-    /// For each joint of the skeleton, the places in `joints` of itself and those above.
+    /// For each joint of the skeleton, the indices in `joints` of itself and its ancestors.
     above: Vec<Vec<usize>>,
 }
 
@@ -58,7 +59,7 @@ impl<'s> Solver<'s> {
         }
     }
 
-    /// Turns the joints and moves the root until the targets are as near as they get.
+    /// Turns the joints and moves the root until the points are as near to the targets as possible.
     pub(super) fn solve(&mut self, start: Pose, targets: &[Target], steps: usize) -> Pose {
         let mut pose = start;
         let mut model = ModelPose::of(self.skeleton, &pose);
@@ -101,14 +102,14 @@ impl<'s> Solver<'s> {
         far + PULL * turned
     }
 
-    /// Returns how a joint is turned from rest, as a rotation vector in its parent's space.
+    /// Returns the rotation of a joint from rest, as a rotation vector in its parent's space.
     fn off_rest(&self, pose: &Pose, joint: usize) -> DVec3 {
         let turn = pose.rotations[joint] * self.skeleton.joint(joint).rest.inverse();
         let turn = if turn.w < 0.0 { -turn } else { turn };
         turn.to_scaled_axis()
     }
 
-    /// Returns the shift of the root and the turns of the joints, in model space, of one step.
+    /// Returns the shift of the root and the rotations of the joints in one step, in model space.
     fn step(
         &self,
         pose: &Pose,
@@ -171,7 +172,7 @@ impl<'s> Solver<'s> {
     }
 }
 
-/// Solves a symmetric positive system whose lower half is in `matrix`; `None` if it is not positive.
+/// Solves a symmetric positive definite system whose lower half is in `matrix`; `None` if it is not positive definite.
 fn cholesky(matrix: &mut [f64], mut right: Vec<f64>, size: usize) -> Option<Vec<f64>> {
     for row in 0..size {
         for column in 0..=row {

@@ -4,7 +4,7 @@ use crate::axes::Convention;
 use crate::column::Column;
 use crate::markers::Marker;
 
-/// Labels with the places of their markers in metres from where a table expects them, as skin puts them.
+/// Labels with the offsets of their markers from the table's places in metres, as on skin.
 const SET: [(&str, [f64; 3]); 30] = [
     ("LFHD", [0.07, 0.12, 0.1]),
     ("RFHD", [-0.07, 0.12, 0.1]),
@@ -38,7 +38,7 @@ const SET: [(&str, [f64; 3]); 30] = [
     ("RANK", [-0.04, 0.0, 0.0]),
 ];
 
-/// A body of another size that walks a step and raises an arm, as markers, with its joints' places.
+/// Returns the markers and joint positions of a body of another size that makes a step and raises an arm.
 fn capture(size: f64, frames: usize) -> (Markers, Vec<ModelPose>, Anatomy) {
     let skeleton = scaled(&body(PLAIN), size).expect("a body");
     let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");

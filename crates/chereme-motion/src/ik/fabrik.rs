@@ -4,15 +4,15 @@ use glam::DVec3;
 
 use super::{IkError, finite};
 
-/// When [`fabrik`] stops.
+/// The conditions that stop [`fabrik`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FabrikOptions {
-    /// The distance of the end from the target that is near enough.
+    /// The distance of the end from the target that is near enough, in the unit of the points.
     pub tolerance: f64,
-    /// The most passes made.
+    /// The greatest number of passes.
     pub passes: u32,
-    /// Which way a straight chain is bent first where the target lies on its line; without it such
-    /// a chain would only slide along the line and never bend.
+    /// The direction in which a straight chain is bent first if the target lies on its line; without it, such a chain
+    /// would only slide along the line and never bend.
     pub pole: Option<DVec3>,
 }
 
@@ -26,26 +26,25 @@ impl Default for FabrikOptions {
     }
 }
 
-/// Where a chain goes.
+/// The resulting chain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fabrik {
-    /// The places of the chain, the first as it was.
+    /// The positions of the chain's points; the first is unchanged.
     pub points: Vec<DVec3>,
-    /// The distance of the last from the target.
+    /// The distance of the last point from the target.
     pub residual: f64,
-    /// The passes made.
+    /// The number of passes.
     pub passes: u32,
 }
 
-/// Moves a chain of points, the first fixed, so that the last comes to `target`.
+/// Moves a chain of points, the first fixed, so that the last reaches `target`.
 ///
-/// Each pass sets the last point on the target and pulls the others after it at their distances,
-/// then sets the first point back and pulls the others after that. A target farther than the chain
-/// is long is pointed at with a straight chain. Distances are kept; which of the many solutions is
-/// found depends on the start, so the swivel of an arm is not chosen.
+/// Each pass sets the last point on the target and pulls the others after it at their distances, then sets the first
+/// point back and pulls the others again. A target out of reach gives a straight chain that points at it. Distances are
+/// kept; the start decides which of the many solutions is found, so the swivel of an arm is not controlled.
 ///
 /// # Errors
-/// [`IkError`] where a number is not finite, a bone has no length, or there is no bone.
+/// [`IkError`] if a number is not finite, a bone has no length, or there is no bone.
 pub fn fabrik(points: &[DVec3], target: DVec3, options: &FabrikOptions) -> Result<Fabrik, IkError> {
     finite("source", points)?;
     finite("target", &[target])?;
@@ -99,7 +98,7 @@ fn stretch(points: &mut [DVec3], lengths: &[f64], way: DVec3) {
     }
 }
 
-/// Sets the first of `points` on `anchor` and the others at their lengths towards where they were.
+/// Sets the first of `points` on `anchor`, and the others at their lengths in the direction of their old positions.
 fn pull<'a>(
     points: impl Iterator<Item = &'a mut DVec3>,
     lengths: impl Iterator<Item = &'a f64>,

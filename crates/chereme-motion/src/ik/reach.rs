@@ -9,39 +9,38 @@ use crate::hand::Side;
 use crate::pose::{ModelPose, Pose};
 use crate::skeleton::Skeleton;
 
-/// Where a hand should be.
+/// The target of a hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WristTarget {
-    /// The place of the wrist in model space, in metres.
+    /// The position of the wrist in model space, in metres.
     pub position: DVec3,
     /// The rotation of the hand's joint in model space, a unit quaternion.
     pub rotation: DQuat,
 }
 
-/// The way the elbow's place is found.
+/// The method that finds the elbow's position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Solver {
     /// [`two_bone`]: exact, and keeps the source's swivel.
     #[default]
     Analytic,
-    /// [`fabrik`]: as Naert, Larboulette & Gibet 2021 have it; no soft end.
+    /// [`fabrik`], as in Naert, Larboulette & Gibet 2021; without a soft end.
     Fabrik,
 }
 
-/// How an arm reaches.
+/// Settings of a reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReachOptions {
-    /// The way the elbow's place is found.
+    /// The method that finds the elbow's position.
     pub solver: Solver,
-    /// The soft end of the reach, as in [`TwoBoneOptions::soft`]. The default keeps the wrist within
-    /// a millimetre wherever it can be reached; where a movement leaves the reach anyway, 0.05 lets
-    /// the elbow open more calmly, at the price of 1.8 % of the arm's length at full extension.
+    /// The soft end of the reach, as in [`TwoBoneOptions::soft`]. The default keeps the wrist within a millimetre
+    /// wherever it can be reached; if a movement leaves the reach anyway, 0.05 lets the elbow open more calmly, at the
+    /// price of 1.8 % of the arm's length at full extension.
     pub soft: f64,
-    /// The share of the arm's length beyond which the collar bone helps; without one it stays still. Beyond it the
-    /// collar bone turns the shoulder towards the target, just enough to keep this share if it can. 0.9 suits
-    /// people.
+    /// The share of the arm's length beyond which the collar bone helps; without it the collar bone stays still. It
+    /// turns the shoulder towards the target, just enough to keep this share if possible. 0.9 suits people.
     pub clavicle: Option<f64>,
-    /// The turn of the collar bone in radians that is approached but never passed.
+    /// The limit of the collar bone's rotation in radians, which is approached but never reached.
     pub clavicle_limit: f64,
 }
 
@@ -56,37 +55,35 @@ impl Default for ReachOptions {
     }
 }
 
-/// How a reach went.
+/// The result of a reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach {
-    /// The distance of the wrist from where it should be, in metres.
+    /// The distance of the wrist from its target, in metres.
     pub residual_m: f64,
     /// The distance from shoulder to target as a share of the arm's length, after the collar bone
     /// helped; above 1 the target is out of reach.
     pub extension: f64,
-    /// Whether the wrist was held back softly near full extension.
+    /// Whether the wrist was held back by the soft end near full extension.
     pub soft: bool,
     /// Whether the target lies outside the arm's reach, too far or too near.
     pub clamped: bool,
-    /// How far the collar bone turned, in radians.
+    /// The rotation of the collar bone, in radians.
     pub clavicle_turn: f64,
 }
 
-/// Turns the arm of `side` in `pose` so that the wrist is at the target and the hand turned as it
-/// says.
+/// Rotates the arm of `side` in `pose` so that wrist and hand have the target's position and rotation.
 ///
-/// Only the local rotations of upper arm, forearm and hand change, and that of the collar bone where
-/// the options ask for its help. Bone lengths stay exactly as they are in `pose`. The elbow keeps its
-/// swivel; the hand's rotation in model space is exactly the target's, and the forearm takes all of
-/// the turn about its own length, so that the wrist is twisted no more than it was. Along a
-/// continuous path of postures and targets the result is continuous.
+/// Only the local rotations of upper arm, forearm and hand change, and that of the collar bone if the options ask for
+/// it. Bone lengths stay exactly as they are in `pose`. The elbow keeps its swivel; the hand's rotation in model space
+/// is exactly the target's, and the forearm takes all of the rotation about its own length, so that the wrist is
+/// twisted no more than before. Along a continuous path of postures and targets the result is continuous.
 ///
 /// # Errors
-/// [`IkError`] where the skeleton has no such arm, a number is not finite or a bone has no length;
-/// `pose` is unchanged then.
+/// [`IkError`] if the skeleton has no such arm, a number is not finite, or a bone has no length; `pose` is unchanged
+/// then.
 ///
 /// # Panics
-/// Where `pose` has fewer joints than `skeleton`.
+/// Panics if `pose` has fewer joints than `skeleton`.
 pub fn reach_wrist(
     anatomy: &Anatomy,
     skeleton: &Skeleton,
@@ -185,8 +182,8 @@ struct Help {
     angle: f64,
 }
 
-/// Returns how the collar bone turns so that the target is no farther than the stated share of the
-/// arm's length (or than the wrist was in the source) from the shoulder, if it can.
+/// Returns the rotation of the collar bone that brings the target within the stated share of the arm's length from the
+/// shoulder (or within the source's distance from shoulder to wrist), if possible.
 fn collar(
     skeleton: &Skeleton,
     pose: &Pose,
@@ -223,7 +220,7 @@ fn collar(
     })
 }
 
-/// Returns where `joint` is and how it is turned in model space.
+/// Returns the position and the rotation of `joint` in model space.
 fn placed(skeleton: &Skeleton, pose: &Pose, joint: usize) -> (DVec3, DQuat) {
     let (mut at, mut turned) = (DVec3::ZERO, DQuat::IDENTITY);
     for j in skeleton.ancestors(joint) {
@@ -233,7 +230,7 @@ fn placed(skeleton: &Skeleton, pose: &Pose, joint: usize) -> (DVec3, DQuat) {
     (at, turned.normalize())
 }
 
-/// Gives `joint` the local rotation for which it is turned by `rotation` in model space.
+/// Sets the local rotation of `joint` so that its rotation in model space is `rotation`.
 fn turn_to(skeleton: &Skeleton, pose: &mut Pose, joint: usize, rotation: DQuat) {
     let above = skeleton
         .parent(joint)
@@ -241,8 +238,8 @@ fn turn_to(skeleton: &Skeleton, pose: &mut Pose, joint: usize, rotation: DQuat) 
     pose.rotations[joint] = (above.inverse() * rotation).normalize();
 }
 
-/// Returns the part of `q` that turns about the unit vector `axis` (swing-twist); the identity where
-/// `q` turns by half a turn across it.
+/// Returns the twist of `q` about the unit vector `axis` (swing-twist decomposition); the identity if `q` is a half
+/// turn about a perpendicular axis.
 fn twist(q: DQuat, axis: DVec3) -> DQuat {
     let along = axis * DVec3::new(q.x, q.y, q.z).dot(axis);
     let twist = DQuat::from_xyzw(along.x, along.y, along.z, q.w);

@@ -123,12 +123,12 @@ fn the_end_falls_softly_behind_a_target_that_leaves() {
     }
 }
 
-/// A vector of three numbers from -1 to 1.
+/// Generates vectors with components from -1 to 1.
 fn vector() -> impl Strategy<Value = DVec3> {
     proptest::array::uniform3(-1.0f64..1.0).prop_map(DVec3::from)
 }
 
-/// An arm with bones of 10 to 50 cm that is bent by some degrees at least.
+/// Generates arms with bones of 10 to 50 cm that are bent by at least some degrees.
 fn arms() -> impl Strategy<Value = [DVec3; 3]> {
     (vector(), vector(), vector(), 0.1f64..0.5, 0.1f64..0.5)
         .prop_map(|(root, a, b, first, second)| {
@@ -273,7 +273,7 @@ fn worn(wear: Wear) -> (Skeleton, Anatomy) {
     (skeleton, anatomy)
 }
 
-/// A posture with both arms bent before the body.
+/// Returns a posture with both arms bent in front of the body.
 fn posture(skeleton: &Skeleton, anatomy: &Anatomy, sway: f64) -> Pose {
     let mut pose = skeleton.rest_pose();
     for side in Side::BOTH {
@@ -496,9 +496,9 @@ fn a_skeleton_without_the_arm_and_a_target_that_is_none_are_refused() {
     assert_eq!(error, Err(IkError::NoArm(Side::Left)));
 }
 
-/// Every captured arm carried aside: the wrist is where it should be wherever it can be, the hand is
-/// turned as it was, and where the source moves calmly no joint of a signer's arm jumps by five
-/// degrees beyond it at 120 Hz. Blows, and arms that the move takes through full extension, jump more.
+/// Moves every captured arm aside: the wrist reaches its target if possible, the hand keeps its rotation, and if the
+/// source moves calmly, no joint of a signer's arm jumps by five degrees more than in the source at 120 Hz. Blows, and
+/// arms that pass through full extension, jump more.
 #[test]
 fn real_arms_carried_aside_stay_smooth() {
     for path in shared("motion/bvh") {

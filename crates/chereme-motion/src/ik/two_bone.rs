@@ -4,15 +4,15 @@ use glam::{DQuat, DVec3};
 
 use super::{IkError, finite};
 
-/// How [`two_bone`] treats the ends of its reach.
+/// The treatment of the ends of the reach in [`two_bone`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TwoBoneOptions {
-    /// The share of the arm's length, before full extension, in which the end falls softly behind a target that
-    /// moves outwards, so that the elbow does not snap straight. At full extension the end lags by this share over
-    /// e: 0.004 of a 52 cm arm are 2.1 mm, a lag of 0.77 mm. A source that is itself extended further is not pulled
-    /// back. 0 means no softness.
+    /// The share of the arm's length, before full extension, in which the end gradually lags behind a target that moves
+    /// outwards, so that the elbow does not snap straight. At full extension the end lags by this share divided by e:
+    /// 0.004 of a 52 cm arm are 2.1 mm, a lag of 0.77 mm. A source that is itself extended further is not pulled back.
+    /// 0 means no softness.
     pub soft: f64,
-    /// Which way the middle points where the source is too straight to say; any length.
+    /// The direction of the middle joint if the source is too straight to show one; of any length.
     pub pole: Option<DVec3>,
 }
 
@@ -25,38 +25,37 @@ impl Default for TwoBoneOptions {
     }
 }
 
-/// Where two bones go.
+/// The resulting positions of two bones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TwoBone {
-    /// The place of the joint between the bones.
+    /// The position of the joint between the bones.
     pub middle: DVec3,
     /// The position of the end; the target if it can be reached.
     pub end: DVec3,
-    /// The distance from root to target as a share of both bones' length; above 1 out of reach.
+    /// The distance from root to target as a share of both bones' length; above 1 the target is out of reach.
     pub extension: f64,
-    /// Whether the end was held back softly near full extension.
+    /// Whether the end was held back by the soft end near full extension.
     pub soft: bool,
     /// Whether the target lies outside the reach, too far or too near.
     pub clamped: bool,
 }
 
-/// The share of the arm's length by which the middle must stand off the line from root to end for
-/// the source's swivel to count in full.
+/// The distance of the middle from the line between root and end, as a share of the arm's length, from which the
+/// source's swivel counts in full.
 const CLEAR: f64 = 0.05;
 
-/// Places the middle and the end of two bones so that the end is at `target`.
+/// Places the middle and the end of two bones so that the end reaches `target`.
 ///
-/// `source` are root, middle and end of the posture to start from. With l₁, l₂ the bones' lengths
-/// and d the distance to the target, the middle stands `x = (l₁² - l₂² + d²)/2d` along the line to
-/// the target and `√(l₁² - x²)` beside it. It stands on the side it stood in the source, carried by
-/// the least turn from the source's line to the new one: that is the source's swivel. As a source
-/// becomes straight its swivel loses meaning, and where the new arm is more bent than it the pole
-/// takes over gradually, so that a source elbow that wavers about straight does not flip.
+/// `source` are root, middle and end of the posture to start from. With l₁, l₂ the bones' lengths and d the distance to
+/// the target, the middle lies `x = (l₁² - l₂² + d²)/2d` along the line to the target and `√(l₁² - x²)` beside it. It
+/// lies on the same side as in the source, carried along by the least rotation from the source's line to the new one:
+/// that is the source's swivel. As a source becomes straight, its swivel loses its meaning; if the new arm is more bent
+/// than the source, the pole takes over gradually, so that a source elbow that wavers about straight does not flip.
 ///
-/// Lengths are kept; all places are in one space and unit.
+/// Lengths are kept; all positions are in the same space and unit.
 ///
 /// # Errors
-/// [`IkError`] where a number is not finite or a bone has no length.
+/// [`IkError`] if a number is not finite or a bone has no length.
 pub fn two_bone(
     source: [DVec3; 3],
     target: DVec3,
@@ -100,7 +99,7 @@ pub fn two_bone(
     })
 }
 
-/// Returns the unit vector from root to end; along the first bone where they coincide.
+/// Returns the unit vector from root to end, or along the first bone if they coincide.
 pub(super) fn source_line([root, middle, end]: [DVec3; 3]) -> DVec3 {
     let line = end - root;
     let short = 1e-9 * (root.distance(middle) + middle.distance(end));
@@ -116,8 +115,8 @@ pub(super) fn least_turn(from: DVec3, to: DVec3) -> DQuat {
     DQuat::from_rotation_arc(from, to).normalize()
 }
 
-/// Returns the distance to reach for a wanted one: not nearer than the bones allow, and softly up to
-/// their whole length from `soft` of it, or from where the source is.
+/// Returns the distance to reach for a wanted one: at least the shortest that the bones allow, and at most their whole
+/// length, which is approached softly in the last share `soft`, or beyond the source's distance.
 fn limit(wanted: f64, source: f64, [first, second]: [f64; 2], soft: f64) -> f64 {
     let length = first + second;
     let near = (first - second).abs();
@@ -132,7 +131,7 @@ fn limit(wanted: f64, source: f64, [first, second]: [f64; 2], soft: f64) -> f64 
     }
 }
 
-/// Returns the unit vector across `line` to which the middle points, seen from the source.
+/// Returns the unit vector perpendicular to `line` in which the middle lies, from the swivel of the source.
 fn swivel(source: [DVec3; 3], line: DVec3, beside: f64, pole: Option<DVec3>) -> DVec3 {
     let [root, middle, end] = source;
     let clear = CLEAR * (root.distance(middle) + middle.distance(end));
