@@ -1,22 +1,21 @@
 //! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS|two|grid|wall|change|film] [SECONDS] [FILM]`.
 //!
-//! The window opens without waiting for the screen and plays its first recording in a loop, scrolls and zooms
-//! the timeline while it plays, drags an annotation among its neighbours, and closes. Without a corpus one is
-//! made with a recording of the starter corpus and with 200 tiers of 500 annotations; `two` makes one with a
-//! sign made from another instead, and only plays the two signers side by side; `grid` imports the starter
-//! corpus, and shows all its signs as at least 24 looping little figures; `wall` shows them in the whole window, more than
-//! 40 at once. Prints for each scene how long
-//! a frame took to compute on the window's thread, how far apart frames were, and how long pictures of the stage
-//! took on the thread that draws them; and on Linux how much processor time a frame cost, all threads together and
-//! each by its name, which other programs on the machine change less. At last the window is empty: frames are as far
-//! apart then as the machine has them.
+//! The window opens without waiting for the screen and plays its first recording in a loop, scrolls and zooms the
+//! timeline while it plays, drags an annotation among its neighbours, and closes. Without a corpus, one is created with
+//! a recording of the starter corpus and with 200 tiers of 500 annotations. `two` creates one with a generated sign
+//! instead, and only plays it beside its original; `grid` imports the starter corpus, and shows all its signs as at
+//! least 24 looping little figures; `wall` shows them in the whole window, more than 40 at once. Prints for each scene
+//! the time to compute a frame on the window's thread, the interval between frames, and the time to draw pictures of
+//! the stage on their own thread; on Linux also the processor time per frame, of all threads together and of each by
+//! name, which other programs on the machine affect less. The last scene is an empty window, which shows the machine's
+//! own interval between frames.
 //!
-//! `film` plays a film of 1080 lines next to the signer of that recording: FILM, or one that is drawn of the recording.
-//! It prints besides how many of the window's frames showed the film's picture of that very moment.
+//! `film` plays a film of 1080 lines next to the signer of that recording: FILM, or one that is drawn from the
+//! recording. It also prints in how many of the window's frames the film showed the picture of that very moment.
 //!
-//! `change` imports the starter corpus and changes a placement of recipes again and again, each time when what the
-//! last change made has been drawn. Prints how long the recipe took to be made without a window, how long after the
-//! change its picture was on the stage, and in which frame: 1 is the one after that in which the change was typed.
+//! `change` imports the starter corpus and changes a placement of recipes again and again, each time after the result
+//! of the last change was drawn. Prints how long the recipe takes without a window, how long after the change its
+//! picture was on the stage, and in which frame: 1 is the frame after the one in which the change was typed.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::error::Error;
@@ -105,7 +104,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A recording of the starter corpus with many tiers and annotations.
+/// Returns a corpus with a recording of the starter corpus and many tiers and annotations.
 fn made(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let files = unpack_starter(&folder.join("files"))?;
     let phrase = files
@@ -128,7 +127,7 @@ fn made(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     Ok(path)
 }
 
-/// The same with a film next to the signer.
+/// Returns the same corpus with a film next to the signer.
 fn filmed(folder: &Path, film: Option<String>) -> Result<PathBuf, Box<dyn Error>> {
     let path = made(folder)?;
     let mut corpus = Corpus::open(&path, "A")?;
@@ -152,7 +151,7 @@ fn filmed(folder: &Path, film: Option<String>) -> Result<PathBuf, Box<dyn Error>
     Ok(path)
 }
 
-/// The starter corpus, in a window so large that there is room for the figures.
+/// Returns the starter corpus, for a window with room for all figures.
 fn starter(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     std::fs::write(folder.join("studio.json"), r#"{ "scale": 0.7 }"#)?;
     let files = folder.join("files");
@@ -172,7 +171,7 @@ const RECIPES: [&str; 3] = [
     "(ESCARGOT then CHAT then BOL) | configure right U | place both by left 10cm",
 ];
 
-/// Returns the recipe after so many changes, written as the corpus writes it.
+/// Returns the recipe after a number of changes, as the corpus writes it.
 fn changed(recipe: &str, times: u64) -> String {
     recipe.replace("10cm", &format!("1{}cm", times % 10))
 }
@@ -180,7 +179,7 @@ fn changed(recipe: &str, times: u64) -> String {
 /// How often a recipe is changed.
 const CHANGES: u64 = 60;
 
-/// Prints the time of recipes after that change, with nothing else running.
+/// Prints the time that each changed recipe takes with nothing else running.
 #[expect(clippy::print_stdout, reason = "it tells what it measured")]
 fn without_window(path: &Path) -> Result<(), Box<dyn Error>> {
     let mut corpus = Corpus::open(path, "A")?;
@@ -204,7 +203,7 @@ fn without_window(path: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Returns the middle, the slow and the slowest of some times.
+/// Returns the number, the median, the 95th percentile and the maximum of some times, as text.
 fn summary<T: Ord + Copy + std::fmt::Debug>(times: &mut [T]) -> String {
     times.sort_unstable();
     let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
@@ -215,7 +214,7 @@ fn summary<T: Ord + Copy + std::fmt::Debug>(times: &mut [T]) -> String {
     )
 }
 
-/// ESCARGOT, and LIMACE made from it.
+/// Returns a corpus with ESCARGOT, and LIMACE made from it.
 fn pair(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let mut files = unpack_starter(&folder.join("files"))?;
     files.retain(|path| path.file_stem().is_some_and(|stem| stem == "escargot"));
@@ -228,7 +227,7 @@ fn pair(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     Ok(path)
 }
 
-/// An ELAN file of `tiers` tiers with `each` annotations within `millis` milliseconds.
+/// Returns an ELAN file of `tiers` tiers with `each` annotations within `millis` milliseconds.
 fn many(tiers: usize, each: usize, millis: usize) -> Result<String, std::fmt::Error> {
     let mut text = String::from(
         "<ANNOTATION_DOCUMENT AUTHOR=\"\" DATE=\"2020-01-01T00:00:00Z\" FORMAT=\"3.0\" VERSION=\"3.0\">\
@@ -269,15 +268,15 @@ enum Scene {
     Play,
     /// Playing in a loop next to a film.
     Film,
-    /// Playing a made sign beside what it was made from.
+    /// Playing a generated sign beside its original.
     Two,
     /// Scrolling through the tiers, and zooming in and out.
     Scroll,
     /// Dragging an annotation to and fro.
     Drag,
-    /// Looking at hits as looping little figures.
+    /// Showing results as looping little figures.
     Grid,
-    /// The same in the whole window.
+    /// The same with the whole window.
     Wall,
     /// Changing a recipe.
     Change(usize),
@@ -285,33 +284,33 @@ enum Scene {
     Empty,
 }
 
-/// How far changing a recipe is.
+/// The progress of changing a recipe.
 #[derive(Default)]
 struct Change {
     times: u64,
-    /// When the last change was typed, and how many frames have been since.
+    /// The time when the last change was typed, and the number of frames since.
     typed: Option<(Instant, u64)>,
     took: Vec<Duration>,
     frames: Vec<u64>,
 }
 
-/// Where the timeline is in the window.
+/// A point of the timeline in the window.
 const TIMELINE: Pos2 = Pos2::new(760.0, 690.0);
 
 impl Scene {
-    /// Returns how many frames only set the scene; figures are drawn by then.
+    /// Returns how many frames only prepare the scene; figures are drawn by then.
     fn sets(self) -> u64 {
         match self {
             Self::Grid => 900,
             Self::Wall => 3000,
-            // Until the film is open.
+            // By then the film is open.
             Self::Film => 200,
             Self::Change(_) => 60,
             _ => 20,
         }
     }
 
-    /// Returns what a person does in a frame of it.
+    /// Returns the input events of a person in one frame of the scene.
     fn events(self, frame: u64) -> Vec<Event> {
         let key = |key, modifiers| Event::Key {
             key,
@@ -393,17 +392,17 @@ impl Scene {
 struct Meter {
     studio: Studio,
     scenes: VecDeque<Scene>,
-    /// When frames of the scene began to be measured.
+    /// The time when the measurement of the scene began.
     begun: Option<Instant>,
     lasts: Duration,
     last: Option<Instant>,
     frame: u64,
-    /// In how many frames the film showed the picture of that moment.
+    /// The number of frames in which the film showed the picture of that very moment.
     pictured: u64,
     computed: Vec<Duration>,
     apart: Vec<Duration>,
     drawn: Vec<Duration>,
-    /// The processor time that threads had taken when frames of the scene began to be measured.
+    /// The processor time of the threads when the measurement of the scene began.
     worked: BTreeMap<String, u64>,
     change: Change,
 }
@@ -432,7 +431,7 @@ fn worked() -> BTreeMap<String, u64> {
     all
 }
 
-/// The sum over the program's threads.
+/// The name of the sum over all threads.
 const ALL: &str = "all";
 
 impl eframe::App for Meter {
@@ -442,7 +441,7 @@ impl eframe::App for Meter {
             self.studio.ui(ui);
         }
         ui.ctx().request_repaint();
-        // The first frames of a scene only set it.
+        // The first frames of a scene only prepare it.
         if self
             .scenes
             .front()
@@ -510,7 +509,7 @@ impl eframe::App for Meter {
 }
 
 impl Meter {
-    /// Notes when the picture of what was changed last is there.
+    /// Notes when the picture of the last change is on the stage.
     fn follow(&mut self, recipe: &str) {
         let Some((begun, frames)) = &mut self.change.typed else {
             return;

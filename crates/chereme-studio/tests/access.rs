@@ -10,7 +10,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::NodeT;
 
-/// The roles of widgets that a person can act on.
+/// The roles of widgets that a person can use.
 const USED: [Role; 14] = [
     Role::Button,
     Role::DefaultButton,
@@ -28,7 +28,7 @@ const USED: [Role; 14] = [
     Role::ColorWell,
 ];
 
-/// Returns the widgets that say nothing of themselves, and how many there are in all.
+/// Returns the widgets without a name, and the number of all widgets.
 fn nameless(window: &Window<'_>) -> (BTreeSet<String>, usize) {
     let mut all = 0;
     let mut found = BTreeSet::new();
@@ -56,10 +56,10 @@ fn nameless(window: &Window<'_>) -> (BTreeSet<String>, usize) {
     (found, all)
 }
 
-/// A button that is lower or narrower than this, in points, is missed by a hand in a hurry.
+/// The least height and width of a button, in points; smaller ones are easily missed.
 const LEAST: f32 = 14.0;
 
-/// Returns the buttons that are smaller; an annotation on a tier is as wide as its time.
+/// Returns the buttons that are smaller; annotations are left out, as their width is their duration.
 fn tiny(window: &Window<'_>) -> BTreeSet<String> {
     let all = window.root().children_recursive();
     let small = all.filter(|node| {
@@ -74,7 +74,7 @@ fn tiny(window: &Window<'_>) -> BTreeSet<String> {
     named.collect()
 }
 
-/// Goes through every pane in every layout.
+/// Visits every pane in every layout.
 fn walk(window: &mut Window<'_>, told: &str) {
     const LAYOUTS: [Key; 3] = [Key::F1, Key::F2, Key::F3];
     const PANES: [(Modifiers, Key); 8] = [

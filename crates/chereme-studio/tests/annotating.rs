@@ -1,4 +1,4 @@
-//! Annotations copied and pasted, made beside others, and gone to: by keys and by the mouse.
+//! Copying and pasting annotations, creating them beside others, and going to them, by keys and by the mouse.
 
 mod common;
 
@@ -7,7 +7,7 @@ use common::{Window, click, has, idle};
 use eframe::egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::Queryable;
 
-/// Waits for what was pasted, or anything else that was asked for.
+/// Waits until the paste, or any other request, is done.
 fn settled(window: &mut Window<'_>) {
     window.run_steps(8);
     idle(window);
@@ -24,13 +24,13 @@ fn annotations_are_copied_cut_and_pasted_through_the_clipboard() {
     window.event(Event::Copy);
     window.run_steps(2);
     assert!(has(&window, "Annotations copied: 2"));
-    // At their own times there are annotations already.
+    // There are annotations at their own times already.
     press(&mut window, CTRL, Key::V);
     settled(&mut window);
     let said = "There is an annotation already at that time. Paste at the playhead instead.";
     assert!(has(&window, said));
     assert_eq!(spans(&window), old);
-    // At the playhead they keep their distance, on the tier that is selected.
+    // At the playhead they keep their distances, on the selected tier.
     let before = operations(&window);
     press(&mut window, CTRL, Key::T);
     window
@@ -86,12 +86,12 @@ fn cells_of_a_spreadsheet_are_pasted_and_what_is_odd_is_told() {
         says(&window, "Configuration RH"),
         [(120, 180, "flat".to_owned())]
     );
-    // Values alone go to the annotations that are selected, from the first on.
+    // Values alone go to the selected annotations, from the first on.
     click(&mut window, "Gloss: UN");
     window.event(Event::Paste("MAISON\n".into()));
     stored(&mut window, before + 1);
     assert_eq!(values(&window, "Gloss"), ["MAISON"]);
-    // Typed text has the clipboard to itself.
+    // While text is typed, the clipboard belongs to the text field.
     press(&mut window, NONE, Key::Enter);
     window.event(Event::Paste("1\t2\tX".into()));
     window.run_steps(3);
@@ -139,7 +139,7 @@ fn annotations_are_made_duplicated_stretched_and_merged_beside_one() {
         let made = says(&window, tier);
         assert_eq!((made[0].0, made[0].1), old["a"], "{tier}");
     }
-    // With all below it, it is copied and pasted elsewhere.
+    // The annotation is copied and pasted with all its descendants.
     press(&mut window, CTRL | ALT, Key::C);
     press(&mut window, ALT, Key::End);
     after(&mut window, NONE, Key::Delete);

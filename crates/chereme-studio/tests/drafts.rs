@@ -1,4 +1,4 @@
-//! A window killed while somebody types: the typed text is back when the corpus is opened again.
+//! A window that is killed while somebody types: the typed text is restored when the corpus is opened again.
 
 mod common;
 
@@ -12,7 +12,7 @@ use common::{Window, has, idle, options, small_corpus, until, window};
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 
-/// The folder in which the process that is to be killed types.
+/// The environment variable with the folder for the process that types and is killed.
 const TYPIST: &str = "CHEREME_TEST_TYPIST";
 
 fn open<'a>(folder: &Path, corpus: &Path) -> Window<'a> {
@@ -50,7 +50,7 @@ fn glosses(corpus: &Path) -> Vec<String> {
         .collect()
 }
 
-/// Types letter after letter until it is killed, telling each when the frame that took it has ended.
+/// Types letter after letter until the process is killed, and reports each after its frame.
 #[test]
 fn typist() {
     let Some(folder) = std::env::var_os(TYPIST).map(PathBuf::from) else {
@@ -104,7 +104,7 @@ fn what_was_typed_before_a_kill_is_back_in_its_place() {
         let tier = window.get_by_label("Tier Gloss");
         let chosen = format!("{:?}", tier.accesskit_node().toggled());
         assert!(chosen.contains("True"), "its tier is turned to");
-        // A letter may have been written without time to report it.
+        // The last letter may have been written without being reported.
         assert!(back.starts_with(&typed), "{back:?} is not {typed:?}");
         window.key_press(Key::Enter);
         window.run_steps(2);

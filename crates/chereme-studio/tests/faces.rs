@@ -1,4 +1,5 @@
-//! The pane of faces, driven as a person does: candidates side by side, reasons, milestones, one click and its undo.
+//! The pane of faces, used like a person: candidates side by side, reasons, milestones, storing with one click, and
+//! undo.
 
 mod common;
 
@@ -22,7 +23,7 @@ const SIGNS: [(&str, i64, i64); 4] = [
     ("QUOI", 1700, 2300),
 ];
 
-/// Writes a face whose brows rise to `most` in the question.
+/// Writes a face whose brows are raised up to `most` during the question.
 fn write_face(path: &Path, most: f64) {
     let mut text = String::from(
         "time [s],brow_raise_right,brow_raise_left,brow_squeeze,jaw_open,head_pitch,head_yaw,head_roll\n",
@@ -73,7 +74,7 @@ fn tier(
         .expect("annotated");
 }
 
-/// Returns a corpus of four wh questions whose brows rise by different amounts.
+/// Returns a corpus with four wh questions whose brows are raised by different amounts.
 fn questions(folder: &Path) -> PathBuf {
     let path = folder.join("faces.chereme");
     let mut corpus = Corpus::create(&path, "A").expect("made");

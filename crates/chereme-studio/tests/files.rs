@@ -1,4 +1,4 @@
-//! Files in and out, driven by their labels: import with a preview, export of what is selected.
+//! Import with a preview, and export of the selection, driven by labels.
 
 mod common;
 
@@ -158,7 +158,7 @@ fn remedies_name_things_of_the_window_and_a_joint_is_said_by_a_click_on_the_body
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     let whole = std::fs::read_to_string(folder.path().join("files/escargot.bvh")).expect("there");
-    // A hand whose name says nothing.
+    // A hand whose joint has a meaningless name.
     let odd = folder.path().join("odd.bvh");
     std::fs::write(&odd, whole.replace("Head", "Thing")).expect("written");
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::I);
@@ -169,7 +169,7 @@ fn remedies_name_things_of_the_window_and_a_joint_is_said_by_a_click_on_the_body
     assert!(shows(&window, "up is the file's Y axis"));
     assert!(!shows(&window, "--") && !shows(&window, "roles file"));
     let map = window.get_by_label_contains("parts found").rect();
-    // The head is a share of 0.08 below the top, in the middle.
+    // The head is 0.08 of the height below the top, in the middle.
     let head = pos2(map.center().x, map.top() + map.height() * 0.08);
     window.hover_at(head);
     window.run_steps(3);

@@ -1,4 +1,4 @@
-//! Films driven by their labels: next to the signer, alone on the stage, laid upon the movement, missing, damaged.
+//! Films, driven by labels: next to the signer, alone on the stage, aligned with the movement, missing, damaged.
 
 mod common;
 
@@ -16,7 +16,7 @@ fn shows(window: &Window<'_>, part: &str) -> bool {
     window.query_all_by_label_contains(part).next().is_some()
 }
 
-/// Writes a film of the sign of the small corpus next to it.
+/// Writes a film next to the small corpus that shows its sign.
 fn film(corpus: &mut Corpus, folder: &Path) -> PathBuf {
     let path = folder.join("film.mp4");
     let options = PictureOptions {
@@ -48,7 +48,7 @@ fn filmed<'a>(folder: &Path) -> (Window<'a>, PathBuf) {
     (window(options), path)
 }
 
-/// Opens a corpus that holds an EAF file alone, which names this film.
+/// Opens a corpus with only an EAF file that names this film.
 fn film_alone<'a>(folder: &Path, film: &str) -> Window<'a> {
     let eaf = folder.join("talk.eaf");
     let text = format!(
@@ -103,7 +103,7 @@ fn a_film_goes_along_with_the_signer_and_is_laid_upon_the_movement() {
     until(&mut window, "its picture", |window| {
         window.state().is_filmed()
     });
-    // The film stands still while the movement goes on, and is laid there.
+    // The film stands still while the movement goes on, and is then aligned with it.
     click(&mut window, "Hold");
     for _ in 0..3 {
         window.key_press_modifiers(Modifiers::SHIFT, Key::ArrowRight);
@@ -155,7 +155,7 @@ fn a_film_without_movement_is_on_the_stage_and_stepped_through() {
         window.run_steps(2);
         assert_eq!(window.state().playhead().micros(), frame * 40_000);
     }
-    // It goes on where annotations end.
+    // The film continues after the end of the annotations.
     assert!(shows(&window, "film frame 10 of"));
     window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowLeft);
     window.run_steps(2);

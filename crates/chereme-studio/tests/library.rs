@@ -1,4 +1,4 @@
-//! Signs that nobody recorded, and signs taken from a list into a recipe: by the mouse, and by keys.
+//! Signs without recordings, and signs taken from a list into a recipe, by the mouse and by keys.
 
 mod common;
 
@@ -17,7 +17,7 @@ const SIGML: &str = r#"<sigml>
 </sigml>
 "#;
 
-/// Opens a corpus with a sign that is notated and a lexicon of coded ones, and no recording.
+/// Opens a corpus with a notated sign and a lexicon of coded signs, without recordings.
 fn open_notated<'a>(folder: &Path) -> Window<'a> {
     let files = unpack_starter(&folder.join("files")).expect("unpacked");
     let lexicon = |path: &std::path::PathBuf| path.file_stem().is_some_and(|it| it == "lexicon");
@@ -65,7 +65,7 @@ fn signs_without_recordings_are_listed_animated_and_taken_into_a_recipe() {
     until(&mut window, "the stage", |window| {
         says(window, "Made: HOCHER")
     });
-    // In a lower pane that stands in the line of what can be done, and the list keeps its room.
+    // In a lower pane, that text is in the same line as the buttons, and the list keeps its height.
     let beside = |window: &Window<'_>| {
         let said = window.get_by_label_contains("HOCHER is animated from its notation");
         let button = window.get_by_label("Take it into a recipe");
@@ -90,7 +90,7 @@ fn in_a_small_window_a_notated_sign_that_was_opened_is_seen_and_used() {
     window.run_steps(3);
     window.key_press_modifiers(Modifiers::COMMAND, Key::F);
     window.run_steps(3);
-    // A field keeps the keyboard, however much stands below it.
+    // A field keeps the keyboard, regardless of the contents below it.
     for word in ["gloss", "=", "HOCHER"] {
         window.event(Event::Text(word.to_owned()));
         window.run_steps(40);

@@ -11,7 +11,7 @@ use common::*;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
-/// Says three things in a corpus, each in words of its own.
+/// Makes three edits with their own values in a corpus.
 fn work(corpus: &mut Corpus, word: &str) {
     let change = AnnotationAction::Set {
         annotation: AnnotationName::Number(1),

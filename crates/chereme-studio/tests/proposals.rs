@@ -1,4 +1,4 @@
-//! Proposals from movement: asked for, gone through, accepted with Enter, and taken back.
+//! Proposals from movement: requested, visited in turn, accepted with Enter, and undone.
 
 mod common;
 
@@ -14,7 +14,7 @@ use common::*;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
-/// Returns a corpus with one recording whose gloss alone is annotated.
+/// Returns a corpus with one recording in which only the gloss is annotated.
 fn uncoded(folder: &Path) -> PathBuf {
     let film = folder.join("bol.bvh");
     let (_, bytes) = starter_files()
@@ -99,7 +99,7 @@ fn values_are_proposed_for_a_recording_gone_through_and_accepted() {
     assert_eq!(count(&window, proposed), all - 1, "{:?}", tiers(&window));
     let accepted = |name: &str| !proposed(name) && name != "gloss";
     assert_eq!(count(&window, accepted), 1, "{:?}", tiers(&window));
-    // The next one is selected by then.
+    // The next proposal is selected then.
     press(&mut window, Modifiers::NONE, Key::Enter);
     assert_eq!(count(&window, proposed), all - 2, "{:?}", tiers(&window));
     assert_eq!(count(&window, accepted), 2);

@@ -13,7 +13,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 
 type Window<'a> = Harness<'a, Studio>;
 
-/// Draws frames until `done`; a minute is more than any of this takes.
+/// Draws frames until `done`, for at most a minute.
 fn until(window: &mut Window<'_>, what: &str, done: impl Fn(&Window<'_>) -> bool) {
     for _ in 0..12_000 {
         window.step();
@@ -39,7 +39,7 @@ fn shows(window: &Window<'_>, part: &str) -> bool {
     window.query_all_by_label_contains(part).next().is_some()
 }
 
-/// Clicks where the pointer could miss: cards grow when their results arrive.
+/// Clicks a label without the pointer, which could miss: cards grow when their results arrive.
 fn press(window: &mut Window<'_>, label: &str) {
     window.get_by_label(label).click_accesskit();
     window.step();
@@ -102,7 +102,7 @@ fn open<'a>(folder: &Path) -> Window<'a> {
     window
 }
 
-/// Returns the names of the recordings, as the file has them.
+/// Returns the names of the recordings in the corpus file.
 fn recordings(window: &Window<'_>) -> Vec<String> {
     let path = window.state().corpus().expect("open");
     let corpus = Corpus::open(path, "B").expect("opened");
@@ -161,7 +161,7 @@ fn limace_is_made_from_escargot_stored_undone_and_changed() {
     key(&mut window, Modifiers::COMMAND, Key::Z);
     idle(&mut window);
     assert!(!recordings(&window).contains(&"LIMACE".to_owned()));
-    // The status never says that an undone sign is stored.
+    // The status never reports an undone sign as stored.
     until(&mut window, "the snapshot", |window| {
         !has(window, "Show it")
     });
@@ -259,7 +259,7 @@ fn a_changed_recipe_takes_the_place_of_the_sign_it_was_and_undo_brings_that_back
     key(&mut window, Modifiers::COMMAND, Key::Z);
     idle(&mut window);
     assert_eq!(length(&window), before);
-    // The next undo takes back the earlier change of the recipe.
+    // The next undo undoes the earlier change of the recipe.
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(recipe_of_stored(&window), "ESCARGOT | configure right U");
 }
@@ -294,7 +294,7 @@ fn a_placed_hand_is_moved_on_the_stage_by_keys_and_by_dragging() {
     assert_eq!(recipe_of(&window), "ESCARGOT | place right by up 10cm");
     idle(&mut window);
 
-    // The handle lies where the hand is in the picture.
+    // The handle is at the hand's place in the picture.
     press(&mut window, "Pause");
     until(&mut window, "the picture", |window| {
         window.state().is_drawn()
@@ -325,7 +325,7 @@ fn a_placed_hand_is_moved_on_the_stage_by_keys_and_by_dragging() {
     key(&mut window, Modifiers::COMMAND, Key::Y);
     assert_eq!(recipe_of(&window), dragged);
 
-    // A key that never seems to be let go of does not hold the steps together.
+    // A key that is never released does not join the steps.
     window.event(eframe::egui::Event::Key {
         key: Key::R,
         physical_key: None,
@@ -429,7 +429,7 @@ fn a_press_near_a_moving_handle_holds_the_hand_and_takes_its_handle() {
     window.drop_at(beside + eframe::egui::vec2(-25.0, 25.0));
     window.run_steps(3);
     assert!(has(&window, "Pause"), "it plays on");
-    // A press without a drag only holds it.
+    // A press without a drag only grabs it.
     let at = window.get_by_label("Move: right hand").rect().center();
     window.drag_at(at);
     window.run_steps(2);
@@ -460,7 +460,7 @@ fn history_walks_back_and_forward_and_asks_before_several_steps() {
     assert!(has(&window, "Undo 2 steps?"));
     click(&mut window, "Yes");
     idle(&mut window);
-    // Between two steps the corpus may be read too.
+    // The corpus may be read between two steps.
     until(&mut window, "undone", |window| {
         !has(window, "TROIS") && !has(window, "DEUX")
     });
@@ -532,7 +532,7 @@ fn what_cannot_be_made_is_told_on_its_card_and_nowhere_else() {
     key(&mut window, Modifiers::COMMAND, Key::R);
     type_into(&mut window, "Recipe", "ESCARGOT | configure right NOSUCH");
     idle(&mut window);
-    // A name that is still being typed is no mistake yet.
+    // An unfinished name is not an error yet.
     until(&mut window, "what is wrong", |window| {
         shows(window, "NOSUCH")
     });

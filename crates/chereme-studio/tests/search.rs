@@ -96,7 +96,7 @@ fn everyday_words_are_understood_and_what_is_opened_in_a_small_window_is_seen() 
     window.run_steps(3);
     assert_eq!(query(&window), "configuration=Y");
     assert_eq!(hits(&window), 1);
-    // With a layout that shows both, nothing goes behind.
+    // In a layout that shows both, no pane hides the other.
     window.key_press_modifiers(Modifiers::COMMAND, Key::F2);
     window.run_steps(3);
     assert!(has(&window, "Play") && hits(&window) == 1);
@@ -190,7 +190,7 @@ fn facets_narrow_and_a_search_is_kept_renamed_and_deleted() {
     idle(&mut window);
     let narrowed = query(&window);
     assert!(narrowed.ends_with("configuration==Y"), "{narrowed}");
-    // A facet that is on is switched off by a click, and on by the next.
+    // A click switches a facet off, and the next switches it on.
     for wanted in [String::new(), narrowed] {
         window.get_by_label(&facet).click_accesskit();
         window.run_steps(2);

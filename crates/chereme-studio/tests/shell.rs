@@ -1,4 +1,4 @@
-//! The window driven by its labels, as a person would, without one being open.
+//! The window without a corpus, driven by labels.
 
 mod common;
 
@@ -91,7 +91,7 @@ fn the_start_page_is_walked_by_keys_and_goes_on_with_what_was_open() {
     assert!(has(&window, "aimer"));
     window.key_press_modifiers(Modifiers::COMMAND, Key::W);
     window.run_steps(3);
-    // The corpus that was open last has the keyboard, the offers stand below it.
+    // The last opened corpus has the keyboard focus; the offers are below it.
     let focused = |window: &Window<'_>, label: &str| window.get_by_label(label).is_focused();
     assert!(focused(&window, "starter"));
     window.key_press(Key::ArrowDown);
@@ -208,7 +208,7 @@ fn a_small_window_has_stage_and_timeline_and_goes_back() {
     window.run_steps(3);
     assert!(has(&window, "Tier Gloss") && has(&window, "Show…") && !has(&window, "Trails"));
     assert!(!has(&window, "Recordings (1)"));
-    // The time leads to another.
+    // A click on the time lets the user type another.
     click(&mut window, "Go to a time…");
     window.run_steps(3);
     assert!(has(&window, "Go"));

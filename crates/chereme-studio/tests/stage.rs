@@ -1,4 +1,4 @@
-//! The stage driven by its labels: views, panes, trails, ghosts, places, and what it was made from.
+//! The stage, driven by labels: views, panes, trails, ghosts, places, and the originals of generated signs.
 
 mod common;
 
@@ -72,7 +72,7 @@ fn hands_are_in_the_corners_and_palms_and_the_face_on_request() {
     window.key_press_modifiers(Modifiers::ALT, Key::H);
     window.run_steps(3);
     assert!(!is_on(&window, "Hands") && !has(&window, hands[0]));
-    // A view that is near enough needs no close-up.
+    // A close view needs no close-up.
     window.key_press_modifiers(Modifiers::ALT, Key::V);
     window.run_steps(3);
     assert!(!has(&window, "Face close up"));

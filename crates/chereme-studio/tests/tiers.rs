@@ -1,4 +1,4 @@
-//! Tiers put in another order, copied, hidden and shown: and how a corpus was looked at is remembered.
+//! Tiers reordered, copied, hidden and shown; and the view of a corpus, which is restored.
 
 mod common;
 
@@ -10,7 +10,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 
 const SHIFT: Modifiers = Modifiers::SHIFT;
 
-/// Returns the names of the tiers in the order in which they are stored.
+/// Returns the names of the tiers in their stored order.
 fn order(window: &Window<'_>) -> Vec<String> {
     let path = window.state().corpus().expect("open").clone();
     let corpus = chereme_corpus::Corpus::open(&path, "reader").expect("opened");
@@ -147,7 +147,7 @@ fn the_box_of_the_overview_is_dragged_and_shows_another_part() {
     drag(&mut window, from, from + vec2(200.0, 0.0), NONE);
     let moved = strip(&window).expect("a strip").1;
     assert_ne!(moved, says);
-    // A click brings the middle there; the end of the recording stays the end.
+    // A click centres the strip's box there; the end of the recording stays the end.
     let end = pos2(area.right() - 2.0, area.center().y);
     pointer(&mut window, end, Some(true), NONE);
     pointer(&mut window, end, Some(false), NONE);
@@ -208,7 +208,7 @@ fn a_component_is_described_by_keys_and_proposes_where_it_belongs() {
     press(&mut window, NONE, Key::Tab);
     window.event(eframe::egui::Event::Text("p".to_owned()));
     window.run_steps(3);
-    // Enter opens the list that has the focus, and closes nothing.
+    // Enter opens the list with the focus, and closes nothing.
     press(&mut window, NONE, Key::Enter);
     press(&mut window, NONE, Key::Escape);
     let name = window.get_by_role_and_label(Role::TextInput, "Name of the tier");

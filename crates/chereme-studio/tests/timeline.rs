@@ -1,4 +1,4 @@
-//! The timeline driven by its labels: making, moving and coding annotations by mouse and by keys.
+//! The timeline, driven by labels: creating, moving and coding annotations by mouse and by keys.
 
 mod common;
 
@@ -36,7 +36,7 @@ fn a_gloss_is_made_on_a_dragged_selection_and_typed() {
     assert!(says(&window, "Gloss").is_empty());
 }
 
-/// Presses and lets go within one frame, as touchpads do.
+/// Presses and releases within one frame, as touchpads do.
 fn tap(window: &mut Window<'_>, at: Pos2) {
     let button = |pressed| Event::PointerButton {
         pos: at,
@@ -129,13 +129,13 @@ fn a_selected_annotation_is_moved_and_neighbours_are_pushed_in_one_undo() {
         rect(&window, "Gloss: c"),
     );
     let before = operations(&window);
-    // Normal: it stops at its neighbour.
+    // Normal mode: it stops at its neighbour.
     drag(&mut window, from, pos2(c.left(), from.y), NONE);
     stored(&mut window, before);
     let new = spans(&window);
     assert_eq!(new["b"].1, new["c"].0);
     assert_eq!(new["c"], old["c"]);
-    // Bulldozer: the neighbour goes along.
+    // Bulldozer mode: the neighbour moves along.
     click(&mut window, "Bulldozer");
     let from = rect(&window, "Gloss: b").center();
     let before = operations(&window);
@@ -187,7 +187,7 @@ fn an_edge_is_dragged_and_escape_lets_it_be() {
     let new = spans(&window);
     assert_eq!(new["b"].0, old["b"].0);
     assert!(new["b"].1 > old["b"].1);
-    // The stage shows the moment at which the edge is.
+    // The stage shows the moment of the edge.
     assert_eq!(window.state().playhead().micros() / 1000, new["b"].1);
 }
 
@@ -490,7 +490,7 @@ fn an_annotation_is_copied_to_another_tier_by_keys() {
     assert_eq!(values(&window, "Gloss"), ["a", "b", "c"]);
 }
 
-/// Returns a window in which a handshape is to be chosen by its picture, and how much was done before.
+/// Returns a window with the pictures for the choice of a handshape, and the number of operations before.
 fn among_pictures<'a>(folder: &std::path::Path) -> (Window<'a>, usize) {
     let mut window = opened(folder);
     click(&mut window, "Tier Configuration RH");
@@ -520,7 +520,7 @@ fn a_digit_means_the_same_value_in_the_list_and_among_the_pictures() {
     press(&mut window, CTRL, Key::Num2);
     stored(&mut window, before);
     let pictured = values(&window, "Configuration RH")[0].clone();
-    // The first digit is that of the value that is used, as it is in the list.
+    // The first digit picks the value in use, as it does in the list.
     assert_eq!(pictured, "A");
 }
 

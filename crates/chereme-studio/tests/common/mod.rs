@@ -36,7 +36,7 @@ pub fn window<'a>(options: Options) -> Window<'a> {
         )
 }
 
-/// Draws frames until `done`; a minute is more than any of this takes.
+/// Draws frames until `done`, for at most a minute.
 pub fn until(window: &mut Window<'_>, what: &str, done: impl Fn(&Window<'_>) -> bool) {
     for _ in 0..12_000 {
         window.step();

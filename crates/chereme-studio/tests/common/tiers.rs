@@ -19,7 +19,7 @@ pub fn opened<'a>(folder: &std::path::Path) -> Window<'a> {
     window
 }
 
-/// Returns what a tier says, as `(start in milliseconds, end, value)`.
+/// Returns the annotations of a tier, as `(start in milliseconds, end, value)`.
 pub fn says(window: &Window<'_>, tier: &str) -> Vec<(i64, i64, String)> {
     let path = window.state().corpus().expect("open").clone();
     let corpus = Corpus::open(&path, "reader").expect("opened");
@@ -58,7 +58,7 @@ pub fn press(window: &mut Window<'_>, modifiers: Modifiers, key: Key) {
     window.run_steps(2);
 }
 
-/// Draws frames until an edit is in the corpus, and in the window too.
+/// Draws frames until an edit is in the corpus and in the window.
 pub fn stored(window: &mut Window<'_>, operations_before: usize) {
     until(window, "the edit", |it| {
         it.state().is_idle() && operations(it) > operations_before
@@ -108,7 +108,7 @@ pub fn click_with(window: &mut Window<'_>, label: &str, modifiers: Modifiers) {
     window.run_steps(2);
 }
 
-/// Removes every annotation of the glosses, so that the tier is free.
+/// Opens a window and removes every gloss annotation, so that the tier is empty.
 pub fn emptied<'a>(folder: &std::path::Path) -> Window<'a> {
     let mut window = opened(folder);
     click(&mut window, "Tier Gloss");
@@ -120,7 +120,7 @@ pub fn emptied<'a>(folder: &std::path::Path) -> Window<'a> {
     window
 }
 
-/// Three glosses a, b, c at 10-20, 30-40 and 60-70 % of the recording.
+/// Opens a window with three glosses a, b, c at 10-20, 30-40 and 60-70 % of the recording.
 pub fn three<'a>(folder: &std::path::Path) -> Window<'a> {
     let mut window = emptied(folder);
     let lane = rect(&window, "Lane of Gloss");
@@ -133,7 +133,7 @@ pub fn three<'a>(folder: &std::path::Path) -> Window<'a> {
         press(&mut window, NONE, Key::Enter);
         stored(&mut window, before);
     }
-    // Nothing catches, so that distances are those of the mouse.
+    // Snapping is off, so that distances are those of the mouse.
     for switch in [Key::F6, Key::F7] {
         press(&mut window, Modifiers::SHIFT, switch);
     }
