@@ -1,9 +1,8 @@
 //! Poses an arm: the elbow follows the rules of Kennaway, section 4.2, in closed form.
 //!
-//! The plane of the arm is at an angle to the vertical plane through shoulder and wrist: small before the
-//! own shoulder, larger across the body; `choose` selects the deviation from that rule. Near full reach
-//! the collar bone helps, and it draws back if the wrist is too near. The hand stays within the limits of
-//! its wrist.
+//! The plane of the arm is at an angle to the vertical plane through shoulder and wrist: small in front of the arm's
+//! own shoulder, larger across the body; `choose` selects the deviation from that rule. Near full reach the collar bone
+//! helps, and it draws back if the wrist is too near. The hand stays within the limits of its wrist.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, ArmChain, ModelPose, Pose, Side, Skeleton};
@@ -11,8 +10,8 @@ use chereme_sign::hamnosys::BodyLanguage;
 
 /// Share of the arm's length before full extension over which the elbow straightens softly.
 const SOFT: f64 = 0.012;
-/// A collar bone begins to rise with a wrist that is this far below its shoulder, and has risen with one
-/// that is this far above it, in arm lengths.
+/// The heights between which the collar bone rises with the wrist, in arm lengths: the first below the shoulder, the
+/// second above it.
 const RISES: [f64; 2] = [0.0, 0.45];
 
 /// The bones of one arm, on a body that stands still.
@@ -61,9 +60,9 @@ pub(crate) struct Limits {
     own: f64,
     across: f64,
     help: (f64, f64),
-    /// Turn (rad) by which a collar bone rises with a hand above the shoulder.
+    /// Rotation (rad) by which a collar bone rises with a hand above the shoulder.
     rise: f64,
-    /// Largest turn of the collar bone in favour of the hand (rad), and its share downwards.
+    /// Largest rotation of the collar bone that helps the hand (rad), and the share of it that is possible downwards.
     shrug: (f64, f64),
     /// Largest deviation (rad) from the notated orientation at which it still reads as notated.
     pub(crate) tolerance: f64,

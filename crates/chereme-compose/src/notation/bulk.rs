@@ -1,4 +1,4 @@
-//! The bulk of hands: keeps two hands from being within each other.
+//! The bulk of hands: keeps two hands from penetrating each other.
 
 use chereme_motion::glam::DVec3;
 
@@ -9,31 +9,31 @@ use super::track::Wanted;
 
 /// Half the thickness of a finger, of the thumb's root, and of a palm, in hand lengths.
 const FLESH: [f64; 3] = [0.042, 0.055, 0.07];
-/// Depth (m) to which the flesh of two hands gives way.
+/// Depth (m) by which the flesh of two hands can be compressed.
 const SOFT: f64 = 0.0075;
 /// Hands whose palms are farther apart than this (hand lengths) cannot meet.
 const FAR: f64 = 1.9;
-/// Seconds before and after over which a way aside is spread.
+/// Seconds before and after over which a displacement is spread.
 const AROUND: f64 = 0.12;
-/// The farthest (m) that two hands go apart that touch each other.
+/// The largest displacement (m) that separates two hands that touch each other.
 const TOUCHING: f64 = 0.012;
 /// Seconds before and after a contact in which hands count as touching.
 const BESIDE: f64 = 0.08;
 /// The number of rounds in which hands are moved apart.
 const ROUNDS: usize = 4;
-/// Distance (m) by which each hand goes aside that is reported.
+/// Displacement (m) of each hand above which it is reported.
 const ASIDE: f64 = 0.005;
-/// Depth (m) that remains where hands are moved apart.
+/// Depth (m) that remains after hands were moved apart.
 const GIVES: f64 = 0.9 * SOFT;
-/// Depth (m) beyond that one above which a warning is issued.
+/// Further depth (m) above which a warning is issued.
 const LEFT: f64 = 0.001;
 
 /// The separation of two hands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cleared {
-    /// The farthest way aside, with its time as planned, if that is reported.
+    /// The largest displacement, with its planned time, if it is large enough to report.
     pub(crate) most: Option<Parted>,
-    /// How deep the hands stay within each other, in metres, if that is reported.
+    /// The remaining depth of the hands in each other, in metres, if it is large enough to report.
     pub(crate) left: Option<f64>,
 }
 
@@ -44,8 +44,8 @@ struct Tube {
     radius: f64,
 }
 
-/// Moves the goals of two hands apart, each by half, wherever they would be within each other. While both hands touch
-/// something, `contacts` (s), they go apart by so little that they still touch.
+/// Moves the goals of two hands apart, each by half, wherever they would penetrate each other. While both hands touch
+/// something, at the times in `contacts` (s), they move apart by so little that they still touch.
 pub(crate) fn clear(
     stage: &Stage,
     hands: [&Hand; 2],
@@ -108,7 +108,7 @@ fn touch(contacts: &[Vec<(f64, f64)>; 2], time: f64) -> bool {
     })
 }
 
-/// Returns whether a hand is the same in two frames.
+/// Returns whether the goal of a hand is the same in two frames.
 fn stays(wanted: &Wanted<'_>, a: usize, b: usize) -> bool {
     wanted.points[a] == wanted.points[b]
         && wanted.turns[a] == wanted.turns[b]
@@ -117,8 +117,8 @@ fn stays(wanted: &Wanted<'_>, a: usize, b: usize) -> bool {
         && std::ptr::eq(wanted.outlines.at(a)[1], wanted.outlines.at(b)[1])
 }
 
-/// Returns the way by which the first hand leaves the second: the depth of the deepest place, along the
-/// mean of the ways of all places.
+/// Returns the displacement by which the first hand leaves the second: as long as the depth of the deepest place, along
+/// the mean of the displacements of all places.
 fn way_out(
     stage: &Stage,
     length: f64,
@@ -203,7 +203,7 @@ fn shortened(from: DVec3, tip: DVec3, radius: f64) -> DVec3 {
     tip - (tip - from).clamp_length_max(radius)
 }
 
-/// Returns the shortest way from the second line, between its ends, to the first.
+/// Returns the shortest vector from the second segment to the first.
 fn between(a: [DVec3; 2], b: [DVec3; 2]) -> DVec3 {
     let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));

@@ -1,10 +1,9 @@
-//! Chooses the degrees of freedom of an arm over time: its plane, its shoulder, and the limit at which a
-//! forearm stops that should turn farther.
+//! Chooses the degrees of freedom of an arm over time: its plane, its shoulder, and the limit at which an over-rotated
+//! forearm stops.
 //!
-//! Each choice has a cost: how well it suits the wrist, the hand's orientation and the trunk, and how far
-//! it is from the choice before. Dynamic programming finds the cheapest course. The collar bone shifts the
-//! shoulder along the upper arm only around moments at which the hand could not keep its orientation
-//! otherwise.
+//! Each choice has a cost: its effect on the wrist, the hand's orientation and the trunk, and its distance from the
+//! choice before. Dynamic programming finds the cheapest course. The collar bone shifts the shoulder along the upper
+//! arm only around moments at which the hand could not keep its orientation otherwise.
 
 use std::sync::LazyLock;
 
@@ -21,13 +20,13 @@ const INWARDS: f64 = 4.0;
 const SWIVEL: f64 = 7.0;
 /// Fastest speed of an elbow without cost, in arm lengths per second: 2.5 m/s at 55 cm.
 const ELBOW: f64 = 4.5;
-/// Cost of a hand whose orientation deviates by the whole tolerance. Grows with the cube: half of that
-/// costs an eighth, so that a few degrees do not throw the elbow out.
+/// Cost of a hand whose orientation deviates by the whole tolerance. Grows with the cube: half of that costs an eighth,
+/// so that a few degrees do not move the elbow far out.
 const TURNED: f64 = 75.0;
 /// Cost of an elbow one arm's length above the shoulder; grows with the square.
 const RAISED: f64 = 1600.0;
-/// Angle (rad) to which an upper arm stands out beside a low hand without cost, and the cost per square
-/// radian beyond it.
+/// Angle (rad) between upper arm and vertical beside a low hand that costs nothing, and the cost per square radian
+/// beyond it.
 const FLARED: (f64, f64) = (0.8, 60.0);
 /// A hand is low if it is this far below its shoulder, in arm lengths.
 const LOW: f64 = 0.2;
@@ -47,7 +46,7 @@ const SHRUGGED: f64 = 2.5;
 const SHRUGGING: f64 = 8.0;
 /// A choice whose cost exceeds this multiple of the best plus this constant is not tried with a shrug.
 const HOPELESS: (f64, f64) = (3.0, 60.0);
-/// A hand with a higher cost than this for orientation and place is tried with a shrug.
+/// Cost of orientation and place above which a hand is tried with a shrug.
 const GIVES_WAY: f64 = 1.0;
 /// Seconds around such a moment in which shrugs are tried, too.
 const AROUND: f64 = 0.2;
@@ -62,7 +61,7 @@ pub(crate) struct Choice {
     elbow: DVec3,
     wrist: DVec3,
     cost: f64,
-    /// The part of the cost for deviations of the hand's orientation and place, and for an arm inside the
+    /// The part of the cost that stems from deviations of the hand's orientation and place, and from an arm inside the
     /// trunk.
     amiss: f64,
 }
@@ -107,7 +106,7 @@ impl Arm<'_> {
             .fold(still, |known, shrug| least(shrug, known))
     }
 
-    /// Like `strain`, for one posture; infinite if the cost surely exceeds `most`.
+    /// Returns the same as `strain`, for one posture; infinite if the cost surely exceeds `most`.
     fn strained(&self, wrist: DVec3, turned: DQuat, bearing: Bearing, most: f64) -> f64 {
         let rig = self.rig();
         let posed = rig.reach(wrist, bearing, self.limits);

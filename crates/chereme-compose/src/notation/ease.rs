@@ -33,7 +33,7 @@ struct Stance {
     offset: DVec3,
 }
 
-/// Collects the stances of the hands while a trial plan runs.
+/// Collects the stances of the hands during a trial plan.
 #[derive(Debug, Default)]
 pub(crate) struct Trail {
     /// Depth of nested simultaneous motions, whose intermediate stances do not count.
@@ -268,7 +268,8 @@ fn before_trunk(at: BodyLocation) -> bool {
     )
 }
 
-/// Returns how far out in a room an offset is: 1 at its end, which may differ between directions.
+/// Returns the distance of an offset from the middle of a room, as a share: 1 at its end, which may differ between
+/// directions.
 fn share(at: DVec3, [less, more]: [DVec3; 2]) -> f64 {
     let end = |at: f64, less: f64, more: f64| if at < 0.0 { at / less } else { at / more };
     let [x, y, z] = [0, 1, 2].map(|n| end(at[n], less[n], more[n]));

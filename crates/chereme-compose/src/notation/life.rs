@@ -1,8 +1,8 @@
-//! Movement of a living body besides its notation: sway of the trunk, head and eyes that go with the hands,
-//! blinks at the boundaries of signs.
+//! Movement of a living body besides its notation: sway of the trunk, head and eyes that follow the hands, blinks at
+//! the boundaries of signs.
 //!
-//! The sway is a sum of waves that a seed determines: the same notation gives the same movement. Written
-//! acts of a part take its place. Hands at the face go with the head, so that no contact is lost.
+//! The sway is a sum of waves that a seed determines: the same notation gives the same movement. Written acts of a part
+//! replace it. Hands at the face move with the head, so that no contact is lost.
 
 use std::f64::consts::TAU;
 
@@ -16,38 +16,38 @@ use super::stage::Stage;
 use super::track::Wanted;
 use crate::made::Curve;
 
-/// Shares of the sway about the axes to the left, up and forward: mostly a turn.
+/// Shares of the sway about the axes to the left, up and forward: mostly a rotation about the vertical.
 const SWAY: DVec3 = DVec3::new(0.1, 1.0, 0.12);
 /// The head's own sway, as a share of the trunk's.
 const NOD: f64 = 0.7;
-/// Largest turn of the head after the hands, in radians.
+/// Largest rotation of the head towards the hands, in radians.
 const AFTER: f64 = 0.12;
-/// Seconds in which a body at rest begins to sway, and ends: movement begins and ends in the standing posture.
+/// Seconds in which the sway begins and ends: movement begins and ends in the standing posture.
 const STARTS: f64 = 0.4;
-/// Seconds over which head and eyes average the way of the hands.
+/// Seconds over which head and eyes average the direction of the hands.
 const SLOWLY: f64 = 0.3;
-/// A hand goes with the head within the first distance of its middle, and not beyond the second, in head
-/// heights.
+/// Distances of a hand from the middle of the head, in head heights: up to the first it moves with the head, from the
+/// second on it does not.
 const AT_HEAD: [f64; 2] = [0.62, 0.8];
-/// A head does not go after hands within the first distance of its middle, and fully after hands beyond the
-/// second, in head heights: who touches the own face keeps it still.
+/// Distances of a hand from the middle of the head, in head heights: up to the first the head does not follow it, from
+/// the second on fully. People who touch their own face keep it still.
 const AWAY: [f64; 2] = [1.1, 1.7];
-/// Seconds that lids take to close and to open.
+/// Seconds in which lids close and open.
 const BLINK: [f64; 2] = [0.08, 0.14];
-/// Seconds from a blink to the next at least.
+/// Least number of seconds from a blink to the next.
 const APART: f64 = 0.8;
-/// Angle (rad) to which an amount of 1 of a gaze amounts.
+/// Angle (rad) of the eyes at an amount of 1 of a gaze.
 const EYES: f64 = 0.6;
 
-/// The turns of the body in each planned frame: written acts, and the life in between.
+/// The rotations of the body in each planned frame: written acts, and natural movement in between.
 pub(crate) struct Alive {
     pub(crate) bents: Vec<Bent>,
-    /// How far the eyes turn to the left and up in each frame, from -1 to 1.
+    /// The direction of the eyes to the left and up in each frame, from -1 to 1.
     gaze: Vec<[f64; 2]>,
 }
 
 impl Alive {
-    /// Plans how the body moves with the goals of its hands.
+    /// Plans the movement of the body that follows the goals of its hands.
     pub(crate) fn of(
         body: &Stage,
         signs: &[&Notated],
@@ -85,7 +85,7 @@ impl Alive {
         Self { bents, gaze }
     }
 
-    /// Takes hands that are at the head along with it.
+    /// Moves hands that are at the head with it.
     pub(crate) fn carry(&self, body: &Stage, wanted: &mut Wanted<'_>) {
         let Some((middle, height)) = head(body) else {
             return;
@@ -102,8 +102,8 @@ impl Alive {
         }
     }
 
-    /// Returns the curves of eyes and lids in stretched time; `frames` are the planned frames. Written
-    /// acts of either take their place.
+    /// Returns the curves of eyes and lids in stretched time; `frames` are the planned frames. Written acts of either
+    /// replace them.
     pub(crate) fn curves(
         &self,
         signs: &[&Notated],
@@ -149,8 +149,8 @@ fn head(body: &Stage) -> Option<(DVec3, f64)> {
     Some((nose - body.forward * (0.4 * height), height))
 }
 
-/// Returns how far the hands' goals are from straight ahead of the head in each frame, as rotation vectors
-/// (left, up, forward; rad): hands that hang do not count.
+/// Returns the directions of the hands' goals from the head in each frame, relative to straight ahead, as rotation
+/// vectors (left, up, forward; rad); hanging hands do not count.
 fn after(body: &Stage, hands: [&Wanted<'_>; 2], rate: f64) -> Vec<DVec3> {
     let total = hands[0].points.len();
     let Some((middle, height)) = head(body) else {
@@ -201,8 +201,8 @@ fn wave(turns: f64, seed: f64) -> f64 {
     0.6 * one(1.0, 1.0) + 0.3 * one(1.73, 2.0) + 0.1 * one(3.1, 3.0)
 }
 
-/// Returns how far the lids are closed in each frame: at the beginning and the end of each sign, and in
-/// between if that is long.
+/// Returns the closure of the lids in each frame, from 0 to 1: they blink at the beginning and the end of each sign,
+/// and in between if the sign is long.
 fn blinks(spans: &[SignSpan], language: &BodyLanguage, rate: f64, total: usize) -> Vec<f64> {
     let mut values = vec![0.0_f64; total];
     let mut last = f64::NEG_INFINITY;
@@ -236,12 +236,12 @@ fn smooth(share: f64) -> f64 {
 }
 
 impl Bent {
-    /// Returns whether the head is turned on the trunk.
+    /// Returns whether the head is rotated on the trunk.
     fn turns_head(&self) -> bool {
         self.head != DVec3::ZERO || self.neck != DVec3::ZERO
     }
 
-    /// Returns where a point on the standing body's head comes to when the head is turned on the trunk.
+    /// Returns the new position of a point on the standing body's head after the head's rotation on the trunk.
     fn with_head(&self, body: &Stage, at: DVec3) -> DVec3 {
         let turned = |part: Part, by: DVec3, at: DVec3| match body.anatomy.joint(part) {
             Some(joint) => {

@@ -157,8 +157,8 @@ impl Arm<'_> {
         all
     }
 
-    /// Returns the smallest turn (rad) of the arm's plane that takes the elbow out of the trunk,
-    /// preferably outwards; if no turn does, the one with the least depth.
+    /// Returns the smallest rotation (rad) of the arm's plane that moves the elbow out of the trunk, preferably
+    /// outwards; if none does, the one with the least depth.
     fn turned_out(&self, got: &Got, bearing: Bearing) -> f64 {
         let torso = &self.stage.torso;
         let own = torso.way_aside(got.posed.elbow, -0.003).length();

@@ -17,14 +17,14 @@
 //! | `thumb`, `rest`, `lift` | the thumb of a pinch; hands at rest; arms raised to be touched |
 //! | `arm` | elbow, collar bone, wrist |
 //! | `track` | from events to the goals of the hands in each frame |
-//! | `part` | separation of two hands that would pass through each other |
-//! | `bulk` | separation of two hands that would be within each other |
+//! | `part` | separation of two hands whose paths would pass through each other |
+//! | `bulk` | separation of two hands that would penetrate each other |
 //! | `choose` | over time: the arm's plane and its shoulder |
 //! | `solve`, `settle` | from goals to postures of an arm, without jumps |
 //! | `mend` | removal of remaining intersections with the trunk |
 //! | `perform` | one sign after another on the same body, or their first postures alone |
 //! | `warp` | time stretched where an arm would move too fast |
-//! | `life` | sway, head and eyes with the hands, blinks |
+//! | `life` | sway, head and eyes that follow the hands, blinks |
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | annotations of the synthesised movement |
 
@@ -125,8 +125,8 @@ pub enum NotationError {
 
 /// Synthesises the movement of signs one after the other, from rest and back to rest.
 ///
-/// The body is that of `stage`'s first frame; trunk, head and shoulders move as the non-manual tiers say,
-/// and the legs stay in place. The same signs on the same stage give the same movement.
+/// The body is that of `stage`'s first frame; trunk, head and shoulders follow the non-manual tiers, and the legs stay
+/// in place. The same signs on the same stage give the same movement.
 ///
 /// # Errors
 /// [`NotationError`] if the body has no arm, or the movement would be too long.

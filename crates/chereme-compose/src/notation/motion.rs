@@ -450,8 +450,7 @@ impl Planner<'_> {
         now
     }
 
-    /// Makes hands that turn while they leave each other turn about their palms instead of their
-    /// fingertips.
+    /// Makes hands that rotate while they leave each other rotate about their palms instead of their fingertips.
     fn let_go(&mut self, motions: &[Motion], who: Who, time: f64) {
         let goes = |motion: &Motion| {
             matches!(

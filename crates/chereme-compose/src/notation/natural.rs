@@ -1,4 +1,4 @@
-//! Tests of what makes synthesised movement look like a person's.
+//! Tests that synthesised movement looks natural.
 
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Part, Side};
@@ -67,7 +67,7 @@ fn a_thumb_across_lies_on_the_finger_or_palm_that_it_crosses() {
                 let share = (pad - near).dot(far - near) / near.distance_squared(far);
                 let off = pad - near.lerp(far, share.clamp(0.0, 1.0));
                 let gap = off.length() - 2.0 * flesh;
-                // The thumb of this hand is short: 3.1 mm is as near as it comes to the ring finger.
+                // This hand's thumb is short: it comes no nearer to the ring finger than 3.1 mm.
                 if gap.abs() > 3.2e-3 {
                     off_their_finger.push((class, special, gap * 1e3, posed.angles.thumb));
                 }
@@ -210,7 +210,7 @@ fn a_movement_with_a_target_starts_in_its_direction_and_ends_there() {
     let model = model(&made, 0.9);
     let chin = made.anatomy.landmark(made.clip.skeleton(), &model, "chin");
     let off = chin.expect("a chin").distance(tip(0.9));
-    // The part of the finger that comes first touches, not its tip.
+    // The nearest part of the finger touches, not its tip.
     assert!(off < 0.06, "{off}");
 }
 

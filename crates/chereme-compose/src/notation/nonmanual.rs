@@ -51,13 +51,13 @@ pub(crate) struct Bent {
     pub(crate) neck: DVec3,
     /// The rotation of the trunk.
     pub(crate) trunk: DVec3,
-    /// How far the right and left collar bones are raised (rad).
+    /// Angles by which the right and left collar bones are raised (rad).
     raised: [f64; 2],
-    /// How far they are brought forward (rad).
+    /// Angles by which they are brought forward (rad).
     hunched: [f64; 2],
 }
 
-/// How much of each part of the body its written acts take, from 0 to 1.
+/// The degree to which written acts control each part of the body, from 0 to 1.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Busy {
     pub(crate) head: f64,
@@ -91,7 +91,7 @@ pub(crate) fn curves(
     curves
 }
 
-/// Returns the turns of the written acts in each frame, with how busy head and trunk are with them.
+/// Returns the rotations of the written acts in each frame, and the degree to which the acts control head and trunk.
 pub(crate) fn bents(
     signs: &[&Notated],
     spans: &[SignSpan],
@@ -119,8 +119,8 @@ fn busy(acts: &[Timed<'_>], time: f64) -> Busy {
     busy
 }
 
-/// Turns the joints of head, trunk and shoulders in stretched time; the arms move with the trunk.
-/// `frames` are the planned frames.
+/// Rotates the joints of head, trunk and shoulders in stretched time; the arms move with the trunk. `frames` are the
+/// planned frames.
 pub(crate) fn turn(
     body: &Stage,
     bents: &[Bent],
@@ -324,7 +324,7 @@ fn move_shoulders(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, share
     }
 }
 
-/// Turns the joints of one frame.
+/// Rotates the joints of one frame.
 fn bend(body: &Stage, bent: &Bent, frame: usize, channels: &mut [Channel]) {
     let joint = |part| body.anatomy.joint(part);
     let axes = |v: DVec3| body.left * v.x + DVec3::Y * v.y + body.forward * v.z;

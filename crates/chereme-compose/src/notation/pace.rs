@@ -1,11 +1,11 @@
-//! Paces: how a movement runs in time. The two-level controller of Kennaway, section 4.5, as tables.
+//! Paces: the progress of a movement over time. The two-level controller of Kennaway, section 4.5, as tables.
 
 use chereme_sign::hamnosys::{BodyLanguage, Manner};
 
 /// The number of steps in a table.
 const STEPS: usize = 256;
 
-/// The share of an approach in which it comes up to speed, and down.
+/// The share of an approach's time in which it accelerates, and in which it brakes.
 const CALM: f64 = 0.22;
 
 /// The kinds of pace.
@@ -23,7 +23,7 @@ pub(crate) enum Pace {
     Tense,
     /// A circle: constant speed except at both ends.
     Linear,
-    /// An approach to a movement: even, so that it is not faster than what it leads to.
+    /// An approach to a movement: even, so that it is not faster than the movement that follows.
     Calm,
 }
 

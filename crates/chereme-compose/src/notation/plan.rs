@@ -138,7 +138,7 @@ pub(crate) struct Plan {
     /// Time spans (s, as planned) in which each hand moves to a named place.
     pub(crate) arrivals: [Vec<(f64, f64)>; 2],
     pub(crate) end: f64,
-    /// Whether the hands interlock or cross, so that they are within each other's bulk.
+    /// Whether the hands interlock or cross, so that their bulk may overlap.
     pub(crate) laced: bool,
     /// Warnings about approximations and omissions, without duplicates.
     pub(crate) remarks: Vec<String>,

@@ -27,7 +27,7 @@ pub(super) const MARGIN: f64 = 0.008;
 const MOST_TURNED: f64 = 0.7;
 /// The same for a hand that touches nothing.
 const NEAR_TURNED: f64 = 0.22;
-/// Largest number of iterations for a hand that gives way.
+/// Largest number of iterations for a hand that is adapted to its limits.
 const TRIES: usize = 14;
 /// If the last iterate misses the target by this much (m) more than the best one, use the best.
 const LOST: f64 = 0.02;
@@ -44,7 +44,7 @@ pub(crate) struct Row {
     pub(super) bearing: Bearing,
     pub(super) angles: WristAngles,
     pub(super) push: DVec3,
-    /// Whether the hand gives way to nothing.
+    /// Whether the hand keeps its goal despite limits and trunk.
     pub(super) kept: bool,
 }
 
@@ -104,7 +104,7 @@ pub(crate) struct Want<'a> {
     pub(crate) touch: f64,
 }
 
-/// A hand after it gave way.
+/// A hand after its adaptation to limits and trunk.
 #[derive(Clone, Copy)]
 pub(crate) struct Hung {
     pub(crate) angles: WristAngles,
@@ -224,8 +224,8 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// Finds the nearest possible pose of a hand: the orientation gives way to the wrist's limits, and the
-    /// hand turns about its reference point or moves to leave the trunk.
+    /// Finds the nearest possible pose of a hand: the orientation is adapted to the wrist's limits, and the hand
+    /// rotates about its reference point or moves to leave the trunk.
     pub(crate) fn hang(&self, want: &Want<'_>, bearing: Bearing, high: bool, tries: usize) -> Hung {
         let rig = self.rig();
         // A hand placed by a fingertip turns about it; one placed by its palm moves.

@@ -651,7 +651,7 @@ fn what_is_relative_turns_as_the_way_does() {
             _ => DVec3::Z,
         };
         assert!(along(0.0).distance(DVec3::Z) < 0.05);
-        // The hand returns the same way without turning round.
+        // The hand returns along the same path without turning around.
         assert!(
             along(1.0).distance(turned) < 0.1,
             "{frame:?} {}",

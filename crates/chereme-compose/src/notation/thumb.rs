@@ -1,5 +1,5 @@
-//! Brings the thumb to where its notation has it, on the given hand: to the fingers that it pinches, in
-//! front of the folded fingers, or across the palm.
+//! Moves the thumb to its notated position on a given hand: to the fingers that it pinches, in front of the folded
+//! fingers, or across the palm.
 
 use chereme_motion::glam::DVec3;
 use chereme_motion::{HandAngles, Side};
@@ -30,7 +30,7 @@ const RANGE: [[f64; 2]; 5] = [
 const ROUNDS: usize = 16;
 /// The number of steps, each shorter, that are tried in a round.
 const TRIALS: usize = 4;
-/// Where a pad may lie on the middle bone of a finger: the share of the bone from the middle joint, and the turn (rad)
+/// Positions of a pad on the middle bone of a finger: the share of the bone from the middle joint, and the angle (rad)
 /// about it from its front towards the thumb's side. Each is tried if the one before is out of reach.
 const ON_FINGER: [(f64, f64); 6] = [
     (0.4, 0.0),
@@ -40,12 +40,12 @@ const ON_FINGER: [(f64, f64); 6] = [
     (0.1, 0.9),
     (0.3, 1.2),
 ];
-/// A goal is reached within this distance, in metres.
+/// Distance in metres within which a goal counts as reached.
 const REACHED: f64 = 1e-3;
 /// Weight of the slope of the thumb's last bone against the distance of its pad from its goal.
 const LEVEL: f64 = 0.2;
 
-/// Returns the shape of the fingers of a handshape on this hand, with the thumb where it meets others.
+/// Returns the shape of the fingers of a handshape on this hand, with the thumb at the fingers that it touches.
 pub(crate) fn posed(
     stage: &Stage,
     side: Side,
@@ -62,9 +62,9 @@ pub(crate) fn posed(
     met(stage, side, handshape, angles)
 }
 
-/// Returns the shape with the thumb across: its pad on the folded finger where it rests by nature, or on
-/// the palm below the ring finger. The last bone lies level over what it crosses. A short thumb reaches less far
-/// round that finger.
+/// Returns the shape with the thumb across: its pad on the folded finger on which it naturally rests, or on the palm
+/// below the ring finger. The last bone is level over the finger or palm that it crosses. A short thumb reaches less
+/// far around that finger.
 fn across(stage: &Stage, side: Side, handshape: &Handshape, angles: &HandAngles) -> Option<Shape> {
     let hand = stage.hand(side)?;
     let posed = stage.shape(side, angles);
@@ -110,7 +110,7 @@ fn across(stage: &Stage, side: Side, handshape: &Handshape, angles: &HandAngles)
     best.map(|(_, shape)| shape)
 }
 
-/// Returns the shape with the thumb's pad brought as near to a goal as it goes, and the distance left (m).
+/// Returns the shape with the thumb's pad as near to a goal as possible, and the remaining distance (m).
 fn brought(
     stage: &Stage,
     (side, hand): (Side, &Hand),
@@ -200,9 +200,9 @@ fn least(columns: &[[f64; 4]; 5], miss: [f64; 4], damping: f64) -> [f64; 5] {
     std::array::from_fn(|n| rows[n][5] / rows[n][n])
 }
 
-/// Returns the shape of the fingers with the tip of the thumb at those it pinches. The thumb's five angles
-/// take damped least-squares steps from the table's values towards the middle of the tips: the tables suit
-/// one hand, this any.
+/// Returns the shape of the fingers with the tip of the thumb at the fingers that it pinches. The thumb's five angles
+/// take damped least-squares steps from the table's values towards the middle of the tips: the tables suit one hand,
+/// and this method suits any.
 fn met(stage: &Stage, side: Side, handshape: &Handshape, angles: &HandAngles) -> Shape {
     let shape = stage.shape(side, angles);
     let pinches = matches!(

@@ -44,8 +44,8 @@ impl Planner<'_> {
         out * (far - own)
     }
 
-    /// Turns a hand that touches the trunk with a flat face so that it lies on the skin, within the
-    /// tolerance of its notated orientation.
+    /// Rotates a hand that touches the trunk with a flat face so that the face lies on the skin, within the tolerance
+    /// of its notated orientation.
     pub(super) fn lay(&mut self, n: usize, points: &[HandPoint], at: DVec3) {
         let flat = |point: &HandPoint| {
             matches!(

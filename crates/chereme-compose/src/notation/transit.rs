@@ -11,10 +11,11 @@ use super::plan::{Act, Event, HandState, PhaseKind, Planner, Who};
 /// Smallest distance (arm lengths) between a wrist in transition and its shoulder.
 const ROUND: f64 = 0.42;
 
-/// Length of an approach as a multiple of the distance: hands go round, turn, and change their pivot.
+/// Length of an approach as a multiple of the distance, because hands move around obstacles, rotate, and change their
+/// pivot.
 const ROUNDABOUT: f64 = 1.25;
-/// Movements whose top speed (m/s) is below this do not limit the approach to them: the hand turns or
-/// plays with its fingers.
+/// Top speed (m/s) of a movement below which it does not limit the approach to it: the hand rotates or plays with its
+/// fingers.
 const SLOWEST: f64 = 0.12;
 
 /// Returns the top speed (m/s) of a hand's paths; simultaneous ones add up.
@@ -102,8 +103,8 @@ impl Planner<'_> {
         });
     }
 
-    /// Returns the duration (s) of an approach that is no faster than the movements it leads to; 0 if they
-    /// do not move the hands, and at most the body language's longest one.
+    /// Returns the duration (s) of an approach that is no faster than the movements after it; 0 if these do not move
+    /// the hands, and at most the body language's longest one.
     pub(super) fn unhurried(
         &mut self,
         part: &Manual,

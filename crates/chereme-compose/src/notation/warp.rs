@@ -12,9 +12,9 @@ const LONGER: f64 = 4.0;
 /// Top speeds of arms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fastest {
-    /// Of a joint, in radians per second.
+    /// The top speed of a joint, in radians per second.
     pub(crate) joint: f64,
-    /// Of a wrist, in metres per second.
+    /// The top speed of a wrist, in metres per second.
     pub(crate) wrist: f64,
 }
 
@@ -142,7 +142,7 @@ impl Warp {
         needed(hasty, self.rate, &self.fastest) <= lasts * (1.0 + 1e-9)
     }
 
-    /// Returns whether time runs as planned.
+    /// Returns whether no time is stretched.
     pub(crate) fn is_none(&self) -> bool {
         let last = self.times.len() - 1;
         (self.times[last] - last as f64 / self.rate).abs() < 1e-9

@@ -4,8 +4,8 @@ use chereme_motion::glam::DQuat;
 
 use super::*;
 
-/// Angle (rad) between two successive paths above which the second one leads back, so that the hand does
-/// not turn round with it.
+/// Angle (rad) between two successive paths above which the second one leads back, so that the hand does not turn
+/// around with it.
 const BACK: f64 = 2.1;
 
 impl Planner<'_> {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::{Amount, Circular, Growth, Motion, MotionKind, Size, WristMotion};
 
-/// Returns whether a motion repeats by going on: circles, wrist movements, playing fingers.
+/// Returns whether a motion repeats by continuing: circles, wrist movements, playing fingers.
 pub(super) fn is_round(motion: &Motion) -> bool {
     match &motion.kind {
         MotionKind::Circular(circular) => {

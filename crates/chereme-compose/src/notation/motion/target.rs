@@ -105,8 +105,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns whether the rest of the way to the goal leads elsewhere than the written direction, so that
-    /// the hand starts in that direction and then turns to its goal.
+    /// Returns whether the rest of the path to the goal differs from the written direction, so that the hand starts in
+    /// that direction and then turns to its goal.
     fn bends(
         &self,
         [before, planned, goal]: [&[HandState; 2]; 3],
@@ -128,8 +128,8 @@ impl Planner<'_> {
             })
     }
 
-    /// Makes the last straight path of a hand, from `time` on, gather speed: the hand leaves in the
-    /// direction of the paths it is added to.
+    /// Makes the last straight path of a hand, from `time` on, accelerate: the hand leaves in the direction of the
+    /// paths to which this one is added.
     fn late(&mut self, n: usize, time: f64) {
         let mut events = self.plan.events[n].iter_mut().rev();
         let last = events.find(|event| matches!(event.act, Act::Move(_)));
@@ -186,7 +186,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Gives the paths that began at `time` the pace of the movement they lead to.
+    /// Gives the paths that began at `time` the pace of the movement after them.
     fn hasten(&mut self, time: f64, pace: Pace, who: Who) {
         for (n, _) in acting(who) {
             for event in self.plan.events[n].iter_mut().rev() {
