@@ -2,10 +2,11 @@
 //! Python that has them, `ezc3d`, `c3d` and `pose-format`. Prints a table of medians and ratios.
 //!
 //! `CHEREME_SHARED_DATA=... CHEREME_PYTHON=... cargo bench -p chereme-formats --bench captures`; without other people's
-//! captures only a GLB of the program's own is read.
+//! captures only a GLB of the program's own is read. A table in which no peer is missing is written to RESULTS.md.
 
 #![allow(clippy::print_stdout, reason = "a program prints its table")]
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
@@ -17,22 +18,39 @@ use chereme_motion::{Channel, Clip, Joint, Rate, Skeleton};
 /// How often each is read.
 const ROUNDS: usize = 21;
 
+/// The text before the table in the file of results.
+const HEAD: &str = "# Results of chereme-formats
+
+Figures of the version in this repository; each section names the command that writes it again.
+
+## Captures beside other readers
+
+`CHEREME_SHARED_DATA=... CHEREME_PYTHON=... cargo bench -p chereme-formats --bench captures`: medians of 21 readings of bytes in
+memory, one after the other in one run (peers in Python open the file unless the table says otherwise). *Ratio* is the peer's
+time divided by that of this program: above 1 this program is faster. Peers do less where the table says so: numbers as they
+are stored, or a scene without its movement.
+
+| file | this program | peer | its time | ratio |
+|---|--:|---|--:|--:|
+";
+
 fn main() {
-    println!("| file | this program | peer | its time | ratio |\n|---|--:|---|--:|--:|");
+    let mut table = Table::default();
     let bytes = own_gltf::write(&body(), &own_gltf::About::default());
     let own = median(|| assert!(own_gltf::read(&bytes, &|_| None).is_ok()));
     let peer = median(|| assert!(numbers_of(&bytes) > 100_000));
-    row(
+    table.row(
         "65 joints, 3,600 frames, .glb",
         own,
         "`gltf` 1.4, numbers as stored",
         peer,
     );
     let Some(data) = std::env::var_os("CHEREME_SHARED_DATA").map(PathBuf::from) else {
+        print!("{}", table.text);
         println!("\nCHEREME_SHARED_DATA is not set: other people's captures are left out.");
         return;
     };
-    fbx(&data.join("motion/fbx"));
+    fbx(&data.join("motion/fbx"), &mut table);
     let c3d_file = find(&data.join("motion/c3d"), "walking2.c3d");
     let pose_file = find(&data.join("motion/pose"), "sample-data-example.pose");
     for (file, peers) in [
@@ -63,7 +81,10 @@ fn main() {
             ],
         ),
     ] {
-        let Some(file) = file else { continue };
+        let Some(file) = file else {
+            table.missing.push(format!("a capture for {}", peers[0].0));
+            continue;
+        };
         let bytes = std::fs::read(&file).expect("read");
         let is_pose = file.extension().is_some_and(|it| it == "pose");
         let own = median(|| match is_pose {
@@ -76,20 +97,38 @@ fn main() {
             .to_string_lossy()
             .into_owned();
         for (peer, before, call) in peers {
-            if let Some(time) = python(&file, before, call) {
-                row(&name, own, peer, time);
+            match python(&file, before, call) {
+                Ok(time) => table.row(&name, own, peer, time),
+                Err(why) => table.missing.push(format!("{peer} ({why})")),
             }
         }
     }
+    print!("{}", table.text);
+    if table.missing.is_empty() {
+        let results = Path::new(env!("CARGO_MANIFEST_DIR")).join("RESULTS.md");
+        std::fs::write(results, format!("{HEAD}{}", table.text)).expect("write RESULTS.md");
+    } else {
+        println!("\nnot compared: {}", table.missing.join(", "));
+    }
 }
 
-fn row(file: &str, own: f64, peer: &str, time: f64) {
-    println!(
-        "| {file} | {:.2} ms | {peer} | {:.2} ms | {:.2} |",
-        own * 1e3,
-        time * 1e3,
-        time / own
-    );
+/// The rows, and what they lack.
+#[derive(Default)]
+struct Table {
+    text: String,
+    missing: Vec<String>,
+}
+
+impl Table {
+    fn row(&mut self, file: &str, own: f64, peer: &str, time: f64) {
+        let (own, time) = (own * 1e3, time * 1e3);
+        let ratio = time / own;
+        writeln!(
+            self.text,
+            "| {file} | {own:.2} ms | {peer} | {time:.2} ms | {ratio:.2} |"
+        )
+        .expect("a text grows");
+    }
 }
 
 fn median(mut work: impl FnMut()) -> f64 {
@@ -104,9 +143,9 @@ fn median(mut work: impl FnMut()) -> f64 {
     times[ROUNDS / 2]
 }
 
-/// Returns the median of a call in Python, in seconds; nothing if there is no Python or it lacks the library.
-fn python(file: &Path, before: &str, call: &str) -> Option<f64> {
-    let program = std::env::var_os("CHEREME_PYTHON")?;
+/// Returns the median of a call in Python, in seconds, or why there is none.
+fn python(file: &Path, before: &str, call: &str) -> Result<f64, String> {
+    let program = std::env::var_os("CHEREME_PYTHON").ok_or("CHEREME_PYTHON is not set")?;
     let script = format!(
         "import sys,time,warnings\nwarnings.simplefilter('ignore')\nF=sys.argv[1]\n{before}\nt=[]\nfor _ in range({ROUNDS}):\n b=time.perf_counter()\n {call}\n \
          t.append(time.perf_counter()-b)\nprint(sorted(t)[{}])",
@@ -117,19 +156,13 @@ fn python(file: &Path, before: &str, call: &str) -> Option<f64> {
         .arg(script)
         .arg(file)
         .output()
-        .ok()?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    let last = text.lines().last()?.trim().parse().ok();
-    if last.is_none() {
-        println!(
-            "<!-- {call}: {} -->",
-            String::from_utf8_lossy(&output.stderr)
-                .lines()
-                .last()
-                .unwrap_or_default()
-        );
-    }
-    last
+        .map_err(|error| error.to_string())?;
+    let last = |bytes: &[u8]| {
+        let text = String::from_utf8_lossy(bytes);
+        text.lines().last().unwrap_or_default().trim().to_owned()
+    };
+    let time = last(&output.stdout);
+    time.parse().map_err(|_| last(&output.stderr))
 }
 
 /// Returns a file of that name somewhere below a folder.
@@ -188,8 +221,9 @@ fn numbers_of(bytes: &[u8]) -> usize {
 }
 
 #[cfg(feature = "fbx")]
-fn fbx(folder: &Path) {
+fn fbx(folder: &Path, table: &mut Table) {
     let Some(file) = find(folder, "simple_anim.fbx") else {
+        table.missing.push("simple_anim.fbx".into());
         return;
     };
     let bytes = std::fs::read(&file).expect("read");
@@ -201,7 +235,7 @@ fn fbx(folder: &Path) {
     let loaded = median(|| {
         ufbx::load_memory(&bytes, options()).expect("a scene");
     });
-    row(
+    table.row(
         "simple_anim.fbx, 161 nodes, 6 frames",
         own,
         "`ufbx` 0.11, loaded",
@@ -218,7 +252,7 @@ fn fbx(folder: &Path) {
         }
         assert!(sum.is_finite());
     });
-    row(
+    table.row(
         "simple_anim.fbx, 161 nodes, 6 frames",
         own,
         "`ufbx` 0.11, every node at every frame",
@@ -227,4 +261,6 @@ fn fbx(folder: &Path) {
 }
 
 #[cfg(not(feature = "fbx"))]
-fn fbx(_: &Path) {}
+fn fbx(_: &Path, table: &mut Table) {
+    table.missing.push("FBX (the feature `fbx` is off)".into());
+}

@@ -2,21 +2,52 @@
 //! `cargo run --release -p chereme-tests --example bulk [-- TAKES [CAPTURE.bvh]]`.
 //!
 //! Every take is the capture with another first number, so that no two files are the same, and has an annotation file.
-//! Without a capture that of the starter corpus is used.
+//! Without a capture that of the starter corpus is used. Without any argument 100, 300 and 1,000 takes are imported, each
+//! number in a process of its own, so that their peaks of memory can be compared, and the table is written to RESULTS.md.
 
 #![allow(clippy::print_stdout, reason = "a program prints its table")]
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Instant;
 
-use chereme_corpus::{Corpus, ImportOptions, Progress, Step, unpack_starter};
+use chereme_corpus::{Corpus, FileStatus, ImportOptions, Progress, Step, unpack_starter};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
+/// The text before the table in the file of results.
+const HEAD: &str = "# Many takes imported by one command
+
+Written by `cargo run --release -p chereme-tests --example bulk`. Every take is a BVH file of its own with an EAF file; each row
+is a process of its own. *Before* is the most memory that the process used until the import began, *peak* the most at its end: what
+lies between them must not grow with the number of takes. *Steps* are the reports of progress.
+
+| takes | files | seconds | takes a second | steps | before | peak | recordings | annotations | refused |
+|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|
+";
+
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let takes: usize = arguments.first().map_or(Ok(1000), |text| text.parse())?;
+    let Some(takes) = arguments.first() else {
+        let mut text = HEAD.to_owned();
+        for takes in ["100", "300", "1000"] {
+            let output = Command::new(std::env::current_exe()?).arg(takes).output()?;
+            if !output.status.success() {
+                return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
+            }
+            text += &String::from_utf8(output.stdout)?;
+        }
+        print!("{text}");
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bulk/RESULTS.md");
+        return Ok(std::fs::write(file, text)?);
+    };
+    print!("{}", row(takes.parse()?, arguments.get(1).map(Path::new))?);
+    Ok(())
+}
+
+/// Imports so many takes and returns the row of the table.
+fn row(takes: usize, capture: Option<&Path>) -> Result<String> {
     let own = tempfile::tempdir()?;
     let starter = unpack_starter(&own.path().join("starter"))?;
     let named = |ending: &str| {
@@ -26,8 +57,8 @@ fn main() -> Result<()> {
         };
         starter.iter().find(is).cloned()
     };
-    let capture = match arguments.get(1) {
-        Some(path) => PathBuf::from(path),
+    let capture = match capture {
+        Some(path) => path.to_owned(),
         None => named("bvh").ok_or("the starter corpus has no capture")?,
     };
     let notes = named("eaf").ok_or("the starter corpus has no annotations")?;
@@ -44,20 +75,22 @@ fn main() -> Result<()> {
     let options = ImportOptions::default();
     let report = corpus.import(&[folder], &options, &mut Progress::new(&mut hear))?;
     let seconds = begun.elapsed().as_secs_f64();
-    println!(
-        "{takes} takes with annotations, {:.0} MB: {seconds:.1} s, {:.0} takes a second, {steps} steps of progress",
+    let mebibytes = |it: Option<u64>| it.map_or("?".into(), |it| format!("{it} MiB"));
+    let made = |kind: &str| report.created.get(kind).copied().unwrap_or_default();
+    let refused = report
+        .files
+        .iter()
+        .filter(|it| it.status == FileStatus::Refused);
+    Ok(format!(
+        "| {takes} | {:.0} MB | {seconds:.1} | {:.0} | {steps} | {} | {} | {} | {} | {} |\n",
         bytes as f64 / 1e6,
-        takes as f64 / seconds
-    );
-    if let Some((before, most)) = before.zip(memory()) {
-        println!("the most memory before: {before} MiB, after: {most} MiB");
-    }
-    println!(
-        "made: {:?}, refused: {}",
-        report.created,
-        report.has_refusals()
-    );
-    Ok(())
+        takes as f64 / seconds,
+        mebibytes(before),
+        mebibytes(memory()),
+        made("recordings"),
+        made("annotations"),
+        refused.count(),
+    ))
 }
 
 /// Writes the takes and returns how many bytes they have.
