@@ -138,7 +138,7 @@ fn scene(
     let anatomy = Anatomy::with_roles(&skeleton, &roles).map_err(|error| {
         Error::wrong(error.to_string()).advise("correct the roles file (--roles), or leave it out")
     })?;
-    let convention = facing(job, &scene, &anatomy);
+    let convention = facing(job, &scene, &anatomy, &mut report);
     report.understand("joints", skeleton.len());
     report.understand("frame_rate", scene.clip.rate().to_string());
     let unit = match convention.metres_per_unit {
@@ -183,22 +183,46 @@ fn scene(
 }
 
 /// Returns unit and axes: the caller's if given, otherwise the file's, with the left side corrected by the body's
-/// joints.
-fn facing(job: &Job<'_>, scene: &Scene, anatomy: &Anatomy) -> Convention {
+/// joints. A unit that makes the body a giant or a dwarf is corrected by a power of ten.
+fn facing(job: &Job<'_>, scene: &Scene, anatomy: &Anatomy, report: &mut FileReport) -> Convention {
     let stated = scene.convention;
     let pose = (scene.clip.frames() > 0).then(|| scene.clip.model_pose(0));
     let found = anatomy.convention(scene.clip.skeleton(), pose.as_ref());
     let axes = found.convention.axes;
     let agrees = axes.up() == stated.axes.up() && found.confidence >= bvh::SURE;
+    let metres_per_unit = job.options.metres_per_unit.unwrap_or_else(|| {
+        let stature = anatomy.measures().map(|it| it.stature * stated.metres_per_unit);
+        let step = stature.map_or(1.0, scale_of_body);
+        if step != 1.0 {
+            report.findings.push(ReportFinding::warning(
+                format!(
+                    "in the unit that the file states the body is {:.4} m tall; its lengths are taken times {step}",
+                    stature.unwrap_or_default()
+                ),
+                "say the unit with --unit, such as --unit cm, if the body is as tall as the file says",
+            ));
+        }
+        stated.metres_per_unit * step
+    });
     Convention {
-        metres_per_unit: job
-            .options
-            .metres_per_unit
-            .unwrap_or(stated.metres_per_unit),
+        metres_per_unit,
         axes: job
             .options
             .axes
             .unwrap_or(if agrees { axes } else { stated.axes }),
+    }
+}
+
+/// The stature in metres from which a body may be wrong by a factor of three either way.
+const PERSON: f64 = 1.6;
+
+/// Returns the power of ten that makes a body of this stature in metres a person; 1 if it may be one.
+fn scale_of_body(stature: f64) -> f64 {
+    let decades = (PERSON / stature).log10();
+    if decades.is_finite() && decades.abs() <= 6.0 {
+        10_f64.powi(decades.round() as i32)
+    } else {
+        1.0
     }
 }
 

@@ -71,3 +71,53 @@ fn markers_faces_and_tiers_of_one_take_share_a_recording() {
         .expect("an import");
     assert_eq!(again.created.get("tracks"), None, "nothing comes twice");
 }
+
+#[test]
+fn a_body_in_a_unit_that_makes_it_a_giant_is_a_person_with_a_finding() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (clip, _) = crate::built_in_body().expect("a body");
+    let stature = |clip: &chereme_motion::Clip| {
+        let measures = chereme_motion::Anatomy::detect(clip.skeleton()).measures();
+        measures.expect("measures").stature
+    };
+    let imported = |scale: f64, unit: Option<f64>| {
+        let name = format!("body{scale}{}", unit.is_some());
+        let path = folder.path().join(format!("{name}.glb"));
+        let larger = chereme_motion::Convention {
+            metres_per_unit: scale,
+            ..chereme_motion::Convention::MODEL
+        };
+        let glb = gltf::write(&larger.clip(&clip), &gltf::About::default());
+        fs::write(&path, glb).expect("written");
+        let mut corpus =
+            Corpus::create(&folder.path().join(format!("{name}.chereme")), "A").expect("a corpus");
+        let options = ImportOptions {
+            metres_per_unit: unit,
+            ..ImportOptions::default()
+        };
+        let mut hear = unheard;
+        let report = corpus
+            .import(&[path], &options, &mut Progress::new(&mut hear))
+            .expect("an import");
+        let told = report.files[0].findings.iter();
+        let told = told.filter(|it| it.message.contains("m tall")).count();
+        let take = crate::Address::Recording(crate::Name::Number(1));
+        let moving = corpus.movement(&take).expect("movement");
+        (stature(&moving.clip), told)
+    };
+    let (person, told) = imported(1.0, None);
+    assert!((1.5..1.9).contains(&person) && told == 0, "{person}");
+    for (scale, unit, tall, told) in [
+        (100.0, None, 1.0, 1),
+        (0.01, None, 1.0, 1),
+        (0.8, None, 0.8, 0),
+        (100.0, Some(1.0), 100.0, 0),
+    ] {
+        let (found, said) = imported(scale, unit);
+        assert!(
+            (found - person * tall).abs() < 1e-3 * tall,
+            "{scale}: {found}"
+        );
+        assert_eq!(said, told, "{scale}");
+    }
+}
