@@ -450,3 +450,41 @@ fn a_track_without_frames_is_refused_and_nothing_is_left_of_it() {
     assert!(corpus.add_tracks(&take, &new).is_err());
     assert_eq!(corpus.tracks(&take).expect("read").len(), 1);
 }
+
+#[test]
+fn a_check_names_the_track_of_any_kind_whose_numbers_are_damaged() {
+    let (folder, mut corpus, take) = corpus();
+    let rows = corpus.add_tracks(&take, &every_kind()).expect("stored");
+    drop(corpus);
+    let path = folder.path().join("c.chereme");
+    let with_numbers = rows.iter().filter(|row| row.kind != TrackKind::Media);
+    for (row, sql) in with_numbers.flat_map(|row| {
+        [
+            (
+                row,
+                "DELETE FROM track_block WHERE track_id = ?1 AND first_frame > 0",
+            ),
+            (row, "UPDATE track SET frames = frames + 7 WHERE id = ?1"),
+        ]
+    }) {
+        let damaged = folder.path().join("damaged.chereme");
+        std::fs::copy(&path, &damaged).expect("copied");
+        let foreign = rusqlite::Connection::open(&damaged).expect("opened");
+        assert!(
+            foreign.execute(sql, [row.id]).expect("damaged") > 0,
+            "{sql}"
+        );
+        drop(foreign);
+        let mut corpus = Corpus::open(&damaged, "A").expect("opened");
+        let check = corpus
+            .check(false, &mut Progress::new(&mut unheard))
+            .expect("checked");
+        let place = format!("track {} of recording:1", row.id);
+        let places: Vec<&str> = check.faults.iter().map(|it| it.place.as_str()).collect();
+        assert!(
+            places.contains(&place.as_str()),
+            "{}: {sql}: {places:?}",
+            row.name
+        );
+    }
+}

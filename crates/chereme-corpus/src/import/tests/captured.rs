@@ -121,3 +121,57 @@ fn a_body_in_a_unit_that_makes_it_a_giant_is_a_person_with_a_finding() {
         assert_eq!(said, told, "{scale}");
     }
 }
+
+#[test]
+fn an_import_of_tracks_of_every_kind_is_undone_and_done_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let inbox = folder.path().join("in");
+    fs::create_dir_all(&inbox).expect("a folder");
+    let (clip, _) = crate::built_in_body().expect("a body");
+    fs::write(
+        inbox.join("take.glb"),
+        gltf::write(&clip, &gltf::About::default()),
+    )
+    .expect("written");
+    for (name, text) in [
+        ("take.trc", TRC),
+        ("take.csv", FACE),
+        ("take.TextGrid", GRID),
+    ] {
+        fs::write(inbox.join(name), text).expect("written");
+    }
+    let drawn = crate::film::tests::film(folder.path(), [64, 48], 25);
+    fs::copy(drawn, inbox.join("take.mp4")).expect("copied");
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("a corpus");
+    let empty = corpus.info().expect("info").counts;
+    let mut hear = unheard;
+    let report = corpus
+        .import(
+            &[inbox],
+            &ImportOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("an import");
+    assert!(!report.has_refusals(), "{report:?}");
+    let whole = corpus.info().expect("info");
+    let kinds: Vec<&str> = whole.tracks.keys().map(String::as_str).collect();
+    assert_eq!(kinds, ["curves", "markers", "media", "skeleton"]);
+    assert_eq!(whole.counts["recordings"], 1, "one take");
+    corpus.undo().expect("undone");
+    let without = |counts: &std::collections::BTreeMap<_, u64>| {
+        let mut counts = counts.clone();
+        counts.remove("operations");
+        counts
+    };
+    let undone = corpus.info().expect("info");
+    assert_eq!(without(&undone.counts), without(&empty));
+    assert!(undone.tracks.is_empty(), "{:?}", undone.tracks);
+    corpus.redo().expect("done again");
+    let again = corpus.info().expect("info");
+    assert_eq!(without(&again.counts), without(&whole.counts));
+    assert_eq!(again.tracks, whole.tracks);
+    let check = corpus
+        .check(false, &mut Progress::new(&mut hear))
+        .expect("checked");
+    assert!(check.ok, "{:?}", check.faults);
+}
