@@ -5,11 +5,13 @@
 //! | `own` | H.264, decoded by the program itself |
 //! | `helper` | all other formats, through the `ffmpeg` of the computer |
 //! | `colours` | conversion between film colours and screen colours |
+//! | `still` | one picture of a recording's film |
 //! | `write` | writing pictures as a film |
 
 mod colours;
 mod helper;
 mod own;
+mod still;
 #[cfg(test)]
 pub(crate) mod tests;
 mod write;

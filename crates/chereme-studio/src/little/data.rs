@@ -1,6 +1,7 @@
 //! Rules for little figures, without widgets: the moments to draw, their order, and the pictures to keep.
 
 use chereme_motion::{Instant, Span};
+use eframe::egui::{Rect, Vec2, vec2};
 
 /// Pictures per second, if that does not make too many.
 const RATE: f64 = 25.0;
@@ -71,6 +72,14 @@ const STEP: f32 = 8.0;
 pub(crate) fn pixels(cell: [f32; 2]) -> [u16; 2] {
     let shrink = (LARGEST / cell[0].max(cell[1]).max(1.0)).min(1.0);
     cell.map(|side| ((side * shrink / STEP).round().max(2.0) * STEP) as u16)
+}
+
+/// Returns the middle part of a picture, in shares of its sides, that fills a cell without being stretched.
+pub(crate) fn middle(picture: [usize; 2], cell: [f32; 2]) -> Rect {
+    let [wide, high] = picture.map(|side| side.max(1) as f32);
+    let scale = (cell[0] / wide).max(cell[1] / high).max(f32::MIN_POSITIVE);
+    let part = vec2(cell[0] / (wide * scale), cell[1] / (high * scale));
+    Rect::from_center_size((Vec2::splat(0.5)).to_pos2(), part)
 }
 
 /// Returns the keys of `kept` to remove so that at most `limit` bytes stay: those wanted longest ago first, none that
@@ -159,6 +168,15 @@ mod tests {
         assert_eq!(pixels([150.0, 149.0]), [152, 152]);
         assert_eq!(pixels([3.0, 0.0]), [16, 16]);
         assert_eq!(pixels([2880.0, 1440.0]), [288, 144]);
+    }
+
+    #[test]
+    fn a_film_is_cut_to_the_form_of_its_cell() {
+        let wide = middle([200, 100], [50.0, 50.0]);
+        assert!((wide.width() - 0.5).abs() < 1e-6 && (wide.height() - 1.0).abs() < 1e-6);
+        let tall = middle([100, 400], [200.0, 200.0]);
+        assert!((tall.width() - 1.0).abs() < 1e-6 && (tall.height() - 0.25).abs() < 1e-6);
+        assert!((wide.center().x - 0.5).abs() < 1e-6 && (tall.min.y - 0.375).abs() < 1e-6);
     }
 
     #[test]

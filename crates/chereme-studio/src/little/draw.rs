@@ -48,6 +48,8 @@ pub(super) enum Film {
     Loaded(Movement),
     /// The postures are chosen; the frame in which they were last needed.
     Ready(Arc<Ready>, u64),
+    /// A picture of a film takes the place of movement; the frame in which it was last needed.
+    Still(Arc<ColorImage>, u64),
     /// There is no movement.
     Nothing,
 }
@@ -215,6 +217,7 @@ impl State {
         }
         let films = self.films.iter().filter_map(|(source, film)| match film {
             Film::Ready(ready, needed) => Some((source.clone(), ready.bytes(), *needed)),
+            Film::Still(image, needed) => Some((source.clone(), image.pixels.len() * 4, *needed)),
             _ => None,
         });
         for source in data::leaving(films, since, POSTURES) {

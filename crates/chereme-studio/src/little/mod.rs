@@ -152,6 +152,12 @@ struct Texture {
 }
 
 impl Figures {
+    /// Returns whether it is known that nothing can be shown of some movement.
+    pub(crate) fn is_nothing(&self, motion: &Motion) -> bool {
+        let state = self.board.state();
+        matches!(state.films.get(&Source::of(motion)), Some(Film::Nothing))
+    }
+
     /// Handles the result of work; returns whether this module requested it.
     pub(crate) fn hear(&self, id: WorkId, ended: &Ended) -> bool {
         let Some(source) = self.own.borrow_mut().asked.remove(&id) else {
@@ -159,6 +165,7 @@ impl Figures {
         };
         let film = match ended {
             Ok(Outcome::Stretch(Some(moving))) => Film::Loaded(Movement::Recorded(moving.clone())),
+            Ok(Outcome::Still(image)) => Film::Still(image.clone(), self.board.state().now),
             _ => Film::Nothing,
         };
         self.board.state().films.insert(source, film);

@@ -6,7 +6,7 @@ use chereme_motion::{HandAngles, Side};
 use eframe::egui::epaint::RectShape;
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Align, Color32, Galley, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle,
+    Align, Color32, ColorImage, Galley, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle,
     TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
@@ -24,10 +24,17 @@ const SWEEP: u64 = 60;
 /// Interval between repaints of a playing loop, in seconds.
 const BEAT: f64 = 1.0 / 30.0;
 const RADIUS: f32 = 6.0;
+/// All of a texture.
+const WHOLE: Rect = Rect {
+    min: pos2(0.0, 0.0),
+    max: pos2(1.0, 1.0),
+};
 
 /// The visible content of a cell.
 enum Sight {
-    Picture(usize, std::sync::Arc<eframe::egui::ColorImage>),
+    Picture(usize, Arc<ColorImage>),
+    /// A picture in another form than the cell's, cut to it.
+    Still(Arc<ColorImage>),
     Preparing,
     Nothing,
 }
@@ -194,8 +201,12 @@ impl Figures {
     }
 
     fn put(&self, ui: &Ui, language: Language, key: &Key, sight: Sight, rect: Rect) {
-        let (index, image) = match sight {
-            Sight::Picture(index, image) => (index, image),
+        let (index, image, part) = match sight {
+            Sight::Picture(index, image) => (index, image, WHOLE),
+            Sight::Still(image) => {
+                let part = data::middle(image.size, [rect.width(), rect.height()]);
+                (0, image, part)
+            }
             Sight::Preparing => return stand_in(ui, language, rect, true),
             Sight::Nothing => return stand_in(ui, language, rect, false),
         };
@@ -215,10 +226,9 @@ impl Figures {
             texture.picture = index;
         }
         texture.wanted = now;
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         let shape = RectShape::filled(rect, RADIUS, Color32::WHITE);
         ui.painter()
-            .add(shape.with_texture(texture.handle.id(), whole));
+            .add(shape.with_texture(texture.handle.id(), part));
     }
 }
 
@@ -237,6 +247,10 @@ fn look(state: &mut State, key: &Key, clock: Option<f64>) -> Sight {
     let now = state.now;
     let seconds = match state.films.get_mut(&key.source) {
         Some(Film::Nothing) => return Sight::Nothing,
+        Some(Film::Still(image, needed)) => {
+            *needed = now;
+            return Sight::Still(image.clone());
+        }
         Some(Film::Ready(ready, needed)) => {
             *needed = now;
             ready.seconds

@@ -8,9 +8,14 @@ use chereme_corpus::{
     MilestoneOptions, Moving, Name, Performance, Progress, Result, SearchOptions, Step, Unit,
     draw_clip,
 };
+use chereme_motion::Span;
+use eframe::egui::{Color32, ColorImage};
 
 use super::{Outcome, Shared, Work};
 use crate::panes::inspector::Thing;
+
+/// The room for the picture of a film in a list, in pixels.
+const STILL: [usize; 2] = [288, 288];
 
 /// Carries out a piece of work.
 pub(super) fn carry(
@@ -172,8 +177,10 @@ pub(super) fn carry(
         Work::Stretch(recording, span) => {
             let address = Address::Recording(Name::Number(recording));
             let moving = corpus.movement_in(&address, Some(span), &ChannelGroup::ALL);
-            let moving = moving.ok().filter(|it| it.clip.frames() > 0);
-            Outcome::Stretch(moving.map(Arc::new))
+            match moving.ok().filter(|it| it.clip.frames() > 0) {
+                Some(moving) => Outcome::Stretch(Some(Arc::new(moving))),
+                None => film_still(corpus, recording, span)?,
+            }
         }
         Work::Movement {
             recording,
@@ -251,5 +258,20 @@ fn look(corpus: &Corpus, thing: Thing) -> Result<Details> {
             let uses = corpus.value_uses(inventory, &value)?;
             Details::Value(inventory, value, uses)
         }
+    })
+}
+
+/// Takes the picture of a recording's film in the middle of a span.
+fn film_still(corpus: &Corpus, recording: i64, span: Span) -> Result<Outcome> {
+    let middle = span.start().shifted(span.micros() / 2);
+    let still = corpus.film_still(&Name::Number(recording), middle, STILL)?;
+    Ok(match still {
+        Some(picture) => {
+            let pixels = picture.rgba.chunks_exact(4);
+            let pixels = pixels.map(|it| Color32::from_rgb(it[0], it[1], it[2]));
+            let size = [picture.width, picture.height];
+            Outcome::Still(Arc::new(ColorImage::new(size, pixels.collect())))
+        }
+        None => Outcome::Stretch(None),
     })
 }

@@ -21,6 +21,7 @@ use chereme_corpus::{
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
+use eframe::egui::ColorImage;
 
 use crate::model::made::Made;
 use crate::panes::inspector::Thing;
@@ -165,7 +166,8 @@ pub(crate) enum Work {
     },
     /// Loads the points of a span of a recording, such as optical markers.
     Points(i64, Span),
-    /// Loads the movement of a span of a recording; missing movement is not an error.
+    /// Loads the movement of a span of a recording, or a picture of its film if nothing moves; if both are missing, that
+    /// is not an error.
     Stretch(i64, Span),
     /// Loads the original movement of the pieces of a generated sign.
     Originals(Vec<MadePart>),
@@ -250,6 +252,8 @@ pub(crate) enum Outcome {
     Points(Vec<PointsPiece>),
     /// The movement of a span, if there is any.
     Stretch(Option<Arc<Moving>>),
+    /// A picture of a film, where there is no movement.
+    Still(Arc<ColorImage>),
     /// Pieces of a generated sign, each with its original if it has one.
     Originals(Vec<(MadePart, Option<Arc<Moving>>)>),
     /// A piece of movement was measured.

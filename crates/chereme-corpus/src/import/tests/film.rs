@@ -176,3 +176,27 @@ fn what_is_no_film_or_a_broken_one_is_refused() {
     }
     assert!(names(&corpus).is_empty());
 }
+
+#[test]
+fn a_recording_with_a_film_alone_has_a_picture_of_any_moment() {
+    let desk = Desk::new();
+    let path = film(&desk, "films/take.mp4");
+    let mut corpus = desk.corpus("c.chereme");
+    take(
+        &mut corpus,
+        std::slice::from_ref(&path),
+        &ImportOptions::default(),
+    );
+    let name = Name::Number(1);
+    let still = |corpus: &Corpus, seconds: f64| {
+        let at = chereme_motion::Instant::from_seconds(seconds);
+        corpus.film_still(&name, at, [32, 32]).expect("read")
+    };
+    for seconds in [-5.0, 0.0, 0.5, 900.0] {
+        let picture = still(&corpus, seconds).expect("a picture");
+        assert_eq!((picture.width, picture.height), (32, 24), "{seconds}");
+        assert_eq!(picture.rgba.len(), 32 * 24 * 4);
+    }
+    fs::remove_file(&path).expect("removed");
+    assert_eq!(still(&corpus, 0.5), None);
+}

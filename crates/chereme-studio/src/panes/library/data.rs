@@ -16,7 +16,7 @@ pub(crate) struct Row {
     pub(crate) name: String,
     /// Signer, origin and duration.
     pub(crate) about: String,
-    /// Its whole span, and whether it has movement.
+    /// Its whole span, and whether it has movement or a film.
     pub(crate) whole: Span,
     pub(crate) moves: bool,
 }
@@ -50,7 +50,7 @@ pub(crate) fn rows(
             name: it.row.name.clone(),
             about: parts.into_iter().flatten().collect::<Vec<_>>().join(" · "),
             whole: Span::between(Instant::ZERO, Instant::from_micros(it.row.duration_us)),
-            moves: it.frames > 0,
+            moves: it.frames > 0 || it.kinds.contains(&TrackKind::Media),
         }
     };
     recordings.iter().filter(fits).map(row).collect()

@@ -1,6 +1,6 @@
 //! Hits as looping little figures, and as a table with their neighbours.
 
-use chereme_corpus::Hit;
+use chereme_corpus::{Hit, TrackKind};
 use chereme_motion::Side;
 use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
@@ -129,7 +129,7 @@ fn figure(
     let motion = motion.or(made);
     carry::drag(&response, carried(&hit), motion.clone());
     menu(&response, seen, &hit, out);
-    match motion {
+    match motion.filter(|motion| !seen.little.is_nothing(motion)) {
         Some(motion) => {
             let playing = search.playing || response.hovered() || response.has_focus();
             let focus = focus(search.close, &search.field.text);
@@ -204,11 +204,12 @@ fn percent(score: f64) -> i64 {
     (score * 100.0).round() as i64
 }
 
-/// Returns the movement of a hit, if it has any.
+/// Returns the movement or the film of a hit, if it has any.
 fn motion(hit: &Hit, seen: &Seen<'_>) -> Option<Motion> {
     let (name, span) = hits::place(hit)?;
     let recording = seen.snapshot.recording_named(name)?;
-    (recording.frames > 0).then_some(Motion::Span(recording.row.id, span))
+    let is_seen = recording.frames > 0 || recording.kinds.contains(&TrackKind::Media);
+    is_seen.then_some(Motion::Span(recording.row.id, span))
 }
 
 /// Paints the coding of a sign without movement: a large picture of its handshape, the rest beside it.
