@@ -143,7 +143,7 @@ fn median(mut work: impl FnMut()) -> f64 {
     times[ROUNDS / 2]
 }
 
-/// Returns the median of a call in Python, in seconds, or why there is none.
+/// Returns the median of a call in Python, in seconds, or why the call was impossible.
 fn python(file: &Path, before: &str, call: &str) -> Result<f64, String> {
     let program = std::env::var_os("CHEREME_PYTHON").ok_or("CHEREME_PYTHON is not set")?;
     let script = format!(
