@@ -46,7 +46,8 @@ pub struct Studio {
     pub(crate) made_for: Option<PathBuf>,
     /// The gloss to show first in the starter corpus; empty for any.
     pub(crate) greets: Option<String>,
-    /// Whether a new corpus was created for an import, whose pane has most of the window until the import ends.
+    /// Whether the layout gives the import pane most of the window, for files named at the opening; until they are
+    /// imported.
     looking: bool,
     /// Whether the file of the open corpus is missing from its place.
     pub(crate) gone: bool,

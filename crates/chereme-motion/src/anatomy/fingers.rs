@@ -27,7 +27,7 @@ pub(super) struct HandFrame {
     pub(super) along: DVec3,
     pub(super) radial: DVec3,
     pub(super) palm: DVec3,
-    /// Rotation from the axes of B, N and O to the hand's space.
+    /// Rotation from the axes of B and N, and a third axis perpendicular to both, to the hand's space.
     basis: DQuat,
     thumb: [Option<Zero>; 3],
     fingers: [[Option<Zero>; 3]; 4],

@@ -32,8 +32,8 @@ const NEARLY: f64 = 0.66;
 const SHORT: std::ops::Range<f64> = 0.55..0.92;
 /// A joint that is bent by less than this, in degrees, is straight and needs no correction.
 const SLIGHT: f64 = 6.0;
-/// The range of the least radial and of the least palmar angle, in degrees, that is taken for a thumb next to the index
-/// finger.
+/// For the radial and the palmar angle, in degrees: the value of a thumb next to the index finger, and the greatest
+/// minimum in the takes that is taken for that posture.
 const BESIDE: [(f64, f64); 2] = [(12.0, 35.0), (2.0, 30.0)];
 /// The least range of a thumb's angle that counts as movement, in degrees.
 const THUMB_MOVES: f64 = 25.0;

@@ -104,7 +104,7 @@ impl Keys {
         all.join(", ")
     }
 
-    /// Replaces each action id between braces in a text with the first keys of that action; with its name if it has no
+    /// Returns a text with each action id between braces replaced by the first keys of that action; by the id if it has no
     /// keys.
     pub(crate) fn named(&self, text: &str) -> String {
         let mut told = text.to_owned();

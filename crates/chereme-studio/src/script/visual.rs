@@ -178,8 +178,8 @@ fn boundary(job: &LayoutJob, at: usize) -> usize {
     section_at(job, at).map_or(usize::MAX, |it| it.byte_range.end.0)
 }
 
-/// Returns the pieces of a line in visual order, from left to right; `end` returns the byte at which the format of a
-/// byte ends. Bytes count from the beginning of the line.
+/// Returns the pieces of a line in visual order, from left to right; `end` returns where the format at a byte ends. The
+/// byte is counted from the beginning of the line.
 pub(super) fn pieces(line: &str, end: &dyn Fn(usize) -> usize) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for run in runs(line) {

@@ -91,7 +91,7 @@ impl Faces {
     ) -> Option<(Motion, f64)> {
         if let Some(made) = self.made.get(&it.recipe) {
             let made = made.clone()?;
-            // The generated movement begins at the start of the sentence's recording.
+            // The recipe's milestones are relative to the first frame of the movement.
             let start = data::seen_span(&choice.milestones).start().seconds();
             let lasts = made.clip.span().seconds();
             let into = moment.max(start).min(lasts - 1e-6).max(0.0);

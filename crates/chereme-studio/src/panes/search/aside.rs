@@ -107,7 +107,7 @@ impl Coded {
     }
 }
 
-/// Returns the components in the conditions of a query.
+/// Returns the components whose values a query requires.
 fn components(query: &str) -> BTreeSet<Component> {
     let Ok(query) = Query::parse(query) else {
         return BTreeSet::new();

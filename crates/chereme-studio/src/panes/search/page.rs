@@ -71,7 +71,7 @@ impl Search {
                 self.rows = rows::Rows::default();
             }
             self.field.take_focus();
-            // While the user types, the rows are hidden if there is not enough room for them and the results.
+            // Entering a text hides the rows if there is not enough room for them and the results.
             self.built &= !self.low;
             self.aside.remember(&self.field.text, seen, out);
             self.ask(out);
@@ -128,7 +128,7 @@ impl Search {
     fn tools(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         ui.horizontal_wrapped(|ui| {
             if ui.available_width() < WIDE {
-                // All tiles are in one line, even in a narrow pane.
+                // In a narrow pane the buttons are narrower, so that all of them fit into one line.
                 ui.spacing_mut().item_spacing.x = 3.0;
                 ui.spacing_mut().button_padding.x = 5.0;
             }

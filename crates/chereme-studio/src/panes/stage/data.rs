@@ -318,7 +318,7 @@ pub(crate) struct Look {
     pub(crate) samples: usize,
 }
 
-/// Returns the number of samples per pixel: four if nothing moves, one if something moves and the picture is large.
+/// Returns the number of samples per side of a pixel: 1 if something moves and the picture is large, else 2.
 pub(crate) fn samples(moving: bool, size: [usize; 2]) -> usize {
     if moving && size[0] * size[1] > 300_000 {
         1
