@@ -14,7 +14,7 @@ pub enum UnitError {
     /// The text before the unit is not a finite number.
     #[error("{text:?} is no number with a unit, such as {example}")]
     Number {
-        /// What was written.
+        /// The text as written.
         text: String,
         /// A valid quantity.
         example: &'static str,
@@ -22,7 +22,7 @@ pub enum UnitError {
     /// The unit is missing or unknown.
     #[error("{text:?} has {}; write one of {units}", unit_found(unit))]
     Unit {
-        /// What was written.
+        /// The text as written.
         text: String,
         /// The unit found, possibly empty.
         unit: String,

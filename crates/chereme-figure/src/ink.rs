@@ -1,4 +1,4 @@
-//! Lines where one part of the body lies before another, shade behind what is nearer, and the
+//! Lines between parts of the body at different depths, shade behind nearer parts, and the
 //! averaging of samples to pixels.
 //!
 //! The shade is a cheap form of *Image enhancement by unsharp masking the depth buffer* (Luft,
@@ -253,7 +253,7 @@ impl Ink {
         const FAR: [f32; LANES] = [f32::INFINITY; LANES];
         let depth = lanes(&buffers.depth, at, &FAR);
         let paint = lanes(&buffers.paint, at, &[0; LANES]);
-        // How much nearer the neighbours are, of the same part and of others; infinite next to paper.
+        // The depth steps to nearer neighbours, of the same part and of others; infinite next to paper.
         let (mut within, mut between) = ([0.0f32; LANES], [0.0f32; LANES]);
         for step in self.near {
             let beside = at.wrapping_add_signed(step);

@@ -120,7 +120,7 @@ fn write_theirs(bvh: &bvh_anim::Bvh) -> usize {
     options.write_to_string(bvh).len()
 }
 
-/// Prints how many times faster ours is than each peer.
+/// Prints the speed of this reader and writer as a multiple of each peer's.
 fn print_ratios() {
     let text = recording();
     let blocks = blocks(text.as_bytes());

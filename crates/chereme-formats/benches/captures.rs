@@ -15,7 +15,7 @@ use chereme_formats::{c3d, gltf as own_gltf, pose};
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Channel, Clip, Joint, Rate, Skeleton};
 
-/// How often each is read.
+/// The number of times that each file is read.
 const ROUNDS: usize = 21;
 
 /// The text before the table in the file of results.
@@ -143,7 +143,7 @@ fn median(mut work: impl FnMut()) -> f64 {
     times[ROUNDS / 2]
 }
 
-/// Returns the median of a call in Python, in seconds, or why the call was impossible.
+/// Returns the median of a call in Python, in seconds. Fails with the reason if the call was impossible.
 fn python(file: &Path, before: &str, call: &str) -> Result<f64, String> {
     let program = std::env::var_os("CHEREME_PYTHON").ok_or("CHEREME_PYTHON is not set")?;
     let script = format!(
@@ -200,7 +200,7 @@ fn body() -> Clip {
     .expect("a clip")
 }
 
-/// Reads every number of every sampler with the crate `gltf`, and returns how many there are.
+/// Reads every number of every sampler with the crate `gltf`; returns their count.
 fn numbers_of(bytes: &[u8]) -> usize {
     let file = gltf::Gltf::from_slice_without_validation(bytes).expect("a document");
     let blob = file.blob.as_deref().unwrap_or_default();

@@ -102,14 +102,14 @@ pub enum Error {
         /// The cells of the header.
         expected: usize,
     },
-    /// A cell is not what its column needs.
+    /// A cell has another form than its column.
     #[error("line {line}: {cell:?} is no {expected}")]
     Cell {
         /// The line, counted from 1.
         line: u64,
         /// The cell, cut to 40 characters.
         cell: String,
-        /// What belongs there.
+        /// The expected form.
         expected: &'static str,
     },
     /// The document is no JSON of scores.

@@ -1,4 +1,4 @@
-//! The moving body that files of scenes hold, and what such files have in common.
+//! The moving body in scene files, and code that readers of such files share.
 
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Channel, Clip, Convention, Curves, Instant, Joint};
@@ -50,7 +50,7 @@ pub(crate) fn placed(offset: DVec3, found: &[DVec3]) -> Option<DVec3> {
 
 /// Puts the joints whose movement contradicts their offsets where their movement has them, and drops positions
 /// that never differ from the offset. Joints that carry most of the body keep both: they move in the room.
-/// Returns how many offsets were wrong.
+/// Returns the number of wrong offsets.
 pub(crate) fn settle(joints: &mut [Joint], channels: &mut [Channel]) -> usize {
     let count = joints.len();
     let mut below = vec![1_usize; count];

@@ -108,7 +108,7 @@ fn is_block(line: &str) -> bool {
     })
 }
 
-/// Reads a line of times; the second value says whether settings follow.
+/// Reads a line of times; the second value is true if settings follow.
 fn times(line: &str) -> Option<(Span, bool)> {
     let (start, rest) = line.split_once("-->")?;
     let mut words = rest.split_whitespace();

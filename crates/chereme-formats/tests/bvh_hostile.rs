@@ -53,7 +53,7 @@ fn answer(bytes: &[u8]) -> String {
     }
 }
 
-/// Asserts that each text is answered with what is expected, or with that and more.
+/// Asserts that the answer to each text contains the expected one.
 fn check<'a>(cases: impl IntoIterator<Item = (&'a str, impl AsRef<[u8]>, &'a str)>) {
     let mut failures = String::new();
     for (name, bytes, expected) in cases {

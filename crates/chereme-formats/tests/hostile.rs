@@ -324,7 +324,7 @@ fn damaged(format: &Format, chance: &mut Chance) -> Vec<Vec<u8>> {
     all
 }
 
-/// Returns where the words of a text begin and end: runs of letters and digits.
+/// Returns the positions of a text's words, runs of letters and digits.
 fn words(text: &str) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut from = None;

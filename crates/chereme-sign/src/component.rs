@@ -375,7 +375,7 @@ pub enum FieldError {
         "{text:?} names no component: configuration, placement, movement, orientation or nonmanual"
     )]
     NoComponent {
-        /// What was written.
+        /// The text as written.
         text: String,
     },
     /// A part before the component is neither a hand nor a phase.
@@ -395,25 +395,25 @@ pub enum FieldError {
     /// The component is followed by something other than one feature name.
     #[error("{text:?}: after the component stands at most one feature, such as orientation.palm")]
     Feature {
-        /// What was written.
+        /// The text as written.
         text: String,
     },
     /// A hand is given for a component that belongs to no hand.
     #[error("{text:?}: non-manual components belong to no hand; leave the hand out")]
     HandOfNonManual {
-        /// What was written.
+        /// The text as written.
         text: String,
     },
     /// The text names no hand.
     #[error("{text:?} is no hand: right, left, dominant or weak")]
     UnknownHand {
-        /// What was written.
+        /// The text as written.
         text: String,
     },
     /// The text names no phase.
     #[error("{text:?} is no phase: initial, middle, middle2 ... or final")]
     UnknownPhase {
-        /// What was written.
+        /// The text as written.
         text: String,
     },
 }

@@ -213,7 +213,7 @@ pub enum RelationError {
     /// There is no such relation.
     #[error("there is no relation {text:?}{}", did_you_mean(nearest.as_deref()))]
     Unknown {
-        /// What was written.
+        /// The text as written.
         text: String,
         /// The relation nearest to it.
         nearest: Option<String>,
@@ -223,7 +223,7 @@ pub enum RelationError {
         "{text:?}: after \"within\" stand a time and a place, such as 0.2s around, 200ms of begin or 1s of end"
     )]
     Distance {
-        /// What was written.
+        /// The text as written.
         text: String,
     },
 }

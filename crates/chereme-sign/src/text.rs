@@ -5,7 +5,7 @@ use unicode_normalization::UnicodeNormalization;
 /// Returns `text` without differences of case, accent, width and typographic punctuation.
 ///
 /// `ÉCOLE` and `école` become `ecole`, `œuf` becomes `oeuf`, curly quotes and long dashes become
-/// plain ones. Compatibility forms (`ﬁ`, `²`, full-width letters) become what they stand for.
+/// plain ones. Compatibility forms (`ﬁ`, `²`, full-width letters) become the characters that they stand for.
 /// Blanks stay, except that every kind of blank becomes a space. Folding twice changes nothing.
 #[must_use]
 pub fn fold(text: &str) -> String {
@@ -129,7 +129,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
-/// Returns the end of a message that offers `nearest`: `; did you mean "placement"?`, or nothing.
+/// Returns the end of a message that offers `nearest`: `; did you mean "placement"?`; empty for `None`.
 #[must_use]
 pub fn did_you_mean(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |word| format!("; did you mean {word:?}?"))

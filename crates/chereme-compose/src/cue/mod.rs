@@ -2,7 +2,7 @@
 //!
 //! Keys come from [`chereme_sign::cue`], their times from [`PhaseRule`]. The tip of the pointing finger moves between
 //! places of the head along minimum-jerk paths that bend around the lips, the fingers change from shape to shape, and
-//! arm and hand follow; the mouth says the sounds.
+//! arm and hand follow; the mouth speaks the sounds.
 //!
 //! After Gibert, Bailly, Elisei, Beautemps & Brun, *Evaluation of a speech cuer* (2004).
 

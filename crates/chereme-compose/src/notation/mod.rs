@@ -23,7 +23,7 @@
 //! | `solve`, `settle` | from goals to postures of an arm, without jumps |
 //! | `mend` | removal of remaining intersections with the trunk |
 //! | `perform` | one sign after another on the same body, or their first postures alone |
-//! | `warp` | time stretched where an arm would move too fast |
+//! | `warp` | stretches of time for arms that would move too fast |
 //! | `life` | sway, head and eyes that follow the hands, blinks |
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | annotations of the synthesised movement |

@@ -44,7 +44,7 @@ pub(crate) struct Row {
     pub(super) bearing: Bearing,
     pub(super) angles: WristAngles,
     pub(super) push: DVec3,
-    /// Whether the hand keeps its goal despite limits and trunk.
+    /// Whether the hand reaches its goal without adaptation to limits or trunk.
     pub(super) kept: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Stretches time where an arm would move faster than people do.
+//! Stretches time if an arm would move faster than people do.
 
 use chereme_motion::glam::{DQuat, DVec3};
 

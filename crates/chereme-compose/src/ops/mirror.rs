@@ -349,7 +349,7 @@ impl Plan {
         v - self.normal * (2.0 * v.dot(self.normal))
     }
 
-    /// Returns `S q S`: the rotation about the reflected axis the other way.
+    /// Returns `S q S`: the rotation about the reflected axis in the opposite direction.
     fn reflected(&self, q: DQuat) -> DQuat {
         let v = -self.reflect(DVec3::new(q.x, q.y, q.z));
         DQuat::from_xyzw(v.x, v.y, v.z, q.w)

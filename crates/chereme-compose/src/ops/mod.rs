@@ -50,7 +50,7 @@ pub(crate) trait Operator: Display {
         Ok(())
     }
 
-    /// Asks the corpus for what the operator needs.
+    /// Asks the corpus for the inputs of the operator.
     fn resolve(&self, _ask: &mut Ask<'_>, _setting: &Setting) -> Result<(), Cause> {
         Ok(())
     }
@@ -78,7 +78,7 @@ pub(crate) trait Operator: Display {
     }
 }
 
-/// The text of an operator. Its [`Display`] writes what [`parse`](Self::parse) reads.
+/// The text of an operator. [`parse`](Self::parse) reads the text that its [`Display`] writes.
 pub(crate) trait Syntax: Operator + Sized {
     /// The name: the key in JSON, and in most cases the word that begins the text.
     const NAME: &'static str;

@@ -116,7 +116,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds the hand of `side` without an arm; nothing if there is no wrist.
+    /// Adds the hand of `side` without an arm; adds nothing if there is no wrist.
     pub(super) fn hand(&mut self, side: Side) {
         let place_of = usize::from(side == Side::Left);
         let seat = Seat {

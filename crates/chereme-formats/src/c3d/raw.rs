@@ -141,7 +141,7 @@ impl Parameters {
     }
 }
 
-/// The file: header, parameters and where the data lies.
+/// The file: header, parameters and the position of the data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document {
     /// How numbers are stored.

@@ -248,7 +248,7 @@ fn annotations_that_exchanged_their_ids_have_not_moved() {
     assert!(diff(&a, &b).is_empty(), "{:?}", diff(&a, &b));
 }
 
-/// A change of a document: which annotation, what, and how far.
+/// A random change of a document: numbers that select the annotation, the kind of change, and its size.
 type Deed = (usize, u8, i64);
 
 fn changed(it: &Transcript, deeds: &[Deed], name: &str) -> Transcript {

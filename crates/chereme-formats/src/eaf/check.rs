@@ -26,7 +26,7 @@ pub(super) struct Resolved {
     pub(super) parents: Vec<Option<usize>>,
     /// Linguistic types of the tiers.
     pub(super) types: Vec<Option<usize>>,
-    /// Stereotypes of the tiers; a child tier whose type says none is Included_In.
+    /// Stereotypes of the tiers; a child tier whose type states none is Included_In.
     pub(super) stereotypes: Vec<Option<Stereotype>>,
     /// Tiers, parents before children.
     pub(super) order: Vec<usize>,
@@ -90,7 +90,7 @@ impl<'d> Ids<'d> {
     }
 }
 
-/// Splits `ts12` into `ts` and 12; nothing for leading zeros and long numbers.
+/// Splits `ts12` into `ts` and 12; `None` for leading zeros and long numbers.
 fn counted(id: &str) -> Option<(&str, usize)> {
     let digits = id
         .bytes()

@@ -13,7 +13,7 @@ use chereme_motion::{Instant, Span};
 use chereme_sign::Stereotype;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// How many overlaps of one tier a finding names.
+/// The number of overlaps of one tier that a finding names.
 const SHOWN_OVERLAPS: usize = 3;
 
 /// Returns the meaning of `document`.

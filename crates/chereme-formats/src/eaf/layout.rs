@@ -37,7 +37,7 @@ pub(super) struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    /// Returns the layout of a text that the reader understood; nothing if its tags do not nest.
+    /// Returns the layout of a text that the reader understood; `None` if its tags do not nest.
     pub(super) fn of(text: &'a str) -> Option<Self> {
         let mut layout = Self {
             text,
@@ -140,7 +140,7 @@ impl<'a> Layout<'a> {
         all.find(|it| self.text[it.name.clone()] == *name)
     }
 
-    /// Returns the blanks before an element on its line; nothing if it does not start the line.
+    /// Returns the blanks before an element on its line; `None` if it does not start the line.
     pub(super) fn indent(&self, element: usize) -> Option<&'a str> {
         let before = &self.text[..self.elements[element].span.start];
         let line = before.rfind(['\n', '\r']).map(|at| &before[at + 1..])?;
@@ -213,7 +213,7 @@ impl Edits {
         self.replace(at..at, text);
     }
 
-    /// Returns the changed text; nothing if two changes overlap.
+    /// Returns the changed text; `None` if two changes overlap.
     pub(super) fn apply(mut self, text: &str) -> Option<String> {
         self.0.sort_by_key(|(span, _)| (span.start, span.end));
         let mut changed = String::with_capacity(text.len());

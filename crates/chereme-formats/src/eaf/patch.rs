@@ -93,7 +93,7 @@ struct Work<'w, 'd> {
 }
 
 impl<'w, 'd> Work<'w, 'd> {
-    /// Returns the new place of an old annotation; nothing if it was removed or went to another tier.
+    /// Returns the new place of an old annotation; `None` if it was removed or went to another tier.
     fn kept(&self, old: Place) -> Option<Place> {
         let it = self.before.annotation(old)?;
         let new = *self.found.get(it.id.as_str())?;

@@ -7,7 +7,7 @@
 use chereme_motion::glam::DVec2;
 use chereme_motion::{Column, Curve, Curves, Marker, Markers, Times, TrackError};
 
-/// How many lengths are measured in each frame.
+/// The number of lengths measured in each frame.
 pub const MEASURES: usize = 14;
 /// The lengths of one frame, in the order of the channels of the system `mesh`; a NaN is unknown.
 pub type Measures = [f64; MEASURES];

@@ -241,7 +241,7 @@ fn faces_of_others_are_seen_as_faces() {
         for name in upper.into_iter().chain(mouth) {
             assert!(moves(name) > 0.005, "{path}: {name} {}", moves(name));
         }
-        // In one of the takes the jaw's left goes with the mouth's right (r = 0.98): one pair is exchanged.
+        // In one of the takes the jaw's left moves with the mouth's right (r = 0.98): one pair is exchanged.
         let exchanged = path.starts_with("think-biq");
         assert_eq!(says(&view, "move against each other"), exchanged, "{path}");
     }

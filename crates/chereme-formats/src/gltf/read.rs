@@ -571,7 +571,7 @@ fn keys(
     Ok(keys)
 }
 
-/// Returns how many morph targets a node's mesh has.
+/// Returns the number of morph targets of a node's mesh.
 fn targets(document: &Document, node: usize) -> usize {
     let mesh = document
         .nodes

@@ -162,7 +162,7 @@ fn annotations(
     items.into_iter().map(make).collect()
 }
 
-/// Writes tiers as a TextGrid in one of its two forms of text, and reports what a TextGrid cannot hold.
+/// Writes tiers as a TextGrid in one of its two forms of text, and reports everything that a TextGrid cannot hold.
 #[must_use]
 pub fn write(transcript: &Transcript, form: Form, end: Instant) -> (String, Vec<Finding>) {
     let mut findings = Findings::default();

@@ -6,7 +6,7 @@ use super::{Alphabet, CueCode};
 /// characters that the code does not know.
 ///
 /// Stress, joins and the names of languages in parentheses are left out. In French, `y` before `i` becomes the glide
-/// `ɥ`, and `i` before a vowel the glide `j`, as cuers say them.
+/// `ɥ`, and `i` before a vowel the glide `j`, as cuers pronounce them.
 #[must_use]
 pub fn of_espeak(printed: &str, code: &CueCode) -> (String, Vec<char>) {
     let french = code.language == "fr";

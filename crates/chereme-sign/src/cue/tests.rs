@@ -273,7 +273,7 @@ fn sentences_from_text_have_almost_the_keys_of_a_careful_hand() {
     assert!(errors <= 2, "{errors} of {all} keys\n{}", lines.join("\n"));
 }
 
-/// Returns how many insertions, deletions and substitutions lead from one list to the other.
+/// Returns the number of insertions, deletions and substitutions that lead from one list to the other.
 fn edits(a: &[String], b: &[&str]) -> usize {
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, left) in a.iter().enumerate() {

@@ -53,7 +53,7 @@ impl Eq for At {}
 
 /// A query: a condition on the tokens of a corpus.
 ///
-/// Printing gives canonical text, and parsing what was printed gives an equal query.
+/// Printing gives canonical text, and parsing that text gives an equal query.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Query {
     /// The condition on the tokens; an empty [`Expr::And`] accepts all.

@@ -102,7 +102,7 @@ fn word(text: &str) -> Option<TierRole> {
 impl FromStr for TierRole {
     type Err = RoleError;
 
-    /// Reads what [`name`](Self::name) writes. A hand is refused, since a role has none: [`TierTopic`] keeps it.
+    /// Reads the text that [`name`](Self::name) returns. Refuses a hand, which belongs to a [`TierTopic`] instead.
     fn from_str(text: &str) -> Result<Self, RoleError> {
         let topic: TierTopic = text.parse()?;
         match topic.hand {

@@ -1,4 +1,4 @@
-//! Postures as the goals of motions: reached on the way, reached at the end, or brushed in passing.
+//! Postures as the goals of motions: reached during the motion, reached at its end, or brushed in passing.
 
 use super::*;
 

@@ -10,7 +10,7 @@ use super::{Column, Number};
 pub struct Block {
     /// The number of the first frame, counted from 0.
     pub first_frame: u64,
-    /// How many frames there are.
+    /// The number of frames.
     pub frames: usize,
     /// The columns in the order of the file's channels, each of `frames` rows.
     pub columns: Vec<Column>,

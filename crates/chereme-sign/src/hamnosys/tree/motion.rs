@@ -58,7 +58,7 @@ pub enum MotionKind {
     Still,
     /// An action of the body in place of the hand.
     Body(BodyAction),
-    /// A motion for the dominant hand and one for the other; a missing one keeps what it had.
+    /// A motion for the dominant hand and one for the other; a hand without a motion stays as it is.
     Split(Option<Box<Motion>>, Option<Box<Motion>>),
     /// One after the other.
     Sequence {

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::super::*;
 use super::{example, show, span};
 
-/// A change by random numbers: what, where, when, how long.
+/// A random change: numbers that select its kind, its place, its time and its length.
 type Dice = (u8, u8, u8, u8);
 
 fn rolled(set: &TierSet, (what, whom, start, length): Dice, unique: u64) -> Change {
