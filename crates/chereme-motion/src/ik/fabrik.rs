@@ -11,7 +11,7 @@ pub struct FabrikOptions {
     pub tolerance: f64,
     /// The greatest number of passes.
     pub passes: u32,
-    /// The direction in which a straight chain is bent first if the target lies on its line; without it, such a chain
+    /// The direction of the first bend of a straight chain if the target lies on its line; without it, such a chain
     /// would only slide along the line and never bend.
     pub pole: Option<DVec3>,
 }

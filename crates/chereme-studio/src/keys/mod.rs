@@ -104,8 +104,8 @@ impl Keys {
         all.join(", ")
     }
 
-    /// Returns a text with each action id between braces replaced by the first keys of that action; by the id if it has no
-    /// keys.
+    /// Returns a text with each action id between braces replaced by the first keys of that action; an action without
+    /// keys keeps its id, without the braces.
     pub(crate) fn named(&self, text: &str) -> String {
         let mut told = text.to_owned();
         for row in ACTIONS {

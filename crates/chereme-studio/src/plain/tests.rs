@@ -150,7 +150,7 @@ fn what_is_drawn_at_once_is_pairs_and_not_too_many() {
     let clipped = |shape| ClippedShape::new(seen, shape);
     let made = plain(all.map(clipped).to_vec(), 1.0);
     assert_eq!(triangles(&made), [340, 340, 320, 0, 3]);
-    // A new place to be seen begins what is drawn next.
+    // A shape with another clip rectangle begins a new batch.
     let begins = made.windows(2).map(|it| it[0].clip_rect != it[1].clip_rect);
     assert_eq!(begins.collect::<Vec<_>>(), [true, true, true, false]);
 }

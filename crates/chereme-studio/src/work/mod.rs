@@ -252,7 +252,7 @@ pub(crate) enum Outcome {
     Points(Vec<PointsPiece>),
     /// The movement of a span, if there is any.
     Stretch(Option<Arc<Moving>>),
-    /// A picture of a film, where there is no movement.
+    /// A picture of a film, for a span without movement.
     Still(Arc<ColorImage>),
     /// Pieces of a generated sign, each with its original if it has one.
     Originals(Vec<(MadePart, Option<Arc<Moving>>)>),

@@ -254,7 +254,7 @@ pub(super) fn sets(choices: &Choices) -> Vec<Vec<Item>> {
     }
 }
 
-/// Returns the user's own set of words, separated by commas: from two to twelve of them.
+/// Returns the first twelve words of the user's own set, separated by commas; `None` for fewer than two words.
 pub(super) fn own_set(text: &str) -> Option<Vec<Item>> {
     let words = text
         .split([',', ';', '\n'])

@@ -93,8 +93,8 @@ pub(crate) fn next(operations: &[OperationRow], back: bool, language: Language) 
     Some(sentence(found, language))
 }
 
-/// Returns a sentence about the operations since `before`, with the names of other people. The user's own work is left
-/// out if another notice reports it.
+/// Returns a sentence about the newest operation, if it is newer than those in `before`; for other people's work with
+/// the author's name. The user's own work is left out if another notice reports it.
 pub(crate) fn news(
     [before, now]: [&[OperationRow]; 2],
     own: bool,

@@ -89,7 +89,7 @@ impl Original {
     }
 
     /// Returns the source of the first piece if no piece has an original and the movement is fingerspelling or
-    /// pointing; `None` for notation, of which nobody expects an original.
+    /// pointing; `None` for notation, which is not expected to have an original.
     pub(super) fn made_by(&self) -> Option<&str> {
         let none = self.told && !self.is_there();
         let first = self.parts.first().filter(|_| none)?;
