@@ -2,9 +2,9 @@
 //!
 //! With C the rotation of the joint that carries both arms, R that of an arm's joint j and m its counterpart, all in
 //! model space, and a zero for the rest pose, the movement of j relative to the trunk is `D = (C C₀⁻¹)⁻¹ R_j R_j0⁻¹`.
-//! Its mirror image `S D S` (S reflects across the plane between the shoulders at rest) is given to m: `R_m = C C₀⁻¹ ·
-//! S D S · K · R_m0`, where K, the shortest rotation, compensates for arms whose bones are not symmetric at rest.
-//! Applied twice, this gives R again. All this is done joint by joint in local space.
+//! Its mirror image `S D S` (S reflects across the plane between the shoulders at rest) is given to m:
+//! `R_m = C C₀⁻¹ · S D S · K · R_m0`, where K, the shortest rotation, compensates for arms whose bones are not symmetric
+//! at rest. Applied twice, this gives R again. All this is done joint by joint in local space.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Part, Side, Skeleton};

@@ -184,7 +184,7 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>) -> Seam {
     let (least, most, speed) = TIMES;
     let seconds = time.map_or((longest / speed).clamp(least, most), |time| time.0);
     let gap = (seconds / first.rate.frame_time()).round().max(1.0) as usize;
-    // The hand with fewer frames to spare sets the pace: its transition takes the wanted time, cuts included.
+    // The hand whose cuts leave out the fewest frames sets the pace: its transition takes exactly the wanted time.
     let spare = hands
         .iter()
         .map(|cut| last - cut.leave + cut.enter)
