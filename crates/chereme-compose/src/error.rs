@@ -113,7 +113,7 @@ pub enum Problem {
 
 /// A recipe that cannot be evaluated: the step at fault, the reason, and a remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{step}: {cause}")]
+#[error("{step}: {cause}{}", remedy_after(cause))]
 pub struct MakeError {
     /// The path of the step in the recipe's JSON, such as `/pipe/steps/0`.
     pub path: String,
@@ -128,7 +128,7 @@ pub struct MakeError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Cause {
     /// The result is no longer wanted.
-    #[error("making it was stopped; make it again")]
+    #[error("making it was stopped")]
     Stopped,
     /// The corpus has no answer.
     #[error(transparent)]
@@ -137,30 +137,28 @@ pub enum Cause {
     #[error(transparent)]
     Hamnosys(#[from] chereme_sign::hamnosys::HamnosysError),
     /// Text or phones that cannot be cued.
-    #[error("{said}; {remedy}", said = .0, remedy = .0.remedy())]
+    #[error("{0}")]
     Utterance(Box<chereme_sign::cue::UtteranceError>),
     /// The corpus holds too few captured keys to measure phases on.
-    #[error(
-        "the corpus has no captured keys with the tier Hand M1 M2; name another rule: paper, attina, sppas or duchnowski"
-    )]
+    #[error("the corpus has no captured keys with the tier Hand M1 M2")]
     NoPhases,
     /// Notation that cannot be animated.
     #[error(transparent)]
     Notation(#[from] crate::notation::NotationError),
     /// The body language holds text that is not a number.
-    #[error("the body language cannot be used: {0}; make the sign again")]
+    #[error("the body language cannot be used: {0}")]
     Language(String),
     /// The skeleton has no such arm.
-    #[error("there is no {} arm (shoulder, elbow, wrist) in this skeleton; name its joints in a roles file, or use a recording that has one", .0.name())]
+    #[error("there is no {} arm (shoulder, elbow, wrist) in this skeleton", .0.name())]
     NoArm(Side),
     /// The hand has no fingers, or too few to define its palm.
-    #[error("the {} hand has no fingers in this skeleton; use a recording of the hands, or name its joints in a roles file", .0.name())]
+    #[error("the {} hand has no fingers in this skeleton", .0.name())]
     NoFingers(Side),
     /// The skeleton has no head that hangs on a chest.
-    #[error("there is no head in this skeleton; name its joint in a roles file")]
+    #[error("there is no head in this skeleton")]
     NoHead,
     /// A target is far beyond the body's reach.
-    #[error("the target is {:.0} cm away from the {} shoulder, and the arm is {:.0} cm long; move it nearer by {:.0} cm or more", distance * 100.0, side.name(), arm * 100.0, (distance - arm) * 100.0)]
+    #[error("the target is {:.0} cm away from the {} shoulder, and the arm is {:.0} cm long", distance * 100.0, side.name(), arm * 100.0)]
     TooFar {
         /// The arm.
         side: Side,
@@ -170,7 +168,7 @@ pub enum Cause {
         arm: f64,
     },
     /// A list gives neither one value nor one for each span.
-    #[error("{given} values are given, but the {} hand holds {held} one after another; give 1 or {held}", side.name())]
+    #[error("{given} values are given, but the {} hand holds {held} one after another", side.name())]
     Count {
         /// The values given.
         given: usize,
@@ -180,7 +178,7 @@ pub enum Cause {
         side: Side,
     },
     /// A list gives neither one pace nor one for each phase.
-    #[error("{given} paces are given, but the sign has {phases} phases; give 1 or {phases}")]
+    #[error("{given} paces are given, but the sign has {phases} phases")]
     Phases {
         /// The paces given.
         given: usize,
@@ -188,9 +186,7 @@ pub enum Cause {
         phases: usize,
     },
     /// A value has no meaning for a body, and no token with movement has it.
-    #[error(
-        "no sign with movement holds {value:?}, and its inventory gives no {what} for it; choose another value, or annotate a sign that has it"
-    )]
+    #[error("no sign with movement holds {value:?}, and its inventory gives no {what} for it")]
     NoMeaning {
         /// The value.
         value: String,
@@ -198,7 +194,7 @@ pub enum Cause {
         what: &'static str,
     },
     /// The query finds no token with movement.
-    #[error("the query {0:?} finds no sign with movement; loosen it")]
+    #[error("the query {0:?} finds no sign with movement")]
     NothingFound(String),
     /// A sign that should give a value shows none.
     #[error("{address:?} shows no {what} to take")]
@@ -209,18 +205,13 @@ pub enum Cause {
         what: &'static str,
     },
     /// The recipe names a part that the movement does not have.
-    #[error(
-        "the movement lasts {length:.2} s, so that nothing of it is left; name times within it"
-    )]
+    #[error("the movement lasts {length:.2} s, so that nothing of it is left")]
     Cut {
         /// The length of the movement in seconds.
         length: f64,
     },
     /// Two pieces do not fit together: something would jump at the join.
-    #[error(
-        "the two pieces do not meet: {what} would leap by {distance:.2} m, at {speed:.0} m/s; cut wrong first or last \
-         frames off (`| trim`, or `| span 0.2s..1.5s`), or give the way more time (`then via 0.4s`, `repeat 2 gap 0.3s`)"
-    )]
+    #[error("the two pieces do not meet: {what} would leap by {distance:.2} m, at {speed:.0} m/s")]
     Torn {
         /// The part of the body that would jump: `the right hand`, `the body`.
         what: String,
@@ -230,10 +221,12 @@ pub enum Cause {
         speed: f64,
     },
     /// The movement has no frame.
-    #[error("{0:?} has no frames; name a recording with movement")]
+    #[error("{0:?} has no frames")]
     Empty(String),
     /// The result would be too long to hold.
-    #[error("the result would have {frames} frames; at most {most} can be made of this skeleton")]
+    #[error(
+        "the result would have {frames} frames, and at most {most} can be made of this skeleton"
+    )]
     TooLong {
         /// Its frames.
         frames: usize,
@@ -241,20 +234,95 @@ pub enum Cause {
         most: usize,
     },
     /// The corpus has not learned a transition.
-    #[error(
-        "the corpus shows too few transitions to learn their course from; import captured movement, or use sigmoid"
-    )]
+    #[error("the corpus shows too few transitions to learn their course from")]
     NoProfile,
     /// A source has changed since the recipe was resolved.
-    #[error("{address:?} has changed since this sign was made; resolve the recipe again")]
+    #[error("{address:?} has changed since this sign was made")]
     Changed {
         /// The source.
         address: String,
     },
     /// The inputs stored with the recipe do not fit it.
-    #[error("the stored inputs hold nothing fit for this step; resolve the recipe again")]
+    #[error("the stored inputs hold nothing fit for this step")]
     Input,
     /// The generated movement is not a valid clip.
     #[error("the result is no movement: {0}")]
     Clip(#[from] chereme_motion::ClipError),
+}
+
+/// Returns a remedy as it stands after a message.
+fn remedy_after(cause: &Cause) -> String {
+    cause
+        .remedy()
+        .map_or_else(String::new, |remedy| format!("; {remedy}"))
+}
+
+/// The name that was most likely meant, and the one that was written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Meant {
+    /// What was written, without quotes.
+    pub written: String,
+    /// What would be right.
+    pub right: String,
+}
+
+impl Meant {
+    pub(crate) fn of(written: &str, right: Option<&String>) -> Option<Self> {
+        Some(Self {
+            written: written.to_owned(),
+            right: right?.clone(),
+        })
+    }
+}
+
+impl Cause {
+    /// Returns the name that was meant, if a name near to one was written.
+    #[must_use]
+    pub fn meant(&self) -> Option<Meant> {
+        match self {
+            Self::Source(error) => error.meant(),
+            _ => None,
+        }
+    }
+
+    /// Returns what would work, if that is known.
+    #[must_use]
+    pub fn remedy(&self) -> Option<String> {
+        const RESOLVE: &str = "resolve the recipe again";
+        const ROLES: &str = "name its joints in a roles file, or use a recording that has one";
+        let text = match self {
+            Self::Source(error) => return error.remedy(),
+            Self::Utterance(error) => return Some(error.remedy()),
+            Self::Notation(error) => return error.remedy().map(str::to_owned),
+            Self::TooFar { distance, arm, .. } => {
+                let nearer = (distance - arm) * 100.0;
+                return Some(format!("move it nearer by {nearer:.0} cm or more"));
+            }
+            Self::Count { held: count, .. } | Self::Phases { phases: count, .. } => {
+                return Some(format!("give 1 or {count}"));
+            }
+            Self::Stopped => "make it again",
+            Self::NoPhases => "name another rule: paper, attina, sppas or duchnowski",
+            Self::Language(_) => "make the sign again",
+            Self::NoArm(_) => ROLES,
+            Self::NoFingers(_) => {
+                "use a recording of the hands, or name its joints in a roles file"
+            }
+            Self::NoHead => "name its joint in a roles file",
+            Self::NoMeaning { .. } => "choose another value, or annotate a sign that has it",
+            Self::NothingFound(_) => "loosen it",
+            Self::NothingToTake { .. } => "choose another sign",
+            Self::Cut { .. } => "name times within it",
+            Self::Torn { .. } => {
+                "cut wrong first or last frames off (`| trim`, or `| span 0.2s..1.5s`), or give the way more time \
+                 (`then via 0.4s`, `repeat 2 gap 0.3s`)"
+            }
+            Self::Empty(_) => "name a recording with movement",
+            Self::TooLong { .. } => "make it shorter, or in several signs",
+            Self::NoProfile => "import captured movement, or use sigmoid",
+            Self::Changed { .. } | Self::Input => RESOLVE,
+            Self::Hamnosys(_) | Self::Clip(_) => return None,
+        };
+        Some(text.to_owned())
+    }
 }

@@ -69,7 +69,7 @@ pub use check::{DEEPEST, MOST_PARTS};
 pub use cue::{CuePhases, PhaseRule};
 pub use curve::Spline;
 pub use draft::Draft;
-pub use error::{Cause, MakeError, Problem, RecipeError, TextError};
+pub use error::{Cause, MakeError, Meant, Problem, RecipeError, TextError};
 pub use evaluate::{ENGINE, evaluate};
 pub use face::{NUMBER, faces};
 pub use json::VERSION;

@@ -10,6 +10,7 @@ use chereme_sign::{Component, Handedness, Reading};
 use serde::{Deserialize, Serialize};
 
 use crate::cue::CuePhases;
+use crate::error::Meant;
 use crate::language::Language;
 use crate::made::Curve;
 
@@ -93,6 +94,7 @@ pub trait Sources {
         Err(SourceError::Expression {
             address: address.to_owned(),
             why: "it has no milestones".to_owned(),
+            remedy: None,
         })
     }
 
@@ -343,7 +345,7 @@ pub struct LetterStroke {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SourceError {
     /// Nothing has this address.
-    #[error("{address:?} is not in the corpus{}", chereme_sign::text::did_you_mean(nearest.as_deref()))]
+    #[error("{address:?} is not in the corpus")]
     Missing {
         /// The address as written.
         address: String,
@@ -351,7 +353,7 @@ pub enum SourceError {
         nearest: Option<String>,
     },
     /// Several things have this address.
-    #[error("{address:?} could be any of {}; name one of them", candidates.join(", "))]
+    #[error("{address:?} could be any of {}", candidates.join(", "))]
     Ambiguous {
         /// The address as written.
         address: String,
@@ -359,9 +361,7 @@ pub enum SourceError {
         candidates: Vec<String>,
     },
     /// The sign is a lexicon entry without movement.
-    #[error(
-        "{address:?} has no movement: it is an entry of a lexicon; name a sign that was captured or made"
-    )]
+    #[error("{address:?} has no movement: it is an entry of a lexicon")]
     NoMovement {
         /// The address as written.
         address: String,
@@ -371,20 +371,19 @@ pub enum SourceError {
     Expression {
         /// The address as written.
         address: String,
-        /// The reason, with a remedy.
+        /// The reason.
         why: String,
+        /// What would work, if that is known.
+        remedy: Option<Box<str>>,
     },
     /// The sign has no notation.
-    #[error(
-        "{address:?} has no notation; import it as SiGML or HamNoSys, or write it from its movement: \
-         `chereme transcribe CORPUS {address} --store`"
-    )]
+    #[error("{address:?} has no notation")]
     NoNotation {
         /// The address as written.
         address: String,
     },
     /// No inventory has this value.
-    #[error("{text:?} is no {component} of any inventory{}", chereme_sign::text::did_you_mean(nearest.as_deref()))]
+    #[error("{text:?} is no {component} of any inventory")]
     UnknownValue {
         /// The component.
         component: Component,
@@ -394,7 +393,7 @@ pub enum SourceError {
         nearest: Option<String>,
     },
     /// No inventory with this name has letters.
-    #[error("{name:?} is no manual alphabet; there {}", match known.as_slice() { [] => "is none".to_owned(), known => format!("is {}", known.join(", ")) })]
+    #[error("{name:?} is no manual alphabet")]
     UnknownAlphabet {
         /// The name as written.
         name: String,
@@ -402,7 +401,7 @@ pub enum SourceError {
         known: Vec<String>,
     },
     /// An alphabet does not have a letter.
-    #[error("{letter:?} is no letter of the manual alphabet {alphabet:?}; spell with {known} only")]
+    #[error("{letter:?} is no letter of the manual alphabet {alphabet:?}")]
     UnknownLetter {
         /// The letter.
         letter: String,
@@ -412,9 +411,7 @@ pub enum SourceError {
         known: String,
     },
     /// The file is not a body language.
-    #[error(
-        "the body language {name:?} cannot be used: {message}; name default, measured, or a file such as {{\"version\": 1, \"values\": {{\"move.big\": [0.5, \"arm\", \"mine\"]}}}}"
-    )]
+    #[error("the body language {name:?} cannot be used: {message}")]
     Language {
         /// The name as written.
         name: String,
@@ -432,4 +429,42 @@ pub enum SourceError {
     /// The corpus cannot be read.
     #[error("the corpus cannot be read: {0}")]
     Unreadable(String),
+}
+
+impl SourceError {
+    /// Returns the name that was meant, if a name near to one was written.
+    #[must_use]
+    pub fn meant(&self) -> Option<Meant> {
+        match self {
+            Self::Missing { address, nearest } => Meant::of(address, nearest.as_ref()),
+            Self::UnknownValue { text, nearest, .. } => Meant::of(text, nearest.as_ref()),
+            _ => None,
+        }
+    }
+
+    /// Returns what would work, if that is known.
+    #[must_use]
+    pub fn remedy(&self) -> Option<String> {
+        Some(match self {
+            Self::Missing { nearest, .. } | Self::UnknownValue { nearest, .. } => {
+                format!("did you mean {:?}?", nearest.as_ref()?)
+            }
+            Self::Ambiguous { .. } => "name one of them".to_owned(),
+            Self::NoMovement { .. } => "name a sign that was captured or made".to_owned(),
+            Self::Expression { remedy, .. } => remedy.as_ref()?.to_string(),
+            Self::NoNotation { address } => format!(
+                "import it as SiGML or HamNoSys, or write it from its movement: \
+                 `chereme transcribe CORPUS {address} --store`"
+            ),
+            Self::UnknownAlphabet { known, .. } => match known.as_slice() {
+                [] => "there is none".to_owned(),
+                known => format!("there is {}", known.join(", ")),
+            },
+            Self::UnknownLetter { known, .. } => format!("spell with {known} only"),
+            Self::Language { .. } => "name default, measured, or a file such as \
+                 {\"version\": 1, \"values\": {\"move.big\": [0.5, \"arm\", \"mine\"]}}"
+                .to_owned(),
+            Self::Query { .. } | Self::Unreadable(_) => return None,
+        })
+    }
 }

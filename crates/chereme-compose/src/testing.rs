@@ -362,6 +362,7 @@ impl Sources for Shelf {
             None => Err(SourceError::Expression {
                 address: address.to_owned(),
                 why: "it has no milestones".to_owned(),
+                remedy: None,
             }),
         }
     }

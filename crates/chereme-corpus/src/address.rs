@@ -4,13 +4,13 @@ use std::fmt;
 use std::str::FromStr;
 
 use chereme_motion::{Instant, Span};
-use chereme_sign::text::{did_you_mean, fold, nearest};
+use chereme_sign::text::{fold, nearest};
 use rusqlite::Connection;
 
 use crate::db::notations;
 use crate::db::recordings::{self, RecordingRow, SignerRow};
 use crate::db::signs::{self, TokenRow};
-use crate::error::{Error, Result};
+use crate::error::{Error, Meant, Result};
 
 /// A row by its number or its name.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -154,11 +154,10 @@ pub(crate) fn sign(connection: &Connection, gloss: &str) -> Result<i64> {
                     .at(gloss)
                     .advise(format!("a recording has this name: write {address}")));
             }
-            Err(
-                Error::wrong(format!("no sign is called {gloss:?}{}", did_you_mean(near)))
-                    .at(gloss)
-                    .advise("`chereme list CORPUS signs` lists the glosses"),
-            )
+            Err(Error::wrong(format!("no sign is called {gloss:?}"))
+                .at(gloss)
+                .meaning(meant(gloss, near))
+                .advise("`chereme list CORPUS signs` lists the glosses"))
         }
         several => Err(ambiguous(
             gloss,
@@ -217,6 +216,14 @@ fn ambiguous(text: &str, candidates: impl Iterator<Item = String>) -> Error {
     .advise("write which one")
 }
 
+/// Returns the slip between a name as written and one near to it.
+fn meant(written: &str, near: Option<&str>) -> Option<Meant> {
+    Some(Meant {
+        written: written.to_owned(),
+        right: near?.to_owned(),
+    })
+}
+
 /// Returns the recording with this name or number.
 pub(crate) fn recording(connection: &Connection, name: &Name) -> Result<RecordingRow> {
     match name {
@@ -227,12 +234,10 @@ pub(crate) fn recording(connection: &Connection, name: &Name) -> Result<Recordin
             }
             let all = recordings::recordings(connection)?;
             let near = nearest(text, all.iter().map(|row| row.name.as_str()));
-            Err(Error::wrong(format!(
-                "no recording is called {text:?}{}",
-                did_you_mean(near)
-            ))
-            .at(text)
-            .advise("`chereme list CORPUS recordings` lists them"))
+            Err(Error::wrong(format!("no recording is called {text:?}"))
+                .at(text)
+                .meaning(meant(text, near))
+                .advise("`chereme list CORPUS recordings` lists them"))
         }
     }
 }

@@ -2,6 +2,9 @@
 
 use std::path::PathBuf;
 
+pub use chereme_compose::Meant;
+use chereme_sign::text::did_you_mean;
+
 /// An error in work on a corpus.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -39,7 +42,7 @@ pub enum Error {
         reason: String,
     },
     /// A request of the caller that is invalid in this corpus.
-    #[error("{message}")]
+    #[error("{message}{}", did_you_mean(meant.as_ref().map(|it| it.right.as_str())))]
     Wrong {
         /// The fault.
         message: String,
@@ -47,7 +50,18 @@ pub enum Error {
         place: Option<String>,
         /// The remedy.
         remedy: Option<String>,
+        /// The name that was meant, if one near to a known one was written.
+        meant: Option<Box<Meant>>,
     },
+    /// A query cannot be understood or answered.
+    #[error("{}", .0.drawn)]
+    Query(Box<WrongQuery>),
+    /// The failure only follows from that of an earlier change of the same work.
+    #[error("{0}")]
+    Follows(String),
+    /// A step of a recipe cannot be done.
+    #[error("the recipe cannot be made: {}: {}", .0.step, .0.cause)]
+    Step(Box<FailedStep>),
     /// Several parts of a request cannot be carried out; nothing was changed.
     #[error("{}", several(errors))]
     Several {
@@ -57,6 +71,36 @@ pub enum Error {
     /// The caller stopped the work; nothing was changed.
     #[error("stopped; the corpus is as it was before")]
     Stopped,
+}
+
+/// A query that cannot be understood or answered.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct WrongQuery {
+    /// The query with a mark below the fault, and the fault.
+    pub drawn: String,
+    /// The fault alone.
+    pub message: String,
+    /// The character, from 0, at which the fault begins.
+    pub at: usize,
+    /// What would be right.
+    pub remedy: Option<String>,
+    /// What was most likely meant, and the query with it.
+    pub mended: Option<(String, String)>,
+}
+
+/// A step of a recipe that cannot be done.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FailedStep {
+    /// The source or operator as text.
+    pub step: String,
+    /// Where it stands in the recipe's JSON, such as `/pipe/steps/0`; empty for the whole.
+    pub path: String,
+    /// Why it cannot be done.
+    pub cause: String,
+    /// What would work.
+    pub remedy: String,
+    /// The name that was meant, if one near to a known one was written.
+    pub meant: Option<Meant>,
 }
 
 /// A reason for a failure of the database that the user can remove.
@@ -95,6 +139,7 @@ impl Error {
             message: message.into(),
             place: None,
             remedy: None,
+            meant: None,
         }
     }
 
@@ -111,10 +156,14 @@ impl Error {
     pub fn at(self, place: impl Into<String>) -> Self {
         match self {
             Self::Wrong {
-                message, remedy, ..
+                message,
+                remedy,
+                meant,
+                ..
             } => Self::Wrong {
                 message,
                 remedy,
+                meant,
                 place: Some(place.into()),
             },
             other => other,
@@ -125,12 +174,37 @@ impl Error {
     #[must_use]
     pub fn advise(self, remedy: impl Into<String>) -> Self {
         match self {
-            Self::Wrong { message, place, .. } => Self::Wrong {
+            Self::Wrong {
                 message,
                 place,
+                meant,
+                ..
+            } => Self::Wrong {
+                message,
+                place,
+                meant,
                 remedy: Some(remedy.into()),
             },
             other => other,
+        }
+    }
+
+    /// Returns the failure with the name that was meant.
+    #[must_use]
+    pub fn meaning(mut self, right: Option<Meant>) -> Self {
+        if let Self::Wrong { meant, .. } = &mut self {
+            *meant = right.map(Box::new);
+        }
+        self
+    }
+
+    /// Returns the name that was meant, if one near to a known one was written.
+    #[must_use]
+    pub fn meant(&self) -> Option<&Meant> {
+        match self {
+            Self::Wrong { meant, .. } => meant.as_deref(),
+            Self::Step(step) => step.meant.as_ref(),
+            _ => None,
         }
     }
 
@@ -143,6 +217,11 @@ impl Error {
             }
             Self::Damaged { place, .. } => Some(place.clone()),
             Self::Wrong { place, .. } => place.clone(),
+            Self::Query(query) => Some(format!("character {}", query.at + 1)),
+            Self::Step(step) => Some(match step.path.as_str() {
+                "" => step.step.clone(),
+                path => format!("{} (at {path})", step.step),
+            }),
             Self::Several { errors } => errors.first().and_then(Self::place),
             _ => None,
         }
@@ -172,8 +251,10 @@ impl Error {
             Self::Database(_) => self.cause().map(|cause| remedy_of(cause).to_owned()),
             Self::Index(_) => Some("`chereme check CORPUS --mend` builds the search index again".into()),
             Self::Wrong { remedy, .. } => remedy.clone(),
+            Self::Query(query) => query.remedy.clone(),
+            Self::Step(step) => Some(step.remedy.clone()),
             Self::Several { errors } => errors.first().and_then(Self::remedy),
-            Self::Stopped => None,
+            Self::Stopped | Self::Follows(_) => None,
         }
     }
 }

@@ -61,7 +61,7 @@ use std::sync::Arc;
 type Store = db::Store<search::index::SearchIndex>;
 
 pub use chereme_formats::faces::{Loss, System as FaceSystem};
-pub use chereme_formats::roles::{Hands, Mapping, MappingError};
+pub use chereme_formats::roles::{Hands, Mapping, MappingError, TierGuess};
 pub use chereme_formats::table::annotations::{Moment, TimeUnit};
 pub use chereme_motion::Instant;
 pub use chereme_sign::milestones::{Function, Milestones, Phase as ExpressionPhase};
@@ -111,7 +111,7 @@ pub use details::{
     Details, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue,
 };
 pub use edit::{RecordingChange, SignChange, SignerChange};
-pub use error::{Cause, Error, Result};
+pub use error::{Cause, Error, FailedStep, Meant, Result, WrongQuery};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
 pub use face::{
     CHANNELS as FACE_CHANNELS, Choice, ChooseOptions, Expressions, FaceChannel, FaceFinding,
@@ -120,8 +120,9 @@ pub use face::{
 };
 pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};
 pub use import::{
-    FileReport, FileStatus, ImportOptions, ImportReport, Outcome, OwnEdit, OwnEdits, ReportFinding,
-    Saying, Unread, time_of_day,
+    BodyRead, Changes, ConventionRead, FileReport, FileStatus, ImportOptions, ImportReport,
+    JointRole, MovementRead, Outcome, OwnEdit, OwnEdits, ReportFinding, RootRead, Saying,
+    TiersRead, TrackRead, Understood, Unread, time_of_day,
 };
 pub use info::{AttributeInfo, Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;

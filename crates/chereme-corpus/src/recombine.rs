@@ -30,7 +30,7 @@ use crate::db::recipes::{self, RecipeRow};
 use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
 use crate::db::signs;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
-use crate::error::{Error, Result};
+use crate::error::{Error, FailedStep, Result};
 use crate::inventories::{self, StoredInventory};
 use crate::movement::{self, BLOCK_FRAMES, Track};
 use crate::sources::CorpusSources;
@@ -212,21 +212,16 @@ fn read(text: &str) -> Result<Recipe> {
     })
 }
 
+/// Returns the failure of a step of a recipe.
 fn cannot(error: chereme_compose::MakeError) -> Error {
-    let (step, path) = (error.step.clone(), error.path.clone());
-    let place = if path.is_empty() {
-        step
-    } else {
-        format!("{step} (at {path})")
-    };
-    let message = error.to_string();
-    let advice = match message.rsplit_once("; ") {
-        Some((_, advice)) => advice.to_owned(),
-        None => "`chereme list CORPUS signs` and `… values` list what there is".to_owned(),
-    };
-    Error::wrong(format!("the recipe cannot be made: {message}"))
-        .at(place)
-        .advise(advice)
+    let known = || "`chereme list CORPUS signs` and `… values` list what there is".to_owned();
+    Error::Step(Box::new(FailedStep {
+        remedy: error.cause.remedy().unwrap_or_else(known),
+        meant: error.cause.meant(),
+        cause: error.cause.to_string(),
+        step: error.step,
+        path: error.path,
+    }))
 }
 
 fn recombination(recipe: &Recipe, gloss: String, made: Made) -> Recombination {

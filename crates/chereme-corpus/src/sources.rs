@@ -376,10 +376,8 @@ impl Sources for CorpusSources<'_> {
         let function = function.map(Function::of);
         let fault = |error: &Error| SourceError::Expression {
             address: address.to_owned(),
-            why: match error.remedy() {
-                Some(remedy) => format!("{error}; {remedy}"),
-                None => error.to_string(),
-            },
+            why: error.to_string(),
+            remedy: error.remedy().map(Into::into),
         };
         let named: Address = address.parse().map_err(|error| fault(&error))?;
         let found = face::expression_at(self.connection, &named, function.as_ref());

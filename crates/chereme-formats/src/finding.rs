@@ -16,6 +16,16 @@ pub struct Finding {
     pub message: String,
     /// A correction, if one is possible.
     pub remedy: Option<String>,
+    /// The correction that an option of the reader makes, if one does.
+    #[serde(skip)]
+    pub mend: Option<Mend>,
+}
+
+/// A correction that an option of a reader makes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mend {
+    /// The root's columns are read in another order than the header states.
+    RootOrder,
 }
 
 impl Finding {
@@ -27,6 +37,7 @@ impl Finding {
             line: line.into(),
             message: message.into(),
             remedy: None,
+            mend: None,
         }
     }
 
@@ -38,6 +49,7 @@ impl Finding {
             line: line.into(),
             message: message.into(),
             remedy: None,
+            mend: None,
         }
     }
 

@@ -26,5 +26,5 @@ pub mod timecode;
 pub mod tracks;
 pub mod trc;
 
-pub use finding::{Finding, Severity};
+pub use finding::{Finding, Mend, Severity};
 pub use scene::Scene;

@@ -12,7 +12,6 @@ use chereme_corpus::{
 };
 use chereme_motion::anatomy::RolesError;
 use clap::ValueEnum;
-use serde_json::Value;
 
 use crate::args::{Cli, SideWord, read_text, wrong_text};
 use crate::output::{Bar, Output};
@@ -365,31 +364,19 @@ fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
         file.path,
         recording.unwrap_or_default()
     ))?;
-    let text = |key: &str| file.understood.get(key).map(plain).unwrap_or_default();
-    if file.understood.contains_key("axes") {
+    if let Some(movement) = &file.understood.movement {
         output.line(format!(
             "  {} joints, {}, unit {}, axes up,left = {}",
-            text("joints"),
-            text("frame_rate"),
-            text("unit"),
-            text("axes")
+            movement.joints, movement.frame_rate, movement.unit, movement.axes
         ))?;
     }
-    let list = |key: &str| file.understood.get(key).and_then(Value::as_array);
-    for tier in list("tiers").into_iter().flatten() {
-        let role = tier
-            .get("role")
-            .map_or_else(|| "not known".to_owned(), role_text);
-        let hand = tier.get("hand").and_then(Value::as_str);
-        let hand = hand.map(|hand| format!("{hand} ")).unwrap_or_default();
-        output.line(format!("  tier {}: {hand}{role}", plain(&tier["tier"])))?;
+    for guess in file.understood.guessed_tiers() {
+        let topic = guess.topic().map(|topic| topic.to_string());
+        let role = topic.unwrap_or_else(|| "not known".to_owned());
+        output.line(format!("  tier {}: {role}", guess.tier))?;
     }
-    for column in list("columns").into_iter().flatten() {
-        output.line(format!(
-            "  column {}: {}",
-            plain(&column["title"]),
-            role_text(&column["meaning"])
-        ))?;
+    for column in file.understood.columns.iter().flatten() {
+        output.line(format!("  column {}: {}", column.title, column.meaning))?;
     }
     for finding in &file.findings {
         print_finding(finding, output)?;
@@ -410,30 +397,4 @@ fn print_finding(finding: &ReportFinding, output: &mut Output) -> Result<()> {
         output.line(format!("  {remedy}"))?;
     }
     Ok(())
-}
-
-fn plain(value: &Value) -> String {
-    value
-        .as_str()
-        .map_or_else(|| value.to_string(), str::to_owned)
-}
-
-/// A role as people say it: `{"component": {"component": "nonmanual", "feature": "brows"}}`.
-fn role_text(value: &Value) -> String {
-    match value {
-        Value::Null => "not known".to_owned(),
-        Value::Object(map) => {
-            let known = map.iter().filter(|(_, value)| !value.is_null());
-            known
-                .map(|(key, value)| match value {
-                    Value::Object(_) if key == "component" || key == "coding" => role_text(value),
-                    Value::Object(_) => format!("{key} {}", role_text(value)).trim_end().to_owned(),
-                    _ if key == "component" || key == "feature" => plain(value),
-                    _ => format!("{key} {}", plain(value)),
-                })
-                .collect::<Vec<_>>()
-                .join(" ")
-        }
-        other => plain(other),
-    }
 }

@@ -106,12 +106,10 @@ impl Default for Settings {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotationError {
     /// The body has no arm.
-    #[error(
-        "the body of {0:?} has no arm with shoulder, elbow and wrist; name them in a roles file"
-    )]
+    #[error("the body of {0:?} has no arm with shoulder, elbow and wrist")]
     NoArm(String),
     /// The movement would be too long.
-    #[error("the movement would last {seconds:.0} s; {most:.0} s can be made at once")]
+    #[error("the movement would last {seconds:.0} s, and {most:.0} s can be made at once")]
     Long {
         /// Its duration in seconds.
         seconds: f64,
@@ -121,6 +119,18 @@ pub enum NotationError {
     /// A number is not finite.
     #[error(transparent)]
     Clip(#[from] ClipError),
+}
+
+impl NotationError {
+    /// Returns what would work, if that is known.
+    #[must_use]
+    pub fn remedy(&self) -> Option<&'static str> {
+        match self {
+            Self::NoArm(_) => Some("name them in a roles file"),
+            Self::Long { .. } => Some("animate its signs one by one"),
+            Self::Clip(_) => None,
+        }
+    }
 }
 
 /// Synthesises the movement of signs one after the other, from rest and back to rest.

@@ -59,7 +59,7 @@ impl Corpus {
                 .advise("write a row for each change below the row of column names"));
         }
         let report = match self.annotate_all(&changes, options, faults, progress) {
-            Err(error @ Error::Wrong { .. }) => {
+            Err(error @ (Error::Wrong { .. } | Error::Follows(_))) => {
                 return Err(Error::Several {
                     errors: vec![error],
                 });

@@ -270,7 +270,7 @@ impl<'a> Work<'a> {
         let done = self.act(change);
         let annotation = match done {
             Ok(annotation) => Some(annotation),
-            Err(fault @ Error::Wrong { .. }) => {
+            Err(fault @ (Error::Wrong { .. } | Error::Follows(_))) => {
                 self.faults.push(match &change.place {
                     Some(place) => fault.at(place),
                     None => fault,
@@ -289,7 +289,7 @@ impl<'a> Work<'a> {
     fn finish(mut self, changes: usize) -> Result<AnnotateReport> {
         let failed = self.labels.values().any(Option::is_none);
         self.faults
-            .retain(|fault| !(failed && names::is_sequel(fault)));
+            .retain(|fault| !(failed && matches!(fault, Error::Follows(_))));
         match self.faults.len() {
             0 => {}
             1 if changes <= 1 => return Err(self.faults.remove(0)),

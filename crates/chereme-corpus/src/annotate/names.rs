@@ -124,13 +124,6 @@ pub(super) fn tier(connection: &Connection, name: &TierName) -> Result<TierRow> 
     .advise(remedy))
 }
 
-const SEQUEL: &str = "could not be added";
-
-/// Returns whether an error is only a consequence of an earlier change's error.
-pub(super) fn is_sequel(fault: &Error) -> bool {
-    matches!(fault, Error::Wrong { message, .. } if message.ends_with(SEQUEL))
-}
-
 impl Work<'_> {
     pub(super) fn tier(&self, name: &TierName) -> Result<TierRow> {
         tier(self.connection, name)
@@ -152,7 +145,7 @@ impl Work<'_> {
     fn called(&self, recording: Option<&Name>, id: &str) -> Result<AnnotationRow> {
         match self.labels.get(id) {
             Some(Some(row)) => return tier_rows::annotation(self.connection, *row),
-            Some(None) => return Err(Error::wrong(format!("{id:?} {SEQUEL}"))),
+            Some(None) => return Err(Error::Follows(format!("{id:?} could not be added"))),
             None => {}
         }
         let recording = recording

@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::sync::Arc;
 
+use chereme_formats::Mend;
 use chereme_formats::bvh::bones::Bones;
 use chereme_formats::bvh::convert::{self, ClipBuilder};
 use chereme_formats::bvh::raw::{Block, ChannelFix, Hierarchy, Options, Reader};
@@ -14,6 +15,7 @@ use serde_json::json;
 use sha2::{Digest, Sha256};
 
 use super::report::ReportFinding;
+use super::understood::{BodyRead, ConventionRead, JointRole, MovementRead, RootRead};
 use super::{FileReport, FileStatus, Job};
 use crate::address;
 use crate::db::motion::hex;
@@ -90,9 +92,15 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         tracks::set_clock(job.connection, track, clock.micros())?;
         super::clock::place(job, recording, &[track], &mut report)?;
     }
-    report
-        .findings
-        .extend(summary.findings.into_iter().map(ReportFinding::from));
+    let found_by_reader = summary.findings.into_iter().map(|finding| {
+        let mends = finding.mend == Some(Mend::RootOrder) && !job.options.mend_root;
+        let mut finding = ReportFinding::from(finding);
+        if mends {
+            finding.remedy = Some(MEND.to_owned());
+        }
+        finding
+    });
+    report.findings.extend(found_by_reader);
     let first = first_frame(&hierarchy, &found.first, rate, summary.root_fix)?;
     let scale = root_scale(&first, &found.anatomy, found.convention.axes.up().vector());
     mend_root(job, track, summary.root_fix, scale, &mut report)?;
@@ -172,7 +180,8 @@ fn place_joints(
         .iter()
         .map(|&joint| hierarchy.joints[joint].name.as_str())
         .collect();
-    report.understand("placed_by_movement", &names);
+    let owned = names.iter().map(|&name| name.to_owned()).collect();
+    report.understood.placed_by_movement = Some(owned);
     if !names.is_empty() {
         report.findings.push(ReportFinding::note(format!(
             "the offsets of {} are not where the movement puts {}: the movement counts, the numbers stay the file's",
@@ -202,7 +211,7 @@ pub(super) fn tell_odd_frames(
     let anatomy = stored.anatomy(job.connection)?;
     let odd = stored.odd_frames(job.connection, &anatomy)?;
     let told: Vec<String> = odd.iter().map(ToString::to_string).collect();
-    report.understand("odd_frames", &told);
+    report.understood.odd_frames = Some(told.clone());
     if !told.is_empty() {
         report.findings.push(ReportFinding {
             severity: "note",
@@ -357,29 +366,31 @@ fn describe(
     hierarchy: &Hierarchy,
 ) {
     let chosen = convention != &guess.convention;
-    report.understand("joints", hierarchy.joints.len());
-    report.understand("channels", hierarchy.channel_count());
-    report.understand("frame_rate", rate.to_string());
-    report.understand("unit", if chosen { "as given" } else { guess.unit_name });
-    report.understand("metres_per_unit", convention.metres_per_unit);
-    report.understand("axes", convention.axes.to_string());
-    report.understand("confidence", guess.confidence);
-    report.understand("reasons", &guess.reasons);
+    report.understood.movement = Some(MovementRead {
+        joints: hierarchy.joints.len(),
+        channels: Some(hierarchy.channel_count()),
+        frame_rate: rate.to_string(),
+        unit: if chosen { "as given" } else { guess.unit_name },
+        metres_per_unit: convention.metres_per_unit,
+        axes: convention.axes.to_string(),
+        guess: Some(ConventionRead {
+            confidence: guess.confidence,
+            reasons: guess.reasons.clone(),
+        }),
+    });
 }
 
 pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, anatomy: &Anatomy) {
     let name = |joint: usize| skeleton.joint(joint).name.clone();
-    let roles: Vec<_> = anatomy
-        .found()
-        .map(|(part, joint, how)| json!({ "part": part.to_string(), "joint": name(joint), "by": how }))
-        .collect();
+    let role = |(part, joint, by): (Part, usize, Evidence)| JointRole {
+        part: part.to_string(),
+        joint: name(joint),
+        by,
+    };
     let guessed = anatomy
         .found()
         .filter(|(.., how)| *how == Evidence::Topology)
         .count();
-    report.understand("roles", roles);
-    let names: Vec<String> = (0..skeleton.len()).map(name).collect();
-    report.understand("joint_names", names);
     let missing: Vec<String> = anatomy.missing().iter().map(ToString::to_string).collect();
     if guessed > 0 {
         report.findings.push(ReportFinding::note(format!(
@@ -405,10 +416,14 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
             message: format!("not found in the skeleton: {shown}{more}"),
             remedy: Some("if a joint is one of these, say so in a roles file (--roles)".into()),
         });
-        report.understand("missing", missing);
     }
     let markers: Vec<String> = anatomy.markers().iter().map(|&joint| name(joint)).collect();
-    report.understand("markers", &markers);
+    report.understood.body = Some(BodyRead {
+        roles: anatomy.found().map(role).collect(),
+        joint_names: (0..skeleton.len()).map(name).collect(),
+        missing,
+        markers: markers.clone(),
+    });
     if !markers.is_empty() {
         let names: Vec<&str> = markers.iter().map(String::as_str).collect();
         report.findings.push(ReportFinding::note(format!(
@@ -582,8 +597,10 @@ fn mend_root(
         if order.is_some() || scale.is_some() {
             recordings::set_root(job.connection, track, order, scale)?;
         }
-        report.understand("root_order", order.unwrap_or("as in the header"));
-        report.understand("root_scale", scale.unwrap_or(1.0));
+        report.understood.root = Some(RootRead {
+            root_order: order.unwrap_or("as in the header"),
+            root_scale: scale.unwrap_or(1.0),
+        });
         return Ok(());
     }
     if let Some(scale) = scale {
@@ -594,11 +611,6 @@ fn mend_root(
             ),
             MEND,
         ));
-    }
-    for finding in report.findings.iter_mut().filter(|_| order.is_some()) {
-        if finding.message.contains("rotation before position") {
-            finding.remedy = Some(MEND.to_owned());
-        }
     }
     Ok(())
 }

@@ -12,6 +12,7 @@ use chereme_formats::{
 use chereme_motion::{Anatomy, Convention};
 
 use super::report::ReportFinding;
+use super::understood::MovementRead;
 use super::{FileReport, FileStatus, Job, bvh, eaf, inventory, lexicon, notated, points, tracks};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
@@ -139,17 +140,21 @@ fn scene(
         Error::wrong(error.to_string()).advise("correct the roles file (--roles), or leave it out")
     })?;
     let convention = facing(job, &scene, &anatomy, &mut report);
-    report.understand("joints", skeleton.len());
-    report.understand("frame_rate", scene.clip.rate().to_string());
     let unit = match convention.metres_per_unit {
         1.0 => "m",
         0.01 => "cm",
         0.001 => "mm",
         _ => "of its own",
     };
-    report.understand("unit", unit);
-    report.understand("metres_per_unit", convention.metres_per_unit);
-    report.understand("axes", convention.axes.to_string());
+    report.understood.movement = Some(MovementRead {
+        joints: skeleton.len(),
+        channels: None,
+        frame_rate: scene.clip.rate().to_string(),
+        unit,
+        metres_per_unit: convention.metres_per_unit,
+        axes: convention.axes.to_string(),
+        guess: None,
+    });
     bvh::describe_anatomy(&mut report, &skeleton, &anatomy);
     let moves = scene.clip.frames() > 1;
     let rate = scene.clip.rate();

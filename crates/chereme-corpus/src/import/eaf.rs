@@ -16,6 +16,7 @@ use chereme_sign::TierRole;
 use serde_json::json;
 
 use super::report::{Outcome, ReportFinding};
+use super::understood::TiersRead;
 use super::{FileReport, FileStatus, Job, OwnEdits};
 use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
 use crate::db::recordings::{self, MediaTrackRow, RecordingRow};
@@ -87,7 +88,7 @@ pub(super) fn import_as(
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
     let guesses = guess(job, &transcript, &mut report)?;
-    report.understand("tiers", &guesses);
+    report.understood.tiers = Some(TiersRead::Guessed(guesses.clone()));
     let target = target::find(job, &transcript, &mut report)?;
     let recording = recording(job, &transcript, target.recording, &mut report)?;
     know_participants(job, &transcript)?;

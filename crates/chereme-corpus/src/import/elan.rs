@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 use super::eaf as annotations;
 use super::report::ReportFinding;
+use super::understood::TiersRead;
 use super::{FileReport, FileStatus, Job};
 use crate::address;
 use crate::db::{recordings, tiers};
@@ -163,7 +164,7 @@ pub(super) fn import_template(
         };
     }
     let many = given.len();
-    report.understand("recordings", &given);
+    report.understood.recordings = Some(given.clone());
     report
         .findings
         .push(ReportFinding::note(match given.as_slice() {
@@ -227,7 +228,7 @@ pub(super) fn import_settings(job: &mut Job<'_>, _: &mut Progress<'_>) -> Result
     report
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
-    report.understand("tiers", &settings);
+    report.understood.tiers = Some(TiersRead::Shown(settings));
     job.counts.changed("tiers", changed);
     let bytes = job.unchanged().is_none().then_some(bytes);
     if let Some(bytes) = bytes {

@@ -60,10 +60,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let changed = earlier.iter().flatten().filter(|old| !now(old)).count();
     job.count("inventories", new);
     job.counts.changed("inventories", changed);
-    report.understand(
-        "inventories",
-        all.iter().map(|it| &it.id).collect::<Vec<_>>(),
-    );
+    report.understood.inventories = Some(all.iter().map(|it| it.id.clone()).collect());
     job.keep(None, Some(&bytes))?;
     Ok(report)
 }

@@ -48,7 +48,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     report
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
-    report.understand("columns", &table.columns);
+    report.understood.columns = Some(table.columns.clone());
     let inventories = store_inventories(job, &table)?;
     let before = job
         .places

@@ -20,6 +20,7 @@ mod report;
 #[cfg(test)]
 mod tests;
 mod tracks;
+mod understood;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -46,6 +47,10 @@ use readers::READERS;
 use report::Counts;
 pub use report::{
     FileReport, FileStatus, ImportReport, Outcome, OwnEdit, ReportFinding, Saying, Unread,
+};
+pub use understood::{
+    BodyRead, Changes, ConventionRead, JointRole, MovementRead, RootRead, TiersRead, TrackRead,
+    Understood,
 };
 
 /// Returns the time of day for a timecode such as `12:34:56:07` or `12:34:56:07@25`; the number behind `@` is the

@@ -7,8 +7,8 @@ use std::path::Path;
 use chereme_formats::{Finding, Severity};
 use chereme_motion::Instant;
 use serde::Serialize;
-use serde_json::Value;
 
+use super::understood::Understood;
 use crate::error::Error;
 
 /// The report of an import.
@@ -41,8 +41,8 @@ pub struct FileReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recording: Option<String>,
     /// Its interpretation: unit and axes, joint roles, tiers, columns.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub understood: BTreeMap<&'static str, Value>,
+    #[serde(skip_serializing_if = "Understood::is_empty")]
+    pub understood: Box<Understood>,
     /// Its oddities, or the reason why it was refused.
     pub findings: Vec<ReportFinding>,
     /// Edits in the corpus that the file contradicts, and the outcome of each. If the file is refused because of them,
@@ -262,7 +262,7 @@ impl FileReport {
             path: path.display().to_string(),
             status,
             recording: None,
-            understood: BTreeMap::new(),
+            understood: Box::default(),
             findings: Vec::new(),
             edits: Vec::new(),
         }
@@ -304,12 +304,6 @@ impl FileReport {
             remedy: error.remedy(),
         });
         report
-    }
-
-    /// Adds an interpretation under `key`, as JSON.
-    pub(super) fn understand(&mut self, key: &'static str, value: impl Serialize) {
-        let value = serde_json::to_value(value).unwrap_or(Value::Null);
-        self.understood.insert(key, value);
     }
 }
 

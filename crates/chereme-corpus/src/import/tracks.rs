@@ -1,17 +1,16 @@
 //! Stores the tracks of a file in the recording that they belong to.
 
-use chereme_motion::{
-    Anatomy, Clip, Column, Convention, Instant, Marker, Markers, Rate, Skeleton, Space, Times,
-};
-use serde_json::json;
-
 use super::report::ReportFinding;
+use super::understood::TrackRead;
 use super::{FileReport, Job, bvh, clock};
 use crate::db::recordings;
 use crate::db::tracks::{self, TrackRow};
 use crate::error::Result;
 use crate::movement::{self, BLOCK_FRAMES};
 use crate::track::{NewTrack, Track, store};
+use chereme_motion::{
+    Anatomy, Clip, Column, Convention, Instant, Marker, Markers, Rate, Skeleton, Space, Times,
+};
 
 /// Stores the tracks of a file and returns their recording: the one that the caller named, the one of the files with
 /// this folder and stem, or a new one. Adds a line for each track to the report, and the caller's offset to each track.
@@ -53,19 +52,17 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
         rows.push(tracks::track(job.connection, id)?);
     }
     job.count("tracks", rows.len());
-    let shown = |row: &TrackRow| {
-        json!({
-            "kind": row.kind,
-            "name": row.name,
-            "rate": row.rate.map(chereme_motion::Rate::per_second),
-            "frames": row.frames,
-            "offset_us": row.offset_us,
-            "duration_us": row.duration_us,
-            "channels": row.channels,
-        })
+    let shown = |row: &TrackRow| TrackRead {
+        kind: row.kind,
+        name: row.name.clone(),
+        rate: row.rate.map(chereme_motion::Rate::per_second),
+        frames: row.frames,
+        offset_us: row.offset_us,
+        duration_us: row.duration_us,
+        channels: row.channels,
     };
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
-    report.understand("tracks", rows.iter().map(shown).collect::<Vec<_>>());
+    report.understood.tracks = Some(rows.iter().map(shown).collect());
     Ok(recording)
 }
 

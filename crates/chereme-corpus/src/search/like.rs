@@ -175,15 +175,12 @@ fn example(ask: &Ask<'_>, like: &Like) -> Asked<TokenRow> {
     };
     match address::token(ask.connection, &address) {
         Ok(token) => Ok(token),
-        Err(error @ crate::Error::Wrong { .. }) => Err(unknown(ask, like, &error.to_string())?),
+        Err(crate::Error::Wrong { message, .. }) => Err(unknown(ask, like, &message)?),
         Err(other) => Err(other.into()),
     }
 }
 
 fn unknown(ask: &Ask<'_>, like: &Like, message: &str) -> Asked<super::compile::Failure> {
-    let (message, _) = message
-        .split_once("; did you mean")
-        .unwrap_or((message, ""));
     let suggestion = match &like.example {
         Example::Sign(text) => {
             let signs = ask.signs()?;

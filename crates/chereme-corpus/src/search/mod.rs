@@ -36,7 +36,7 @@ use rusqlite::Connection;
 
 use crate::Corpus;
 use crate::db::search as rows;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, WrongQuery};
 use crate::kept;
 use crate::progress::{Progress, Step, Unit, unheard};
 
@@ -84,7 +84,7 @@ impl Corpus {
     /// stored meanwhile. `@NAME` in a query stands for the query that is [saved](Self::keep_searches) under that name.
     ///
     /// # Errors
-    /// [`Error::Wrong`] with the place in the query that cannot be understood, or that names a value, signer or the
+    /// [`Error::Query`] with the place in the query that cannot be understood, or that names a value, signer or the
     /// like that does not exist.
     pub fn search(&mut self, query: &str, options: &SearchOptions) -> Result<Answer> {
         let mut hear = unheard;
@@ -169,16 +169,20 @@ pub(crate) fn wrong(query: &str, error: &QueryError) -> Error {
     if !error.remedy.is_empty() {
         lines.pop();
     }
-    let advice = match (error.corrected(query), error.remedy.as_str()) {
+    let corrected = error.corrected(query);
+    let remedy = match (&corrected, error.remedy.as_str()) {
         (Some(corrected), "") => Some(format!("write {corrected}")),
-        (_, "") => None,
+        (None, "") => None,
         (_, remedy) => Some(remedy.to_owned()),
     };
-    Error::Wrong {
-        message: lines.join("\n"),
-        place: Some(format!("character {}", error.at.start + 1)),
-        remedy: advice,
-    }
+    Error::Query(Box::new(WrongQuery {
+        // The first lines draw the query.
+        message: lines.last().cloned().unwrap_or_default(),
+        drawn: lines.join("\n"),
+        at: error.at.start,
+        remedy,
+        mended: error.suggestion.clone().zip(corrected),
+    }))
 }
 
 fn with_index<T>(

@@ -6,7 +6,7 @@ use crate::roles::{Hands, Mapping, Target, normal};
 use crate::table::Row;
 use crate::tally::Findings;
 use chereme_sign::query::number;
-use chereme_sign::{Component, Phase, TierRole};
+use chereme_sign::{Component, Phase, TierRole, TierTopic};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
@@ -22,6 +22,39 @@ pub struct Column {
     pub confidence: f64,
     /// The evidence for the meaning.
     pub why: String,
+}
+
+impl std::fmt::Display for Meaning {
+    /// Writes the meaning as mappings spell it: `right.configuration`, `translation.en`.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let of_language =
+            |f: &mut std::fmt::Formatter<'_>, word: &str, language: &Option<String>| {
+                f.write_str(word)?;
+                language.as_ref().map_or(Ok(()), |it| write!(f, ".{it}"))
+            };
+        match self {
+            Self::Gloss { language } => of_language(f, "gloss", language),
+            Self::Translation { language } => of_language(f, "translation", language),
+            Self::Coding {
+                hand,
+                component,
+                feature,
+                phase,
+            } => {
+                if let Some(phase) = phase {
+                    write!(f, "{phase}.")?;
+                }
+                let role = TierRole::Component {
+                    component: *component,
+                    feature: feature.clone(),
+                };
+                write!(f, "{}", TierTopic { role, hand: *hand })
+            }
+            Self::Notation => f.write_str("notation"),
+            Self::Attribute => f.write_str("attribute"),
+            Self::Note => f.write_str("note"),
+        }
+    }
 }
 
 /// The kinds of columns.

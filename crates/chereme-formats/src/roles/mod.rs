@@ -12,7 +12,7 @@ pub(crate) use words::normal;
 
 use crate::eaf::Transcript;
 use chereme_sign::text::fold;
-use chereme_sign::{Component, HandRef, Stereotype, TierRole};
+use chereme_sign::{Component, HandRef, Stereotype, TierRole, TierTopic};
 use serde::Serialize;
 use std::collections::BTreeSet;
 use words::{Match, TABLE};
@@ -44,6 +44,16 @@ pub struct TierGuess {
     pub confidence: f64,
     /// The evidence for the role.
     pub why: String,
+}
+
+impl TierGuess {
+    /// Returns role and hand together, as mappings spell them; nothing if the role is unknown.
+    #[must_use]
+    pub fn topic(&self) -> Option<TierTopic> {
+        let role = self.role.clone()?;
+        let hand = self.hand;
+        Some(TierTopic { role, hand })
+    }
 }
 
 /// Returns the inferred role of each tier of a transcript; see [`guess_roles`].

@@ -15,7 +15,6 @@ pub(crate) mod import;
 pub(crate) mod inspector;
 pub(crate) mod library;
 pub(crate) mod map;
-pub(crate) mod meant;
 mod notated;
 pub(crate) mod recombine;
 pub(crate) mod search;

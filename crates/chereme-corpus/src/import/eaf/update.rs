@@ -10,26 +10,17 @@ use chereme_formats::eaf::convert::{Annotation, Place, Transcript};
 use chereme_formats::roles::TierGuess;
 use chereme_motion::Instant;
 use chereme_sign::Stereotype;
-use serde::Serialize;
 
 use super::{FileReport, Job, annotation_row, coded, parents_first};
 use crate::db::columns::AnnotationOrigin;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::Result;
 use crate::import::report::{Outcome, OwnEdit, ReportFinding, Saying};
+use crate::import::understood::Changes;
 use crate::progress::Progress;
 
 /// The largest number of changes that are listed one by one.
 const TOLD: usize = 20;
-
-/// Numbers of annotations in a file compared with the corpus.
-#[derive(Debug, Default, Clone, Copy, Serialize)]
-pub(super) struct Changes {
-    pub(super) added: usize,
-    pub(super) changed: usize,
-    pub(super) removed: usize,
-    unchanged: usize,
-}
 
 /// The result of an update.
 pub(super) struct Updated {
@@ -543,7 +534,7 @@ impl Updated {
         });
         let mut note = |text: String| report.findings.push(ReportFinding::note(text));
         some(&told(Outcome::Kept), &mut note);
-        report.understand("changes", self.changes);
+        report.understood.changes = Some(self.changes);
         report.edits = self.edits;
     }
 }

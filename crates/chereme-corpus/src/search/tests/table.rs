@@ -316,7 +316,7 @@ fn what_is_not_there_is_pointed_at() {
     ] {
         let error = sample.corpus.search(query, &SearchOptions::default());
         let error = error.expect_err(query);
-        assert!(matches!(error, Error::Wrong { .. }));
+        assert!(matches!(error, Error::Query(_)));
         assert_eq!(
             error.place(),
             Some(format!("character {character}")),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Finding, Severity};
+use crate::{Finding, Mend, Severity};
 
 /// The kinds of oddity that the reader knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -97,6 +97,7 @@ fn finding(
         line: Some(*line),
         message,
         remedy,
+        mend: (kind == Oddity::SwappedRoot).then_some(Mend::RootOrder),
     }
 }
 

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::{FileReport, FileStatus, ImportReport, Mapping};
+use chereme_corpus::{FileReport, FileStatus, ImportReport, Mapping, TierGuess};
 use chereme_motion::Axes;
 use chereme_motion::anatomy::Roles;
-use serde_json::Value;
 
 use super::people;
 use crate::panes::inspector;
@@ -24,57 +23,45 @@ pub(crate) fn status_text(status: FileStatus) -> Text {
 
 /// Returns the interpretation of a file's movement for people: unit, axes, rate, joints; empty for other files.
 pub(crate) fn movement(file: &FileReport, language: Language) -> Vec<(Text, String)> {
-    let said = |key: &str| file.understood.get(key).map(chereme_corpus::cell_text);
-    let unit = said("unit").map(|unit| {
-        let name = people::unit(&unit, language).map_or(unit, str::to_owned);
-        let metres = file.understood.get("metres_per_unit");
-        match metres.and_then(Value::as_f64) {
-            Some(length) => format!("{name} ({})", inspector::data::metres(length)),
-            None => name,
-        }
-    });
-    let sure = file.understood.get("confidence").and_then(Value::as_f64);
-    let axes = said("axes").map(|text| match text.parse() {
+    let Some(read) = &file.understood.movement else {
+        return Vec::new();
+    };
+    let name = people::unit(read.unit, language).unwrap_or(read.unit);
+    let metres = inspector::data::metres(read.metres_per_unit);
+    let mut unit = format!("{name} ({metres})");
+    if let Some(guess) = &read.guess {
+        let sure = format!("{:.0}", guess.confidence * 100.0);
+        let sure = fill(words::SURE.of(language), &[("n", &sure)]);
+        unit = format!("{unit} · {sure}");
+    }
+    let axes = match read.axes.parse() {
         Ok(axes) => people::axes(axes, language),
-        Err(_) => text,
-    });
-    let unit = unit.zip(sure).map(|(unit, sure)| {
-        let sure = format!("{:.0}", sure * 100.0);
-        format!(
-            "{unit} · {}",
-            fill(words::SURE.of(language), &[("n", &sure)])
-        )
-    });
-    [
+        Err(_) => read.axes.clone(),
+    };
+    vec![
         (words::UNIT, unit),
         (words::AXES, axes),
-        (words::RATE, said("frame_rate")),
-        (words::JOINTS, said("joints")),
+        (words::RATE, read.frame_rate.clone()),
+        (words::JOINTS, read.joints.to_string()),
     ]
-    .into_iter()
-    .filter_map(|(text, value)| Some((text, value?)))
-    .collect()
 }
 
 /// Returns the reasons for the inferred unit and axes.
 pub(crate) fn reasons(file: &FileReport) -> Vec<String> {
-    let all = file.understood.get("reasons").and_then(Value::as_array);
-    all.into_iter()
-        .flatten()
-        .filter_map(|it| it.as_str().map(str::to_owned))
-        .collect()
+    let movement = file.understood.movement.as_ref();
+    let guess = movement.and_then(|read| read.guess.as_ref());
+    guess.map_or_else(Vec::new, |guess| guess.reasons.clone())
 }
 
 /// Returns the parts of the body that were found, each with its joint; `None` for a file without a body.
 pub(crate) fn parts(file: &FileReport) -> Option<BTreeMap<String, String>> {
-    let all = file.understood.get("roles")?.as_array()?;
-    let pair = |it: &Value| {
-        Some((
-            it.get("part")?.as_str()?.to_owned(),
-            it.get("joint")?.as_str()?.to_owned(),
-        ))
-    };
-    Some(all.iter().filter_map(pair).collect())
+    let body = file.understood.body.as_ref()?;
+    let roles = body.roles.iter();
+    Some(
+        roles
+            .map(|it| (it.part.clone(), it.joint.clone()))
+            .collect(),
+    )
 }
 
 /// A tier or column, and its inferred role.
@@ -88,50 +75,23 @@ pub(crate) struct Guess {
 }
 
 /// Returns the inferred roles of a file's tiers or columns.
-pub(crate) fn guesses(file: &FileReport, key: &str) -> Vec<Guess> {
-    let all = file.understood.get(key).and_then(Value::as_array);
-    let text = |value: Option<&Value>| value.and_then(Value::as_str).unwrap_or_default().to_owned();
-    let guess = |it: &Value| {
-        let name = text(
-            it.get("tier")
-                .or_else(|| it.get("column"))
-                .or_else(|| it.get("name")),
-        );
-        let role = role(it.get("role")?);
-        let hand = text(it.get("hand"));
-        let role = if hand.is_empty() || role.is_empty() {
-            role
-        } else {
-            format!("{hand}.{role}")
-        };
-        Some(Guess {
-            name,
-            role,
-            sure: it.get("confidence").and_then(Value::as_f64).unwrap_or(1.0),
-            why: text(it.get("why")),
-        })
+pub(crate) fn tiers(file: &FileReport) -> Vec<Guess> {
+    let guesses = file.understood.guessed_tiers().iter();
+    let guess = |it: &TierGuess| Guess {
+        name: it.tier.clone(),
+        role: it.topic().map_or(String::new(), |topic| topic.to_string()),
+        sure: it.confidence,
+        why: it.why.clone(),
     };
-    all.into_iter()
-        .flatten()
-        .filter_map(guess)
-        .filter(|it| !it.name.is_empty())
-        .collect()
+    guesses.map(guess).collect()
 }
 
-fn role(value: &Value) -> String {
-    match value {
-        Value::String(text) => text.clone(),
-        Value::Object(map) => {
-            let inner = map.values().find(|it| it.is_object()).unwrap_or(value);
-            let part = |key: &str| inner.get(key).and_then(Value::as_str);
-            match (part("component"), part("feature")) {
-                (Some(component), Some(feature)) => format!("{component}.{feature}"),
-                (Some(component), None) => component.to_owned(),
-                _ => map.keys().next().cloned().unwrap_or_default(),
-            }
-        }
-        _ => String::new(),
-    }
+/// Returns what the columns of a table are taken for.
+pub(crate) fn columns(file: &FileReport) -> Vec<String> {
+    let columns = file.understood.columns.iter().flatten();
+    columns
+        .map(|it| format!("{} = {}", it.title, it.meaning))
+        .collect()
 }
 
 /// The roles that the user can give to tiers.
@@ -185,19 +145,18 @@ pub(crate) fn joint_rows(file: &FileReport) -> Vec<(String, String)> {
     let Some(mut all) = parts(file) else {
         return Vec::new();
     };
-    let missing = file.understood.get("missing").and_then(Value::as_array);
-    for part in missing.into_iter().flatten().filter_map(Value::as_str) {
-        all.entry(part.to_owned()).or_default();
+    let body = file.understood.body.iter();
+    for part in body.flat_map(|body| &body.missing) {
+        all.entry(part.clone()).or_default();
     }
     all.into_iter().collect()
 }
 
 /// Returns the names of a file's joints.
 pub(crate) fn joint_names(file: &FileReport) -> Vec<&str> {
-    let all = file.understood.get("joint_names").and_then(Value::as_array);
-    all.into_iter()
-        .flatten()
-        .filter_map(Value::as_str)
+    let body = file.understood.body.iter();
+    body.flat_map(|body| &body.joint_names)
+        .map(String::as_str)
         .collect()
 }
 
@@ -258,28 +217,19 @@ pub(crate) fn created(report: &ImportReport) -> Vec<(Text, u64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_corpus::ReportFinding;
-    use serde_json::json;
+    use chereme_corpus::{
+        BodyRead, ConventionRead, Hands, JointRole, MovementRead, ReportFinding, TierRole,
+        TiersRead, Understood,
+    };
+    use chereme_motion::Evidence;
+    use chereme_sign::{Component, HandRef};
 
-    fn file(understood: Value) -> FileReport {
-        let known = [
-            "unit",
-            "metres_per_unit",
-            "confidence",
-            "roles",
-            "tiers",
-            "axes",
-            "missing",
-            "joint_names",
-        ];
+    fn file(understood: Understood) -> FileReport {
         FileReport {
             path: "a.bvh".into(),
             status: FileStatus::Imported,
             recording: None,
-            understood: known
-                .into_iter()
-                .filter_map(|key| Some((key, understood.get(key)?.clone())))
-                .collect(),
+            understood: Box::new(understood),
             findings: vec![ReportFinding {
                 severity: "warning",
                 line: Some(3),
@@ -290,15 +240,42 @@ mod tests {
         }
     }
 
+    fn body(missing: &[&str], names: &[&str]) -> Option<BodyRead> {
+        let owned = |names: &[&str]| names.iter().map(|&it| it.to_owned()).collect();
+        Some(BodyRead {
+            roles: vec![JointRole {
+                part: "right hand".to_owned(),
+                joint: "RHand".to_owned(),
+                by: Evidence::Name,
+            }],
+            joint_names: owned(names),
+            missing: owned(missing),
+            markers: Vec::new(),
+        })
+    }
+
     #[test]
     fn a_motion_file_says_its_unit_and_the_parts_of_the_body() {
-        let file = file(json!({
-            "unit": "cm", "metres_per_unit": 0.01, "confidence": 0.9,
-            "roles": [{ "part": "right hand", "joint": "RHand", "by": "name" }],
-        }));
+        let file = file(Understood {
+            movement: Some(MovementRead {
+                joints: 3,
+                channels: None,
+                frame_rate: "30 fps".to_owned(),
+                unit: "cm",
+                metres_per_unit: 0.01,
+                axes: "+Y,+X".to_owned(),
+                guess: Some(ConventionRead {
+                    confidence: 0.9,
+                    reasons: Vec::new(),
+                }),
+            }),
+            body: body(&[], &["RHand"]),
+            ..Understood::default()
+        });
+        let lines = movement(&file, Language::English);
         assert_eq!(
-            movement(&file, Language::English),
-            [(words::UNIT, "centimetres (0.01 m) · 90 % sure".to_owned())]
+            lines[0],
+            (words::UNIT, "centimetres (0.01 m) · 90 % sure".to_owned())
         );
         assert_eq!(parts(&file).expect("a body")["right hand"], "RHand");
         assert_eq!(counts(&file), [0, 1, 0]);
@@ -306,10 +283,10 @@ mod tests {
 
     #[test]
     fn joints_are_shown_with_the_missing_ones_and_said_otherwise() {
-        let file = file(json!({
-            "roles": [{ "part": "right hand", "joint": "RHand", "by": "name" }],
-            "missing": ["jaw"], "joint_names": ["Hips", "RHand", "Chin"],
-        }));
+        let file = file(Understood {
+            body: body(&["jaw"], &["Hips", "RHand", "Chin"]),
+            ..Understood::default()
+        });
         let row = |part: &str, joint: &str| (part.to_owned(), joint.to_owned());
         assert_eq!(
             joint_rows(&file),
@@ -336,16 +313,27 @@ mod tests {
 
     #[test]
     fn tiers_say_what_they_are_taken_for_and_every_role_can_be_chosen() {
-        let file = file(json!({ "tiers": [
-            { "tier": "Config MD", "role": { "component": { "component": "configuration", "feature": null } },
-              "hand": "right", "confidence": 0.9, "why": "its name" },
-            { "tier": "Gloss", "role": "gloss", "hand": null, "confidence": 0.9, "why": "" },
-            { "tier": "X", "role": null, "hand": null, "confidence": 0.0, "why": "" },
-        ] }));
-        let roles: Vec<String> = guesses(&file, "tiers")
-            .into_iter()
-            .map(|it| it.role)
-            .collect();
+        let guess = |tier: &str, role: Option<TierRole>, hand: Option<Hands>| TierGuess {
+            tier: tier.to_owned(),
+            role,
+            hand,
+            confidence: 0.9,
+            why: String::new(),
+        };
+        let configuration = TierRole::Component {
+            component: Component::Configuration,
+            feature: None,
+        };
+        let right = Some(Hands::One(HandRef::Right));
+        let file = file(Understood {
+            tiers: Some(TiersRead::Guessed(vec![
+                guess("Config MD", Some(configuration), right),
+                guess("Gloss", Some(TierRole::Gloss), None),
+                guess("X", None, None),
+            ])),
+            ..Understood::default()
+        });
+        let roles: Vec<String> = tiers(&file).into_iter().map(|it| it.role).collect();
         assert_eq!(roles, ["right.configuration", "gloss", ""]);
         assert!(parts(&file).is_none());
         for role in ROLES {

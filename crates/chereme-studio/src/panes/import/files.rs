@@ -91,7 +91,7 @@ fn understood(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport, 
     if dry {
         joints(said, ui, seen, file);
     }
-    let tiers = data::guesses(file, "tiers");
+    let tiers = data::tiers(file);
     if !tiers.is_empty() {
         ui.weak(seen.say(words::TIERS_ARE));
         Grid::new(("tiers", &file.path))
@@ -110,13 +110,9 @@ fn understood(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport, 
                 }
             });
     }
-    let columns = data::guesses(file, "columns");
+    let columns = data::columns(file);
     if !columns.is_empty() {
-        let all: Vec<String> = columns
-            .iter()
-            .map(|it| format!("{} = {}", it.name, it.role))
-            .collect();
-        ui.small(all.join(", "));
+        ui.small(columns.join(", "));
     }
 }
 

@@ -11,7 +11,6 @@ use super::stack::{Card, Stack, What};
 use super::{catalogue, fields, settings};
 use crate::action::Action;
 use crate::context::Seen;
-use crate::panes::meant::meant;
 use crate::words::{fill, recombine as words, search, spoken};
 
 /// Residuals above this are reported as a warning, in metres.
@@ -279,11 +278,8 @@ fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) -> Option<What> {
         {
             ui.label(RichText::new(remedy).small());
         }
-        let meant = meant(&trouble.text).or_else(|| meant(trouble.remedy.as_deref()?))?;
-        let mended = shown
-            .card
-            .what
-            .mended(meant.wrong.as_deref()?, &meant.right)?;
+        let meant = trouble.meant.as_ref()?;
+        let mended = shown.card.what.mended(&meant.written, &meant.right)?;
         let text = fill(seen.say(search::MEND), &[("text", &meant.right)]);
         return ui.small_button(text).clicked().then_some(mended);
     }

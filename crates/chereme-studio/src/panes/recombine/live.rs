@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::recipe::Report;
-use chereme_corpus::{Error, Recombination};
+use chereme_corpus::{Error, Meant, Recombination};
 
 use super::stack::Stack;
 use crate::command::Command;
@@ -35,6 +35,8 @@ pub(super) struct Note {
 pub(super) struct Trouble {
     pub(super) text: String,
     pub(super) remedy: Option<String>,
+    /// The name that was meant, if one near to a known one was written.
+    pub(super) meant: Option<Meant>,
     /// The card with the problem.
     pub(super) card: Option<u64>,
 }
@@ -166,27 +168,26 @@ pub(super) fn notes(report: &Report, stack: &Stack) -> BTreeMap<u64, Note> {
 }
 
 fn trouble(error: &Error, stack: &Stack) -> Trouble {
-    let place = error.place().unwrap_or_default();
-    let path = place
-        .rsplit_once(" (at ")
-        .and_then(|(_, path)| path.strip_suffix(')'))
-        .unwrap_or_default();
-    let text = error.to_string();
-    let text = text
-        .strip_prefix("the recipe cannot be made: ")
-        .unwrap_or(&text);
+    let step = match error {
+        Error::Step(step) => Some(&**step),
+        _ => None,
+    };
+    let text = step.map(|it| format!("{}: {}", it.step, it.cause));
+    let at = step.and_then(|it| stack.card_at(&it.path));
     Trouble {
-        text: text.to_owned(),
+        text: text.unwrap_or_else(|| error.to_string()),
         remedy: error
             .remedy()
             .filter(|it| crate::overlay::remedy::is_of_the_window(it)),
-        card: stack.card_at(path).map(|at| stack.cards()[at].id),
+        meant: error.meant().cloned(),
+        card: at.map(|at| stack.cards()[at].id),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use chereme_corpus::FailedStep;
     use chereme_corpus::recipe::StepReport;
 
     fn stack(text: &str) -> Stack {
@@ -260,11 +261,17 @@ mod tests {
         live.follow(&stack, "A | swap", (1, 0.0), &mut out);
         live.follow(&stack, "A | swap | reverse", (1, 0.0), &mut out);
         assert_eq!(out.take().len(), 1);
-        let failed = Err(Error::wrong("the recipe cannot be made: no A").at("A"));
+        let failed = Err(Error::Step(Box::new(FailedStep {
+            step: "A".to_owned(),
+            path: "/pipe/of".to_owned(),
+            cause: "there is none".to_owned(),
+            remedy: "name another".to_owned(),
+            meant: None,
+        })));
         assert!(!live.hear(WorkId(99), &failed));
         assert!(live.hear(WorkId(1), &failed));
         let trouble = live.trouble.clone().expect("trouble");
-        assert_eq!((trouble.text.as_str(), trouble.card), ("no A", Some(1)));
+        assert_eq!(trouble.text, "A: there is none");
         live.follow(&stack, "A | swap | reverse", (1, 0.0), &mut out);
         assert_eq!(out.take().len(), 1);
         live.follow(&stack, "", (1, 0.0), &mut out);

@@ -35,7 +35,6 @@ use eframe::egui::{ScrollArea, Ui};
 
 use super::bare::{self, Bare};
 use super::inspector::Thing;
-use super::meant::meant;
 use super::notated::Notated;
 use super::{Acted, Carried, Pane};
 use crate::action::Action;
@@ -120,19 +119,8 @@ struct Wrong {
     from: Option<usize>,
     error: String,
     remedy: Option<String>,
-}
-
-impl Wrong {
     /// Returns the likeliest intended name, and the query with it.
-    fn mended(&self, query: &str) -> Option<(String, String)> {
-        let told = [Some(self.error.as_str()), self.remedy.as_deref()];
-        let meant = told.into_iter().flatten().find_map(meant)?;
-        let at = field::mark(query, None, Some(self.from?))?;
-        let before = query.chars().take(at.start);
-        let after = query.chars().skip(at.end);
-        let mended = before.chain(meant.right.chars()).chain(after).collect();
-        Some((meant.right, mended))
-    }
+    mended: Option<(String, String)>,
 }
 
 impl Default for Search {
@@ -475,19 +463,20 @@ impl Search {
                     (self.at, self.opened, self.scrolled) = (0, None, 0.0);
                 }
             }
-            Err(Error::Wrong {
-                message,
-                place,
-                remedy,
-            }) => {
-                let number = place
-                    .as_deref()
-                    .and_then(|it| it.strip_prefix("character "));
+            Err(Error::Query(wrong)) => {
                 self.wrong = Some(Wrong {
-                    from: number.and_then(|it| it.parse::<usize>().ok()?.checked_sub(1)),
-                    // The first lines repeat the query, which is on the screen.
-                    error: message.lines().last().unwrap_or_default().to_owned(),
-                    remedy: remedy.clone(),
+                    from: Some(wrong.at),
+                    error: wrong.message.clone(),
+                    remedy: wrong.remedy.clone(),
+                    mended: wrong.mended.clone(),
+                });
+            }
+            Err(error @ Error::Wrong { .. }) => {
+                self.wrong = Some(Wrong {
+                    from: None,
+                    error: error.to_string(),
+                    remedy: error.remedy(),
+                    mended: None,
                 });
             }
             Err(Error::Stopped) => self.stopped = true,
@@ -496,6 +485,7 @@ impl Search {
                     from: None,
                     error: fill("{error}", &[("error", error)]),
                     remedy: None,
+                    mended: None,
                 });
             }
             _ => {}
@@ -536,19 +526,5 @@ mod tests {
             );
             assert!(query.parse::<Query>().is_ok());
         }
-    }
-
-    #[test]
-    fn a_slip_is_mended_where_it_is() {
-        let wrong = Wrong {
-            from: Some(10),
-            error: "\"chinn\" is no placement; did you mean chin?".into(),
-            remedy: None,
-        };
-        let mended = wrong.mended("placement=chinn gloss=A");
-        assert_eq!(
-            mended,
-            Some(("chin".into(), "placement=chin gloss=A".into()))
-        );
     }
 }

@@ -95,7 +95,7 @@ impl Search {
             if let Some(remedy) = &wrong.remedy {
                 ui.label(RichText::new(spoken(remedy, seen.language)).small());
             }
-            let mended = wrong.mended(&self.field.text);
+            let mended = wrong.mended.clone();
             if let Some((meant, query)) = mended {
                 let text = fill(seen.say(words::MEND), &[("text", &meant)]);
                 if ui.small_button(text).clicked() {

@@ -1,0 +1,170 @@
+//! How a file was understood, with a struct for each kind of thing that files hold.
+
+use chereme_formats::eaf;
+use chereme_formats::lexicon::Column;
+use chereme_formats::roles::TierGuess;
+use chereme_motion::Evidence;
+use serde::Serialize;
+
+use crate::track::TrackKind;
+
+/// How a file was understood. JSON has the fields of all parts side by side.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Understood {
+    /// Movement: its rate, unit and axes.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub movement: Option<MovementRead>,
+    /// The joints of a body.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub body: Option<BodyRead>,
+    /// How the root was read, if an option decided that.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub root: Option<RootRead>,
+    /// Joints whose offsets contradict the movement, which counts.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub placed_by_movement: Option<Vec<String>>,
+    /// Frames at the ends that are no part of the movement.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub odd_frames: Option<Vec<String>>,
+    /// Tiers of an annotation file, or how ELAN shows them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tiers: Option<TiersRead>,
+    /// Columns of a lexicon table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub columns: Option<Vec<Column>>,
+    /// Recordings that took the tiers of a template.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recordings: Option<Vec<String>>,
+    /// Inventories, by their ids.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inventories: Option<Vec<String>>,
+    /// Tracks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tracks: Option<Vec<TrackRead>>,
+    /// Changes of annotations by a file that was imported before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub changes: Option<Changes>,
+}
+
+impl Understood {
+    /// Returns whether nothing is known.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Returns what the tiers were taken for.
+    #[must_use]
+    pub fn guessed_tiers(&self) -> &[TierGuess] {
+        match &self.tiers {
+            Some(TiersRead::Guessed(tiers)) => tiers,
+            Some(TiersRead::Shown(_)) | None => &[],
+        }
+    }
+}
+
+/// Movement as it was read.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MovementRead {
+    /// How many joints there are.
+    pub joints: usize,
+    /// How many channels there are, of a format that lists them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub channels: Option<usize>,
+    /// The rate, such as `30 fps`.
+    pub frame_rate: String,
+    /// The name of the unit.
+    pub unit: &'static str,
+    /// The unit in metres.
+    pub metres_per_unit: f64,
+    /// The axes that point up and to the left.
+    pub axes: String,
+    /// How sure unit and axes are, if they were inferred.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub guess: Option<ConventionRead>,
+}
+
+/// How sure the unit and the axes of movement are.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ConventionRead {
+    /// From 0 to 1.
+    pub confidence: f64,
+    /// The evidence, a sentence each.
+    pub reasons: Vec<String>,
+}
+
+/// The joints of a body, as they were identified.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct BodyRead {
+    /// The parts of the body that were found.
+    pub roles: Vec<JointRole>,
+    /// The names of all joints, in their order.
+    pub joint_names: Vec<String>,
+    /// Parts that were not found.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub missing: Vec<String>,
+    /// Optical markers among the joints.
+    pub markers: Vec<String>,
+}
+
+/// A part of the body, and the joint that it is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointRole {
+    /// The part, such as `right hand`.
+    pub part: String,
+    /// The joint's name.
+    pub joint: String,
+    /// The evidence.
+    pub by: Evidence,
+}
+
+/// How the root was read.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RootRead {
+    /// The order of its columns.
+    pub root_order: &'static str,
+    /// The factor for its places.
+    pub root_scale: f64,
+}
+
+/// The tiers of a file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum TiersRead {
+    /// Tiers with their inferred roles.
+    Guessed(Vec<TierGuess>),
+    /// Order, colours and visibility.
+    Shown(eaf::settings::Settings),
+}
+
+/// A track as it was stored.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TrackRead {
+    /// The kind.
+    pub kind: TrackKind,
+    /// The name.
+    pub name: String,
+    /// Frames in a second.
+    pub rate: Option<f64>,
+    /// How many frames there are.
+    pub frames: Option<u64>,
+    /// Where it begins on the clock of the recording, in microseconds.
+    pub offset_us: i64,
+    /// Its duration in microseconds.
+    pub duration_us: Option<i64>,
+    /// How many joints, points or scalar channels it has.
+    pub channels: u64,
+}
+
+/// How many annotations a file that was imported before has changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Changes {
+    /// Annotations that are new.
+    pub added: usize,
+    /// Annotations with another value or time.
+    pub changed: usize,
+    /// Annotations that the file has no more.
+    pub removed: usize,
+    /// Annotations that stayed.
+    pub unchanged: usize,
+}
