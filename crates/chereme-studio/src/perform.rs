@@ -7,7 +7,7 @@ use chereme_corpus::MediaChange;
 use chereme_motion::{Instant, Rate, Span};
 use eframe::egui::{Context, ViewportCommand};
 
-use crate::action::Action;
+use crate::action::{Action, Owner};
 use crate::app::Studio;
 use crate::choose::Choose;
 use crate::command::Command;
@@ -21,7 +21,7 @@ use crate::model::Snapshot;
 use crate::model::made::Made;
 use crate::model::reel::Reel;
 use crate::panes::history::data as history;
-use crate::panes::{Carried, PaneKind, recombine};
+use crate::panes::{Acted, Carried, PaneKind, recombine};
 use crate::player::{Player, Preview};
 use crate::settings::{ThemeChoice, View, view_of};
 use crate::theme;
@@ -188,18 +188,33 @@ impl Studio {
         self.snapshot.as_ref().is_some_and(Snapshot::is_read_only)
     }
 
+    /// Has an action carried out by its owner.
     fn act(&mut self, action: Action, ctx: &Context) {
-        if self.act_on_window(action, ctx) || self.act_on_player(action) || self.desk.is_none() {
-            return;
+        match action.row().owner {
+            Owner::Window => self.act_on_window(action, ctx),
+            Owner::Shows(pane) => self.bring(pane),
+            Owner::Player => self.act_on_player(action),
+            Owner::WithCorpus if self.may_act(action) => self.act_on_corpus(action, ctx),
+            Owner::In(pane) if self.may_act(action) => self.act_in(pane, action, ctx),
+            Owner::WithCorpus | Owner::In(_) => {}
         }
-        if action.changes() && self.gone {
+    }
+
+    /// Returns whether a corpus is open that an action may change if it changes one; else says why not.
+    fn may_act(&mut self, action: Action) -> bool {
+        let changes = action.changes();
+        if changes && self.desk.is_some() && self.gone {
             self.out.send(Command::Cannot(words::GONE_WHY));
-            return;
+            return false;
         }
-        if action.changes() && self.is_read_only() {
+        if changes && self.desk.is_some() && self.is_read_only() {
             self.out.send(Command::Cannot(words::READ_ONLY_WHY));
-            return;
+            return false;
         }
+        self.desk.is_some()
+    }
+
+    fn act_on_corpus(&mut self, action: Action, ctx: &Context) {
         match action {
             Action::Undo | Action::Redo => self.walk_one(action == Action::Undo),
             Action::ClearSelection => {
@@ -229,9 +244,9 @@ impl Studio {
             }
             Action::StoreSign => {
                 self.bring(PaneKind::Recombine);
-                self.act_in_panes(action, ctx);
+                self.act_in(PaneKind::Recombine, action, ctx);
             }
-            other => self.act_in_panes(other, ctx),
+            _ => {}
         }
     }
 
@@ -299,16 +314,16 @@ impl Studio {
     /// Pastes a text at the place that the action names.
     pub(crate) fn paste(&mut self, action: Action, text: String, ctx: &Context) {
         self.panes.timeline.hold_clip(text);
-        self.act_in_panes(action, ctx);
+        self.act_in(PaneKind::Timeline, action, ctx);
     }
 
-    /// Offers an action to the panes; the first that knows it carries it out.
-    fn act_in_panes(&mut self, action: Action, ctx: &Context) {
+    /// Has a pane carry out an action.
+    fn act_in(&mut self, pane: PaneKind, action: Action, ctx: &Context) {
         let mut panes = std::mem::take(&mut self.panes);
         let mut out = std::mem::take(&mut self.out);
         if let Some(seen) = self.seen(ctx) {
-            let said = panes.act(action, &seen, &mut out);
-            if let Some(text) = said {
+            let acted = panes.get_mut(pane).act(action, &seen, &mut out);
+            if let Acted::Cannot(text) = acted {
                 let text = self.keys.named(text.of(self.settings.language));
                 self.overlays.notices.warn(text);
             }
@@ -316,7 +331,7 @@ impl Studio {
         (self.panes, self.out) = (panes, out);
     }
 
-    fn act_on_window(&mut self, action: Action, ctx: &Context) -> bool {
+    fn act_on_window(&mut self, action: Action, ctx: &Context) {
         match action {
             Action::OpenStarter => self.open_starter(),
             Action::Open => self.out.send(Command::Choose(Choose::Corpus)),
@@ -349,25 +364,12 @@ impl Studio {
             Action::OnlyAnnotating => {
                 layout::enlarge(&mut self.tree, &[PaneKind::Stage, PaneKind::Timeline]);
             }
-            Action::Import => self.bring(PaneKind::Import),
             Action::Export => self.overlays.export.toggle(),
-            Action::Search => self.bring(PaneKind::Search),
-            Action::ShowLibrary => self.bring(PaneKind::Library),
-            Action::ShowStage => self.bring(PaneKind::Stage),
-            Action::ShowTimeline => self.bring(PaneKind::Timeline),
-            Action::ShowRecombine => self.bring(PaneKind::Recombine),
-            Action::ShowInspector => self.bring(PaneKind::Inspector),
-            Action::ShowMap => self.bring(PaneKind::Map),
-            Action::ShowCue => self.bring(PaneKind::Cue),
-            Action::ShowFaces => self.bring(PaneKind::Faces),
-            Action::ShowHistory => self.bring(PaneKind::History),
-            Action::ShowFilm => self.bring(PaneKind::Film),
-            _ => return false,
+            _ => {}
         }
-        true
     }
 
-    fn act_on_player(&mut self, action: Action) -> bool {
+    fn act_on_player(&mut self, action: Action) {
         let made = self.shown.made.as_ref().map(|it| it.made.clip.rate());
         let rate = made
             .or_else(|| self.reel.rate())
@@ -387,7 +389,7 @@ impl Studio {
             }
             Action::StepAndRepeat => player.step_and_repeat(part, stepping),
             Action::OtherEnd | Action::ToCentre => {
-                let Some(span) = part else { return true };
+                let Some(span) = part else { return };
                 let middle = span.start().shifted(span.micros() / 2);
                 player.seek(match action {
                     Action::ToCentre => middle,
@@ -416,9 +418,8 @@ impl Studio {
             Action::Slower => player.step_speed(false),
             Action::Faster => player.step_speed(true),
             Action::NormalSpeed => player.speed = 1.0,
-            _ => return false,
+            _ => {}
         }
-        true
     }
 
     /// Loads the films of the displayed recording; the recording lasts at least as long as the longest of them.

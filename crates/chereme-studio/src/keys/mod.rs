@@ -2,7 +2,6 @@
 
 pub(crate) mod chord;
 pub(crate) mod gestures;
-pub(crate) mod table;
 
 use std::collections::BTreeMap;
 
@@ -70,10 +69,7 @@ impl Keys {
         let mut bound = BTreeMap::new();
         for row in ACTIONS {
             let own = rebound.get(row.id).cloned();
-            bound.insert(
-                row.action,
-                own.unwrap_or_else(|| table::defaults(keymap, row.action)),
-            );
+            bound.insert(row.action, own.unwrap_or_else(|| row.defaults(keymap)));
         }
         for (id, chords) in rebound {
             let Some(row) = ACTIONS.iter().find(|row| row.id == id) else {

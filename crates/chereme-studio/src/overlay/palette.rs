@@ -123,7 +123,7 @@ impl Palette {
 }
 
 fn words_title(language: Language) -> &'static str {
-    crate::words::actions::PALETTE.of(language)
+    crate::action::Action::Palette.row().name.of(language)
 }
 
 #[cfg(test)]

@@ -162,23 +162,6 @@ impl Panes {
             self.get_mut(kind).hear(id, ended);
         }
     }
-
-    /// Offers an action to each pane; returns why it is impossible, if it is.
-    pub(crate) fn act(
-        &mut self,
-        action: Action,
-        seen: &Seen<'_>,
-        out: &mut Outbox,
-    ) -> Option<Text> {
-        for kind in PaneKind::ALL {
-            match self.get_mut(kind).act(action, seen, out) {
-                Acted::No => {}
-                Acted::Yes => return None,
-                Acted::Cannot(why) => return Some(why),
-            }
-        }
-        None
-    }
 }
 
 /// Returns the width of the longest word in `texts`; a column of that width breaks lines only between words.
