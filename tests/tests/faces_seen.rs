@@ -105,7 +105,7 @@ fn each_non_manual_differs_from_its_neighbours_and_from_rest() {
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
-/// The sounds that lips tell apart, each next to one that it is not to be taken for.
+/// The sounds that lips distinguish, each next to one that it is not to be taken for.
 #[test]
 fn each_mouth_that_lips_tell_apart_differs_from_its_neighbours() {
     const MOUTHS: [&str; 17] = [

@@ -115,7 +115,7 @@ fn starter(folder: &Path) -> Result<PathBuf> {
         .clone())
 }
 
-/// Imports a file into a corpus of its own, telling nobody.
+/// Imports a file into a corpus of its own, without progress.
 fn corpus_of(folder: &Path, name: &str, file: &Path) -> Result<Corpus> {
     let mut corpus = Corpus::create(&folder.join(format!("{name}.chereme")), name)?;
     let mut hear = unheard;

@@ -1,4 +1,4 @@
-//! Contacts of hands with each other and with the body: kept, told, or lost unsaid.
+//! Contacts of hands with each other and with the body: kept, reported, or lost without a report.
 
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Clip, Side};

@@ -1,4 +1,4 @@
-//! How true made movement is to captured movement, as Markdown tables:
+//! How true generated movement is to captured movement, as Markdown tables:
 //! `cargo run --release -p chereme-tests --example fidelity -- FOLDER-OF-BVH`.
 //!
 //! Reads every BVH file below the folder. With the names of tables after it (`interpolation`,

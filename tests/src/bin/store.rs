@@ -58,7 +58,7 @@ fn tracks() -> Result<Vec<NewTrack>, Box<dyn Error>> {
     ])
 }
 
-/// Makes the corpus: imports, tracks, a made sign, something undone and something done again.
+/// Makes the corpus: imports, tracks, a generated sign, something undone and something done again.
 fn write(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let desk = tempfile::tempdir()?;
     let path = workers::small_corpus(desk.path(), "store.chereme")?;

@@ -8,7 +8,7 @@ use chereme_corpus::{Address, Progress, Step, TranscribedFeature};
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 
-/// Transcribe a captured or made sign in HamNoSys, with the residual of each feature
+/// Transcribe a captured or generated sign in HamNoSys, with the residual of each feature
 ///
 /// The residual says how far the movement is from what was written, the runner-up what would have come
 /// next. The characters are shown by a HamNoSys font only; their names stand below them, `--names` writes
