@@ -26,6 +26,8 @@ pub struct Finding {
 pub enum Mend {
     /// The root's columns are read in another order than the header states.
     RootOrder,
+    /// The caller gives a sign the gloss that its file lacks.
+    Gloss,
 }
 
 impl Finding {

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_formats::{Finding, sigml};
+use chereme_formats::{Finding, Mend};
 use chereme_sign::hamnosys::Notated;
 use serde_json::json;
 
@@ -35,7 +35,7 @@ fn import(job: &mut Job<'_>, form: Form, progress: &mut Progress<'_>) -> Result<
     let (entries, findings) = notation::read_signs(&bytes, form)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
     // The names given to these signs are reported below.
-    let named = |finding: &Finding| !finding.message.ends_with(sigml::NO_GLOSS);
+    let named = |finding: &Finding| finding.mend != Some(Mend::Gloss);
     let findings = findings.into_iter().filter(named);
     report.findings.extend(findings.map(ReportFinding::from));
     let earlier = earlier(job, &mut report)?;

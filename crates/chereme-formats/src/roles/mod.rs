@@ -83,21 +83,25 @@ pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> 
         .iter()
         .map(|tier| guess(tier, mapping, &context))
         .collect();
+    let mut second_readings = BTreeSet::new();
     for (at, tier) in tiers.iter().enumerate() {
-        let above = tier.parent.filter(|_| tier.one_to_one);
-        let above = above
-            .filter(|above| *above != at)
-            .and_then(|above| guesses.get(above));
-        if let Some(above) = above.filter(|above| above.reads_signs())
+        let above = tier.parent.filter(|above| tier.one_to_one && *above != at);
+        let reads_signs = |above: &usize| {
+            let role = guesses.get(*above).and_then(|above| above.role.as_ref());
+            role == Some(&TierRole::Gloss) || second_readings.contains(above)
+        };
+        if let Some(above) = above.filter(reads_signs)
             && guesses[at].role == Some(TierRole::Gloss)
             && guesses[at].confidence < 1.0
         {
+            let above = &guesses[above];
             let why = format!(
                 "{}, but each is one of the glosses above, {:?}",
                 guesses[at].why, above.tier
             );
             let guess = &mut guesses[at];
             (guess.role, guess.hand, guess.why) = (Some(TierRole::Translation), None, why);
+            second_readings.insert(at);
         }
     }
     for (at, tier) in tiers.iter().enumerate() {
@@ -114,14 +118,6 @@ pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> 
         }
     }
     guesses
-}
-
-impl TierGuess {
-    /// Returns whether it holds glosses, or a second reading of them.
-    fn reads_signs(&self) -> bool {
-        self.role == Some(TierRole::Gloss)
-            || (self.role == Some(TierRole::Translation) && self.why.contains("glosses above"))
-    }
 }
 
 /// The abbreviations in the tiers of one file.

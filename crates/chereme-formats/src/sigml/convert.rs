@@ -4,7 +4,7 @@ use super::gestural::{read_sign, write_manual, write_nonmanual};
 use super::node::Node;
 use super::raw::{Element, Line, shown};
 use super::symbols;
-use crate::finding::Finding;
+use crate::finding::{Finding, Mend};
 use crate::tally::Findings;
 use chereme_sign::hamnosys::Notated;
 
@@ -18,9 +18,6 @@ pub struct Entry {
     /// Its line; ignored in comparisons.
     pub line: Line,
 }
-
-/// The last words of the finding for a sign without a gloss.
-pub const NO_GLOSS: &str = "has no gloss";
 
 /// Interprets a document: returns its signs in order.
 ///
@@ -127,7 +124,9 @@ fn read_entry(element: &Element<'_>, findings: &mut Findings, entries: &mut Vec<
     let mut node = Node::new(element, findings);
     let gloss = node.text("gloss").map(str::trim).unwrap_or_default();
     if gloss.is_empty() {
-        node.warn("signs without a gloss", |tag| format!("<{tag}> {NO_GLOSS}"));
+        node.warn_of("signs without a gloss", Mend::Gloss, |tag| {
+            format!("<{tag}> has no gloss")
+        });
     }
     let owned = |text: Option<&str>| text.map(str::to_owned);
     let mut sign = Notated {

@@ -25,7 +25,7 @@ mod words;
 pub mod convert;
 pub mod raw;
 
-pub use convert::{Entry, NO_GLOSS, from_raw, to_gestural, to_symbols};
+pub use convert::{Entry, from_raw, to_gestural, to_symbols};
 pub use error::Error;
 
 use crate::finding::{Finding, Severity};

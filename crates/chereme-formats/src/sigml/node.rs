@@ -2,7 +2,7 @@
 
 use super::raw::{Element, shown};
 use super::words::Word;
-use crate::finding::Finding;
+use crate::finding::{Finding, Mend};
 use crate::tally::Findings;
 use chereme_sign::hamnosys::{Bend, Compass, Digit, Digits, Direction, orientation};
 
@@ -35,6 +35,20 @@ impl<'e, 'f> Node<'e, 'f> {
         let element = self.element;
         self.findings.add(kind, || {
             Finding::warning(element.line.0, message(&shown(&element.name)))
+        });
+    }
+
+    /// Reports an oddity of the element that the caller can mend.
+    pub(super) fn warn_of(
+        &mut self,
+        kind: &'static str,
+        mend: Mend,
+        message: impl FnOnce(&str) -> String,
+    ) {
+        let element = self.element;
+        self.findings.add(kind, || Finding {
+            mend: Some(mend),
+            ..Finding::warning(element.line.0, message(&shown(&element.name)))
         });
     }
 
