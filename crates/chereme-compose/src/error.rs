@@ -260,7 +260,7 @@ fn remedy_after(cause: &Cause) -> String {
 /// The name that was most likely meant, and the one that was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Meant {
-    /// What was written, without quotes.
+    /// The name as written, without quotes.
     pub written: String,
     /// What would be right.
     pub right: String,

@@ -84,7 +84,7 @@ pub struct WrongQuery {
     pub at: usize,
     /// What would be right.
     pub remedy: Option<String>,
-    /// What was most likely meant, and the query with it.
+    /// The likeliest meaning, and the query with it.
     pub mended: Option<(String, String)>,
 }
 
