@@ -169,6 +169,11 @@ impl Corpus {
         options: &CueOptions,
         gloss: Option<&str>,
     ) -> Result<Recombination> {
+        // A text that means nothing is refused by itself, not as a recipe that holds all of it.
+        let read = Utterance::read(text, &options.reading).map_err(unread)?;
+        if read.keys.is_empty() {
+            return Err(nothing_to_cue(text));
+        }
         let signer = options.signer.as_deref();
         let on = signer.map(|it| self.body(it)).transpose()?;
         let recipe = cue_recipe(text, options, on);
@@ -177,6 +182,17 @@ impl Corpus {
             None => self.preview(&recipe),
         }
     }
+}
+
+/// Returns the error for a text without any key.
+pub(crate) fn nothing_to_cue(text: &str) -> Error {
+    const SHOWN: usize = 60;
+    let mut begin: String = text.trim().chars().take(SHOWN).collect();
+    if text.trim().chars().nth(SHOWN).is_some() {
+        begin.push('…');
+    }
+    Error::wrong(format!("there is nothing to cue in {begin:?}"))
+        .advise("write words, or phones with --phones")
 }
 
 /// Returns the phones of `text` in IPA as the program `espeak-ng` pronounces them, if it is installed, and the

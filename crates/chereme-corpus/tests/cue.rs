@@ -90,6 +90,22 @@ fn a_cued_sentence_is_found_by_its_keys_and_works_with_operators() {
 }
 
 #[test]
+fn a_text_without_keys_and_one_without_end_are_refused_in_few_words() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let options = CueOptions::default();
+    for text in ["", "###", "! ? …"] {
+        let error = corpus.cue(text, &options, Some("A")).expect_err(text);
+        assert!(error.to_string().contains("nothing to cue"), "{error}");
+    }
+    for text in ["#".repeat(2000), "le chat dort ".repeat(100_000)] {
+        let error = corpus.cue(&text, &options, None).expect_err("refused");
+        assert!(error.to_string().len() < 200, "{}", error.to_string().len());
+        assert!(error.remedy().is_some());
+    }
+}
+
+#[test]
 fn phones_of_an_alignment_are_the_clock_in_every_alphabet() {
     let folder = tempfile::tempdir().expect("a folder");
     let times = [(0.3, 0.36), (0.36, 0.53), (0.53, 0.65), (0.65, 0.8)];

@@ -140,8 +140,7 @@ impl Corpus {
         }
         let read = Utterance::read(text, &reading).map_err(fault)?;
         if read.keys.is_empty() {
-            return Err(Error::wrong(format!("there is nothing to cue in {text:?}"))
-                .advise("write words, or phones with --phones"));
+            return Err(crate::cue::nothing_to_cue(text));
         }
         let found = book(self.store.read(), recordings, options, progress);
         let book = match found {

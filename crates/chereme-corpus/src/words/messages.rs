@@ -262,6 +262,47 @@ const MESSAGES: &[(&str, &str)] = &[
         "what can be proposed: {names}",
         "ce qui peut être proposé : {names}",
     ),
+    (
+        "there is nothing to cue in {text}",
+        "il n’y a rien à coder dans {text}",
+    ),
+    (
+        "write words, or phones with --phones",
+        "écrivez des mots, ou des phones avec --phones",
+    ),
+    ("there is no code {code}", "il n’y a pas de code {code}"),
+    ("the codes are {codes}", "les codes sont {codes}"),
+    (
+        "the code {code} has no variant {variant}; it has {known}",
+        "le code {code} n’a pas de variante {variant} ; il a {known}",
+    ),
+    ("the variants are {known}", "les variantes sont {known}"),
+    (
+        "the code {code} has no rules of spelling",
+        "le code {code} n’a pas de règles d’orthographe",
+    ),
+    (
+        "give phones: --phones sampa, ipa or mfa",
+        "donnez des phones : --phones sampa, ipa ou mfa",
+    ),
+    ("the text has {n} bytes", "le texte a {n} octets"),
+    (
+        "give at most 1 MiB at once",
+        "donnez au plus 1 Mio à la fois",
+    ),
+    ("the pace is {n}", "l’allure est {n}"),
+    (
+        "a pace from 0.1 to 10; 1.6 is usual for people who cue",
+        "une allure de 0,1 à 10 ; 1,6 est l’allure habituelle de qui code",
+    ),
+    (
+        "{label}: {text} is no duration in milliseconds",
+        "{label} : {text} n’est pas une durée en millisecondes",
+    ),
+    (
+        "write for example a=120: from 1 to 60000",
+        "écrivez par exemple a=120 : de 1 à 60000",
+    ),
 ];
 
 /// Returns a message of the library in `language`; nothing if the table lacks it.
