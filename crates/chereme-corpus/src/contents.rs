@@ -1,11 +1,13 @@
 //! The content of a corpus for display in a window, read at one moment: an overview of everything, and one complete
 //! recording.
 
+use rusqlite::Connection;
+
 use crate::Corpus;
 use crate::db::contents as rows;
 use crate::db::inventories::inventories as inventory_rows;
 use crate::db::recordings::{self, MediaTrackRow, RecordingRow, SignerRow};
-pub use crate::db::rows::{AnnotationColumns, RecordingGlance, SignGlance};
+pub use crate::db::rows::{AnnotationColumns, RecordingGlance, ShownFrames, SignGlance};
 use crate::db::search::begin_reading;
 use crate::db::signs::{self, TokenRow};
 use crate::db::tiers::{self, TierRow};
@@ -64,6 +66,18 @@ pub struct TierContents {
     pub annotations: AnnotationColumns,
 }
 
+/// Adds the frames of faces without a skeleton.
+fn with_faces(
+    connection: &Connection,
+    mut recordings: Vec<RecordingGlance>,
+) -> Result<Vec<RecordingGlance>> {
+    let faces = crate::face::stage::shown_alone(connection)?;
+    for glance in &mut recordings {
+        glance.face_alone = faces.get(&glance.row.id).copied();
+    }
+    Ok(recordings)
+}
+
 impl Corpus {
     /// Returns a number that grows with every change of the corpus, by any program; it is cheap to read.
     ///
@@ -83,7 +97,7 @@ impl Corpus {
         Ok(Overview {
             generation: rows::generation(&reading)?,
             read_only: rows::is_read_only(&reading)?,
-            recordings: rows::recordings(&reading)?,
+            recordings: with_faces(&reading, rows::recordings(&reading)?)?,
             signs: rows::signs(&reading)?,
             signers: recordings::signers(&reading)?,
             inventories: inventories

@@ -90,7 +90,7 @@ pub use chereme_formats::compare::{
 pub use chereme_sign::query::{facet_condition, narrow, wants, without};
 pub use compare::{CompareSide, FileMerge, merge_files};
 pub use contents::{
-    AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents,
+    AnnotationColumns, Contents, Overview, RecordingGlance, ShownFrames, SignGlance, TierContents,
 };
 pub use cue::{
     CueKey, CueKeys, CueOptions, KeysOptions, SpokenWord, cue_keys, cue_keys_of_file,

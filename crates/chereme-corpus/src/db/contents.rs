@@ -6,7 +6,8 @@ use rusqlite::{Connection, OptionalExtension};
 use super::columns::{ValueState, word};
 use super::recordings::RecordingRow;
 use super::tracks::TrackKind;
-use crate::db::rows::{AnnotationColumns, Around, RecordingGlance, SignGlance};
+use crate::db::rows::{AnnotationColumns, Around, CurvesAlone, RecordingGlance, SignGlance};
+use crate::db::upgrade::NONMANUALS;
 use crate::error::Result;
 
 /// Returns the number of the newest operation; 0 if there is no operation.
@@ -58,9 +59,36 @@ pub(crate) fn recordings(connection: &Connection) -> Result<Vec<RecordingGlance>
             tokens: count(row.get(13)?),
             recipe: row.get(14)?,
             kinds: kinds(row.get(15)?),
+            face_alone: None,
         });
     }
     Ok(recordings)
+}
+
+/// Returns the tracks of curves of recordings without a skeleton, by recording.
+pub(crate) fn curves_alone(connection: &Connection) -> Result<Vec<CurvesAlone>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT t.recording_id, (SELECT group_concat(name, char(10)) FROM channel c WHERE c.track_id = t.id),
+                coalesce(t.frames, 0), t.rate_frames, t.rate_seconds, t.offset_us, r.duration_us
+         FROM track t JOIN recording r ON r.id = t.recording_id
+         WHERE t.kind = 'curves' AND t.name <> ?1 AND NOT EXISTS
+               (SELECT 1 FROM track k WHERE k.recording_id = t.recording_id AND k.kind = 'skeleton')
+         ORDER BY t.recording_id, t.id",
+    )?;
+    let rows = statement
+        .query_map([NONMANUALS], |row| {
+            let rate: Option<(u32, u32)> = row.get::<_, Option<u32>>(3)?.zip(row.get(4)?);
+            Ok(CurvesAlone {
+                recording: row.get(0)?,
+                names: row.get::<_, Option<String>>(1)?.unwrap_or_default(),
+                frames: count(row.get(2)?),
+                rate: rate.and_then(|(frames, seconds)| Rate::new(frames, seconds).ok()),
+                offset_us: row.get(5)?,
+                duration_us: row.get(6)?,
+            })
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
 }
 
 /// Returns the kinds of tracks that a list names, in their usual order.

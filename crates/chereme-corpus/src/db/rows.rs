@@ -41,6 +41,49 @@ pub struct RecordingGlance {
     pub tokens: u64,
     /// Its recipe, if it was generated.
     pub recipe: Option<String>,
+    /// The frames of its captured face, if it has no skeleton: the program's own body shows the face.
+    pub face_alone: Option<ShownFrames>,
+}
+
+impl RecordingGlance {
+    /// Returns the frames that can be shown: of its movement, else of its face alone; `None` if it has neither.
+    #[must_use]
+    pub fn shown(&self) -> Option<ShownFrames> {
+        let own = self
+            .rate
+            .filter(|_| self.frames > 0)
+            .map(|rate| ShownFrames {
+                frames: self.frames,
+                rate,
+                offset_us: self.offset_us,
+            });
+        own.or(self.face_alone)
+    }
+}
+
+/// Frames that can be shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ShownFrames {
+    /// How many there are.
+    pub frames: u64,
+    /// Their rate.
+    pub rate: Rate,
+    /// The time of the first one on the recording's clock, in microseconds.
+    pub offset_us: i64,
+}
+
+/// A track of curves of a recording without a skeleton.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CurvesAlone {
+    pub(crate) recording: i64,
+    /// The names of its channels, a line each.
+    pub(crate) names: String,
+    pub(crate) frames: u64,
+    /// `None` if frames have times of their own.
+    pub(crate) rate: Option<Rate>,
+    pub(crate) offset_us: i64,
+    /// The duration of the recording.
+    pub(crate) duration_us: i64,
 }
 
 /// A sign at a glance.

@@ -1,18 +1,22 @@
 //! Performs a recording that has only a face as movement of the program's own body, whose head turns as in the capture.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_compose::{Curve, Material};
+use chereme_formats::faces::System as FaceSystem;
 use chereme_motion::glam::DQuat;
-use chereme_motion::{Channel, Clip, Part, Rate, Span};
+use chereme_motion::{Channel, Clip, Instant, Part, Rate, Span};
 use chereme_sign::Handedness;
 use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
 use super::{captured, head};
 use crate::address::{Address, Name, Stretch};
+use crate::db::contents;
 use crate::db::motion;
 use crate::db::recordings;
+use crate::db::rows::ShownFrames;
 use crate::error::{Error, Result};
 use crate::picture::Moving;
 use crate::sources::notation::own_body;
@@ -147,6 +151,34 @@ pub(crate) fn moving(connection: &Connection, stretch: &Stretch) -> Result<Optio
         anatomy: (*face.anatomy).clone(),
         stretch: stretch.clone(),
     }))
+}
+
+/// Returns the frames of captured faces of recordings without a skeleton, by recording.
+pub(crate) fn shown_alone(connection: &Connection) -> Result<BTreeMap<i64, ShownFrames>> {
+    // Many recordings have the same channels.
+    let mut known: BTreeMap<String, bool> = BTreeMap::new();
+    let mut all = BTreeMap::new();
+    for row in contents::curves_alone(connection)? {
+        let is_face = *known.entry(row.names).or_insert_with_key(|names| {
+            FaceSystem::of_names(names.lines()).is_some_and(|system| !system.expressions)
+        });
+        let Some(rate) = row.rate.or(Rate::new(USUAL, 1).ok()).filter(|_| is_face) else {
+            continue;
+        };
+        let lasts = Instant::from_micros(row.duration_us).shifted(-row.offset_us);
+        let frames = match row.rate {
+            Some(_) => row.frames,
+            None => rate.frame_at(lasts) as u64,
+        };
+        if frames > 0 && frames <= LONGEST as u64 {
+            all.entry(row.recording).or_insert(ShownFrames {
+                frames,
+                rate,
+                offset_us: row.offset_us,
+            });
+        }
+    }
+    Ok(all)
 }
 
 /// Returns the time of the first frame of a recording's movement on its clock, in microseconds: that of its skeleton,

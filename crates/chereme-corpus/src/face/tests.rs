@@ -144,6 +144,9 @@ fn a_face_alone_moves_the_programs_own_body() {
     let turned = |seconds| moving.clip.model_pose(frame(seconds)).rotation(head);
     let angle = turned(0.3).angle_between(turned(1.5));
     assert!((angle - 0.2).abs() < 1e-6, "{angle}");
+    let overview = case.corpus.overview(0).expect("an overview");
+    let shown = overview.recordings[0].shown().expect("what is shown");
+    assert_eq!((shown.frames, overview.recordings[0].frames), (180, 0));
     let report = case.corpus.face(&recording("W1")).expect("a face");
     assert_eq!((report.system.as_str(), report.frames), ("house", 180));
     assert!(

@@ -35,13 +35,12 @@ impl Reel {
     /// Switches to a recording; loaded pieces stay if the movement is the same.
     pub(crate) fn load(&mut self, recording: Option<&RecordingGlance>) {
         let source = recording.and_then(|it| {
+            let shown = it.shown()?;
             Some(Source {
                 recording: it.row.id,
-                frames: usize::try_from(it.frames)
-                    .ok()
-                    .filter(|frames| *frames > 0)?,
-                rate: it.rate?,
-                offset: it.offset_us,
+                frames: usize::try_from(shown.frames).ok()?,
+                rate: shown.rate,
+                offset: shown.offset_us,
                 recipe: it.recipe.clone(),
             })
         });
@@ -177,6 +176,7 @@ mod tests {
             tiers: 0,
             tokens: 0,
             recipe: None,
+            face_alone: None,
         }
     }
 
@@ -201,6 +201,17 @@ mod tests {
         assert_eq!(piece(&mut reel, 99_000_000), None);
         reel.load(Some(&glance(0)));
         assert!(!reel.has_movement());
+        let face = chereme_corpus::ShownFrames {
+            frames: 60,
+            rate: Rate::new(30, 1).expect("a rate"),
+            offset_us: 1_000_000,
+        };
+        reel.load(Some(&RecordingGlance {
+            face_alone: Some(face),
+            ..glance(0)
+        }));
+        assert!(reel.has_movement(), "a face alone is shown, too");
+        assert_eq!(piece(&mut reel, 0), Some((0, span(1_000_000, 3_000_000))));
     }
 
     #[test]

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use chereme_corpus::{
     Address, Choice, Expressions, FoundExpression, Function, Name, Onsets, Rank, Ranked,
 };
-use eframe::egui::{Button, ComboBox, Role, ScrollArea, Ui, WidgetInfo};
+use eframe::egui::{Button, ComboBox, Role, ScrollArea, TextStyle, Ui, WidgetInfo};
 
 use self::data::Compared;
 use super::Pane;
@@ -283,13 +283,30 @@ fn name(compared: Compared) -> Text {
 
 /// Shows a drop-down list with its name before it.
 fn pick<T: PartialEq + Clone>(ui: &mut Ui, name: &str, value: &mut T, all: &[(T, String)]) {
+    let shown = all.iter().find(|(it, _)| it == value);
+    let shown = shown.map_or("", |(_, text)| text.as_str()).to_owned();
+    // A list does not break: one that has no room left begins the next row, and is shortened in a narrow pane.
+    let wide = |text: &str| {
+        let font = TextStyle::Button.resolve(ui.style());
+        let colour = ui.visuals().text_color();
+        ui.painter()
+            .layout_no_wrap(text.to_owned(), font, colour)
+            .size()
+            .x
+    };
+    let spacing = ui.spacing();
+    let around = 2.0 * spacing.button_padding.x + spacing.icon_width + 2.0 * spacing.item_spacing.x;
+    let (title, row) = (wide(name) + spacing.item_spacing.x, ui.max_rect().width());
+    let list = (wide(&shown) + around).min(row - title).max(60.0);
+    if ui.available_size_before_wrap().x < title + list {
+        ui.end_row();
+    }
     ui.horizontal(|ui| {
         ui.weak(name);
-        let shown = all.iter().find(|(it, _)| it == value);
-        let shown = shown.map_or("", |(_, text)| text.as_str()).to_owned();
         let combo = ComboBox::from_id_salt(name)
             .selected_text(&shown)
-            .width(0.0);
+            .truncate()
+            .width(list);
         let inner = combo.show_ui(ui, |ui| {
             for (it, text) in all {
                 ui.selectable_value(value, it.clone(), text);

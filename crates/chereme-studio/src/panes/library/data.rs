@@ -50,7 +50,7 @@ pub(crate) fn rows(
             name: it.row.name.clone(),
             about: parts.into_iter().flatten().collect::<Vec<_>>().join(" · "),
             whole: Span::between(Instant::ZERO, Instant::from_micros(it.row.duration_us)),
-            moves: it.frames > 0 || it.kinds.contains(&TrackKind::Media),
+            moves: it.shown().is_some() || it.kinds.contains(&TrackKind::Media),
         }
     };
     recordings.iter().filter(fits).map(row).collect()
@@ -212,6 +212,7 @@ mod tests {
             tiers: 0,
             tokens: 0,
             recipe: None,
+            face_alone: None,
         }
     }
 

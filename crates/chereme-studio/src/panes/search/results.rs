@@ -208,7 +208,7 @@ fn percent(score: f64) -> i64 {
 fn motion(hit: &Hit, seen: &Seen<'_>) -> Option<Motion> {
     let (name, span) = hits::place(hit)?;
     let recording = seen.snapshot.recording_named(name)?;
-    let is_seen = recording.frames > 0 || recording.kinds.contains(&TrackKind::Media);
+    let is_seen = recording.shown().is_some() || recording.kinds.contains(&TrackKind::Media);
     is_seen.then_some(Motion::Span(recording.row.id, span))
 }
 
