@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use chereme_corpus::{Choice, ExpressionPhase, Milestones, Ranked};
 use eframe::egui::{
-    Align2, Button, CollapsingHeader, Grid, Rect, RichText, Role, Sense, Stroke, StrokeKind,
-    TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, Button, CollapsingHeader, Grid, Rect, RichText, Role, ScrollArea, Sense, Stroke,
+    StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::{Faces, counted, data};
@@ -187,20 +187,23 @@ impl Faces {
             .id_salt("why")
             .default_open(true);
         let shown = header.show(ui, |ui| {
-            Grid::new("reasons").striped(true).show(ui, |ui| {
-                ui.weak(seen.say(words::PHASE));
-                ui.weak(seen.say(words::COST));
-                for channel in &choice.channels {
-                    ui.weak(channel.name);
-                }
-                ui.end_row();
-                for (phase, cells) in data::reasons(&chosen.parts, choice.channels.len()) {
-                    ui.label(seen.say(phase_text(phase)));
-                    for cell in cells {
-                        ui.monospace(cell);
+            // What is wider than the pane goes sideways by itself.
+            ScrollArea::horizontal().show(ui, |ui| {
+                Grid::new("reasons").striped(true).show(ui, |ui| {
+                    ui.weak(seen.say(words::PHASE));
+                    ui.weak(seen.say(words::COST));
+                    for channel in &choice.channels {
+                        ui.weak(channel.name);
                     }
                     ui.end_row();
-                }
+                    for (phase, cells) in data::reasons(&chosen.parts, choice.channels.len()) {
+                        ui.label(seen.say(phase_text(phase)));
+                        for cell in cells {
+                            ui.monospace(cell);
+                        }
+                        ui.end_row();
+                    }
+                });
             });
         });
         shown
