@@ -47,7 +47,7 @@ fn rows_of_keys(table: &mut Table) {
         let [code, text, sampa, ipa, expected] = row[..] else {
             continue;
         };
-        let expected: Vec<&str> = expected.split(' ').collect();
+        let expected: Vec<&str> = expected.split_whitespace().collect();
         all += 1;
         right += usize::from(keys(sampa, code, Some(Alphabet::Sampa)) == expected);
         if code == "french" {
