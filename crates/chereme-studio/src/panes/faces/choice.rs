@@ -187,7 +187,7 @@ impl Faces {
             .id_salt("why")
             .default_open(true);
         let shown = header.show(ui, |ui| {
-            // What is wider than the pane goes sideways by itself.
+            // A table that is wider than the pane scrolls sideways by itself.
             ScrollArea::horizontal().show(ui, |ui| {
                 Grid::new("reasons").striped(true).show(ui, |ui| {
                     ui.weak(seen.say(words::PHASE));
