@@ -153,7 +153,7 @@ fn turned(job: &LayoutJob, lines: &[Line]) -> LayoutJob {
             add("\n", range.start.saturating_sub(1), false);
         }
         let pieces = pieces(&job.text[range.clone()], &|at| {
-            boundary(job, range.start + at)
+            boundary(job, range.start + at).saturating_sub(range.start)
         });
         for (nth, piece) in pieces.iter().enumerate() {
             add(&piece.text, range.start + piece.range.start, nth == 0);
@@ -322,33 +322,32 @@ mod tests {
         }
     }
 
-    #[test]
-    fn colours_stay_with_their_letters() {
+    /// Lays out `parts`, each in its colour, and returns the pieces in visual order with their colours.
+    fn colours(parts: &[(&str, Color32)]) -> Vec<(String, Color32)> {
         let ctx = context();
         let mut job = LayoutJob::default();
-        let format = |colour| TextFormat::simple(FontId::proportional(14.0), colour);
-        job.append("كتاب ", 0.0, format(Color32::RED));
-        job.append("كبير", 0.0, format(Color32::GREEN));
+        for (text, colour) in parts {
+            let format = TextFormat::simple(FontId::proportional(14.0), *colour);
+            job.append(text, 0.0, format);
+        }
         let turned = in_order(&ctx, &laid_out(&ctx, job));
-        let looks: Vec<(&str, Color32)> = turned
-            .job
-            .sections
-            .iter()
-            .map(|it| {
-                (
-                    &turned.job.text[it.byte_range.start.0..it.byte_range.end.0],
-                    it.format.color,
-                )
-            })
-            .collect();
-        assert_eq!(
-            looks,
-            [
-                ("كبير", Color32::GREEN),
-                (" ", Color32::RED),
-                ("كتاب", Color32::RED)
-            ]
-        );
+        let text = |it: &LayoutSection| {
+            turned.job.text[it.byte_range.start.0..it.byte_range.end.0].to_owned()
+        };
+        let sections = turned.job.sections.iter();
+        sections.map(|it| (text(it), it.format.color)).collect()
+    }
+
+    #[test]
+    fn colours_stay_with_their_letters() {
+        let (red, green) = (Color32::RED, Color32::GREEN);
+        let wanted = [("كبير", green), (" ", red), ("كتاب", red)];
+        let wanted: Vec<_> = wanted.map(|(text, it)| (text.to_owned(), it)).into();
+        assert_eq!(colours(&[("كتاب ", red), ("كبير", green)]), wanted);
+        // On a second line, too.
+        let below = colours(&[("a\nab", red), ("cd", green)]);
+        let shown: Vec<(&str, Color32)> = below.iter().map(|it| (it.0.as_str(), it.1)).collect();
+        assert_eq!(shown, [("a", red), ("\n", red), ("ab", red), ("cd", green)]);
     }
 
     proptest! {
