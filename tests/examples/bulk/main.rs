@@ -20,8 +20,8 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 const HEAD: &str = "# Many takes imported by one command
 
 Written by `cargo run --release -p chereme-tests --example bulk`. Every take is a BVH file of its own with an EAF file; each row
-is a process of its own. *Before* is the most memory that the process used until the import began, *peak* the most at its end: what
-lies between them must not grow with the number of takes. *Steps* are the reports of progress.
+is a process of its own. *Before* is the most memory that the process used until the import began, *peak* the most at its end: their
+difference should not grow with the number of takes. *Steps* are the reports of progress.
 
 | takes | files | seconds | takes a second | steps | before | peak | recordings | annotations | refused |
 |--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|
