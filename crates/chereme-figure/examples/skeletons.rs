@@ -137,7 +137,7 @@ fn sized(clip: &Clip, size: impl Fn(&str) -> f64) -> Result<Clip, Box<dyn Error>
 fn child(name: &str) -> f64 {
     match name {
         _ if is_finger(name) => 0.62,
-        "Head" | "HeadTop_End" | "Neck" => 0.86,
+        "HeadTop_End" => 0.86,
         _ if name.ends_with("Leg") || name.ends_with("Foot") || name == "Hips" => 0.6,
         _ => 0.64,
     }

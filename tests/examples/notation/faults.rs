@@ -662,7 +662,7 @@ fn written(text: &str, said: &str, counts: &[Count]) -> Result<String> {
         })
         .collect();
     let mut table = String::from(
-        "\n| fault | before | today | signs in which it can occur |\n|---|--:|--:|--:|\n",
+        "\n| fault | before, of 325 | today | signs in which it can occur |\n|---|--:|--:|--:|\n",
     );
     for ((what, _), count) in FAULTS.iter().zip(counts) {
         let now = count.found.to_string();

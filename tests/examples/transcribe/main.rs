@@ -5,10 +5,13 @@
 //! is what was written, also of the half of the signs on which thresholds are tuned and of the other half;
 //! `... -- plain FOLDER BODY.bvh` does so without proving where hands are;
 //! `... -- blind FOLDER BODY.bvh` exports each sign as BVH, and transcribes that as any other capture;
-//! `... -- blind-why FEATURE FOLDER BODY.bvh` prints each part in which the feature differs from the notation;
+//! `... -- blind-why FEATURE FOLDER BODY.bvh` prints each part in which the feature differs from the notation, `... --
+//! blind-confusions FEATURE FOLDER BODY.bvh` counts pairs of written and found values; `... -- plain-why` and `... --
+//! plain-confusions` do so without export;
 //! `... -- why FEATURE FOLDER BODY.bvh` does so with the place proven, `... -- confusions FEATURE ...` counts pairs of
 //! written and found values, both in the half that is tuned on. In place of the folder a text file with a sign a line in
 //! HamNoSys characters will do. All are animated at the body's own frames a second, or at as many as stand behind it;
+//! `1/7` behind it takes one sign in seven;
 //! a file of body language behind it (`.json`) replaces numbers of the animator, not of the transcriber.
 //! `... -- movement FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
 
@@ -41,8 +44,17 @@ fn main() -> Result<()> {
         ["why", feature, folder, body, rate @ ..] => {
             closed(folder, body, rate, More::Why(feature))
         }
+        ["plain-why", feature, folder, body, rate @ ..] => {
+            closed(folder, body, rate, More::PlainWhy(feature))
+        }
         ["confusions", feature, folder, body, rate @ ..] => {
             closed(folder, body, rate, More::Confusions(feature))
+        }
+        ["blind-confusions", feature, folder, body, rate @ ..] => {
+            closed(folder, body, rate, More::BlindConfusions(feature))
+        }
+        ["plain-confusions", feature, folder, body, rate @ ..] => {
+            closed(folder, body, rate, More::PlainConfusions(feature))
         }
         ["movement", files @ ..] if !files.is_empty() => movement::table(files),
         _ => Err(
@@ -55,15 +67,18 @@ fn main() -> Result<()> {
 
 fn closed(folder: &str, body: &str, words: &[&str], more: More<'_>) -> Result<()> {
     let mut settings = Settings::default();
-    let mut rate = None;
+    let (mut rate, mut every) = (None, 1);
     for word in words {
         if word.ends_with(".json") {
             settings.language = settings
                 .language
                 .with_file(&std::fs::read_to_string(word)?)?;
+        } else if let Some(n) = word.strip_prefix("1/") {
+            every = n.parse::<usize>()?.max(1);
         } else {
             rate = Some(word.parse()?);
         }
     }
-    notation::table(Path::new(folder), Path::new(body), (rate, settings), more)
+    let folder = (Path::new(folder), every);
+    notation::table(folder, Path::new(body), (rate, settings), more)
 }

@@ -30,8 +30,32 @@ pub(crate) enum More<'a> {
     BlindWhy(&'a str),
     /// Every disagreement about a feature, or `all`, or `show` with each; only the half that is tuned on.
     Why(&'a str),
+    /// As `Plain`, with every disagreement about a feature in the half used for tuning.
+    PlainWhy(&'a str),
     /// The confusions and their counts, in the half used for tuning.
     Confusions(&'a str),
+    /// The same, of movement that is read without its notation.
+    BlindConfusions(&'a str),
+    /// The same, without re-synthesis.
+    PlainConfusions(&'a str),
+}
+
+impl More<'_> {
+    /// Returns whether the whole movement is exported and read as any other capture.
+    fn is_blind(self) -> bool {
+        matches!(
+            self,
+            Self::Blind | Self::BlindWhy(_) | Self::BlindConfusions(_)
+        )
+    }
+
+    /// Returns whether places are read without re-synthesis.
+    fn is_plain(self) -> bool {
+        matches!(
+            self,
+            Self::Plain | Self::PlainWhy(_) | Self::PlainConfusions(_)
+        )
+    }
 }
 
 /// How often a feature agrees: of all, where the body reaches it, and of each half of the signs.
@@ -53,7 +77,7 @@ impl Counts {
 
 /// Prints how often each feature is found again.
 pub(crate) fn table(
-    folder: &Path,
+    (folder, every): (&Path, usize),
     body: &Path,
     (rate, settings): (Option<u32>, Settings),
     more: More<'_>,
@@ -66,9 +90,9 @@ pub(crate) fn table(
         },
         ..settings
     };
-    let options = match more {
-        More::Blind | More::BlindWhy(_) => Options::default(),
-        _ => Options::made(),
+    let options = match more.is_blind() {
+        true => Options::default(),
+        false => Options::made(),
     };
     let mut counts: BTreeMap<&'static str, Counts> = BTreeMap::new();
     let mut confusions: BTreeMap<(String, String), usize> = BTreeMap::new();
@@ -80,6 +104,7 @@ pub(crate) fn table(
     };
     let todo: Vec<(&str, &Notated, &Manual)> = signs
         .iter()
+        .step_by(every)
         .filter(|(name, _)| {
             matches!(more, More::Nothing | More::Plain | More::Blind) || is_tuned_on(name)
         })
@@ -115,12 +140,16 @@ pub(crate) fn table(
             let count = counts.entry(verdict.feature).or_default();
             count.add(verdict.agrees, [true, !short, tuned, !tuned]);
             match more {
-                More::Confusions(of) if of == verdict.feature => {
+                More::Confusions(of) | More::BlindConfusions(of) | More::PlainConfusions(of)
+                    if of == verdict.feature =>
+                {
                     let mark = if verdict.agrees { "= " } else { "" };
-                    let pair = (verdict.written, format!("{mark}{}", verdict.found));
+                    // Distances belong to one sign each.
+                    let found = verdict.found.split('\t').next().unwrap_or_default();
+                    let pair = (verdict.written, format!("{mark}{found}"));
                     *confusions.entry(pair).or_default() += 1;
                 }
-                More::Why(of) | More::BlindWhy(of)
+                More::Why(of) | More::BlindWhy(of) | More::PlainWhy(of)
                     if !verdict.agrees && [verdict.feature, "all"].contains(&of) =>
                 {
                     println!(
@@ -263,7 +292,7 @@ fn again(
         .iter()
         .find(|note| note.about == chereme_compose::About::Gloss)?
         .span;
-    if matches!(more, More::Blind | More::BlindWhy(_)) {
+    if more.is_blind() {
         return blind(made, span, options);
     }
     let rate = made.clip.rate();
@@ -271,9 +300,9 @@ fn again(
     let clip = made.clip.slice(first..last + 1);
     let began = Clock::now();
     let performs = Performed(Performer::new(stage.clone(), settings.clone()).ok()?);
-    let found = match more {
-        More::Plain => transcribe(&clip, &made.anatomy, options).ok()?,
-        _ => transcribe_proven(&clip, &made.anatomy, options, &performs).ok()?,
+    let found = match more.is_plain() {
+        true => transcribe(&clip, &made.anatomy, options).ok()?,
+        false => transcribe_proven(&clip, &made.anatomy, options, &performs).ok()?,
     };
     let seconds = began.elapsed().as_secs_f64();
     let short = is_short(&made);
