@@ -13,6 +13,9 @@ const SOFT: f64 = 0.012;
 /// The heights between which the collar bone rises with the wrist, in arm lengths: the first below the shoulder, the
 /// second above it.
 const RISES: [f64; 2] = [0.0, 0.45];
+/// A collar bone helps an arm to reach far in full if the arm points down by at most the first share of its
+/// length, and not at all from the second share on: a hanging arm pulls no shoulder down.
+const HANGS: [f64; 2] = [0.7, 0.93];
 
 /// The bones of one arm, on a body that stands still.
 pub(crate) struct Rig {
@@ -458,7 +461,10 @@ impl Rig {
         };
         // Reaches towards a far wrist, and draws back from one nearer than the elbow folds.
         let near = 1.06 * self.nearest(limits).sqrt();
-        let missing = (far - limits.help.0 * self.length()).max(0.0) - (near - far).max(0.0);
+        let down = (self.shoulder.y - wrist.y) / far.max(1e-9);
+        let helps = 1.0 - smooth((down - HANGS[0]) / (HANGS[1] - HANGS[0]));
+        let far_off = helps * (far - limits.help.0 * self.length()).max(0.0);
+        let missing = far_off - (near - far).max(0.0);
         let reach = bone
             .cross(wrist - clavicle.at)
             .try_normalize()
