@@ -263,7 +263,7 @@ fn a_table_of_many_rows_names_no_thousand_ids() {
     let done = desk.pipe(&format!("annotate {path} from -"), table.as_bytes());
     let said = text(&done.stdout);
     assert!(
-        said.starts_with("300 added") && said.len() < 200,
+        said.starts_with("300 annotations added") && said.len() < 200,
         "{said}{}",
         text(&done.stderr)
     );
