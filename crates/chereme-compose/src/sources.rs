@@ -373,7 +373,7 @@ pub enum SourceError {
         address: String,
         /// The reason.
         why: String,
-        /// What would work, if that is known.
+        /// The remedy, if one is known.
         remedy: Option<Box<str>>,
     },
     /// The sign has no notation.

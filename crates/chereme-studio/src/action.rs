@@ -97,7 +97,7 @@ pub(crate) enum Owner {
     Window,
     /// The window, by bringing that pane to the front.
     Shows(PaneKind),
-    /// What plays on the stage.
+    /// The player: the recording or sign on the stage.
     Player,
     /// The window, with a corpus open.
     WithCorpus,

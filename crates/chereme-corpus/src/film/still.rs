@@ -7,15 +7,16 @@ use crate::Corpus;
 use crate::address::Name;
 use crate::error::Result;
 
-/// A frame so many frames after the last one at which decoding can begin is quickly decoded.
+/// The most frames that are decoded to reach a moment; beyond, the frame at which decoding begins stands for it.
 const NEAR: usize = 30;
 
 impl Corpus {
-    /// Returns a picture of a recording's first film that plays here, at a moment of the recording's clock or a little
-    /// before it, where a picture is quickly decoded; it is no larger than `within`. Nothing if no film is there.
+    /// Returns a picture of the first film of a recording that can be decoded, at most as large as `within` (width,
+    /// height); `None` if there is none. It shows `at` of the recording's clock, or the last frame before it at which
+    /// decoding can begin if that is more than 30 frames earlier.
     ///
     /// # Errors
-    /// If there is no such recording, or the database fails. A film that cannot be decoded is passed over.
+    /// Fails if the recording does not exist, or the database fails.
     pub fn film_still(
         &self,
         recording: &Name,

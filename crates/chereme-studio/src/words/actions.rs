@@ -1,4 +1,4 @@
-//! What the window says of actions; their names stand in the table of actions.
+//! Notices of actions; the names of actions stand in their table.
 
 texts! {
     NO_RECIPE: "The stage does not show a generated sign. Choose one in the library first.", "Ce qui est montré n’a pas été composé par une recette. Choisissez d’abord un signe composé dans le fonds.";
