@@ -28,15 +28,15 @@ pub(crate) struct Cli {
     /// Print one JSON document on standard output instead of tables
     #[arg(long, global = true)]
     pub(crate) json: bool,
-    /// Your name in the history; else CHEREME_AUTHOR of the environment, or the user of the machine
+    /// Your name in the history; without it the environment variable CHEREME_AUTHOR, or the name of the machine's user
     #[arg(long, global = true, value_name = "NAME")]
     pub(crate) author: Option<String>,
-    /// How many letters wide tables are, 0 for as wide as they need; else as wide as the terminal, or
-    /// unshortened if the output goes to a file or another program
+    /// The width of tables in letters, 0 for their full width; without it the width of the terminal, or the full width
+    /// if the output goes to a file or another program
     #[arg(long, global = true, value_name = "LETTERS")]
     pub(crate) width: Option<usize>,
-    /// The language of help, tables and messages, en or fr, also after the command; else that of the locale.
-    /// JSON is always in English
+    /// The language of help, tables and messages: en or fr; without it the language of the system. JSON is always in
+    /// English
     #[arg(long, value_name = "LANGUAGE", value_parser = ["en", "fr"])]
     pub(crate) language: Option<String>,
     #[command(subcommand)]

@@ -1,4 +1,4 @@
-//! `chereme animate`.
+//! `chereme animate`: generates movement from HamNoSys or SiGML on a body of the corpus.
 
 use std::path::PathBuf;
 
@@ -11,10 +11,10 @@ use crate::streams;
 
 /// Synthesise movement from notation: HamNoSys or SiGML, on any body
 ///
-/// The notation is a SiGML file, HamNoSys as characters or as names of symbols in quotes, a file of it
-/// (.hns or .txt), or a sign that the corpus holds as notation: a gloss, token:41. Several follow one
-/// another, the hand going straight from one to the next. With --as the movement is stored as a new
-/// sign, with its own tiers and its recipe.
+/// The notation is a SiGML file; HamNoSys in quotes, as characters or as names of symbols; a file with lines of
+/// HamNoSys (.hns or .txt); or a sign that the corpus holds as notation, such as a gloss or token:41. Several signs are
+/// performed one after another, and the hands move straight from one to the next. With --as the movement is stored as a
+/// new sign, with its own tiers and its recipe.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -28,18 +28,20 @@ pub(crate) struct Args {
     /// The notation: a file, HamNoSys text, or a notated sign; - is SiGML or HamNoSys from standard input
     #[arg(required = true)]
     notation: Vec<String>,
-    /// Whose body signs: a signer, or a recording for its skeleton (signer:NAME, recording:NAME); else the corpus chooses
+    /// The body that signs: that of a signer (signer:NAME), or the skeleton of a recording (recording:NAME); without it
+    /// the program chooses one
     #[arg(long, value_name = "SIGNER")]
     signer: Option<String>,
-    /// How large, how long and how deep movements are: default, quiet (default, but nothing moves that is not written:
-    /// no sway, no blinks), measured (in the corpus's captured signs, where eight or more show it), or a file of numbers
-    /// and places in the form of the program's own; else measured
+    /// The size, duration and depth of movements: default; quiet (the default without sway, blinks and other movement
+    /// that the notation does not write); measured (every number that at least eight captured signs of the corpus show,
+    /// else the default); or a JSON file of your own numbers, as in schema/notation/body_language.json; without the
+    /// option measured
     #[arg(long, value_name = "LANGUAGE")]
     language: Option<String>,
     /// The gloss of the new sign; without it nothing is stored
     #[arg(long = "as", value_name = "GLOSS")]
     gloss: Option<String>,
-    /// Show how the movement comes about: strokes, residuals, what was approximated
+    /// Explain the movement: strokes, residuals, approximations
     #[arg(long)]
     explain: bool,
     /// Draw the movement to a contact sheet (.png), an animation (.gif) or a film (.mp4)

@@ -1,4 +1,4 @@
-//! `chereme annotate`.
+//! `chereme annotate`: adds, changes and removes annotations, one by one or from a table.
 
 use std::path::{Path, PathBuf};
 
@@ -17,10 +17,9 @@ use crate::streams;
 
 /// Add, change, move, split, merge, replace and remove annotations and tiers; in bulk from a table
 ///
-/// Each call is one operation that `chereme undo` takes back. The rules of the tiers hold: a change that
-/// would break one is refused, with a remedy. Times are 1.5, 1.5s, 1500ms, 0:01.500 or a frame,
-/// f90. A tier is tier:12, or its name with --in RECORDING; an annotation is annotation:12, or its id
-/// in the file it came from.
+/// Each call is one operation that `chereme undo` takes back. A change that would break a rule of the tiers is refused,
+/// with a remedy. A time is 1.5, 1.5s, 1500ms, 0:01.500 or a frame such as f90. A tier is tier:12, or its name with
+/// --in RECORDING; an annotation is annotation:12, or its id in the file from which it was imported.
 ///
 /// Actions on annotations: add, set, split, merge, reorder, remove, replace, shift, from. On tiers: add-tier,
 /// add-tiers, tier, copy-tier, remove-tier. On other things: recording, signer, sign, cite.
@@ -28,16 +27,16 @@ use crate::streams;
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The recording meant by names of tiers and ids of annotations: recording:3 or its name
+    /// The recording of the named tiers and annotations: recording:3 or its name
     #[arg(long = "in", value_name = "RECORDING", global = true)]
     recording: Option<String>,
     /// Move boundaries to the nearest frames of the recording's movement
     #[arg(long, global = true)]
     snap: bool,
-    /// How annotations give way to one that is added or moved
+    /// The treatment of annotations in the way of one that is added or moved
     #[arg(long, global = true, value_enum, default_value_t = ModeWord::Normal, hide_possible_values = false)]
     mode: ModeWord,
-    /// Report the ids of all annotations; else of at most 100 in JSON, and of at most 20 in words
+    /// Report the ids of all annotations; without it of at most 100 in JSON, and of at most 20 in text
     #[arg(long, global = true)]
     ids: bool,
     #[command(subcommand)]
@@ -48,9 +47,9 @@ pub(crate) struct Args {
 enum ModeWord {
     /// They stay, and the change is refused
     Normal,
-    /// They are pushed on as far as they are in the way
+    /// They are pushed along as far as necessary
     Bulldozer,
-    /// All that comes after moves along
+    /// All later annotations of the tier move along
     Shift,
 }
 
@@ -70,32 +69,32 @@ enum Action {
     Add {
         /// The tier
         tier: String,
-        /// What it says; unset, n/a and unclear are the three kinds of missing values
+        /// Its value; unset, n/a and unclear are the three kinds of missing values
         value: String,
-        /// Where it starts
+        /// Its start time
         #[arg(long)]
         start: Option<Moment>,
-        /// Where it ends
+        /// Its end time
         #[arg(long)]
         end: Option<Moment>,
-        /// The annotation above it, on a tier whose annotations have no times of their own
+        /// Its parent annotation, on a tier whose annotations have no times of their own
         #[arg(long)]
         parent: Option<String>,
-        /// Its place among its siblings, from 0
+        /// Its position among its siblings, counted from 0
         #[arg(long)]
         order: Option<u32>,
     },
-    /// Change what an annotation says, or move it
+    /// Change the value of an annotation, or move it
     Set {
         /// The annotation
         annotation: String,
         /// Its new value
         #[arg(long)]
         value: Option<String>,
-        /// Where it starts from now on
+        /// Its new start time
         #[arg(long)]
         start: Option<Moment>,
-        /// Where it ends from now on
+        /// Its new end time
         #[arg(long)]
         end: Option<Moment>,
     },
@@ -103,28 +102,28 @@ enum Action {
     Split {
         /// The annotation, which becomes the first half
         annotation: String,
-        /// Where to cut
+        /// The time of the cut
         #[arg(long)]
         at: Moment,
     },
-    /// Make one annotation of two neighbours
+    /// Merge two neighbouring annotations into one
     Merge {
         /// The earlier one, which stays
         first: String,
-        /// The later one, which goes
+        /// The later one, which is removed
         second: String,
-        /// What the one says; needed where the two differ
+        /// The value of the merged annotation; needed if the two values differ
         #[arg(long)]
         value: Option<String>,
     },
-    /// Give an annotation of a list another place among its siblings
+    /// Move an annotation of a symbolic subdivision to another position among its siblings
     Reorder {
         /// The annotation
         annotation: String,
-        /// The place, from 0
+        /// The position, counted from 0
         order: u32,
     },
-    /// Remove annotations with all below them
+    /// Remove annotations, with all that depend on them
     Remove {
         /// The annotations
         #[arg(required = true)]
@@ -134,39 +133,39 @@ enum Action {
     Replace {
         /// The text to look for, letter by letter, anywhere in a value
         find: String,
-        /// The text to put there
+        /// The replacement
         with: String,
         /// Take the text as a regular expression; $1 in the new text is its first group
         #[arg(long)]
         regex: bool,
-        /// Only values that are the text and nothing else
+        /// Only values that equal the whole text
         #[arg(long, conflicts_with = "regex")]
         whole: bool,
-        /// Only tiers of this name, * for any letters; or tier:12
+        /// Only tiers with this name, where * stands for any letters; or tier:12
         #[arg(long = "tier", value_name = "TIER")]
         tiers: Vec<String>,
         /// Report what would change, and write nothing
         #[arg(long)]
         dry_run: bool,
     },
-    /// Move all annotations of tiers, of the recording named by --in, in time
+    /// Shift all annotations of tiers in time, in the recording named by --in
     ///
-    /// Tiers below go along. Without --tier all tiers of the recording move.
+    /// Dependent tiers are shifted, too. Without --tier all tiers of the recording are shifted.
     Shift {
-        /// By how much: 0.2s, -200ms; minus is earlier
+        /// The amount, such as 0.2s or -200ms; a negative amount shifts towards the start
         #[arg(long, allow_hyphen_values = true, value_parser = signed)]
         by: i64,
-        /// Only tiers of this name, * for any letters; or tier:12
+        /// Only tiers with this name, where * stands for any letters; or tier:12
         #[arg(long = "tier", value_name = "TIER")]
         tiers: Vec<String>,
-        /// Report how many would move, and write nothing
+        /// Report how many annotations would move, and write nothing
         #[arg(long)]
         dry_run: bool,
     },
-    /// Make the changes of a table, all of them or none
+    /// Carry out the changes in a table, all of them or none
     ///
-    /// Columns: recording, tier, start, end, duration, value, action (add, set, remove), id, parent. The unit of
-    /// times stands in the title (start_ms, `end [s]`), with the number (1500ms), or in --unit; else they are
+    /// Columns: recording, tier, start, end, duration, value, action (add, set, remove), id, parent. The title
+    /// (start_ms, `end [s]`), the number (1500ms) or --unit gives the unit of times; without any of them times are in
     /// seconds. The tab-delimited text that ELAN exports is such a table, with and without titles.
     From {
         /// The table (.csv, .tsv or .txt); - is standard input

@@ -1,4 +1,4 @@
-//! `chereme check`.
+//! `chereme check`: looks for damage in a corpus, and rebuilds derived data that are wrong.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -16,7 +16,7 @@ use crate::output::{Bar, Output};
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// Rebuild what is derived (tokens, search index) if it is wrong
+    /// Rebuild derived data (tokens, search index) that are wrong
     #[arg(long)]
     mend: bool,
 }

@@ -1,4 +1,4 @@
-//! `chereme choose`.
+//! `chereme choose`: ranks recorded expressions of the face for a sentence, and animates it with one of them.
 
 use std::path::PathBuf;
 
@@ -10,18 +10,19 @@ use serde_json::json;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 
-/// Rank the recorded performances of a function for a sentence, and animate it with one of them
+/// Rank recorded expressions of the face, such as those of a negation, for a sentence, and animate it with one of them
 ///
-/// Each phase of a performance (see `milestones`) is aligned with the same phase of the sentence's own face by dynamic time
-/// warping; the sum, times the ratio of lengths, is the score: 0 is alike. A sentence whose face was not recorded gets
-/// the most usual performance, the medoid. A recording is never its own candidate; equal scores are ordered by name.
+/// Dynamic time warping aligns each phase of a recorded performance (see `milestones`) with the same phase of the
+/// sentence's own face. The score is the sum of the distances times the ratio of lengths; 0 is the same face. If the
+/// sentence's face was not recorded, the most typical performance, the medoid, comes first. A recording is never its
+/// own candidate; equal scores are ordered by name.
 ///
-/// With --as the sentence is made again with head, trunk and face of the first performance (or of --use), each phase
-/// stretched onto the sentence's own.
+/// With --as the sentence is generated again with head, trunk and face of the first performance, or of the one that
+/// --use names; each of its phases is stretched to the length of the sentence's own.
 ///
 /// `--json` gives "ranking", each with "token", "recording", "score", "unstretched", "stretch", "partial", "phases"
-/// ("phase", "frames", "distance", "normalized", "made", "channels") and "channels", and "channels", "left_out", "compared",
-/// "adapted", "skipped"; with --as "made" and "recipe".
+/// ("phase", "frames", "distance", "normalized", "made", "channels") and "channels", and "channels", "left_out",
+/// "compared", "adapted", "skipped"; with --as "made" and "recipe".
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -31,13 +32,14 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The function: negation, wh, yn, topic, conditional, rhetorical, or another word of the tier of functions
+    /// The function of the expression: negation, wh, yn, topic, conditional, rhetorical, or another word of the tier of
+    /// functions
     #[arg(long)]
     function: String,
     /// The sentence: a recording, a token in it, or the annotation of its function
     #[arg(long = "for", value_name = "TOKEN")]
     target: String,
-    /// What comes first
+    /// The order of the ranking
     #[arg(long, value_enum, default_value = "nearest")]
     rank: RankArg,
     #[command(flatten)]
@@ -48,7 +50,7 @@ pub(crate) struct Args {
     /// Animate the sentence with the face, and store it under this gloss
     #[arg(long = "as", value_name = "GLOSS")]
     gloss: Option<String>,
-    /// The performance to animate with, by its address; else the first of the ranking
+    /// The address of the performance to animate with; without it the first of the ranking
     #[arg(long = "use", value_name = "TOKEN", requires = "gloss")]
     chosen: Option<String>,
 }
@@ -56,16 +58,16 @@ pub(crate) struct Args {
 /// How performances are compared.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Comparing {
-    /// The channels, with commas between: head, brow, eye, gaze, jaw, mouth …; else head and brows
+    /// The channels to compare, separated by commas: head, brow, eye, gaze, jaw, mouth …; without it head and brows
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
     pub(super) channels: Vec<String>,
-    /// The weights of onset, first, rest and offset, such as 1,2,2,0.5
+    /// The weights of the phases onset, first, rest and offset, such as 1,2,2,0.5
     #[arg(long, value_delimiter = ',', num_args = 4, value_name = "W,W,W,W")]
     pub(super) weights: Vec<f64>,
     /// Leave the ratio of lengths out of the score
     #[arg(long)]
     pub(super) no_stretch: bool,
-    /// Refuse phases whose lengths the paper's window does not connect, instead of widening it
+    /// Refuse phases that no path within the alignment window (10 frames) connects, instead of widening the window
     #[arg(long)]
     pub(super) strict: bool,
 }
@@ -93,11 +95,11 @@ impl Comparing {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum RankArg {
-    /// The most alike to the sentence's own face; without one the medoid
+    /// The most similar to the sentence's own face; the medoid if that face was not recorded
     Nearest,
-    /// The least alike to the sentence's own face
+    /// The least similar to the sentence's own face
     Farthest,
-    /// The most alike to all others
+    /// The most similar to all others
     Medoid,
 }
 

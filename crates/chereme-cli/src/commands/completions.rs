@@ -1,4 +1,4 @@
-//! `chereme completions` and `chereme man`.
+//! `chereme completions` and `chereme man`: scripts for shells, and manual pages.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use clap_complete::Shell;
 use crate::args::Cli;
 use crate::output::Output;
 
-/// Write the completions of a shell to standard output
+/// Write the completion script of a shell to standard output
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -25,10 +25,10 @@ pub(crate) struct Args {
     shell: Shell,
 }
 
-/// Write the manual pages, in the form of the program `man`
+/// Write the manual pages for the program `man`
 #[derive(Debug, clap::Args)]
 pub(crate) struct ManArgs {
-    /// The folder for a page of each command; without it the page of the whole goes to standard output
+    /// The folder for the pages, one for each command; without it the page of the whole program goes to standard output
     #[arg(long, value_name = "FOLDER")]
     to: Option<PathBuf>,
 }

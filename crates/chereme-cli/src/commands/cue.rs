@@ -1,4 +1,4 @@
-//! `chereme cue`.
+//! `chereme cue`: generates the hand of cued speech for a text.
 
 use std::path::PathBuf;
 
@@ -12,11 +12,12 @@ use super::keys::Spoken;
 use crate::args::Cli;
 use crate::output::Output;
 
-/// Cue a text: the hand of cued speech next to the speaking face, on any body
+/// Generate cued speech for a text: the cueing hand next to the speaking face, on any body
 ///
-/// French text is read by rules of spelling, phones with --phones; --from takes phones and their times from a
-/// TextGrid or an EAF file. With --as the movement is stored as a new sign with tiers for phones, keys, hand
-/// and fingers: `cue.shape=5 cue.placement=throat` finds its keys, `cue=24 meets cue=31` pairs of them.
+/// Rules of spelling turn French text into phones. With --phones the input itself is phones; --from takes phones and
+/// their times from a TextGrid or an EAF file. With --as the movement is stored as a new sign with tiers for phones,
+/// keys, hand and fingers; then the query `cue.shape=5 cue.placement=throat` finds its keys, and `cue=24 meets cue=31`
+/// finds pairs of keys.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -29,13 +30,14 @@ pub(crate) struct Args {
     corpus: PathBuf,
     #[command(flatten)]
     spoken: Spoken,
-    /// Whose body cues: a signer, or a recording for its skeleton; else the corpus chooses
+    /// The body that cues: that of a signer (signer:NAME), or the skeleton of a recording (recording:NAME); without it
+    /// the program chooses one
     #[arg(long, value_name = "SIGNER")]
     signer: Option<String>,
-    /// Which rule says when the hand is where
+    /// The rule for the timing of hand and fingers
     #[arg(long, value_enum, default_value = "paper")]
     by: RuleWord,
-    /// Sounds last FACTOR times as long as usual, from 0.1 to 10; else 1.6
+    /// The duration of sounds as a multiple of the usual one, from 0.1 to 10; without it 1.6
     #[arg(long, value_name = "FACTOR")]
     pace: Option<f64>,
     /// Cue with the left hand
@@ -44,7 +46,7 @@ pub(crate) struct Args {
     /// The gloss of the new sign; without it nothing is stored
     #[arg(long = "as", value_name = "GLOSS")]
     gloss: Option<String>,
-    /// Show how the movement comes about
+    /// Explain the movement
     #[arg(long)]
     explain: bool,
     /// Draw the movement to a contact sheet (.png) or an animation (.gif)

@@ -1,4 +1,4 @@
-//! `chereme cued`.
+//! `chereme cued`: evaluates captured cued speech, from markers to a dictionary of movements.
 
 use std::path::PathBuf;
 
@@ -17,10 +17,11 @@ use crate::output::{Bar, Output};
 
 /// Work with captured cued speech: markers, restoration, recognition, targets, phases, dictionary, slips
 ///
-/// A take is a recording of a cuer's markers (C3D, TRC) with tiers called Phones or Keys from a TextGrid or EAF file of the
-/// same name. Markers are called FA1-5 on the forearm, HB1-7 on the back of the hand, I, M, R, L 1-8 on the fingers, T1-6 on
-/// the thumb; RF1-5, RN1-2, RE1-2 on forehead, nose and ears, LP1-16 on the lips, CK1-12 on the cheeks, JW1-8 on the jaw,
-/// TH1-18 on the throat. A table maps other labels. Where no recording is named, all captured takes are meant.
+/// A take is a recording of a cuer's markers (C3D, TRC) with tiers called Phones or Keys from a TextGrid or EAF file of
+/// the same name. Markers are called FA1-5 on the forearm, HB1-7 on the back of the hand, I, M, R, L 1-8 on the
+/// fingers, T1-6 on the thumb; RF1-5, RN1-2, RE1-2 on forehead, nose and ears, LP1-16 on the lips, CK1-12 on the
+/// cheeks, JW1-8 on the jaw, TH1-18 on the throat. If the files use other labels, --labels names a table that maps
+/// them. Without a named recording the command works on all captured takes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -41,7 +42,7 @@ pub(crate) struct Args {
     /// A habit of the cuer, such as schwa-as-eu; may be repeated
     #[arg(long = "variant", value_name = "NAME", global = true)]
     variants: Vec<String>,
-    /// A table of two columns: the program's name of a marker, and the label in the files
+    /// A table of two columns: the program's name of a marker, and its label in the files
     #[arg(long, value_name = "FILE", global = true)]
     labels: Option<PathBuf>,
     #[command(subcommand)]
@@ -50,33 +51,33 @@ pub(crate) struct Args {
 
 #[derive(Debug, Subcommand)]
 enum Action {
-    /// Report which markers of a recording are known, and how much of them is seen
+    /// Report the known markers of a recording, and how often they are visible
     Markers {
         /// The recording
         #[arg(value_parser = recording)]
         recording: Name,
     },
-    /// Restore hidden markers from models of hand and face, as a track of their own with predicted errors
+    /// Restore hidden markers from models of hand and face, as a separate track with predicted errors
     Restore {
         /// The recordings whose markers are restored
         #[arg(value_parser = recording)]
         recordings: Vec<Name>,
-        /// The recordings from which the models learn; else those of the hand alone and of the face alone, or all
+        /// The recordings from which the models learn; without it those of the hand alone and of the face alone, or all
         #[arg(long, value_name = "RECORDING", value_parser = recording)]
         train: Vec<Name>,
-        /// How many components the posture of the hand has, from 1 to 25
+        /// The number of principal components of the hand's posture, from 1 to 25
         #[arg(long, default_value_t = 20, value_name = "N")]
         components: usize,
         /// Report the errors and store nothing
         #[arg(long)]
         dry_run: bool,
     },
-    /// Recognise shapes and placements at the targets of keys, with tables of what was taken for what
+    /// Recognise shapes and placements at the targets of keys, with confusion tables
     Recognise {
-        /// The recordings from which the recognisers learn; else every second one
+        /// The recordings from which the recognisers learn; without it every second one
         #[arg(long, value_name = "RECORDING", value_parser = recording)]
         train: Vec<Name>,
-        /// The recordings that are recognised; else the others
+        /// The recordings that are recognised; without it all others
         #[arg(long, value_name = "RECORDING", value_parser = recording)]
         test: Vec<Name>,
     },
@@ -89,7 +90,7 @@ enum Action {
         #[arg(long)]
         store: bool,
     },
-    /// Measure when hand and fingers begin and arrive against the sounds, by kind of key
+    /// Measure when hand and fingers start and arrive relative to the sounds, by kind of key
     Phases {
         /// The recordings
         #[arg(value_parser = recording)]
@@ -97,20 +98,21 @@ enum Action {
         /// Draw medians and quartiles to a picture (.svg)
         #[arg(long, value_name = "FILE")]
         draw: Option<PathBuf>,
-        /// Write over a picture that is there already
+        /// Replace a picture that exists already
         #[arg(long)]
         force: bool,
     },
-    /// List the movements between keys that captured takes give, and what a script lacks of them
+    /// List the movements between keys in captured takes, and those that a script needs in addition
     Dictionary {
         /// The recordings
         #[arg(value_parser = recording)]
         recordings: Vec<Name>,
-        /// A text with a sentence on each line: report its coverage, and which sentences would add most
+        /// The script, a text with one sentence on each line: report how much of it the takes cover, and which
+        /// sentences would add most
         #[arg(long, value_name = "FILE")]
         script: Option<PathBuf>,
     },
-    /// Put a sentence together from the dictionary, and read it back
+    /// Compose a sentence from the dictionary, and recognise its keys as a check
     Say {
         /// The text, or phones with --phones
         text: String,
@@ -120,16 +122,16 @@ enum Action {
         /// The recordings from which the dictionary is cut
         #[arg(long = "from", value_name = "RECORDING", value_parser = recording)]
         recordings: Vec<Name>,
-        /// Which rule says when the hand is where
+        /// The rule for the timing of hand and fingers
         #[arg(long, value_enum, default_value = "paper")]
         by: RuleWord,
-        /// Sounds last FACTOR times as long as usual, from 0.1 to 10; else 1.6
+        /// The duration of sounds as a multiple of the usual one, from 0.1 to 10; without it 1.6
         #[arg(long, value_name = "FACTOR")]
         pace: Option<f64>,
         /// The cost of a duration that differs by 100 ms
         #[arg(long, default_value_t = 1.0, value_name = "COST")]
         duration_cost: f64,
-        /// The cost of a join if its ends differ by the spread within one key
+        /// The cost of a join whose ends differ by the spread within one key
         #[arg(long, default_value_t = 1.0, value_name = "COST")]
         join_cost: f64,
         /// The gloss of the new recording; without it nothing is stored
@@ -141,10 +143,10 @@ enum Action {
         /// The recording
         #[arg(value_parser = recording)]
         recording: Name,
-        /// The text that was cued; else the tier of phones predicts the keys
+        /// The text that was cued; without it the tier of phones predicts the keys
         #[arg(long)]
         text: Option<String>,
-        /// Read the produced keys off the markers, even if a tier has them
+        /// Recognise the produced keys from the markers, even if a tier gives them
         #[arg(long)]
         recognised: bool,
     },

@@ -1,4 +1,4 @@
-//! `chereme diff`.
+//! `chereme diff`: compares two annotation files or two recordings by meaning.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -14,13 +14,13 @@ use crate::streams;
 
 /// Compare two annotation files, or two recordings, by meaning
 ///
-/// It lists annotations that were added, removed, moved or say something else, and changes of tiers. Time slots,
-/// the order of elements and the spelling of a file make no difference; times within a millisecond are equal.
-/// Annotations are the same by their ids if both files descend from one, else by tier and time. Both sides are
-/// files (.eaf, .etf, .TextGrid, .srt, .vtt; - is standard input), or a corpus comes first and the sides are
-/// addresses such as recording:3 or files. With --json it prints {"added", "removed", "moved", "revalued",
-/// "tiers", "document"}. It exits with 0 if it could compare, with 1 if it could not or, with --exit-code, if
-/// there are differences, and with 2 on wrong usage.
+/// Lists annotations that were added, removed, moved or given another value, and changes of tiers. Time slots, the
+/// order of elements and the spelling of a file make no difference; times within a millisecond are equal. Annotations
+/// are matched by their ids if both files descend from the same file, otherwise by tier and time. Both sides are files
+/// (.eaf, .etf, .TextGrid, .srt, .vtt; - is standard input), or the first argument is a corpus, and the sides are files
+/// or addresses such as recording:3. With --json it prints {"added", "removed", "moved", "revalued", "tiers",
+/// "document"}. The exit code is 0 after a comparison, 1 if the comparison failed or, with --exit-code, if there are
+/// differences, and 2 on wrong usage.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

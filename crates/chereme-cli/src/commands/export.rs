@@ -1,4 +1,4 @@
-//! `chereme export`.
+//! `chereme export`: writes movement, tiers, tables or the whole database as files.
 
 use std::io;
 use std::path::PathBuf;
@@ -10,21 +10,21 @@ use crate::args::Cli;
 use crate::output::{Bar, Output, tell};
 use crate::streams;
 
-/// Write out movement, annotations, tables, or the whole enriched database
+/// Export movement, annotations, tables, or the whole enriched database
 ///
-/// The extension of --to says the format: .bvh (movement of a recording or token), .glb (the same as glTF, for
+/// The extension of --to determines the format: .bvh (movement of a recording or token), .glb (the same as glTF, for
 /// Blender and the web, with the annotations), .vrma (movement for avatars), .c3d, .trc or .markers.csv (markers), .eaf
 /// or .TextGrid (a recording's tiers, for ELAN or Praat), .elan.txt (the same as ELAN's tab-delimited text), .srt or
-/// .vtt (its translations or glosses as subtitles), .csv or .tsv (tokens with all components), .curves.csv (how much there is of each
-/// non-manual, frame by frame), .sigml (notated signs as gestural SiGML),
-/// .hsigml (the same as HamNoSys's symbols), .hns or .txt (as HamNoSys text, a sign a line), .parquet (tokens for pandas,
-/// polars and DuckDB), .components.parquet, .annotations.parquet and .frames.parquet (a value, an annotation, a joint of a
-/// frame a row), if the program was built with `--features parquet`. A name
-/// without an extension is a folder: with --format it gets a file of that format for each recording
-/// or token; without it, for all, the database, a data dictionary with example queries, a table a file, the
-/// recordings, the inventories, checksums and provenance. With --to - the file goes to standard output.
-/// An EAF file that nobody changed comes back byte for byte, and a change changes its own lines only.
-/// The same corpus always gives the same bytes.
+/// .vtt (its translations or glosses as subtitles), .csv or .tsv (tokens with all components), .curves.csv (the
+/// strength of each non-manual, frame by frame), .sigml (notated signs as gestural SiGML), .hsigml (the same as
+/// HamNoSys's symbols), .hns or .txt (the same as HamNoSys text, one sign on each line), and, if the program was built
+/// with `--features parquet`, .parquet (tokens for pandas, polars and DuckDB), .components.parquet,
+/// .annotations.parquet and .frames.parquet (a row for each value, each annotation, or each joint in each frame). A
+/// name without an extension is a folder: with --format it gets a file of that format for each recording or token.
+/// Without --format `all` writes into it the database, a data dictionary with example queries, a file for each table,
+/// the recordings, the inventories, checksums and provenance. With --to - the file goes to standard output. An EAF file
+/// that nobody changed comes back byte for byte, and an edit changes only its own lines. The same corpus always gives
+/// the same bytes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -37,17 +37,17 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// What: all, a gloss, token:41, recording:3, tier:12, inventory:configurations (as .json), or
+    /// What to export: all, a gloss, token:41, recording:3, tier:12, inventory:configurations (as .json), or
     /// query:'right.configuration=U'; several are written together
     #[arg(required = true)]
     what: Vec<String>,
     /// The file or folder to write; - is standard output
     #[arg(long, value_name = "PATH")]
     to: PathBuf,
-    /// The format, such as bvh or csv: needed with --to -, and to write a file for each into a folder
+    /// The format, such as bvh or csv; needed with --to -, and to write several files into a folder
     #[arg(long, value_name = "FORMAT")]
     format: Option<String>,
-    /// Write over a file that is there already
+    /// Replace a file that exists already
     #[arg(long)]
     force: bool,
 }

@@ -1,4 +1,4 @@
-//! `chereme face`.
+//! `chereme face`: shows and fits captured faces, proposes annotations from them, and lists the face systems.
 
 use std::path::PathBuf;
 
@@ -9,11 +9,11 @@ use serde_json::json;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 
-/// Show a captured face as numbers of the house's face, or the face systems that are understood
+/// Show a captured face in the program's own numbers, or list the supported face systems
 ///
-/// Captured channels stay as their file has them; the house's face is derived from them, also from the points of a face on
-/// film (.pose), which is an estimate. Without a recording the command
-/// lists the systems (ARKit, MediaPipe, OpenFace, MPEG-4, SiGML), and with --system what the mapping of one loses.
+/// Captured channels stay as their file has them. The program derives its own numbers of a face from them, or estimates
+/// them from the points of a face on film (.pose). Without a recording the command lists the face systems (ARKit,
+/// MediaPipe, OpenFace, MPEG-4, SiGML), and with --system the mapping of one system and its losses.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -28,17 +28,17 @@ pub(crate) struct Args {
     corpus: PathBuf,
     /// The recording, or a token in it
     recording: Option<String>,
-    /// Propose what brows, lids, gaze, mouth and head do, with the confidence of each and the rule that found it
+    /// Propose annotations of brows, lids, gaze, mouth and head, each with its confidence and the rule that found it
     #[arg(long, requires = "recording", group = "finds")]
     propose: bool,
-    /// Fit the weights of the mapping to the signer, on a take in which each part of the face goes as far as it can
+    /// Fit the weights of the mapping to the signer, from a take in which each part of the face moves to its extremes
     #[arg(long, requires = "recording", group = "finds")]
     fit: bool,
-    /// Keep it: proposals as tiers such as "nonmanual.brows (proposed)", fitted weights for every face of the signer;
-    /// `undo` takes it back
+    /// Store the result: proposals as tiers such as "nonmanual.brows (proposed)", fitted weights for every face of the
+    /// signer; `undo` takes it back
     #[arg(long, requires = "finds")]
     store: bool,
-    /// A face system: arkit, mediapipe, openface, fap, mesh, sigml or house
+    /// Show one face system: arkit, mediapipe, openface, fap, mesh, sigml or house (the program's own)
     #[arg(long, conflicts_with = "recording")]
     system: Option<String>,
 }

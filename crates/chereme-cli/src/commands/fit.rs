@@ -1,4 +1,4 @@
-//! `chereme fit`.
+//! `chereme fit`: fits a skeleton to the markers of a recording.
 
 use std::path::PathBuf;
 
@@ -9,10 +9,11 @@ use super::track::recording;
 use crate::args::Cli;
 use crate::output::Output;
 
-/// Fit a skeleton to the markers of a recording, with the distance of every marker
+/// Fit a skeleton to the markers of a recording, and report the distance of every marker
 ///
-/// The movement becomes a track of the recording, and the distances of the markers in every frame a track of curves;
-/// the markers stay as they are. Markers are known by their labels: Plug-in Gait, the 41 markers of CMU, Helen Hayes.
+/// The movement becomes a track of the recording, and the distances of the markers in every frame become a track of
+/// curves; the markers stay as they are. The program knows the labels of three sets of markers: Plug-in Gait, the 41
+/// markers of CMU, and Helen Hayes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

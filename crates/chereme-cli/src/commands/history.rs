@@ -1,4 +1,4 @@
-//! `chereme undo`, `redo` and `log`.
+//! `chereme undo`, `redo` and `log`: the history of a corpus, backwards, forwards and as a list.
 
 use std::path::PathBuf;
 
@@ -13,8 +13,8 @@ use crate::output::Output;
 
 /// Undo the last change
 ///
-/// Every change can be undone, also after a restart. With --times more than there are, all are undone
-/// and the command says how many; it fails only if nothing was left to undo.
+/// Every change can be undone, also after a restart. If --times is greater than the number of operations, all of them
+/// are undone, and the command reports how many; it fails only if there was nothing to undo.
 #[derive(Debug, clap::Args)]
 pub(crate) struct UndoArgs {
     /// The corpus
@@ -24,7 +24,7 @@ pub(crate) struct UndoArgs {
     times: usize,
 }
 
-/// Redo what was undone last
+/// Redo the change that was undone last
 #[derive(Debug, clap::Args)]
 pub(crate) struct RedoArgs {
     /// The corpus
@@ -34,10 +34,10 @@ pub(crate) struct RedoArgs {
     times: usize,
 }
 
-/// List the operations, newest first, or show what one of them changed
+/// List the operations, newest first, or show the changes of one of them
 ///
-/// With an operation, or with --changes for each of them, it lists every annotation, tier, recording,
-/// sign and value that was added, changed or removed: its name, and each field from what to what.
+/// For one operation, or with --changes for each of them, lists every annotation, tier, recording, sign and value that
+/// was added, changed or removed: its name, and each field before and after.
 #[derive(Debug, clap::Args)]
 pub(crate) struct LogArgs {
     /// The corpus
@@ -45,7 +45,7 @@ pub(crate) struct LogArgs {
     /// The operation to show in detail, by its number in the list
     #[arg(value_parser = operation)]
     operation: Option<i64>,
-    /// Show below each operation what it changed
+    /// Show the changes below each operation
     #[arg(long)]
     changes: bool,
     /// List at most N operations, and of each at most N changes

@@ -1,4 +1,4 @@
-//! `chereme import`.
+//! `chereme import`: takes files and folders into a corpus, and reports how each was interpreted.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -20,18 +20,20 @@ use crate::streams::{self, Stand};
 /// Import recordings, annotations, lexicons and inventories into a corpus
 ///
 /// Files: .bvh, .fbx, .glb, .gltf, .vrm (movement), .c3d, .trc (markers), .pose, .json of OpenPose or MediaPipe (points
-/// from film), .mp4 and other films (linked to the recording of their name or whose .eaf names them), .csv of faces, .fap, .eaf, .textgrid, .srt, .vtt (annotations), .ecv, .pfsx, .etf (ELAN's vocabularies,
-/// settings, templates), .csv or .tsv (a lexicon of codings, of HamNoSys, or both; .json where it holds signs), .sigml or
-/// .hsigml (signs as notation; .xml if it is SiGML), .hns (HamNoSys, a sign a line: the gloss, a tab, the text; .txt if it
-/// has such lines), .json (an inventory), or folders of them. Files of the same name in one folder become one recording, as
-/// do files whose timecodes meet; files of the same name in two folders become two. The report shows how each file was understood,
-/// which options override, also later: with --map, a file that is in already gets other tiers or columns. The
-/// corpus is made if it does not exist yet. A file that cannot be read does not keep the others out.
+/// from film), .mp4 and other films (linked to the recording with their name, or whose .eaf names them), .csv of face
+/// captures, .fap (faces), .eaf, .textgrid, .srt, .vtt (annotations), .ecv, .pfsx, .etf (ELAN's vocabularies, settings,
+/// templates), .csv or .tsv (a lexicon of codings, of HamNoSys, or both; also .json that holds signs), .sigml or
+/// .hsigml (signs as notation; also .xml that is SiGML), .hns (HamNoSys with one sign on each line: the gloss, a tab,
+/// the text; also .txt with such lines), .json (an inventory), or folders of these. Files of the same name in one
+/// folder become one recording, and so do files with overlapping timecodes; files of the same name in two folders
+/// become two recordings. The report shows how each file was interpreted. Options override this, also later: --map
+/// gives an imported file other tiers or columns. A corpus that does not exist yet is created. If a file cannot be
+/// read, the others are imported.
 ///
-/// An annotation file that was imported before and edited since updates its recording, annotation by
-/// annotation. Where that would take back edits made in the corpus, the file is refused and the edits are
-/// listed; --merge, --theirs or --mine says what becomes of them. One import is one operation:
-/// `chereme undo` takes it back, and Ctrl-C leaves the corpus as it was.
+/// An annotation file that was imported before and edited since updates its recording, annotation by annotation. If
+/// that would take back edits made in the corpus, the file is refused and the edits are listed; then --merge, --theirs
+/// or --mine decides. One import is one operation: `chereme undo` takes it back, and Ctrl-C leaves the corpus as it
+/// was.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -45,19 +47,19 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// Files and folders; - is standard input, whose kind --format says
+    /// Files and folders; - is standard input, with its kind in --format
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// The kind of file that standard input is, by its extension: eaf, bvh, csv, sigml ...
+    /// The kind of the file on standard input, as an extension: eaf, bvh, csv, sigml ...
     #[arg(long, value_name = "FORMAT")]
     format: Option<String>,
-    /// The name of the recording or table that standard input holds
+    /// The name of the recording or table on standard input
     #[arg(long, value_name = "NAME", default_value = "stdin")]
     name: String,
     /// Report what would be done, and write nothing
     #[arg(long)]
     dry_run: bool,
-    /// Whose movement it is
+    /// The signer who moves
     #[arg(long, value_name = "NAME")]
     signer: Option<String>,
     /// The signer's dominant hand
@@ -69,42 +71,42 @@ pub(crate) struct Args {
     /// The axes of the movement files: the directions up and to the signer's left, such as +Z,+X
     #[arg(long, value_name = "UP,LEFT", allow_hyphen_values = true)]
     axes: Option<chereme_motion::Axes>,
-    /// A file that says which joint is what: lines such as `right wrist = RHand`
+    /// A file that assigns joints to parts of the body, in lines such as `right wrist = RHand`
     #[arg(long, value_name = "FILE")]
     roles: Option<PathBuf>,
-    /// Read the root's columns in the order of the numbers if the header has their order or unit wrong
+    /// Read the root's columns as the numbers suggest if the header gives a wrong order or unit
     #[arg(long)]
     mend_root: bool,
-    /// A file that says which tier or column is what (JSON)
+    /// A JSON file with the meaning of tiers or columns
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
-    /// Keep your edits and take the file's other changes; where both changed the same annotation, yours stays
+    /// Keep your edits and take the file's other changes; if both changed the same annotation, yours stays
     #[arg(long, conflicts_with_all = ["theirs", "mine"])]
     merge: bool,
-    /// Take what the file says, also where it takes back your edits
+    /// Take everything from the file, even if it takes back your edits
     #[arg(long, conflicts_with = "mine")]
     theirs: bool,
-    /// Leave a recording as it is where the file would take back your edits
+    /// Leave a recording as it is if the file would take back your edits
     #[arg(long)]
     mine: bool,
-    /// How the recordings came about
+    /// The origin of the recordings
     #[arg(long, value_enum)]
     origin: Option<OriginWord>,
     /// The terms under which the recordings may be used
     #[arg(long, value_name = "TEXT")]
     licence: Option<String>,
-    /// The recording that everything belongs to, instead of the one of the files' name
+    /// The recording for all tracks and tiers of the files, instead of the one with the files' name
     #[arg(long, value_name = "RECORDING", value_parser = super::track::recording)]
     into: Option<chereme_corpus::Name>,
-    /// Where the files' tracks start on the recording's clock, such as 0.48s
+    /// The start of the files' tracks on the recording's clock, such as 0.48s
     #[arg(long, value_name = "TIME", value_parser = super::track::micros, allow_hyphen_values = true,
           default_value = "0s")]
     offset: i64,
     /// The time of day at which the files' tracks start, if they do not state it: 12:34:56:07, or 12:34:56:07@25 for 25
-    /// frames a second. Tracks of a recording whose times of day are known are put where these say
+    /// frames a second. Tracks of a recording with known times of day are aligned by them
     #[arg(long, value_name = "TIMECODE", value_parser = timecode)]
     timecode: Option<chereme_motion::Instant>,
-    /// Frames a second of films whose points do not state it, such as 50 or 30000/1001
+    /// The frame rate of points from film that do not state it, in frames per second, such as 50 or 30000/1001
     #[arg(long, value_name = "RATE", value_parser = rate)]
     rate: Option<chereme_motion::Rate>,
 }

@@ -1,4 +1,4 @@
-//! `chereme inventory`.
+//! `chereme inventory`: adds values to an inventory, or merges two of them.
 
 use std::path::PathBuf;
 
@@ -35,10 +35,10 @@ enum Action {
         /// Another spelling
         #[arg(long)]
         alias: Vec<String>,
-        /// The value that holds this one, as head holds chin
+        /// The broader value that contains this one, as head contains chin
         #[arg(long)]
         broader: Option<String>,
-        /// A feature of it, such as index or spread
+        /// A feature of the value, such as index or spread
         #[arg(long)]
         feature: Vec<String>,
         /// Its symbols in HamNoSys, by name
@@ -48,14 +48,14 @@ enum Action {
         #[arg(long)]
         notes: Option<String>,
     },
-    /// Merge two values: annotations with the first get the second
+    /// Merge two values: annotations with the first value get the second one
     ///
-    /// The spelling of the first becomes another one of the second, so that a table that is imported again
-    /// means the same.
+    /// The spelling of the first value becomes another spelling of the second, so that a table with the old spelling
+    /// can be imported again.
     MergeValue {
         /// The inventory
         inventory: String,
-        /// The value that goes
+        /// The value that is removed
         from: String,
         /// The value that stays
         into: String,

@@ -1,4 +1,4 @@
-//! `chereme keys`.
+//! `chereme keys`: prints the keys of cued speech for a text, and reads texts and phones for other commands.
 
 use std::path::PathBuf;
 
@@ -13,8 +13,8 @@ use crate::output::Output;
 
 /// Print the keys of cued speech for a text or for phones
 ///
-/// A key is a handshape and a placement: the shape stands for a consonant, the placement for a vowel.
-/// French text is read by rules of spelling; phones are separated by blanks, and `#` is a pause.
+/// A key is a handshape at a placement: the shape stands for a consonant, the placement for a vowel. Rules of spelling
+/// turn French text into phones. Phones in the input are separated by blanks; `#` is a pause.
 ///
 /// `--json` gives "code", "words" ("text", "phones"), "keys" ("shape", "placement", "or_placement" if the
 /// vowel is uncertain, "phones" in SAMPA, "start_us", "vowel_us", "end_us": null without --pace) and
@@ -33,7 +33,8 @@ pub(crate) struct Args {
     /// Read the input as text (the default)
     #[arg(long = "text", conflicts_with = "phones")]
     as_text: bool,
-    /// Give keys times: phones last as usual times FACTOR, from 0.1 to 10; people who cue need about 1.6
+    /// Give the keys times: the duration of phones as a multiple of the usual one, from 0.1 to 10; people who cue need
+    /// about 1.6
     #[arg(long, value_name = "FACTOR")]
     pace: Option<f64>,
 }
@@ -47,13 +48,13 @@ pub(super) struct Spoken {
     /// Take phones and times from this TextGrid or EAF file
     #[arg(long, value_name = "FILE", conflicts_with = "text")]
     pub(super) from: Option<PathBuf>,
-    /// The tier of phones in that file; else the first that is called as aligners call it
+    /// The tier of phones in that file; without it the first whose name aligners use for phones
     #[arg(long, value_name = "TIER", requires = "from")]
     pub(super) tier: Option<String>,
     /// Read the input as phones in this alphabet
     #[arg(long, value_enum, value_name = "ALPHABET")]
     phones: Option<AlphabetWord>,
-    /// Let the program espeak-ng, if it is installed, say how the text is pronounced
+    /// Take the pronunciation from the program espeak-ng, which must be installed
     #[arg(long, conflicts_with_all = ["from", "phones"])]
     espeak: bool,
     /// The code: french, english-us or english-gb
@@ -62,10 +63,10 @@ pub(super) struct Spoken {
     /// A habit of some cuers, such as schwa-as-eu; may be repeated
     #[arg(long = "variant", value_name = "NAME")]
     variants: Vec<String>,
-    /// Leave silent last consonants silent before a vowel
+    /// Keep silent final consonants silent before a vowel
     #[arg(long)]
     no_liaison: bool,
-    /// When an e at the end of a word is said
+    /// The pronunciation of an e at the end of a word
     #[arg(long, value_enum, default_value = "usual")]
     schwa: SchwaWord,
 }

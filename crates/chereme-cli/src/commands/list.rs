@@ -1,4 +1,4 @@
-//! `chereme list` and `chereme info`.
+//! `chereme list` and `chereme info`: the rows of a corpus, filtered and sorted, and an overview.
 
 use std::path::PathBuf;
 
@@ -17,10 +17,10 @@ pub(crate) struct Args {
     /// What to list
     #[arg(value_parser = kind)]
     kind: ListKind,
-    /// Only rows that fit, such as gloss=BO*, start_us=>=500000, recording=recording:3, parent=none
+    /// Only rows with these values, such as gloss=BO*, start_us=>=500000, recording=recording:3, parent=none
     #[arg(long = "where", value_name = "COLUMN=PATTERN", value_parser = pair)]
     filter: Vec<(String, String)>,
-    /// Only values of this inventory, whose name may hold blanks
+    /// Only values of this inventory; its name may contain blanks
     #[arg(long, value_name = "NAME")]
     inventory: Option<String>,
     /// The column to sort by
@@ -85,7 +85,7 @@ pub(super) fn list(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     output.document(found)
 }
 
-/// Show what a corpus holds
+/// Show an overview of a corpus
 #[derive(Debug, clap::Args)]
 pub(crate) struct InfoArgs {
     /// The corpus

@@ -1,4 +1,4 @@
-//! `chereme map`.
+//! `chereme map`: places similar signs near each other in a plane, as a table or a picture.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -12,12 +12,12 @@ use crate::args::Cli;
 use crate::output::{Bar, Output};
 use crate::streams;
 
-/// Place the signs on a map: signs that are alike lie near each other
+/// Place the signs on a map: similar signs lie near each other
 ///
-/// Two signs are alike if they share values, features of handshapes, or wider places; each component counts as much as the
-/// others. Without a query the map holds the citation forms of all signs. `--json` gives "components", "left_out" (tokens that
-/// are not coded for them) and "signs", each with "token", "gloss", "origin", "x" and "y" from 0 to 1, and "near", the five
-/// tokens most like it.
+/// Two signs are similar if they share values, features of handshapes, or broader places; all components have the same
+/// weight. Without a query the map shows the citation forms of all signs. `--json` gives "components", "left_out" (the
+/// number of tokens without a coding for them) and "signs", each with "token", "gloss", "origin", "x" and "y" from 0 to
+/// 1, and "near", the five most similar tokens.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus
@@ -30,7 +30,7 @@ pub(crate) struct Args {
     /// Draw the map to this file, an .svg; - is standard output
     #[arg(long, value_name = "FILE")]
     to: Option<PathBuf>,
-    /// Replace the file
+    /// Replace a file that exists already
     #[arg(long)]
     force: bool,
 }

@@ -1,4 +1,4 @@
-//! `chereme merge` and `chereme conflicts`.
+//! `chereme merge` and `chereme conflicts`: merges diverged copies, and decides their conflicts.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -17,13 +17,14 @@ use crate::args::Cli;
 use crate::output::{Bar, Output};
 use crate::streams;
 
-/// Bring a copy that somebody else worked on into your corpus or annotation file
+/// Merge a copy that somebody else changed into your corpus or annotation file
 ///
-/// A change of one side alone is taken, field by field; different changes of one field are a conflict: yours
-/// stands, and the other candidate is kept until you decide with `chereme conflicts`. OTHER is a copy of the
-/// corpus, or an annotation file that was exported from it and changed. If both are annotation files, the merged
-/// file goes to --to, in the layout of yours; other candidates are then on tiers `NAME (theirs)`. Their common state is found
-/// in the history of corpora; --base names it for files, and for corpora without a common history. A merge into a corpus is one operation: `chereme undo` takes it back.
+/// A change that only one side made is taken over, field by field. Different changes of one field are a conflict: your
+/// value stays, and the other one is kept as a candidate until you decide with `chereme conflicts`. OTHER is a copy of
+/// the corpus, or an annotation file that was exported from it and changed. If both are annotation files, --to names
+/// the merged file, which has the layout of yours; the other side's candidates are then on tiers `NAME (theirs)`. For
+/// corpora the common earlier state is found in their history; --base names it for files, and for corpora without a
+/// common history. A merge into a corpus is one operation: `chereme undo` takes it back.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -43,26 +44,26 @@ pub(crate) struct MergeArgs {
     /// The merged annotation file; - is standard output
     #[arg(long, value_name = "FILE")]
     to: Option<PathBuf>,
-    /// Write over a file that is there already
+    /// Replace a file that exists already
     #[arg(long)]
     force: bool,
 }
 
 /// List the conflicts of merges, or decide some of them
 ///
-/// Each conflict has a candidate of yours, which stands, and one of the other side. --take mine leaves it so,
-/// theirs puts the other candidate in its place, both keeps the two: the second annotation goes on its tier if
-/// there is room, else on a tier `NAME (theirs)`. A decision is an operation: `chereme undo` takes it back.
+/// Each conflict has your candidate, which is in the corpus, and the other side's. `--take mine` leaves yours, `--take
+/// theirs` replaces it with the other one, and `--take both` keeps the two: the second annotation goes on the same tier
+/// if there is room, otherwise on a tier `NAME (theirs)`. A decision is an operation: `chereme undo` takes it back.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ConflictsArgs {
     /// The corpus
     corpus: PathBuf,
     /// The conflicts to decide, by their numbers, or all
     numbers: Vec<String>,
-    /// What to take
+    /// The candidate to take
     #[arg(long, value_enum)]
     take: Option<Take>,
-    /// List those that are decided, too
+    /// List decided conflicts, too
     #[arg(long)]
     decided: bool,
 }

@@ -1,4 +1,4 @@
-//! `chereme milestones`.
+//! `chereme milestones`: derives the milestones of expressions of the face from glosses and functions.
 
 use std::path::PathBuf;
 
@@ -8,19 +8,20 @@ use chereme_corpus::{Function, MilestoneOptions, Progress, Step};
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 
-/// Derive the milestones of expressions of the face from glosses and functions, as tiers
+/// Derive the milestones of expressions of the face from glosses and functions, and write them as tiers
 ///
 /// A tier called "function" (or construction, clause type, fonction; any other with --tier) holds an annotation such as
-/// wh, yn, negation or topic over the signs of each expression. M1 is the end of the sign before, M2 the begin of the
-/// first sign, M3 the begin of the second sign (negation) or of the last (all others), M4 the end of the last sign and M5
-/// the begin of the sign after; 500 ms away at an edge of the utterance, which is an annotation of a translation
-/// tier if there is one, else the recording. One sign has no M3.
+/// wh, yn, negation or topic over the signs of each expression. M1 is the end of the sign before the expression, M2 the
+/// start of its first sign, M3 the start of its second sign (negation) or of its last sign (all others), M4 the end of
+/// its last sign, and M5 the start of the sign after it. If there is no sign before or after it in the utterance, M1 or
+/// M5 lies 500 ms away. The utterance is an annotation of a translation tier if there is one, otherwise the whole
+/// recording. An expression over one sign has no M3.
 ///
-/// The phases M1-M2, M2-M3, M3-M4 and M4-M5 are written on a tier such as "milestones wh". Phases that a person moves or
-/// writes stay as they are from then on. `undo` takes the last step back.
+/// The phases M1-M2, M2-M3, M3-M4 and M4-M5 are written on a tier such as "milestones wh". The command never changes
+/// phases that a person moved or wrote. `undo` takes the last change back.
 ///
-/// `--json` gives "written", "kept", "functions" and "expressions", each with "recording", "address", "function", "signs",
-/// "m1_us" to "m5_us" ("m3_us" is null for one sign), "corrected" and "findings".
+/// `--json` gives "written", "kept", "functions" and "expressions", each with "recording", "address", "function",
+/// "signs", "m1_us" to "m5_us" ("m3_us" is null for one sign), "corrected" and "findings".
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -30,16 +31,17 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The function: negation, wh, yn, topic, conditional, rhetorical, or another word of the tier; else all
+    /// The function of the expressions: negation, wh, yn, topic, conditional, rhetorical, or another word of the tier;
+    /// without it all
     #[arg(long)]
     function: Option<String>,
-    /// The tier that names functions; else those called function, construction, clause type and the like
+    /// The tier that names functions; without it those called function, construction, clause type and the like
     #[arg(long, value_name = "NAME")]
     tier: Option<String>,
     /// Only this recording
     #[arg(long, value_name = "RECORDING")]
     recording: Option<String>,
-    /// Write nothing
+    /// Report the milestones, and write nothing
     #[arg(long)]
     dry_run: bool,
 }

@@ -1,4 +1,4 @@
-//! `chereme new`.
+//! `chereme new`: creates an empty corpus.
 
 use std::path::PathBuf;
 
@@ -9,10 +9,10 @@ use serde_json::json;
 use crate::args::Cli;
 use crate::output::Output;
 
-/// Make an empty corpus with the inventories of handshapes, placements, movements and the rest
+/// Create an empty corpus with the inventories of handshapes, placements, movements and the rest
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The file to make, such as lsf.chereme; nothing may be there yet
+    /// The file to create, such as lsf.chereme; it must not exist yet
     corpus: PathBuf,
 }
 

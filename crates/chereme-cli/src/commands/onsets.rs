@@ -1,4 +1,4 @@
-//! `chereme onsets`.
+//! `chereme onsets`: measures when non-manuals begin and end relative to their signs.
 
 use std::path::PathBuf;
 
@@ -8,14 +8,15 @@ use chereme_corpus::{Function, Progress, Quartiles, Step};
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 
-/// Measure when non-manuals begin and end against the signs that they span, for each construction
+/// Measure when non-manuals begin and end relative to the signs that they span, for each function
 ///
-/// A channel of the face or head begins when it has gone half of its way from its value half a second before the expression
-/// to its farthest value over the signs, and ends when it comes back to half. Times are seconds after the begin of the first
-/// sign (below 0: before it) and after the end of the last. The functions are those of `milestones`.
+/// A channel of the face or head begins when it is halfway from its value half a second before the expression to its
+/// most extreme value over the signs, and ends when it is halfway back. Onsets are in seconds after the start of the
+/// first sign (negative: before it), and ends in seconds after the end of the last sign. The functions are those of
+/// `milestones`.
 ///
-/// `--json` gives "expressions", "without_face" and "rows", each with "function", "channel", "n", "onset_s" and "offset_s"
-/// ("q1", "median", "q3").
+/// `--json` gives "expressions", "without_face" and "rows", each with "function", "channel", "n", "onset_s" and
+/// "offset_s" ("q1", "median", "q3").
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -24,13 +25,14 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The function: negation, wh, yn, topic, conditional, rhetorical, or another word of the tier; else all
+    /// The function of the expressions: negation, wh, yn, topic, conditional, rhetorical, or another word of the tier;
+    /// without it all
     #[arg(long)]
     function: Option<String>,
     /// Draw medians and quartiles to a picture (.svg)
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
-    /// Write over a picture that is there already
+    /// Replace a picture that exists already
     #[arg(long)]
     force: bool,
 }

@@ -1,4 +1,4 @@
-//! `chereme pairs`.
+//! `chereme pairs`: counts the minimal pairs of a lexicon.
 
 use std::path::PathBuf;
 
@@ -19,10 +19,10 @@ use crate::output::Output;
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The fields, with commas between them, or a set of Signbank's columns: S13, F8, F7, F5, C3
+    /// The fields to compare, separated by commas, or a set of Signbank's columns: S13, F8, F7, F5, C3
     #[arg(long, value_name = "A,B,...", value_delimiter = ',')]
     fields: Vec<String>,
-    /// How an empty field counts
+    /// The treatment of empty fields
     #[arg(long, value_enum, default_value_t = EmptyWord::Value)]
     empty: EmptyWord,
     /// List the pairs
@@ -32,9 +32,9 @@ pub(crate) struct Args {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum EmptyWord {
-    /// It is a value like any other
+    /// An empty field is a value like any other
     Value,
-    /// Nobody knows: signs with an empty field take no part
+    /// An empty field is unknown: signs with one take no part
     Unknown,
 }
 

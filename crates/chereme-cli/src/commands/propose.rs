@@ -1,4 +1,4 @@
-//! `chereme propose`.
+//! `chereme propose`: proposes values of components from movement, and accepts proposals.
 
 use std::path::PathBuf;
 
@@ -9,14 +9,14 @@ use chereme_sign::Component;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 
-/// Propose codings of a component from movement, for tokens that nobody has coded for it
+/// Propose values of a component from movement, for tokens without a value of it
 ///
-/// Each token is transcribed from its movement; its values go onto tiers of their own, called for example
-/// "configuration dominant (proposed)", as annotations of a detector. A person's codings stay apart from them. All of it
-/// is one operation, which one `undo` takes back. Ctrl-C ends it and leaves the corpus as it was.
+/// The movement of each token is transcribed, and the values are written on separate tiers, such as "configuration
+/// dominant (proposed)", as annotations of a detector. They never mix with a person's codings. A call is one operation,
+/// which `undo` takes back. Ctrl-C stops it and leaves the corpus as it was.
 ///
-/// `--json` gives "tokens" and "annotations" written, "unread", the tokens whose movement could not be read, and
-/// "recordings", the names of those with new annotations.
+/// `--json` gives "tokens" and "annotations", the numbers of those that were written, "unread", the number of tokens
+/// whose movement could not be transcribed, and "recordings", the names of those with new annotations.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -28,7 +28,7 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The component: configuration (or handshape), placement, movement or orientation; without one all of them
+    /// The component: configuration (or handshape), placement, movement or orientation; without it all four
     component: Option<Component>,
     /// Only for the tokens of this recording, or for this token
     #[arg(long = "for", value_name = "ADDRESS")]

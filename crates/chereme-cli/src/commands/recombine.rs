@@ -1,4 +1,4 @@
-//! `chereme recombine`.
+//! `chereme recombine`: composes a new sign by a recipe, and stores it.
 
 use std::path::{Path, PathBuf};
 
@@ -43,7 +43,7 @@ Examples:
   chereme recombine mine.chereme 'take-1 | trim' --as HELLO
   chereme recombine mine.chereme 'spell LSF | travel right down 20cm then up 20cm' --draw lsf.gif";
 
-/// Make a new sign from stored ones, and store it
+/// Compose a new sign from stored ones, and store it
 ///
 /// A recipe is a sign and the changes to it: ESCARGOT | configure right U. The new sign gets its own tiers and is
 /// found by search like a captured one; its recipe is stored with it. Quote the recipe for your shell.
@@ -57,11 +57,11 @@ pub(crate) struct Args {
     /// The gloss of the new sign; without it nothing is stored
     #[arg(long = "as", value_name = "GLOSS")]
     gloss: Option<String>,
-    /// Replace a sign that was made before; it keeps its gloss, its token and the annotations that
-    /// people wrote on its tiers
+    /// Replace a sign that was generated before; it keeps its gloss, its token and the annotations that people wrote on
+    /// its tiers
     #[arg(long, value_name = "SIGN", conflicts_with = "gloss")]
     replace: Option<Address>,
-    /// Show how the sign comes about: the steps, where each channel comes from, joins and residuals
+    /// Explain the sign: its steps, the source of each channel, joins and residuals
     #[arg(long)]
     explain: bool,
     /// Draw the sign to a contact sheet (.png), an animation (.gif) or a film (.mp4)

@@ -1,4 +1,4 @@
-//! `chereme render`.
+//! `chereme render`: draws movement, handshapes and notation as pictures, animations and films.
 
 use std::path::PathBuf;
 
@@ -11,12 +11,12 @@ use crate::streams;
 
 /// Draw movement as a contact sheet (.png), an animation (.gif) or a film (.mp4), handshapes (.png), or notation (.svg)
 ///
-/// WHAT is a gloss, a recording's name, token:41, recording:3, recording:"NGT Thanks", or inventory:configurations and
-/// inventory:configurations/U for handshapes. A sign that is there as notation only is animated first.
-/// The symbols of HamNoSys are drawn by the program, no font is needed: inventory:hamnosys shows all.
-/// What a face does for each non-manual of SiGML is seen in inventory:faces.
-/// Several WHAT are drawn next to each other in one film or animation: they begin together, and a shorter one holds its
-/// last picture. Films are H.264, which every player, browser and office program knows.
+/// WHAT is a gloss, a recording's name, token:41, recording:3, recording:"NGT Thanks", or inventory:configurations or
+/// inventory:configurations/U for handshapes. If a sign has only a notation, the program animates it first. The program
+/// draws the symbols of HamNoSys without a font; inventory:hamnosys shows all of them. inventory:faces shows the face
+/// for each non-manual of SiGML. Several WHAT are drawn next to each other in one film or animation: they begin
+/// together, and the shorter ones stop at their last picture. Films are in H.264, which every player, browser and
+/// office program can show.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -34,37 +34,38 @@ pub(crate) struct Args {
     /// What to draw
     #[arg(value_name = "WHAT", required = true)]
     what: Vec<String>,
-    /// The picture; its extension says the kind; - is standard output
+    /// The picture to write; its extension determines the kind; - is standard output
     #[arg(long, value_name = "FILE")]
     to: PathBuf,
     /// The kind of picture for standard output: png, gif, mp4 or svg
     #[arg(long, value_name = "FORMAT", default_value = "png", value_parser = ["png", "gif", "mp4", "svg"])]
     format: String,
-    /// How many pictures a contact sheet has side by side, from 1 to 64
+    /// The number of pictures side by side in a contact sheet, from 1 to 64
     #[arg(long, default_value_t = 8, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
     frames: u16,
-    /// How high one picture is, in pixels, from 32 to 2000; without it 260, for films 540, for handshapes 128, for faces 160
+    /// The height of one picture in pixels, from 32 to 2000; without it 260, for films 540, for handshapes 128, for
+    /// faces 160
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(32..=2000))]
     height: Option<u16>,
-    /// How fast an animation runs, from 0.05 to 20; 1 is the recorded speed
+    /// The speed of an animation, from 0.05 to 20; 1 is the recorded speed
     #[arg(long, default_value_t = 1.0, value_name = "FACTOR", value_parser = speed, allow_negative_numbers = true)]
     speed: f64,
-    /// How many pictures a film shows in a second, from 1 to 120
+    /// The number of pictures per second in a film, from 1 to 120
     #[arg(long, default_value_t = 25, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=120))]
     rate: u32,
     /// Write glosses below an animation or a film while they are signed
     #[arg(long)]
     captions: bool,
-    /// Leave out the pictures of hands and face from close by
+    /// Leave out the close-ups of hands and face
     #[arg(long)]
     no_hands: bool,
-    /// Show the face from close by next to the signer, in every picture
+    /// Show a close-up of the face next to the signer, in every picture
     #[arg(long)]
     face: bool,
-    /// Which hand a handshape is drawn on
+    /// The hand on which handshapes are drawn
     #[arg(long, value_enum, default_value_t = SideWord::Right)]
     hand: SideWord,
-    /// Write over a file that is there already
+    /// Replace a file that exists already
     #[arg(long)]
     force: bool,
 }

@@ -1,4 +1,4 @@
-//! `chereme score`.
+//! `chereme score`: measures the similarity of two pieces of movement.
 
 use std::path::PathBuf;
 
@@ -8,17 +8,17 @@ use chereme_corpus::{Address, Corpus, Function, ScoreOptions};
 use crate::args::Cli;
 use crate::output::Output;
 
-/// Score how alike two pieces of movement are, with the alignment
+/// Measure the similarity of two pieces of movement, and align them
 ///
-/// Dynamic time warping over placement, movement, orientation and configuration, each in its own
-/// scale; 0 is the same movement.
+/// The score is the distance under dynamic time warping, over placement, movement, orientation and configuration, each
+/// in its own scale; 0 is the same movement.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The first: a gloss, token:41 or recording:3
+    /// The first piece: a gloss, token:41 or recording:3
     a: String,
-    /// The second
+    /// The second piece
     b: String,
     /// Compare expressions of the face phase by phase instead of movement; see `milestones` and `choose`
     #[arg(long)]
@@ -31,7 +31,7 @@ pub(crate) struct Args {
     /// Draw the alignment to a picture (.png)
     #[arg(long, value_name = "FILE", conflicts_with = "face")]
     draw: Option<PathBuf>,
-    /// Write over a picture that is there already
+    /// Replace a picture that exists already
     #[arg(long)]
     force: bool,
 }

@@ -1,4 +1,4 @@
-//! `chereme search`.
+//! `chereme search`: finds the tokens that answer a query, counts them, and saves queries.
 
 use std::path::PathBuf;
 
@@ -14,18 +14,18 @@ use crate::output::{Bar, Output};
 
 /// Find the tokens that answer a query
 ///
-/// Lexicon entries are found like captured tokens. Quote the query for your shell, for example
-/// 'right.configuration=U placement=chin' or 'gloss:BO* not weak.configuration=S'. What --keep NAME
-/// kept in the corpus stands in any query as @NAME; `chereme list CORPUS searches` lists it.
+/// A query finds lexicon entries like captured tokens. Quote it for your shell, for example 'right.configuration=U
+/// placement=chin' or 'gloss:BO* not weak.configuration=S'. Any query can contain @NAME for a search that was saved
+/// with --keep NAME; `chereme list CORPUS searches` lists the saved ones.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = chereme_corpus::QUERY_HELP)]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The query, words side by side must all hold; or @NAME, a kept one
+    /// The query; all of its conditions must hold. @NAME stands for a saved search
     #[arg(required_unless_present = "forget", value_name = "QUERY")]
     query: Vec<String>,
-    /// Save the query in the corpus as @NAME, in place of an earlier one of that name
+    /// Save the query in the corpus as @NAME; an earlier one of that name is replaced
     #[arg(long, value_name = "NAME")]
     keep: Option<String>,
     /// Delete the saved search NAME
@@ -37,13 +37,13 @@ pub(crate) struct Args {
     /// Skip the first N tokens
     #[arg(long, default_value_t = 0, value_name = "N")]
     offset: usize,
-    /// In which order
+    /// The order of the results
     #[arg(long, value_enum, default_value_t = OrderWord::Rank)]
     sort: OrderWord,
     /// Leave out the counts of values
     #[arg(long)]
     no_facets: bool,
-    /// How many values of each field to count: a number, or all
+    /// The number of values of each field whose counts are shown, or all
     #[arg(long, value_name = "N|all", value_parser = facet_count)]
     facets: Option<usize>,
     /// Count the values of a field among all tokens found, such as placement or signer
@@ -52,7 +52,7 @@ pub(crate) struct Args {
     /// Count them for each value of another field, too, such as signer
     #[arg(long, value_name = "FIELD", requires = "count")]
     by: Option<String>,
-    /// Count how often the values of two fields meet, such as dominant.configuration placement
+    /// Count how often each pair of values of two fields occurs, such as dominant.configuration placement
     #[arg(long, num_args = 2, value_names = ["ROWS", "COLUMNS"])]
     cross: Vec<String>,
     /// Write the table of --count or --cross with commas or tabs between its cells
@@ -71,7 +71,7 @@ fn facet_count(text: &str) -> Result<usize, String> {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum TableFormat {
-    /// For people
+    /// A table for people to read
     Text,
     /// Commas between the cells
     Csv,
@@ -81,7 +81,7 @@ enum TableFormat {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum OrderWord {
-    /// The best first where the query ranks, else by recording and time
+    /// The best first if the query ranks, otherwise by recording and time
     Rank,
     /// By gloss
     Gloss,

@@ -1,4 +1,4 @@
-//! `chereme studio`.
+//! `chereme studio`: opens the window.
 
 use std::path::PathBuf;
 
@@ -10,14 +10,14 @@ use crate::args::{self, Cli};
 
 /// Open the workbench: annotate, search and recombine in a window
 ///
-/// Without a corpus it offers the starter corpus, recent ones, and to import a folder. Settings lie in the
-/// platform's folder for them, in chereme/studio.json; --language changes the language there. F1 shows the keys:
-/// ELAN's, Praat's or a video editor's.
+/// Without a corpus the window offers the starter corpus, recent corpora, and the import of a folder. The settings are
+/// in the file chereme/studio.json of the platform's settings folder; --language changes the language there. F1 shows
+/// the keys: ELAN's, Praat's or a video editor's.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus to open
     corpus: Option<PathBuf>,
-    /// The folder for the settings and the starter corpus, in place of the platform's
+    /// The folder for the settings and the starter corpus, instead of the platform's
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
 }

@@ -1,4 +1,4 @@
-//! `chereme suggest`.
+//! `chereme suggest`: suggests new signs that could be composed from a sign.
 
 use std::path::PathBuf;
 
@@ -8,10 +8,10 @@ use chereme_corpus::Partner;
 use crate::args::Cli;
 use crate::output::Output;
 
-/// List what could be made from a sign
+/// Suggest new signs that could be composed from a sign
 ///
-/// Signs coded for the same fields and alike in all but one (minimal pairs), a recipe where one leads there, and values
-/// that no sign has with the rest of the coding.
+/// Lists the signs that differ from it in exactly one field (minimal pairs), each with a recipe if one generates it
+/// from the sign, and the values that no sign combines with the rest of its coding.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus

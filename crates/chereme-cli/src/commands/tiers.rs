@@ -17,21 +17,20 @@ pub(super) enum Action {
     AddTier {
         /// Its name
         name: String,
-        /// The subject of its annotations: gloss, translation, comment, free, or a component such as
-        /// right.placement or nonmanual.brows; a hand before it gives their hand
+        /// The subject of its annotations: gloss, translation, comment, free, or a component such as right.placement or
+        /// nonmanual.brows; the word before the dot is their hand
         #[arg(long, default_value = "free")]
         role: TierTopic,
-        /// Whose hand they are about, where the role does not say it
+        /// The hand of the annotations, if the role does not name it
         #[arg(long, value_enum)]
         hand: Option<HandWord>,
-        /// The tier above
+        /// The parent tier
         #[arg(long, requires = "stereotype")]
         parent: Option<String>,
-        /// How it hangs below: Time_Subdivision, Included_In, Symbolic_Subdivision or
-        /// Symbolic_Association
+        /// Its relation to the parent: Time_Subdivision, Included_In, Symbolic_Subdivision or Symbolic_Association
         #[arg(long, requires = "parent", value_parser = stereotype)]
         stereotype: Option<Stereotype>,
-        /// The inventory its values come from; the usual one of its component where none is named
+        /// The inventory of its values; without it the usual one of its component
         #[arg(long)]
         inventory: Option<String>,
         #[command(flatten)]
@@ -39,28 +38,28 @@ pub(super) enum Action {
     },
     /// Add the usual tiers to the recording named by --in, or those of another recording
     ///
-    /// The usual ones: gloss and translation; below the gloss handshape, placement, movement with its direction,
-    /// palm and finger direction of either hand, mouth, brows, head; a comment. A tier that exists by name stays as
-    /// it is.
+    /// The usual tiers: gloss and translation; below the gloss handshape, placement, movement with its direction, palm
+    /// and finger direction of either hand, mouth, brows and head; and a comment. If a tier of that name exists, it
+    /// stays as it is.
     AddTiers {
-        /// The recording whose tiers it shall have, without their annotations
+        /// The recording whose tiers are copied, without their annotations
         #[arg(long, value_name = "RECORDING")]
         like: Option<String>,
     },
-    /// Change what a tier is
+    /// Change a tier: its name, subject, hand, inventory, people or language
     Tier {
         /// The tier
         tier: String,
         /// Its new name
         #[arg(long)]
         name: Option<String>,
-        /// The subject of its annotations; a hand before it, as in right.placement, gives their hand
+        /// The subject of its annotations; the word before the dot, as in right.placement, is their hand
         #[arg(long)]
         role: Option<TierTopic>,
-        /// Whose hand they are about, where the role does not say it
+        /// The hand of the annotations, if the role does not name it
         #[arg(long, value_enum)]
         hand: Option<HandWord>,
-        /// The inventory its values come from
+        /// The inventory of its values
         #[arg(long)]
         inventory: Option<String>,
         #[command(flatten)]
@@ -72,13 +71,13 @@ pub(super) enum Action {
         tier: String,
         /// The name of the copy
         name: String,
-        /// Leave the values of its annotations out
+        /// Leave out the values of its annotations
         #[arg(long, conflicts_with_all = ["bare", "holding"])]
         blank: bool,
-        /// Leave its annotations out
+        /// Leave out its annotations
         #[arg(long, conflicts_with = "holding")]
         bare: bool,
-        /// Take only annotations whose value holds this text, whatever its case and accents
+        /// Take only annotations whose value contains this text, ignoring case and accents
         #[arg(long, value_name = "TEXT")]
         holding: Option<String>,
     },
@@ -92,10 +91,10 @@ pub(super) enum Action {
         /// Its new name
         #[arg(long)]
         name: Option<String>,
-        /// Whose movement it is
+        /// The signer who moves
         #[arg(long)]
         signer: Option<String>,
-        /// captured, made or generated
+        /// The origin: captured, made or generated
         #[arg(long)]
         origin: Option<String>,
         /// The terms under which it may be used
@@ -143,13 +142,13 @@ pub(super) enum Action {
 /// The person and the language of a tier; an empty text removes the old one.
 #[derive(Debug, clap::Args)]
 pub(super) struct People {
-    /// Who is annotated: the signer whom `signer=` finds; "" for nobody
+    /// The signer who is annotated, whom `signer=` finds; "" removes the name
     #[arg(long, value_name = "NAME")]
     participant: Option<String>,
-    /// Who annotates; "" for nobody
+    /// The annotator; "" removes the name
     #[arg(long, value_name = "NAME")]
     annotator: Option<String>,
-    /// The language of its values, such as de; "" for none
+    /// The language of its values, such as de; "" removes it
     #[arg(long)]
     language: Option<String>,
 }
@@ -183,7 +182,7 @@ pub(super) enum HandWord {
     Dominant,
     Weak,
     Both,
-    /// Of no hand
+    /// No hand
     None,
 }
 

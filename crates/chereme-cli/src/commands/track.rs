@@ -1,4 +1,4 @@
-//! `chereme track`.
+//! `chereme track`: lists, moves, aligns, renames and removes the tracks of a recording.
 
 use std::path::PathBuf;
 
@@ -9,11 +9,11 @@ use serde_json::json;
 use crate::args::Cli;
 use crate::output::Output;
 
-/// Look at the tracks of a recording, and put one of them in its place on the recording's clock
+/// List the tracks of a recording, or move, align, rename or remove one of them
 ///
-/// A recording has any number of tracks on one clock: movement of skeletons, markers, curves, media. Without an
-/// option the tracks are listed. `chereme import CORPUS FILE --into recording:3 --offset 0.48s` brings a file's tracks
-/// into a recording that exists.
+/// A recording has any number of tracks on one clock: movement of skeletons, markers, curves, media. Without an option
+/// the tracks are listed. `chereme import CORPUS FILE --into recording:3 --offset 0.48s` imports a file's tracks into
+/// an existing recording.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -30,21 +30,21 @@ pub(crate) struct Args {
     recording: Name,
     /// The track's name
     name: Option<String>,
-    /// Where it starts on the recording's clock, such as 0.48s or -12ms
+    /// The new start of the track on the recording's clock, such as 0.48s or -12ms
     #[arg(long, value_name = "TIME", value_parser = micros, allow_hyphen_values = true, requires = "name",
           conflicts_with_all = ["remove", "align_to"])]
     offset: Option<i64>,
-    /// The place of a film or another media file that lies elsewhere now
+    /// The new path of a film or another media file that was moved
     #[arg(long, value_name = "FILE", requires = "name", conflicts_with_all = ["remove", "align_to"])]
     file: Option<String>,
-    /// Give it another name
+    /// The new name of the track
     #[arg(long, value_name = "NAME", requires = "name", conflicts_with_all = ["remove", "align_to"])]
     rename: Option<String>,
-    /// Remove it, with all its numbers
+    /// Remove the track with all its data
     #[arg(long, requires = "name")]
     remove: bool,
-    /// Find where it lies on the clock of this track: the offset at which speeds are most alike, those of wrists if no
-    /// channel is named
+    /// Align the track with this one: find the offset with the most similar speeds, of the wrists if no channel is
+    /// named
     #[arg(
         long,
         value_name = "TRACK",
@@ -52,7 +52,7 @@ pub(crate) struct Args {
         conflicts_with = "remove"
     )]
     align_to: Option<String>,
-    /// Joints, points or curves of the track that are compared
+    /// The joints, points or curves of the track whose speeds are compared
     #[arg(
         long,
         value_delimiter = ',',
@@ -60,7 +60,7 @@ pub(crate) struct Args {
         requires = "align_to"
     )]
     channels: Vec<String>,
-    /// Joints, points or curves of the other track
+    /// The joints, points or curves of the other track
     #[arg(
         long,
         value_delimiter = ',',
@@ -68,10 +68,10 @@ pub(crate) struct Args {
         requires = "align_to"
     )]
     with: Vec<String>,
-    /// How far from its offset now it may lie
+    /// The largest shift from the present offset
     #[arg(long, value_name = "TIME", value_parser = micros, default_value = "30s", requires = "align_to")]
     within: i64,
-    /// Move it to the offset that was found
+    /// Move the track to the offset that was found
     #[arg(long, requires = "align_to")]
     store: bool,
 }

@@ -1,4 +1,4 @@
-//! `chereme transcribe`.
+//! `chereme transcribe`: writes the movement of a sign as HamNoSys.
 
 use std::path::PathBuf;
 
@@ -10,19 +10,19 @@ use crate::output::{Bar, Output};
 
 /// Transcribe a captured or generated sign in HamNoSys, with the residual of each feature
 ///
-/// The residual says how far the movement is from what was written, the runner-up what would have come
-/// next. The characters are shown by a HamNoSys font only; their names stand below them, `--names` writes
-/// nothing else, and `render TOKEN --to it.svg` draws what was stored.
+/// The residual is the distance of the movement from its transcription, and the runner-up is the second-best reading.
+/// Only a HamNoSys font shows the characters; their names are printed below them, `--names` prints nothing else, and
+/// `render TOKEN --to it.svg` draws a stored notation.
 ///
-/// Of a sign that was made of notation alone, what is written is performed again: where that brings the hands
-/// elsewhere, other postures are tried, a thousand of them at most. That takes up to some seconds; Ctrl-C ends it.
+/// If a sign was generated from notation alone, the program animates its transcription as a check. If this puts the
+/// hands elsewhere, it tries other postures, at most a thousand. That takes up to several seconds; Ctrl-C stops it.
 ///
-/// `--json` gives "gloss", "token", "recording", "start_us", "end_us", the whole as "hamnosys" and "symbols" and as
-/// the tree "sign"; "stages", the posture at the beginning and each action with "action", "hand", "start_us",
-/// "end_us", "hamnosys", "symbols"; "features", each with "feature", "hand", "action" (null for the posture),
-/// "at_us", "start_us", "end_us", "value", "hamnosys", "symbols", "residual", "unit" (deg, cm or share) and
-/// "runner_up" ("value", "hamnosys", "symbols", "residual"; null if there is no second reading); "findings". Times
-/// are microseconds from the start of the recording.
+/// `--json` gives "gloss", "token", "recording", "start_us", "end_us", the whole as "hamnosys" and "symbols" and as the
+/// tree "sign"; "stages", the posture at the beginning and each action with "action", "hand", "start_us", "end_us",
+/// "hamnosys", "symbols"; "features", each with "feature", "hand", "action" (null for the posture), "at_us",
+/// "start_us", "end_us", "value", "hamnosys", "symbols", "residual", "unit" (deg, cm or share) and "runner_up"
+/// ("value", "hamnosys", "symbols", "residual"; null if there is no second reading); "findings". Times are microseconds
+/// from the start of the recording.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -37,10 +37,10 @@ pub(crate) struct Args {
     /// Write the names of the symbols in place of the table
     #[arg(long)]
     names: bool,
-    /// Keep what was written as the token's notation; `undo` takes it back
+    /// Store the transcription as the token's notation; `undo` takes it back
     #[arg(long)]
     store: bool,
-    /// Write over a notation that the token has already
+    /// Replace the notation that the token has already
     #[arg(long, requires = "store")]
     force: bool,
 }
