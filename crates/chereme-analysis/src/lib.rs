@@ -1,4 +1,4 @@
-//! Movement to annotations and scores.
+//! Turns movement into annotations and scores: transcription, similarity, measurements, proposals.
 //!
 //! | module | holds |
 //! |---|---|

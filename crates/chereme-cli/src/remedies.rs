@@ -1,4 +1,4 @@
-//! Every command that a message, a help text or a guide names is one that the program understands.
+//! Tests that the program understands every command that a message, a help text or a guide names.
 
 use chereme_tests::repository;
 use clap::CommandFactory;

@@ -1,4 +1,4 @@
-//! Recipes to movement: recombination and synthesis of signs.
+//! Generates movement from recipes: recombination and synthesis of signs.
 //!
 //! A [`Recipe`] describes how to build a sign, as text or as JSON. [`resolve`] asks a corpus, through the one trait
 //! [`Sources`], for everything the recipe needs, and fixes it; [`evaluate`] generates the movement, its

@@ -1,4 +1,4 @@
-//! Foreign files to and from the movement and sign models.
+//! Reads and writes foreign files: translates them to the models of movement and signs, and back.
 
 pub mod bvh;
 pub mod c3d;

@@ -1,4 +1,4 @@
-//! The guesses of tiers' roles.
+//! Tests of the roles that are inferred from the names of tiers.
 
 use chereme_formats::roles::{Mapping, TierName, guess_roles};
 

@@ -8,7 +8,7 @@ use chereme_sign::cue::Alphabet;
 
 use super::table::Table;
 
-/// Adds them.
+/// Adds these rows to the table.
 pub(crate) fn rows(table: &mut Table) {
     rows_of_keys(table);
     rows_of_fits(table);

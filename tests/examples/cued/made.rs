@@ -1,4 +1,4 @@
-//! Rows of the table on movement that is put together: the dictionary, and the cuer on the program's own body.
+//! Rows of the table about generated movement: sentences from the dictionary, and the cuer on the program's own body.
 
 use std::collections::BTreeMap;
 use std::time::Instant;

@@ -1,4 +1,4 @@
-//! A session as files.
+//! Writes a generated session of cued speech as files: markers, tiers, and the truth about them.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -49,7 +49,7 @@ pub(crate) struct Plan {
 }
 
 /// Writes a session and returns a description of it: the folders `c3d` and `trc` hold the same takes for two readers,
-/// `truth` what is true of them.
+/// `truth` the true values.
 pub(crate) fn write(folder: &Path, plan: &Plan) -> io::Result<String> {
     for name in ["c3d", "trc", "truth"] {
         fs::create_dir_all(folder.join(name))?;
@@ -177,7 +177,7 @@ fn take(folder: &Path, name: &str, text: &str, take: &Take, frames: &mut usize) 
     fs::write(folder.join(format!("truth/{name}.parameters.csv")), truth)
 }
 
-/// Phones, keys and the ways of hand and fingers as tiers.
+/// Returns phones, keys and the movements of hand and fingers as tiers.
 pub(crate) fn tiers(take: &Take, text: &str) -> Transcript {
     let mut id = 0;
     let mut tier = |name: &str, of: Vec<(f64, f64, String)>| {

@@ -1,4 +1,4 @@
-//! The truth that models recover from generated sessions, as one table.
+//! The main table: the accuracy with which models recover the known truth of generated sessions.
 
 use std::time::Instant;
 
@@ -31,7 +31,7 @@ impl Table {
     }
 }
 
-/// Returns the whole table, with what recognisers take for what below it.
+/// Returns the whole table, with the confusion tables of the recognisers below it.
 pub(crate) fn made() -> String {
     let mut table = Table {
         text: "| on generated sessions | found | wanted | reached |\n|---|---|---|---|\n"
@@ -370,7 +370,7 @@ fn found_phases(
     all
 }
 
-/// Half of numbers are below the first result, nine of ten below the second.
+/// Returns the median and the ninth decile.
 fn half_and_most(mut off: Vec<f64>) -> (f64, f64) {
     off.sort_by(f64::total_cmp);
     let at = |share: usize| off.get(off.len() * share / 10).copied().unwrap_or(f64::NAN);

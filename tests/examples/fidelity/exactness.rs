@@ -1,4 +1,4 @@
-//! Operators taken back, and the lengths of bones.
+//! Table of exactness: operators followed by their inverse, and the lengths of bones.
 
 use chereme_compose::Made;
 use chereme_motion::glam::DVec3;
@@ -112,7 +112,7 @@ fn fingertips(capture: &Capture, a: &Clip, b: &Clip) -> Vec<(Side, f64)> {
     found
 }
 
-/// Returns for each frame and side how far the wrist was moved.
+/// Returns the displacement of the wrist for each frame and side.
 fn moved(capture: &Capture, made: &Clip) -> Vec<DVec3> {
     let hands: Vec<usize> = capture
         .sides()

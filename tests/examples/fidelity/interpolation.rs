@@ -1,4 +1,4 @@
-//! Courses of transitions against captured ones.
+//! Table that compares the courses of generated transitions with captured ones.
 
 use chereme_analysis::strokes::Mover;
 use chereme_compose::recipe::Profile;

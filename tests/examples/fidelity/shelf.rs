@@ -1,4 +1,4 @@
-//! A corpus of one sign, for recipes to be made from.
+//! A corpus with a single sign, as the source for recipes.
 
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ impl Shelf {
         })
     }
 
-    /// Makes `A | operators`.
+    /// Evaluates the recipe `A | operators`.
     pub(crate) fn make(&self, operators: &str) -> Result<Made, MakeError> {
         let recipe: Recipe = match format!("A | {operators}").parse() {
             Ok(recipe) => recipe,

@@ -1,4 +1,4 @@
-//! Markdown tables.
+//! Prints Markdown tables.
 
 /// Returns a table; the first column is to the left, the others are to the right.
 pub(crate) fn markdown<R: IntoIterator<Item = String>>(

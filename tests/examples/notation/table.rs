@@ -1,4 +1,4 @@
-//! Every sign on every body: what holds, how far off, how fast.
+//! Checks every sign on every body: the conditions that hold, the largest errors, the computing time.
 
 use std::path::Path;
 use std::time::Instant;
@@ -9,11 +9,11 @@ use chereme_motion::Rate;
 use crate::checks::{Worst, worst};
 use crate::{Result, bodies};
 
-/// A fault with the size from which it counts, and how it is read off.
+/// A fault: its name, the size above which it counts, and the function that returns its size.
 type Judged = (&'static str, f64, fn(&Worst) -> f64);
 
 impl Worst {
-    /// Returns the worse of both in everything.
+    /// Returns the worse value of both for each fault.
     fn and(self, other: Self) -> Self {
         Self {
             nan: self.nan + other.nan,
@@ -67,7 +67,7 @@ pub(crate) fn turned_by(warnings: &[String]) -> f64 {
     degrees.fold(0.0, f64::max)
 }
 
-/// Prints what holds for all signs on each body.
+/// Prints the conditions for all signs on each body.
 pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
     let signs = bodies::signs(folder)?;
     for path in paths {

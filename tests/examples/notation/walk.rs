@@ -1,4 +1,4 @@
-//! Walks through the tree of a sign.
+//! Finds motions, places and interlocked hands in the tree of a sign.
 
 use chereme_sign::hamnosys::{BodyPlace, Contact, Motion, MotionKind, Notated, Place};
 

@@ -1,4 +1,4 @@
-//! The common features of two notations of one sign.
+//! Compares two notations of one sign feature by feature.
 
 use chereme_analysis::transcribe::{Options, off_place};
 use chereme_motion::Side;
@@ -32,7 +32,7 @@ pub(crate) fn compare(written: &Manual, again: &Again) -> Vec<Verdict> {
         });
     };
     let (a, b) = (hands(written), hands(found));
-    // A motion for each hand says with two what a symmetry says with one.
+    // Two motions, one for each hand, may express the same as one motion with a symmetry.
     let split = written.actions.iter().any(names_other);
     let agrees = a == b || (split && a != "one" && b != "one");
     say("hands", agrees, a, b);
@@ -297,10 +297,10 @@ fn aimed<D: std::fmt::Display>(aim: Option<&Aim<D>>) -> String {
     }
 }
 
-/// How far the hand is from a place, and that place from another, in metres.
+/// Distance of the hand from a place, and of that place from another one, in metres.
 type Off<'a> = dyn Fn(&BodyPlace, Option<&BodyPlace>) -> Option<(f64, f64)> + 'a;
 
-/// Two places are one point where a hand would be sent to points so near to each other, in metres.
+/// Two places whose points are nearer to each other than this (m) count as one.
 const ONE_POINT: f64 = 0.01;
 
 fn place(
@@ -647,7 +647,7 @@ fn named(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
             all
         }
         MotionKind::Target { motion, posture } => {
-            // To take a place where the hand is already is no way.
+            // A change to the place where the hand already is adds no path.
             let place = posture.place.is_some() && posture.place != *at;
             *at = posture.place.clone().or_else(|| at.take());
             let change = !posture.shape.is_unset()
@@ -657,7 +657,7 @@ fn named(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
                 .as_deref()
                 .map(|motion| flat(motion, at))
                 .unwrap_or_default();
-            // A hand that waits for the other one goes nowhere.
+            // A hand that waits for the other one does not move.
             let waits = motion.as_deref().is_some_and(|motion| match &motion.kind {
                 MotionKind::Split(own, _) => {
                     let own = own.as_deref().map(|own| &own.kind);

@@ -1,19 +1,19 @@
-//! Notation to movement to notation, and movement to notation to movement.
+//! Measures the transcriber in closed loops: notation to movement to notation, and movement to notation to movement.
 //!
 //! `cargo run --release -p chereme-tests --example transcribe -- notation FOLDER BODY.bvh` animates every
-//! `.sigml` file of a folder on a body, transcribes what came of it, and prints how often each feature
-//! is what was written, also of the half of the signs on which thresholds are tuned and of the other half;
-//! `... -- plain FOLDER BODY.bvh` does so without proving where hands are;
-//! `... -- blind FOLDER BODY.bvh` exports each sign as BVH, and transcribes that as any other capture;
+//! `.sigml` file of a folder on a body, transcribes the movement, and prints how often each feature
+//! agrees with the notation, also separately for the half of the signs on which thresholds are tuned and for the other
+//! half; `... -- plain FOLDER BODY.bvh` does so without verifying places by re-synthesis;
+//! `... -- blind FOLDER BODY.bvh` exports each sign as BVH, and transcribes the file like any other capture;
 //! `... -- blind-why FEATURE FOLDER BODY.bvh` prints each part in which the feature differs from the notation, `... --
 //! blind-confusions FEATURE FOLDER BODY.bvh` counts pairs of written and found values; `... -- plain-why` and `... --
 //! plain-confusions` do so without export;
-//! `... -- why FEATURE FOLDER BODY.bvh` does so with the place proven, `... -- confusions FEATURE ...` counts pairs of
-//! written and found values, both in the half that is tuned on. In place of the folder a text file with a sign a line in
-//! HamNoSys characters will do. All are animated at the body's own frames a second, or at as many as stand behind it;
-//! `1/7` behind it takes one sign in seven;
-//! a file of body language behind it (`.json`) replaces numbers of the animator, not of the transcriber.
-//! `... -- movement FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
+//! `... -- why FEATURE FOLDER BODY.bvh` does so with places verified by re-synthesis, `... -- confusions FEATURE ...`
+//! counts pairs of written and found values, both in the half for tuning. Instead of the folder a text file may have
+//! one sign in HamNoSys characters on each line. Signs are animated at the body's own frame rate; a number after the
+//! body is another frame rate, `1/7` takes one sign in seven, and a file of body language (`.json`) replaces numbers of
+//! the animator, but not of the transcriber.
+//! `... -- movement FILE.bvh...` transcribes captured movement, animates the transcription, and prints their distance.
 
 #![allow(clippy::print_stdout, reason = "a program prints its table")]
 

@@ -1,4 +1,4 @@
-//! Movement to notation to movement.
+//! Closed loop from captured movement: transcribes it, animates the notation, and compares both movements.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -16,9 +16,9 @@ use crate::bodies;
 const ANOTHER: &str =
     "hamflathand hamextfingeru hampalml hamchest hamclose hammover hamrepeatfromstart";
 
-/// Prints the notation of captured movement, and how far movement made from it is: the distance of the
-/// alignment for each step, beside that of a hand that keeps its first posture and that of another sign. A left
-/// hand that does not sign is left as it was captured.
+/// Prints the notation of captured movement and the distance of the movement generated from it, per step of the
+/// alignment, next to the distances of a hand that keeps its first posture and of another sign. A left hand that does
+/// not sign keeps its captured movement.
 pub(crate) fn table(files: &[&str]) -> Result<()> {
     println!(
         "| recording | seconds | symbols | distance | held still | another sign | components |"
@@ -98,7 +98,7 @@ fn still(notated: &Notated) -> Notated {
     }
 }
 
-/// Animates a sign on the body that was captured, and cuts off the ways from and to rest.
+/// Animates a sign on the captured body, and cuts off the movements from and to rest.
 fn made(notated: &Notated, stage: &chereme_compose::Material) -> Result<Clip> {
     let made = animate(&[notated], stage, &Settings::default())?;
     let gloss = made

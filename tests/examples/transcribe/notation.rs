@@ -1,4 +1,4 @@
-//! Notation to movement to notation.
+//! Closed loop from notation: animates it, transcribes the movement, and counts the features that agree.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Works on a corpus until it is done or killed, and says each operation that is finished.
+//! Works on a corpus until it is done or killed, and prints a line for each finished operation.
 //!
 //! `chereme-worker CORPUS TASK AUTHOR FOLDER COUNT` prints `ready` when the corpus is open, then
 //! `done N` after each finished operation, N being its number in the history, and at last `end`.
@@ -126,7 +126,7 @@ impl Job {
         Ok(())
     }
 
-    /// Says the newest operation of this worker.
+    /// Prints the newest operation of this worker.
     fn tell_newest(&self, corpus: &Corpus) -> Done {
         let log = corpus.log(200)?;
         let own = log.iter().find(|row| row.author == self.author);

@@ -1,3 +1,5 @@
+//! Tests of the models of captured cued speech on generated sessions, whose truth is known.
+
 use glam::{DQuat, DVec3};
 
 use super::face::FaceModel;

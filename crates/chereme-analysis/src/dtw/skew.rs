@@ -1,5 +1,5 @@
-//! The table of least costs for the symmetric patterns: eight rows at a time along anti-diagonals, whose
-//! cells are independent; without its steps in memory of one row.
+//! The table of least costs for the symmetric step patterns: computed for eight rows at a time along anti-diagonals,
+//! whose cells are independent. Without recorded steps it needs only the memory of one row.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! A table of least costs, filled by the method for its step pattern, and the path through it.
+//! The table of least costs with the path through it; fills it by the faster method that its step pattern allows.
 
 use super::skew::Reversed;
 use super::{Options, Series, rows, skew};

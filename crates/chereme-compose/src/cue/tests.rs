@@ -1,3 +1,6 @@
+//! Tests of the generated cuer: the fingertip reaches its targets in time, leaves the lips free, and impossible
+//! requests are refused.
+
 use std::sync::Arc;
 
 use chereme_motion::glam::DVec3;

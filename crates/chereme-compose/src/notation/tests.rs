@@ -1,3 +1,5 @@
+//! Tests of movement from notation, sign by sign: directions, contacts, timing, and collisions of hands.
+
 use std::sync::Arc;
 
 use chereme_motion::glam::DVec3;

@@ -1,4 +1,4 @@
-//! The sources of values, and their permanence.
+//! Tests of which sign a value is taken from, and that stored choices give the same movement again.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Recipes from text to movement, on bodies of plain and of odd axes.
+//! Recipes from text to movement, on bodies with usual and with unusual axes.
 
 mod choices;
 mod curves;

@@ -1,3 +1,6 @@
+//! Tests of films: written ones are decoded exactly, damaged ones are refused or shown in part, and long work can be
+//! stopped.
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 

@@ -1,3 +1,5 @@
+//! Tests of merges of two corpora: copies that diverged, conflicts and their decisions, signers, repeated merges.
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

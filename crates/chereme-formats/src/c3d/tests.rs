@@ -1,3 +1,5 @@
+//! Tests of reading and writing C3D: all layouts of numbers, events, damaged files, and other people's files.
+
 use super::*;
 
 /// A small file: two points, one channel of two samples, three frames at 50 a second.

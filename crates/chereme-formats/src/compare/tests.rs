@@ -1,3 +1,5 @@
+//! Tests of differences and merges of annotation documents: cases by hand, and laws under random changes.
+
 use super::{Difference, Merged, apply, diff, merge, merge_two, with_candidates};
 use crate::eaf::Transcript;
 use crate::eaf::convert::{Annotation, Place, Tier, Timing};

@@ -1,3 +1,5 @@
+//! Tests of the readers of face captures and curves: each format, hostile bytes, and other people's files.
+
 use super::*;
 
 fn curves(text: &str) -> (Curves, Instant, Vec<Finding>) {

@@ -1,3 +1,5 @@
+//! Tests of reading FBX: bones, blend shapes, files without movement, hostile bytes, and other people's files.
+
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Anatomy, Part};
 use proptest::prelude::*;

@@ -1,3 +1,5 @@
+//! Tests of glTF and VRMA: written clips read back, animations of every kind, refused documents, avatars in T-pose.
+
 use std::sync::Arc;
 
 use chereme_motion::glam::{DQuat, DVec3};

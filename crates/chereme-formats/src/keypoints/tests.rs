@@ -1,3 +1,5 @@
+//! Tests of reading OpenPose and MediaPipe JSON: people followed over frames, gaps, units, and refused files.
+
 use chereme_motion::{Capture, Space};
 
 use super::*;

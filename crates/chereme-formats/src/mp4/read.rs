@@ -1,4 +1,4 @@
-//! The tracks of a file, and the index of its film.
+//! Reads the first track of pictures in a film file: positions, times, size and colours of its frames.
 
 use std::io::{Read, Seek};
 

@@ -1,3 +1,5 @@
+//! Tests of reading and writing MP4: times, colours, rotations, fragments, and damaged files.
+
 use std::io::Cursor;
 
 use proptest::prelude::*;

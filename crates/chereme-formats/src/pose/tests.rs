@@ -1,3 +1,5 @@
+//! Tests of reading `.pose` files of all versions, damaged ones, and other people's files.
+
 use super::*;
 
 /// A file of one component with two points of three dimensions, and two frames.

@@ -1,3 +1,5 @@
+//! Tests of reading and writing SubRip and WebVTT, and of damaged files.
+
 use super::*;
 
 /// Cues as `voice|start-end|text`, in milliseconds.

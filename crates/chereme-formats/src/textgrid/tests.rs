@@ -1,3 +1,5 @@
+//! Tests of reading and writing TextGrid in all forms and encodings, and of damaged files.
+
 use super::*;
 
 const LONG: &str = include_str!("long.TextGrid");

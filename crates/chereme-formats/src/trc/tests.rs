@@ -1,3 +1,5 @@
+//! Tests of reading and writing TRC: dialects, gaps, wrong counts, damaged files, and other people's files.
+
 use super::*;
 
 const PLAIN: &str = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n\

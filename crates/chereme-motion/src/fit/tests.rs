@@ -1,3 +1,5 @@
+//! Tests of fitting a skeleton to markers whose true movement is known, and of the reported oddities.
+
 use super::*;
 use crate::anatomy::fixtures::{PLAIN, Wear, body, roles};
 use crate::axes::Convention;

@@ -1,4 +1,4 @@
-//! Forward and backward reaching.
+//! Inverse kinematics of a chain of points by forward and backward reaching (FABRIK).
 
 use glam::DVec3;
 

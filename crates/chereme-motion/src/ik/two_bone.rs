@@ -1,4 +1,4 @@
-//! The analytic solution for two bones.
+//! Inverse kinematics of two bones in closed form, for arms.
 
 use glam::{DQuat, DVec3};
 

@@ -1,3 +1,5 @@
+//! Tests of keys of cued speech against published charts, and of French pronunciation against texts keyed by hand.
+
 use super::*;
 
 /// Keys of phones in SAMPA as `shape-placement`, with findings as `!`.

@@ -1,3 +1,5 @@
+//! Tests of the query language: canonical text, positions of terms, comparisons, and limits.
+
 mod completion;
 mod laws;
 mod refusals;

@@ -1,4 +1,4 @@
-//! Cued speech.
+//! Texts of the pane of cued speech.
 
 texts! {
     TITLE: "Cueing", "LfPC";

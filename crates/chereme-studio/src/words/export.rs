@@ -1,4 +1,4 @@
-//! The export.
+//! Texts of the export window.
 
 texts! {
     TITLE: "Export", "Exportation";

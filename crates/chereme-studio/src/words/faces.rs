@@ -1,4 +1,4 @@
-//! Faces: performances of an expression compared, chosen and carried over.
+//! Texts of the pane of faces: performances of an expression compared, chosen and transferred.
 
 texts! {
     TITLE: "Faces", "Visages";

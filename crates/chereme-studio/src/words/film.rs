@@ -1,4 +1,4 @@
-//! Films.
+//! Texts about films.
 
 texts! {
     TITLE: "Film", "Film";

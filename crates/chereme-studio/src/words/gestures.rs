@@ -1,4 +1,4 @@
-//! The gestures of the mouse.
+//! Descriptions of the mouse gestures, for the help.
 
 texts! {
     TITLE: "Mouse", "Souris";

@@ -1,4 +1,4 @@
-//! The meaning of HamNoSys symbols.
+//! Descriptions of the HamNoSys symbols, shown on hover.
 
 use chereme_sign::hamnosys::Class;
 

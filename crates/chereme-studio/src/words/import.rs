@@ -1,4 +1,4 @@
-//! The import.
+//! Texts of the import pane.
 
 texts! {
     TITLE: "Import", "Importation";

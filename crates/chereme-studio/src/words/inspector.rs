@@ -1,4 +1,4 @@
-//! The inspector.
+//! Texts of the inspector.
 
 texts! {
     TITLE: "Inspector", "Inspecteur";

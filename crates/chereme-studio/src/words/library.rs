@@ -1,4 +1,4 @@
-//! The list of recordings and signs.
+//! Texts of the lists of recordings and signs.
 
 texts! {
     TITLE: "Library", "Fonds";

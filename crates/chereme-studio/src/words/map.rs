@@ -1,4 +1,4 @@
-//! The map of signs.
+//! Texts of the map of signs.
 
 texts! {
     TITLE: "Map", "Carte";

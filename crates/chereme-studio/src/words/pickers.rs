@@ -1,4 +1,4 @@
-//! The pickers of values.
+//! Texts of the pickers of values.
 
 texts! {
     CHOOSE: "Choose…", "Choisir…";

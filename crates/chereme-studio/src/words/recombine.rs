@@ -1,4 +1,4 @@
-//! Recombination.
+//! Texts of the recombination pane.
 
 texts! {
     TITLE: "Recombine", "Recombiner";

@@ -1,4 +1,4 @@
-//! Scripts, and letters without a font.
+//! Texts about writing systems, and about letters without a font.
 
 texts! {
     NO_FONT: "No font of this computer has letters for: {scripts}. They are shown by their numbers.", "Aucune police de cet ordinateur n’a de lettres pour : {scripts}. Elles sont montrées par leurs numéros.";

@@ -1,4 +1,4 @@
-//! The search.
+//! Texts of the search pane.
 
 texts! {
     TITLE: "Search", "Recherche";

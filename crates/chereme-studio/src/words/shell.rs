@@ -1,4 +1,4 @@
-//! The window around the panes: menus, start page, notices, settings.
+//! Texts around the panes: menus, start page, notices, settings.
 
 texts! {
     MENU_FILE: "File", "Fichier";

@@ -1,4 +1,4 @@
-//! The stage.
+//! Texts of the stage.
 
 texts! {
     TITLE: "Stage", "Scène";

@@ -1,4 +1,4 @@
-//! The first steps.
+//! Texts of the first steps, the short introduction.
 
 texts! {
     LOOK: "Look", "Regarder";

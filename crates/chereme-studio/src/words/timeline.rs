@@ -1,4 +1,4 @@
-//! The timeline.
+//! Texts of the timeline.
 
 texts! {
     NO_PROPOSAL: "There is no proposal here. {value.propose} reads handshapes, places, movements and orientations from the movement.", "Il n’y a pas de proposition ici. {value.propose} lit configurations, emplacements, mouvements et orientations dans le mouvement.";

@@ -1,3 +1,5 @@
+//! Tests of exported Parquet tables: rows, columns, units, and identical bytes for the same corpus.
+
 use std::fs::File as OnDisk;
 use std::path::{Path, PathBuf};
 

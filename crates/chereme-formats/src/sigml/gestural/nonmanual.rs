@@ -1,4 +1,4 @@
-//! The non-manual tiers.
+//! Reads and writes the non-manual tiers of gestural SiGML.
 
 use super::super::node::Node;
 use super::super::raw::Element;

@@ -1,3 +1,5 @@
+//! Tests of reading HamNoSys: printed forms, other spellings, ambiguous symbols, refusals, and losses.
+
 use super::*;
 use crate::hamnosys::tree::*;
 use crate::hamnosys::{Compass, Direction, from_names, print, to_names};

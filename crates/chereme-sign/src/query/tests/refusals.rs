@@ -1,3 +1,5 @@
+//! Tests of query errors: their position, their drawing under the query, and the suggested correction.
+
 use super::*;
 
 /// Queries with the place and the message of their error.
