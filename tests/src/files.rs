@@ -1,4 +1,4 @@
-//! Small files as people would have them: movement, annotations, a lexicon.
+//! Generates small files like those that people have: movement, annotations, a lexicon.
 
 use std::fmt::Write as _;
 
@@ -26,7 +26,7 @@ const JOINTS: [(&str, Option<usize>, [f64; 3]); 20] = [
     ("RightFoot", Some(18), [0.0, -41.0, 0.0]),
 ];
 
-/// Returns a BVH file of `frames` frames at 100 a second; each `seed` moves otherwise.
+/// Returns a BVH file of `frames` frames at 100 a second; each `seed` gives another movement.
 #[must_use]
 pub fn bvh(frames: usize, seed: u32) -> String {
     let mut text = String::from("HIERARCHY\n");

@@ -1,9 +1,10 @@
-//! Imports many takes with annotations in one command and prints how fast that goes and how much memory it takes:
+//! Imports many takes with annotations in one command, and prints the speed and the memory used:
 //! `cargo run --release -p chereme-tests --example bulk [-- TAKES [CAPTURE.bvh]]`.
 //!
-//! Every take is the capture with another first number, so that no two files are the same, and has an annotation file.
-//! Without a capture that of the starter corpus is used. Without any argument 100, 300 and 1,000 takes are imported, each
-//! number in a process of its own, so that their peaks of memory can be compared, and the table is written to RESULTS.md.
+//! Each take is a copy of the capture with another first number, so that no two files are equal, and has an annotation
+//! file. Without CAPTURE a recording of the starter corpus is used. Without any argument the program imports 100, 300 and
+//! 1,000 takes, each in a separate process, so that their peaks of memory can be compared, and writes the table to
+//! RESULTS.md.
 
 #![allow(clippy::print_stdout, reason = "a program prints its table")]
 
@@ -46,7 +47,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Imports so many takes and returns the row of the table.
+/// Imports `takes` takes, and returns the row of the table.
 fn row(takes: usize, capture: Option<&Path>) -> Result<String> {
     let own = tempfile::tempdir()?;
     let starter = unpack_starter(&own.path().join("starter"))?;
@@ -93,7 +94,7 @@ fn row(takes: usize, capture: Option<&Path>) -> Result<String> {
     ))
 }
 
-/// Writes the takes and returns how many bytes they have.
+/// Writes the takes, and returns their size in bytes.
 fn write_takes(folder: &Path, takes: usize, capture: &Path, notes: &Path) -> Result<u64> {
     std::fs::create_dir_all(folder)?;
     let movement = std::fs::read_to_string(capture)?;
@@ -120,7 +121,7 @@ fn write_takes(folder: &Path, takes: usize, capture: &Path, notes: &Path) -> Res
     Ok(bytes)
 }
 
-/// Returns the most memory that this process ever used, in MiB, where the system has it.
+/// Returns the peak memory of this process in MiB, if the system reports it.
 fn memory() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = text.lines().find(|line| line.starts_with("VmHWM:"))?;

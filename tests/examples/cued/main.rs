@@ -1,9 +1,9 @@
-//! Generated sessions of cued speech, and the table of what the models recover of their truth.
+//! Generates sessions of cued speech, and measures how well the models recover their known truth.
 //!
 //! `cargo run --release -p chereme-tests --example cued -- table` prints the table, `… -- table FILE` writes it into a
 //! Markdown file between the lines `<!-- cued -->` and `<!-- end of cued -->`;
 //! `… -- session OUT [SENTENCES] [SEED]` writes a session, 238 sentences if no number is given: C3D with TextGrid, TRC with
-//! EAF, the truth as CSV, and a README that says that nothing of it was captured. `… -- fable` prints the keys of two fables of La Fontaine, line by line; the same
+//! EAF, the truth as CSV, and a README that declares everything as generated. `… -- fable` prints the keys of two fables of La Fontaine, line by line; the same
 //! text is cued with `chereme cue CORPUS "$(cat tests/examples/cued/corbeau.txt)"`.
 
 #![allow(
@@ -90,7 +90,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Writes the table into a Markdown file, in the place of the one from before.
+/// Replaces the table in a Markdown file.
 fn put(path: &Path, table: &str) -> std::io::Result<()> {
     const BEGIN: &str = "<!-- cued -->\n";
     const END: &str = "<!-- end of cued -->";

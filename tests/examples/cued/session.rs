@@ -24,7 +24,7 @@ nothing about people who cue.\n";
 
 /// The words of generated sentences.
 const WORDS: &str = include_str!("words.txt");
-/// How many words a sentence has.
+/// The number of words in a sentence.
 pub(crate) const USUAL_WORDS: usize = 6;
 
 /// Returns the text of a sentence: words drawn one after another.
@@ -38,11 +38,11 @@ pub(crate) fn text(seed: u64, number: u64, words: usize) -> String {
 /// The size of a session, and the settings of its generator.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plan {
-    /// How many sentences.
+    /// The number of sentences.
     pub(crate) sentences: u64,
-    /// How many words each has.
+    /// The number of words in each.
     pub(crate) words: usize,
-    /// How often all changes of shape are shown.
+    /// The number of times that the session shows all changes of shape.
     pub(crate) times: usize,
     /// The settings of the generator.
     pub(crate) settings: Settings,
@@ -98,7 +98,7 @@ fn take(folder: &Path, name: &str, text: &str, take: &Take, frames: &mut usize) 
     let column = |points: &dyn Fn(usize) -> Option<DVec3>, axis: usize| {
         let numbers =
             (0..take.hand.len()).map(|frame| points(frame).map_or(f64::NAN, |at| at[axis]));
-        // A TRC of a marker system has a hundredth of a millimetre.
+        // Marker systems write TRC to a hundredth of a millimetre.
         Column::doubles(numbers.map(|x| (x * 100.0).round() / 100.0).collect())
     };
     let mut points = Vec::new();

@@ -1,38 +1,38 @@
-//! The dialects: names, units, rest poses, joints and faults as programs write them.
+//! Descriptions of skeleton dialects: the names, units, rest poses, joints and faults in files of common programs.
 
 use chereme_motion::{Finger, Part, Side};
 
-/// How one program writes a body.
+/// The form in which one program writes a body.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dialect {
     pub(crate) name: &'static str,
     /// Its name for a part.
     pub(crate) part: fn(Part) -> String,
-    /// Before every name, such as `Anna:`.
+    /// Prefix of every name, such as `Anna:`.
     pub(crate) space: &'static str,
-    /// Units in a metre.
+    /// Units per metre.
     pub(crate) unit: f64,
-    /// Whether Z is up, in place of Y.
+    /// Whether Z points up instead of Y.
     pub(crate) z_up: bool,
-    /// How far the arms are lowered at rest, in radians.
+    /// Angle by which the arms are lowered at rest, in radians.
     pub(crate) lowered: f64,
-    /// How far fingers are bent at rest, in radians; the thumb goes with them.
+    /// Angle by which fingers and thumb are bent at rest, in radians.
     pub(crate) bent: f64,
     pub(crate) metacarpals: bool,
-    /// Whether fingers end in a fourth joint, in place of an End Site.
+    /// Whether fingers end in a fourth joint instead of an End Site.
     pub(crate) ends: bool,
-    /// Whether a node with a place and turn of its own is above the hips.
+    /// Whether a node with its own offset and rotation is above the hips.
     pub(crate) wrapped: bool,
     pub(crate) markers: bool,
     /// Whether fingertips and some finger joints have wrong offsets, and every joint has position channels.
     pub(crate) broken: bool,
-    /// Whether a T-pose five metres away, turned round, comes first.
+    /// Whether the movement begins with a T-pose five metres away that faces backwards.
     pub(crate) odd: bool,
-    /// Noise of rotations in radians.
+    /// Noise of the rotations in radians.
     pub(crate) noise: f64,
-    /// How far thumbs are turned toward the palm at rest, in radians.
+    /// Angle by which thumbs are turned toward the palm at rest, in radians.
     pub(crate) opposed: f64,
-    /// How far the straightest finger of the signer is bent, in radians: a fist is bent no more than usual.
+    /// Angle by which the signer's straightest finger is bent, in radians; the fist is as usual.
     pub(crate) lax: f64,
     /// Whether digits lack their last joint.
     pub(crate) short: bool,
@@ -58,7 +58,7 @@ const PLAIN: Dialect = Dialect {
     short: false,
 };
 
-/// Returns every dialect; the last has all that is odd at once.
+/// Returns every dialect; the last one combines all oddities.
 pub(crate) fn all() -> Vec<Dialect> {
     vec![
         PLAIN,

@@ -1,12 +1,12 @@
-//! One capture in many dialects of skeletons, and what is read of each, as a Markdown table:
+//! Tests how well one capture is read from many dialects of skeletons, as a Markdown table:
 //! `cargo run -p chereme-tests --example dialects [-- CAPTURE.bvh [FOLDER]]`.
 //!
-//! Every handshape of the inventory is put on the right hand of the capture, each in another of its frames. The movement
-//! is then written as other people's programs write it: joints called and turned otherwise, other units and axes, rest
-//! poses with lowered arms or fists, fingers of three or four joints and with metacarpals, a wrapper above the hips,
-//! optical markers beside them, offsets that are wrong, odd first frames, noise. Each file is imported like anybody's,
-//! and handshape, palm and place are read from it and compared with what was put there. Without a capture that of the
-//! starter corpus is used, and the tables are written to RESULTS.md; with a FOLDER the files are left there, to be looked at.
+//! The right hand of the capture takes every handshape of the inventory, each in another frame. Then the movement is
+//! written in the form of other people's programs: other names and axes of joints, other units, rest poses with lowered
+//! arms or fists, fingers of three or four joints and with metacarpals, a wrapper above the hips, optical markers beside
+//! the joints, wrong offsets, odd first frames, noise. Each file is imported, and handshape, palm and place are read from
+//! it and compared with the truth. Without CAPTURE a recording of the starter corpus is used, and the tables are written
+//! to RESULTS.md; the files stay in FOLDER, if one is given.
 
 #![allow(clippy::print_stdout, reason = "a program prints its table")]
 
@@ -54,7 +54,7 @@ imported, and read again. A column counts the readings that are right: the neare
 of 26 directions of palm and fingers, and the nearest of 12 places. *Off* is the largest error of a hand's posture.
 ";
 
-/// Returns the table of a capture; files are left in the folder.
+/// Returns the table of a capture; its files stay in the folder.
 fn table(capture: &Path, folder: &Path) -> Result<String> {
     let own = tempfile::tempdir()?;
     let source = read::import(own.path(), "source", capture)?;
@@ -91,7 +91,7 @@ fn table(capture: &Path, folder: &Path) -> Result<String> {
     Ok(text)
 }
 
-/// Returns the capture of the starter corpus, and those of other people if there are some.
+/// Returns the capture of the starter corpus, and those of other people if the shared data are there.
 fn captures(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut all = vec![starter(folder)?];
     if let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") {
@@ -115,7 +115,7 @@ fn starter(folder: &Path) -> Result<PathBuf> {
         .clone())
 }
 
-/// Imports a file into a corpus of its own, without progress.
+/// Imports a file into a new corpus, without progress.
 fn corpus_of(folder: &Path, name: &str, file: &Path) -> Result<Corpus> {
     let mut corpus = Corpus::create(&folder.join(format!("{name}.chereme")), name)?;
     let mut hear = unheard;

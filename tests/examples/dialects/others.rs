@@ -1,4 +1,4 @@
-//! Handshapes read from other people's captures: of each hand at its straightest, and at rest.
+//! Table of the handshapes read from other people's captures: of each hand at its straightest, and at rest.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use chereme_motion::{HandAngles, HandCorrection, Side};
 use crate::Result;
 use crate::read::{known, known_distance, shapes};
 
-/// So many frames of a capture are looked at.
+/// The number of frames of a capture that are read.
 const FRAMES: usize = 400;
 
 /// The head of the table.
@@ -64,7 +64,7 @@ pub(crate) fn rows(data: &Path) -> Result<String> {
     Ok(text)
 }
 
-/// Returns how far the fingers are bent, as the mean of all their joints in degrees.
+/// Returns the mean flexion of all finger joints in degrees.
 fn bent(angles: &HandAngles) -> f64 {
     let all = angles.fingers.iter().flat_map(|finger| finger.flexion);
     all.map(f64::abs).sum::<f64>().to_degrees() / 12.0

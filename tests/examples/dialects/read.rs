@@ -1,4 +1,4 @@
-//! The readings of a recording: handshape, palm, fingers and place in some frames.
+//! Reads handshape, palm, fingers and place in some frames of a recording, and compares them with the truth.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::Result;
 /// The hand that is read.
 pub(crate) const SIDE: Side = Side::Right;
 
-/// A direction at the limit of two is right within this angle in radians.
+/// A direction near the limit between two is right within this angle (rad).
 const LIMIT: f64 = 0.09;
 
 /// Places that the table distinguishes.
@@ -40,7 +40,7 @@ pub(crate) struct Reading {
     palm: (String, DVec3),
     fingers: (String, DVec3),
     place: &'static str,
-    /// Where the palm's middle is, in shoulder widths of the body.
+    /// The position of the palm's middle, in shoulder widths of the body.
     at: DVec3,
     angles: HandAngles,
     known: [bool; HandAngles::LEN],
@@ -81,12 +81,12 @@ pub(crate) fn shapes() -> Vec<(String, HandAngles)> {
     shapes
 }
 
-/// Returns how far two postures are apart: the root of the mean square of all angles, in radians.
+/// Returns the distance of two postures: the root mean square difference of all angles, in radians.
 fn distance(a: &HandAngles, b: &HandAngles) -> f64 {
     known_distance(a, b, &[true; HandAngles::LEN])
 }
 
-/// Returns how far two postures are apart as far as a skeleton shows it.
+/// Returns the same distance over the angles that a skeleton shows.
 pub(crate) fn known_distance(
     a: &HandAngles,
     b: &HandAngles,
@@ -111,7 +111,7 @@ pub(crate) fn known(anatomy: &Anatomy, side: Side) -> [bool; HandAngles::LEN] {
     })
 }
 
-/// Reads frames of a clip, corrected as the take shows or as they are.
+/// Reads frames of a clip, with or without the correction from its take.
 pub(crate) fn readings(
     from: &Imported,
     clip: &Clip,
@@ -162,7 +162,7 @@ fn nearest(way: DVec3) -> String {
     found.map(|it| it.to_string()).unwrap_or_default()
 }
 
-/// How many readings are right.
+/// The number of correct readings.
 pub(crate) struct Score {
     all: usize,
     shape: usize,
@@ -174,7 +174,7 @@ pub(crate) struct Score {
     first: Option<String>,
 }
 
-/// Compares the readings with the truth. A direction or place at the limit of two is right within a
+/// Compares the readings with the truth. A direction or place near the limit between two is right within a
 /// few degrees or centimetres of the truth.
 pub(crate) fn compare(truth: &[Reading], found: &[Reading]) -> Score {
     let near = |a: DVec3, b: DVec3| a.angle_between(b) < LIMIT;
@@ -228,12 +228,12 @@ pub(crate) const HEAD: &str =
 ";
 
 impl Score {
-    /// Returns how many readings there are.
+    /// Returns the number of readings.
     pub(crate) fn all(&self) -> usize {
         4 * self.all
     }
 
-    /// Returns how many readings are wrong.
+    /// Returns the number of wrong readings.
     pub(crate) fn wrong(&self) -> usize {
         4 * self.all - self.shape - self.palm - self.fingers - self.place
     }

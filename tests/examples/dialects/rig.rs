@@ -1,4 +1,4 @@
-//! A capture put on the skeleton of a dialect, and written as BVH.
+//! Transfers a capture to the skeleton of a dialect, and writes it as BVH.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -17,7 +17,7 @@ use crate::Result;
 use crate::dialect::Dialect;
 use crate::read::{SIDE, shapes};
 
-/// How many frames each handshape is held.
+/// The number of frames for which each handshape is held.
 const HOLD: usize = 4;
 
 /// The capture with every handshape on its right hand, and the frames in which each is read.
@@ -45,7 +45,7 @@ pub(crate) fn staged(source: &Moving) -> Result<Staged> {
     Ok(Staged { clip, frames })
 }
 
-/// Returns the posture that a hand takes whose straightest finger is bent by `lax`, and whose fist is as usual.
+/// Returns the posture of a hand whose straightest finger is bent by `lax`, and whose fist is as usual.
 fn lax(angles: &HandAngles, lax: f64) -> HandAngles {
     let mut lazy = *angles;
     let bend = |angle: f64, full: f64| lax + angle * (1.0 - lax / full);
@@ -64,9 +64,9 @@ fn lax(angles: &HandAngles, lax: f64) -> HandAngles {
 struct Bone {
     name: String,
     parent: Option<usize>,
-    /// The joint of the capture with which it turns.
+    /// The joint of the capture whose rotation it has.
     of: usize,
-    /// Its place in that joint's space.
+    /// Its position in that joint's space.
     at: DVec3,
     tip: Option<DVec3>,
     finger: bool,
@@ -151,7 +151,7 @@ pub(crate) fn write(
     let mut noise = Noise(17);
     let mut channels: Vec<Channel> = joints.iter().map(|_| Channel::default()).collect();
     for model in &models {
-        // How each bone is turned against rest, in the file's axes.
+        // The rotation of each bone from rest, in the file's axes.
         let turned: Vec<DQuat> = bones
             .iter()
             .map(|bone| {
@@ -234,14 +234,14 @@ pub(crate) fn write(
     Ok(prefix)
 }
 
-/// Returns the joints of the dialect: the capture's, with what the dialect adds.
+/// Returns the joints of the dialect: those of the capture, and those that the dialect adds.
 fn bones(source: &Moving, dialect: &Dialect) -> Vec<Bone> {
     let (skeleton, anatomy) = (source.clip.skeleton(), &source.anatomy);
     let mut bones: Vec<Bone> = Vec::new();
     let mut known: Vec<Option<usize>> = vec![None; skeleton.len()];
     for (index, joint) in skeleton.joints().iter().enumerate() {
         let part = anatomy.part_of(index);
-        // A joint that is no part and ends a chain is an end of a bone.
+        // A last joint that is not a part of the body is the end of a bone.
         if part.is_none() && skeleton.children(index).is_empty() {
             continue;
         }
@@ -383,7 +383,7 @@ fn t_pose_far_away(source: &Moving, from: &Pose) -> ModelPose {
     ModelPose::of(source.clip.skeleton(), &pose)
 }
 
-/// Returns optical markers with the joint that each goes with.
+/// Returns optical markers, each with the joint that it follows.
 fn markers(source: &Moving) -> Vec<(&'static str, usize)> {
     let middle = |side| Part::Finger(side, Finger::Middle, 2);
     let all = [
@@ -403,7 +403,7 @@ fn markers(source: &Moving) -> Vec<(&'static str, usize)> {
     all.into_iter().filter_map(joint).collect()
 }
 
-/// Noise that is the same every time.
+/// Noise from a fixed seed.
 struct Noise(u64);
 
 impl Noise {

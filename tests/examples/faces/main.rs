@@ -1,14 +1,15 @@
-//! The experiment of the founding paper on faces, from capture files to tables.
+//! Repeats the experiment of the founding paper on faces with generated performances, from capture files to tables.
 //!
 //! `cargo run --release -p chereme-tests --example faces -- [FOLDER] [--write] [--pool N]`
 //!
 //! Eighteen sentences in three functions (negation, wh and yes/no questions) are performed by a generator whose faces and
-//! milestones are known; they are written as files of MPEG-4 parameters, imported, given their milestones, scored,
-//! chosen among, and carried over to each other. FOLDER keeps the files, the corpus and `tables.md`; without it they
-//! are in a folder that goes. `--write` puts the tables into `tests/examples/faces/RESULTS.md`. `--pool N` chooses among N performances instead, and prints how long that takes.
+//! milestones are known. They are written as files of MPEG-4 parameters and imported; then their milestones are derived,
+//! and they are scored, ranked, and transferred to each other. FOLDER keeps the files, the corpus and `tables.md`;
+//! without it they are in a temporary folder. `--write` puts the tables into `tests/examples/faces/RESULTS.md`.
+//! `--pool N` chooses among N performances instead, and prints the time of that.
 //!
-//! Each table says what it can show and what it cannot. People rated nothing here: the paper's correlations with
-//! comprehension need people, and no number of this program stands for them.
+//! Each table states what it shows and what it does not. Nobody rated these performances: the paper's correlations with
+//! comprehension need people, and no number of this program replaces them.
 
 #![allow(clippy::print_stdout, reason = "the tables are the program's result")]
 
@@ -245,7 +246,7 @@ fn choose(
     Ok(choices)
 }
 
-/// Animates each sentence with its nearest and its farthest face, and measures how far milestones are off.
+/// Animates each sentence with its nearest and its farthest face, and measures the errors at the milestones.
 fn animate(
     corpus: &mut Corpus,
     all: &[Sentence],
@@ -287,12 +288,13 @@ fn animate(
     Ok(())
 }
 
-/// Returns how far brows are, within a frame of a sentence's M2, M3 and M4, from the donor's at its own.
+/// Returns the difference of the brows, within a frame of the sentence's M2, M3 and M4, from the donor's brows at its
+/// own milestones.
 fn off(sentence: &Sentence, donor: &Sentence, brows: &[f64]) -> f64 {
     let (own, theirs) = (sentence.milestones.times(), donor.milestones.times());
     let mut off = 0.0_f64;
     for n in 1..4 {
-        // Where signs touch, the expression begins or ends at once, and has no one value there.
+        // If signs touch, the expression begins or ends at once, and has no single value there.
         if own[n] == own[n - 1] || own[n] == own[n + 1] {
             continue;
         }
@@ -308,7 +310,7 @@ fn off(sentence: &Sentence, donor: &Sentence, brows: &[f64]) -> f64 {
     off
 }
 
-/// Correlates scores with ratings that are drawn from a model, to show the path that people's answers would take.
+/// Correlates scores with ratings drawn from a model, as people's answers would be evaluated.
 fn simulate(pairs: &[Pair], tables: &mut Tables) {
     let mut numbers = Numbers(8);
     let mut rows = Vec::new();
@@ -337,7 +339,7 @@ fn simulate(pairs: &[Pair], tables: &mut Tables) {
     );
 }
 
-/// Compares proposals for brows, lids, gaze, mouth and head with what a generator put into noisy curves.
+/// Compares proposals for brows, lids, gaze, mouth and head with the events that a generator put into noisy curves.
 fn propose(tables: &mut Tables) {
     let all = proposals::counted(30);
     let rows = all.iter().map(|((part, value), count)| {
@@ -370,7 +372,7 @@ fn propose(tables: &mut Tables) {
     );
 }
 
-/// Measures when faces begin and end against the signs, for each function.
+/// Measures when faces begin and end relative to the signs, for each function.
 fn time(corpus: &Corpus, tables: &mut Tables) -> Result<(), Failure> {
     let mut hear = unheard;
     let onsets = corpus.onsets(None, &mut Progress::new(&mut hear))?;

@@ -1,4 +1,4 @@
-//! How long it takes to choose among many performances.
+//! Measures the time for a choice among many performances.
 
 use std::path::Path;
 use std::time::Instant;

@@ -1,4 +1,4 @@
-//! Proposals for brows, lids, gaze, mouth and head, compared with what a generator put into the curves.
+//! Compares proposals for brows, lids, gaze, mouth and head with the events that a generator put into the curves.
 
 use std::collections::BTreeMap;
 
@@ -32,7 +32,7 @@ impl Numbers {
 /// Something that a generated face does: the part, the value, begin and end in seconds.
 type Event = (&'static str, &'static str, f64, f64);
 
-/// The numbers of a generated take, and what was put into them.
+/// The curves of a generated take, and the events in them.
 struct Take {
     brows: [Vec<f64>; 2],
     squeeze: Vec<f64>,
@@ -62,7 +62,7 @@ fn swing(curve: &mut [f64], (from, to): (f64, f64), rate: f64, size: f64) {
 }
 
 impl Take {
-    /// Returns a take in which one thing after the other happens in each part, with what only looks alike between.
+    /// Returns a take with one event after another in each part, and with similar non-events between them.
     fn new(numbers: &mut Numbers) -> Self {
         let count = (SECONDS * RATE) as usize;
         let still = || vec![0.0; count];
@@ -132,7 +132,7 @@ impl Take {
                     "raised-left"
                 }
                 3 => {
-                    // Less than what counts.
+                    // Below the threshold of a proposal.
                     self.brows
                         .iter_mut()
                         .for_each(|it| add(it, span, 0.1, 0.12));
@@ -225,14 +225,14 @@ impl Take {
     }
 }
 
-/// How often proposals of one value are right.
+/// Counts of correct proposals of one value.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Count {
     /// The events that the generator put in.
     pub(crate) there: usize,
     /// The proposals.
     pub(crate) proposed: usize,
-    /// Proposals of the right value that share half of the time of both together.
+    /// Proposals of the right value whose overlap with the event is at least half of their union.
     pub(crate) right: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Sentences whose faces and milestones are known.
+//! Generates sentences whose faces and milestones are known.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use chereme_corpus::{
 use chereme_motion::Span;
 use chereme_sign::milestones::{EDGE, milestones};
 
-/// A small generator of numbers (splitmix64), so that runs are alike.
+/// A small generator of numbers (splitmix64), which gives the same numbers in every run.
 pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
@@ -32,7 +32,7 @@ impl Numbers {
     }
 }
 
-/// The numbers of a performance's body, all of them known.
+/// The known parameters of a performance, in the part between onset and offset.
 #[derive(Debug, Clone, Copy)]
 struct Manner {
     /// Brows raised in the first part of the body and in the rest.
@@ -124,7 +124,7 @@ impl Sentence {
         }
     }
 
-    /// Returns how much of the expression there is at a moment, and how far its body has come.
+    /// Returns the strength of the expression at a moment, and the elapsed share of its middle part.
     fn course(&self, seconds: f64) -> (f64, f64) {
         let [m1, m2, m3, m4, m5] = self.milestones.times().map(Instant::seconds);
         let smooth = |share: f64| {
@@ -151,7 +151,7 @@ impl Sentence {
         much * (first + (rest - first) * part)
     }
 
-    /// Returns how unlike the manners of two performances are, in the units that count as 1 in scores.
+    /// Returns the difference of two performances' manners, in the units that count as 1 in scores.
     pub(crate) fn difference(&self, other: &Self) -> f64 {
         let (a, b) = (self.manner, other.manner);
         let brows: f64 = (0..2)

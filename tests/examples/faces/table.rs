@@ -1,11 +1,11 @@
-//! Tables as Markdown, each with what it shows and what it does not, and rank correlation.
+//! Markdown tables with notes on what they show and do not show, and rank correlation.
 
 /// Tables in order.
 #[derive(Default)]
 pub(crate) struct Tables(String);
 
 impl Tables {
-    /// Adds a table with what it shows and what it cannot show.
+    /// Adds a table with notes on what it shows and cannot show.
     pub(crate) fn add(
         &mut self,
         title: &str,

@@ -8,11 +8,12 @@ use crate::capture::Capture;
 use crate::shelf::Shelf;
 use crate::table::markdown;
 
-/// How near points of hands are that touch, and a hand's point and a place on the body, in metres.
+/// Distances below which hands touch: between points of both hands, and between a hand's point and a place on the body
+/// (m).
 const NEAR: [f64; 2] = [0.035, 0.06];
-/// By how much farther apart things may be that still touch, in metres.
+/// Additional distance (m) at which a contact still counts as kept.
 const SLACK: f64 = 0.005;
-/// Contacts that are apart for less than this are one, in seconds.
+/// Contacts with a shorter pause than this (s) between them count as one.
 const PAUSE: f64 = 0.1;
 
 const POINTS: [&str; 6] = [
@@ -60,7 +61,7 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
             if contacts.is_empty() {
                 continue;
             }
-            // Not every body has fingers to give another shape, nor arms that reach so far.
+            // Some bodies have no fingers for another shape, or arms that do not reach so far.
             let Ok(made) = Shelf::new(capture.clip.clone(), &capture.anatomy).make(step) else {
                 continue;
             };
@@ -136,7 +137,7 @@ fn touches(capture: &Capture, clip: &Clip, contact: &Contact) -> bool {
         .any(|(_, distance)| distance < near + SLACK)
 }
 
-/// Returns how near the hand's nearest point is to each thing that it may touch.
+/// Returns the distance of the hand's nearest point from each thing that it may touch.
 fn places(
     capture: &Capture,
     clip: &Clip,

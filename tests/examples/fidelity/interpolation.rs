@@ -21,7 +21,7 @@ const COURSES: [&str; 6] = [
 ];
 const SIGMOID: usize = 2;
 
-/// How far one synthesised transition is from the captured one.
+/// The error of a synthesised transition against the captured one.
 #[derive(Clone, Copy, Default)]
 struct Error {
     /// Sums of squares over frames and points, in metres and metres per second.
@@ -113,7 +113,7 @@ fn table(captures: &[Capture], found: &[Transition]) -> String {
     markdown(&head, rows)
 }
 
-/// Returns in what share of the transitions each course comes nearer than the sigmoid.
+/// Returns for each course the share of transitions in which its error is smaller than the sigmoid's.
 fn wins(errors: &[[Option<Error>; COURSES.len()]], numbers: &[usize]) -> Vec<String> {
     let cells = (0..COURSES.len()).map(|course| {
         if course == SIGMOID {

@@ -1,4 +1,4 @@
-//! How true generated movement is to captured movement, as Markdown tables:
+//! Measures the fidelity of generated movement to captured movement, as Markdown tables:
 //! `cargo run --release -p chereme-tests --example fidelity -- FOLDER-OF-BVH`.
 //!
 //! Reads every BVH file below the folder. With the names of tables after it (`interpolation`,
@@ -18,7 +18,7 @@ mod table;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Prints what one room of the benchmark found out.
+/// One part of the benchmark, which returns its tables.
 type Table = fn(&[capture::Capture]) -> Result<String>;
 
 #[allow(clippy::print_stdout, clippy::print_stderr)]

@@ -1,4 +1,4 @@
-//! Hands placed elsewhere: the rest of the path, the turn of hands, the movement of elbows.
+//! Table for hands placed elsewhere: the rest of the path, the rotation of hands, the movement of elbows.
 
 use chereme_compose::Made;
 use chereme_motion::glam::{DQuat, DVec3};
@@ -22,9 +22,9 @@ const HEAD: [&str; 11] = [
     "largest other, °",
     "clips out of reach, told",
 ];
-/// By how many degrees more than in the source a joint turns from a frame to the next in a jump.
+/// A joint jumps if it turns by this many degrees more than in the source from one frame to the next.
 const JUMP: f64 = 5.0;
-/// A turn in the source, in degrees, that no arm makes: the capture is cut there.
+/// A rotation between two frames of the source, in degrees, that no arm can make: the capture is cut there.
 const CUT: f64 = 15.0;
 /// The longest soft end of the reach.
 const SOFT: f64 = 0.08;
@@ -36,8 +36,7 @@ struct Found {
     /// Largest residuals: of targets nearer than the longest soft end, and of all in reach.
     residual: [f64; 2],
     turned: f64,
-    /// Jumps with hands moved by 10 and by 25 cm, and those that any arm would make whose wrist goes
-    /// so.
+    /// Jumps with hands moved by 10 and by 25 cm, and those that any arm must make for such a path of the wrist.
     jumps: [usize; 2],
     asked: usize,
     largest: f64,
@@ -160,7 +159,7 @@ fn told(made: &Made) -> bool {
     did.into_iter().any(|did| did.contains("out of reach"))
 }
 
-/// Returns the displacement of the wrists that half of all frames and hands agree on, coordinate by coordinate.
+/// Returns the median displacement of the wrists over all frames and hands, coordinate by coordinate.
 fn offset(capture: &Capture, clip: &Clip, made: &Clip) -> DVec3 {
     let hands = capture
         .sides()
@@ -216,9 +215,9 @@ fn arm(
     beyond
 }
 
-/// Counts the jumps of upper arm and forearm that are the operator's.
+/// Counts the jumps of upper arm and forearm that the operator causes.
 ///
-/// The upper arm is looked at in the space of the trunk, the forearm in that of the upper arm.
+/// The upper arm is measured in the space of the trunk, the forearm in that of the upper arm.
 fn jumps(capture: &Capture, clip: &Clip, made: &Clip, side: Side, found: &mut Found, far: usize) {
     let Some(arm) = capture.anatomy.arm(side) else {
         return;
@@ -257,10 +256,10 @@ fn jumps(capture: &Capture, clip: &Clip, made: &Clip, side: Side, found: &mut Fo
     }
 }
 
-/// How an arm is bent: the line from shoulder to wrist, and the angles that shoulder and elbow have
-/// with it in the plane of the arm.
+/// The bend of an arm: the line from shoulder to wrist, and the angles of shoulder and elbow to it in the plane of the
+/// arm.
 ///
-/// These follow from where the wrist is; the elbow may be anywhere on a circle about the line.
+/// These follow from the position of the wrist; the elbow may be anywhere on a circle about the line.
 struct Bend {
     line: DVec3,
     shoulder: f64,
@@ -280,8 +279,8 @@ impl Bend {
         }
     }
 
-    /// Returns the least turn of an upper arm from the one to the other, wherever the elbow is on its
-    /// circle in each: as far as the circles lie apart, seen from the shoulder.
+    /// Returns the least rotation of an upper arm from one bend to the other, for any position of the elbow on its circle:
+    /// the angle between the circles, seen from the shoulder.
     fn upper_to(&self, after: &Self) -> f64 {
         let apart = self.line.angle_between(after.line);
         let within = (self.shoulder - after.shoulder).abs() - apart;
@@ -289,7 +288,7 @@ impl Bend {
     }
 }
 
-/// Returns how far a joint turns from each frame to the next in the space of one above it.
+/// Returns the rotation of a joint from each frame to the next, in the space of a joint above it.
 fn turns(clip: &Clip, joint: usize, base: Option<usize>) -> Vec<f64> {
     let chain: Vec<usize> = clip
         .skeleton()

@@ -1,4 +1,4 @@
-//! Transitions in captured movement: strokes of wrists and changes of handshape.
+//! Finds transitions in captured movement: strokes of wrists and changes of handshape.
 
 use chereme_analysis::strokes::{Mover, place_in, strokes};
 use chereme_motion::Clip;
@@ -8,11 +8,11 @@ use crate::capture::Capture;
 
 /// A transition between two minima of speed.
 pub(crate) struct Transition {
-    /// Which capture.
+    /// The index of the capture.
     pub(crate) capture: usize,
     /// The transition alone: its frames, from the first posture to the last.
     pub(crate) clip: Clip,
-    /// The joints that make it.
+    /// The joints that move in it.
     pub(crate) joints: Vec<usize>,
     /// The joints whose ends are compared, and the joint in whose space they are.
     pub(crate) points: Vec<usize>,

@@ -15,7 +15,7 @@ pub(crate) fn markdown<R: IntoIterator<Item = String>>(
     text
 }
 
-/// Returns a small number so that its size can be read: `0` below a billionth.
+/// Returns a small number as text that shows its order of magnitude; `0` below a billionth.
 pub(crate) fn small(value: f64) -> String {
     if value < 1e-12 {
         "0".into()

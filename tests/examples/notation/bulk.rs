@@ -94,7 +94,7 @@ impl Hand {
             }
             let radius = FINGER * length;
             for (n, pair) in points.windows(2).enumerate() {
-                // The flesh ends where the tip is.
+                // The flesh ends at the tip.
                 let last = n + 2 == points.len();
                 let way = pair[1] - pair[0];
                 let end = if last {
@@ -128,8 +128,8 @@ impl Hand {
             .find(|tube| tube.digit == digit && tube.bone == bone)
     }
 
-    /// Returns how far the thumb is from where its notated place across the hand is, in metres; `None` if
-    /// the handshape does not put it across.
+    /// Returns the distance (m) of the thumb from its notated place across the hand; `None` if the handshape does not put
+    /// it across.
     pub(crate) fn thumb_off(&self, shape: &Handshape) -> Option<f64> {
         let plain = shape.between.is_none() && shape.thumb.is_none() && shape.bends[0].is_none();
         if shape.form.thumb != Some(ThumbPosition::Across) || !plain {
@@ -183,7 +183,7 @@ fn folded(shape: &Handshape) -> Vec<usize> {
     all.take(2).collect()
 }
 
-/// Returns how deep two hands are within each other at most, in metres.
+/// Returns the largest depth of two hands in each other, in metres.
 pub(crate) fn deepest(a: &Hand, b: &Hand) -> f64 {
     if a.palm_end.distance(b.palm_end) > 2.2 * a.length {
         return 0.0;
@@ -197,7 +197,7 @@ pub(crate) fn deepest(a: &Hand, b: &Hand) -> f64 {
     deep.fold(0.0, f64::max)
 }
 
-/// Returns the distance of two lines between their ends, and the way from the second to the first.
+/// Returns the distance of two segments, and the direction from the second to the first.
 pub(crate) fn between(a: [DVec3; 2], b: [DVec3; 2]) -> (f64, DVec3) {
     let (u, v, w) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
     let (uu, uv, vv, uw, vw) = (u.dot(u), u.dot(v), v.dot(v), u.dot(w), v.dot(w));

@@ -1,31 +1,31 @@
-//! The conditions on generated movement, measured from its joints alone.
+//! Measures generated movement from its joints alone: lengths, limits, depths, speeds.
 
 use chereme_compose::Made;
 use chereme_motion::anatomy::BodyFrame;
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, ModelPose, Part, Side, Skeleton};
 
-/// The worst that was found in a movement.
+/// The worst values in a movement.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Worst {
-    /// Values that are no numbers.
+    /// The number of values that are not numbers.
     pub(crate) nan: usize,
     /// The largest change of a bone's length in metres.
     pub(crate) bone: f64,
     /// The largest bend of a wrist and turn of a forearm, 1 at the limit.
     pub(crate) wrist: f64,
     pub(crate) turn: f64,
-    /// The deepest that a joint of a hand, and of an elbow, lies in the trunk, in metres.
+    /// The largest depth of a joint of a hand, and of an elbow, in the trunk, in metres.
     pub(crate) hand_depth: f64,
     pub(crate) elbow_depth: f64,
-    /// When that of either is, in seconds.
+    /// The time of the larger of both, in seconds.
     pub(crate) deepest: f64,
-    /// The fastest wrist in metres per second, and elbow.
+    /// The highest speeds of a wrist and of an elbow, in metres per second.
     pub(crate) speed: f64,
     pub(crate) elbow_speed: f64,
     /// The fastest turn of a joint of the arm in radians per second.
     pub(crate) turning: f64,
-    /// How far an elbow is above its shoulder, in metres.
+    /// The largest height of an elbow above its shoulder, in metres.
     pub(crate) above: f64,
 }
 
@@ -87,7 +87,7 @@ pub(crate) fn worst(made: &Made) -> Worst {
     worst
 }
 
-/// Returns how far a wrist is bent and a forearm turned, 1 at the limits of the body language.
+/// Returns the bend of a wrist and the rotation of a forearm, 1 at the limits of the body language.
 fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
     let language = chereme_sign::hamnosys::BodyLanguage::usual();
     let (Some(arm), Some(along), Some(palm)) = (
@@ -128,8 +128,8 @@ fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
     (bend, turn)
 }
 
-/// The trunk's surface in one frame, which goes with what carries the collar bones: through the landmarks of its
-/// front, an ellipse at each height.
+/// The trunk's surface in one frame: an ellipse at each height, through the landmarks of the front. It follows the joint
+/// that carries the collar bones.
 #[derive(Clone)]
 pub(crate) struct Trunk {
     frame: BodyFrame,
@@ -162,7 +162,7 @@ impl Trunk {
         })
     }
 
-    /// Returns the surface as it is in a frame, from how it is at rest.
+    /// Returns the surface in a frame, moved from its state at rest.
     pub(crate) fn moved(&self, rest: &ModelPose, model: &ModelPose) -> Self {
         let Some(joint) = self.joint else {
             return self.clone();
@@ -181,12 +181,12 @@ impl Trunk {
         }
     }
 
-    /// Returns how far a point within the trunk is from its front and sides, in metres, level.
+    /// Returns the horizontal distance of a point within the trunk from its front and sides, in metres.
     fn depth(&self, at: DVec3) -> f64 {
         self.depth_with(at, 0.0)
     }
 
-    /// Like `depth`, of a ball of a radius about the point.
+    /// Returns the depth of a ball about the point.
     pub(crate) fn depth_with(&self, at: DVec3, radius: f64) -> f64 {
         let more = radius / self.frame.scale;
         let v = self.frame.to_body(at);
@@ -213,7 +213,7 @@ impl Trunk {
     }
 }
 
-/// Returns whether the skeleton has a wrist at all.
+/// Returns whether the skeleton has a wrist.
 #[allow(dead_code, reason = "the test uses it, the example does not")]
 pub(crate) fn has_hand(anatomy: &Anatomy) -> bool {
     Side::BOTH

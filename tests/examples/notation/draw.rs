@@ -1,4 +1,4 @@
-//! Contact sheets of signs from notation.
+//! Draws contact sheets of signs from notation.
 
 use std::fs::File;
 use std::io::BufWriter;

@@ -19,7 +19,7 @@ use crate::{Result, bodies};
 /// The marks between which the table stands.
 const MARKS: [&str; 2] = ["<!-- faults -->", "<!-- /faults -->"];
 
-/// One fault: its name, and how a sign is judged: `None` if the fault cannot occur in it.
+/// One fault: its name, and the function that judges a sign; `None` if the fault cannot occur in it.
 type Judge = (&'static str, fn(&Seen<'_>) -> Option<bool>);
 
 const FAULTS: [Judge; 18] = [
@@ -71,7 +71,7 @@ struct Seen<'a> {
     made: Made,
     /// The same without its non-manuals, if it has some.
     plain: Option<Made>,
-    /// The model in each frame.
+    /// The posture in each frame, in model space.
     models: Vec<ModelPose>,
     rate: f64,
 }
@@ -125,7 +125,7 @@ impl Seen<'_> {
             .sum()
     }
 
-    /// Returns the fastest that a wrist goes between two frames, in metres per second.
+    /// Returns the highest speed of a wrist between two frames, in metres per second.
     fn peak(&self, side: Side, (from, to): (usize, usize)) -> f64 {
         let Some(arm) = self.made.anatomy.arm(side) else {
             return 0.0;
@@ -406,7 +406,7 @@ fn trembling(seen: &Seen<'_>) -> Option<bool> {
 }
 
 impl Seen<'_> {
-    /// Returns how often a second a wrist goes to and fro across its way; `None` if it hardly does.
+    /// Returns the frequency (Hz) with which a wrist moves to and fro across its path; `None` if it hardly does.
     fn frequency(&self, side: Side, (from, to): (usize, usize)) -> Option<f64> {
         let at = |n: usize| self.wrist(side, n);
         let (first, last) = (at(from)?, at(to)?);

@@ -1,8 +1,9 @@
-//! Signs from notation, drawn and measured.
+//! Animates signs from notation, draws them, and measures them.
 //!
 //! `cargo run --release -p chereme-tests --example notation -- table FOLDER BODY.bvh...` animates every `.sigml`
 //! file of a folder on each body and prints the result. `... -- draw FOLDER BODY.bvh OUT GLOSS...` draws contact
-//! sheets of some, `... -- draw random COUNT SEED FOLDER BODY.bvh OUT` of signs that a seed chooses. `... -- list FOLDER BODY.bvh` prints a line for each sign: its worst values, and its report.
+//! sheets of some signs, `... -- draw random COUNT SEED FOLDER BODY.bvh OUT` of signs that a seed chooses. `... -- list
+//! FOLDER BODY.bvh` prints a line for each sign: its worst values, and its report.
 //! `... -- faults FOLDER BODY.bvh [FILE.md]` counts faults that make movement look unlike a person's, and writes
 //! the table between the marks of a file; `sample N` after `faults` takes one sign out of N.
 

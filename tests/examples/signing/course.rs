@@ -1,4 +1,4 @@
-//! How far the courses of formulas are from strokes of signing.
+//! Measures the distance of the courses of formulas from strokes of real signing.
 
 use chereme_motion::Interpolation;
 use chereme_motion::glam::DVec3;
@@ -17,7 +17,7 @@ struct Stroke<'t> {
 }
 
 impl Stroke<'_> {
-    /// Returns the share of the way that is done at equal steps of time.
+    /// Returns the covered share of the path at equal steps of time.
     fn course(&self) -> Vec<f64> {
         let (first, last) = (self.path[0], self.path[self.path.len() - 1]);
         let way = last - first;

@@ -1,10 +1,9 @@
-//! How signing runs in time, measured in signers estimated from film and in captured signs:
+//! Measures the timing of signing, in signers estimated from film and in captured signs:
 //! `cargo run --release -p chereme-tests --example signing -- FILE-OR-FOLDER...`.
 //!
 //! Reads every `.pose` and BVH file that is named or lies below a named folder. Prints medians and quartiles of
-//! approaches, strokes, holds and returns of the wrists, and how far the courses that formulas give are from the
-//! strokes. Films are measured on the picture, shoulders taken as 36 cm wide; so movement towards the camera is
-//! missing.
+//! approaches, strokes, holds and returns of the wrists, and the distance of the courses of formulas from the
+//! strokes. Films are measured on the picture, with shoulders 36 cm wide; movement towards the camera is missing.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

@@ -1,10 +1,10 @@
-//! Approaches, strokes, holds and returns of wrists.
+//! Divides the movement of wrists into approaches, strokes, holds and returns, and prints their table.
 
 use std::ops::Range;
 
 use crate::take::{RATE, Take};
 
-/// Two stretches are one if the speed between them stays above this share of the lower peak.
+/// Two pieces of movement are one if the speed between them stays above this share of the lower peak.
 const DIP: f64 = 0.55;
 /// Least peak of speed (m/s) and least path (m) of a stretch.
 const LEAST: (f64, f64) = (0.15, 0.03);
@@ -159,7 +159,7 @@ pub(crate) fn table(takes: &[Take]) -> String {
     text
 }
 
-/// Returns what share of signing is movement, what share is hold, and how fast approaches are against strokes.
+/// Returns the shares of movement and of holds in signing, and the speed of approaches relative to strokes.
 fn shares(all: &[Phases]) -> String {
     let mut moving = Vec::new();
     let mut holds = Vec::new();

@@ -1,4 +1,4 @@
-//! Paths of wrists from files.
+//! Reads the paths of wrists from `.pose` and BVH files.
 
 use std::path::Path;
 
@@ -8,9 +8,9 @@ use chereme_motion::{Anatomy, Markers, Side};
 
 use crate::Result;
 
-/// The width of shoulders in metres, by which pictures of signers are measured.
+/// The width of shoulders (m), the scale of pictures of signers.
 const SHOULDERS: f64 = 0.36;
-/// Steps a second at which paths are sampled.
+/// Samples per second of a path.
 pub(crate) const RATE: f64 = 100.0;
 /// Standard deviation (s) of the Gaussian that smooths paths: points estimated from film tremble.
 const SMOOTH: f64 = 0.03;
@@ -19,9 +19,9 @@ const SHORTEST: f64 = 0.5;
 
 /// The path of one wrist.
 pub(crate) struct Take {
-    /// The number of its file.
+    /// The name of its file.
     pub(crate) file: String,
-    /// Positions from the middle of the shoulders (m), [`RATE`] a second.
+    /// Positions relative to the middle of the shoulders (m), [`RATE`] per second.
     pub(crate) path: Vec<DVec3>,
     /// Speeds in metres per second.
     pub(crate) speeds: Vec<f64>,
@@ -50,7 +50,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Take>> {
     Ok(takes.collect())
 }
 
-/// Returns the frames a second of a film, and the positions of its wrists.
+/// Returns the frame rate of a film, and the positions of its wrists.
 fn film(path: &Path) -> Result<(f64, Vec<Vec<DVec3>>)> {
     let (tracks, _) = chereme_formats::pose::read(&std::fs::read(path)?)?;
     let track = tracks.tracks.first().ok_or("no track")?;
@@ -86,7 +86,7 @@ fn film(path: &Path) -> Result<(f64, Vec<Vec<DVec3>>)> {
     Ok((rate, wrists.collect()))
 }
 
-/// Returns where a point is in each frame.
+/// Returns the position of a point in each frame.
 fn places(markers: &Markers, name: &str) -> Option<Vec<Option<DVec3>>> {
     let named = |known: &str| known == name || known.ends_with(&format!("/{name}"));
     let ends = |known: &str| known.ends_with(name);
@@ -119,7 +119,7 @@ fn filled(all: &[Option<DVec3>]) -> Option<Vec<DVec3>> {
     Some((0..all.len()).map(at).collect())
 }
 
-/// Returns the frames a second of a captured clip, and its wrists in the space of the trunk.
+/// Returns the frame rate of a captured clip, and its wrists in the space of the trunk.
 fn skeleton(path: &Path) -> Result<(f64, Vec<Vec<DVec3>>)> {
     let whole = crate::take::bodies::movement(path)?;
     let (clip, anatomy): (_, &Anatomy) = (&whole.clip, &whole.anatomy);
@@ -140,7 +140,7 @@ fn skeleton(path: &Path) -> Result<(f64, Vec<Vec<DVec3>>)> {
     Ok((clip.rate().per_second(), wrists))
 }
 
-/// Returns a path with [`RATE`] steps a second.
+/// Returns a path with [`RATE`] samples per second.
 fn resampled(path: &[DVec3], rate: f64) -> Vec<DVec3> {
     let Some(last) = path.len().checked_sub(1) else {
         return Vec::new();

@@ -22,26 +22,26 @@ use crate::compare::{Verdict, compare};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum More<'a> {
     Nothing,
-    /// Nothing; readings without re-synthesis.
+    /// The table alone, with places read without re-synthesis.
     Plain,
-    /// Nothing, of the whole movement exported as BVH and read as any other capture.
+    /// The table alone, from the whole movement exported as BVH and read like any other capture.
     Blind,
     /// As `Blind`, with every disagreement about a feature in the half used for tuning.
     BlindWhy(&'a str),
-    /// Every disagreement about a feature, or `all`, or `show` with each; only the half that is tuned on.
+    /// Every disagreement about a feature, about `all`, or every sign with `show`; only in the half used for tuning.
     Why(&'a str),
     /// As `Plain`, with every disagreement about a feature in the half used for tuning.
     PlainWhy(&'a str),
     /// The confusions and their counts, in the half used for tuning.
     Confusions(&'a str),
-    /// The same, of movement that is read without its notation.
+    /// The same, for movement exported as BVH.
     BlindConfusions(&'a str),
     /// The same, without re-synthesis.
     PlainConfusions(&'a str),
 }
 
 impl More<'_> {
-    /// Returns whether the whole movement is exported and read as any other capture.
+    /// Returns whether the whole movement is exported and read like any other capture.
     fn is_blind(self) -> bool {
         matches!(
             self,
@@ -58,7 +58,8 @@ impl More<'_> {
     }
 }
 
-/// How often a feature agrees: of all, where the body reaches it, and of each half of the signs.
+/// Counts of agreement and of cases for one feature: in all signs, in those that the body can perform fully, and in each
+/// half of the signs.
 #[derive(Debug, Clone, Copy, Default)]
 struct Counts([(usize, usize); 4]);
 
@@ -144,7 +145,7 @@ pub(crate) fn table(
                     if of == verdict.feature =>
                 {
                     let mark = if verdict.agrees { "= " } else { "" };
-                    // Distances belong to one sign each.
+                    // Each distance belongs to one sign.
                     let found = verdict.found.split('\t').next().unwrap_or_default();
                     let pair = (verdict.written, format!("{mark}{found}"));
                     *confusions.entry(pair).or_default() += 1;
@@ -188,7 +189,7 @@ pub(crate) fn table(
     Ok(())
 }
 
-/// Reads the signs of a text file, a line each in HamNoSys characters; the rest of a line is left out.
+/// Reads the signs of a text file with one sign in HamNoSys characters on each line; the rest of a line is ignored.
 fn lines(file: &Path) -> Result<Vec<(String, Notated)>> {
     let text = std::fs::read_to_string(file)?;
     let mut all = Vec::new();
@@ -210,7 +211,7 @@ fn lines(file: &Path) -> Result<Vec<(String, Notated)>> {
     Ok(all)
 }
 
-/// Returns whether a sign is of the half that thresholds may be tuned on: by its name's bytes (FNV-1a).
+/// Returns whether a sign belongs to the half for tuning thresholds, by a hash of its name (FNV-1a).
 fn is_tuned_on(name: &str) -> bool {
     let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
@@ -226,7 +227,7 @@ struct Seen {
     shown: Option<String>,
 }
 
-/// Does something with each of many, on as many threads as the machine has; results are in their order.
+/// Calls `does` on each item, on all cores of the machine; the results are in the order of the items.
 fn seen<T: Sync, R: Send>(all: &[T], does: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let (next, does) = (&AtomicUsize::new(0), &does);
@@ -260,14 +261,14 @@ impl Performs for Performed {
 /// The result for a part of a sign.
 pub(crate) struct Again {
     pub(crate) found: Transcription,
-    /// The sign without the ways from and to rest.
+    /// The sign without the movements from and to rest.
     pub(crate) clip: Clip,
     pub(crate) anatomy: Arc<Anatomy>,
     /// Whether the body fell short of what is written.
     pub(crate) short: bool,
     /// The frame in which the animator reaches the first posture, if the transcriber had to find it.
     pub(crate) begins: Option<usize>,
-    /// How long it took to transcribe.
+    /// The time of the transcription.
     seconds: f64,
 }
 
@@ -316,7 +317,7 @@ fn again(
     })
 }
 
-/// Exports movement as BVH, imports it without its notation, and transcribes that as a capture.
+/// Exports movement as BVH, imports it without its notation, and transcribes it like a capture.
 fn blind(made: chereme_compose::Made, span: Span, options: &Options) -> Option<Again> {
     let short = is_short(&made);
     let begins = made.clip.rate().frame_at(span.start());
