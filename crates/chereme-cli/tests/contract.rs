@@ -148,7 +148,7 @@ fn a_search_is_kept_asked_again_and_forgotten() {
     let path = corpus.display();
     let line = format!("search {path} 'gloss=CHAT or gloss=BOL' --keep 'two signs'");
     let first = desk.json(&line);
-    assert_eq!(first["notes"][0], "kept: @two signs asks this again");
+    assert_eq!(first["notes"][0], "saved: @two signs stands for this query");
     let again = desk.json(&format!("search {path} '@Two Signs'"));
     assert_eq!(again["hits"], first["hits"]);
     let listed = desk.json(&format!("list {path} searches"));

@@ -243,10 +243,10 @@ pub enum Cause {
         address: String,
     },
     /// The inputs stored with the recipe do not fit it.
-    #[error("the stored inputs hold nothing fit for this step")]
+    #[error("the stored inputs lack what this step needs")]
     Input,
     /// The generated movement is not a valid clip.
-    #[error("the result is no movement: {0}")]
+    #[error("the result is not a valid movement: {0}")]
     Clip(#[from] chereme_motion::ClipError),
 }
 
@@ -314,7 +314,7 @@ impl Cause {
             Self::NothingToTake { .. } => "choose another sign",
             Self::Cut { .. } => "name times within it",
             Self::Torn { .. } => {
-                "cut wrong first or last frames off (`| trim`, or `| span 0.2s..1.5s`), or give the way more time \
+                "cut wrong first or last frames off (`| trim`, or `| span 0.2s..1.5s`), or give the transition more time \
                  (`then via 0.4s`, `repeat 2 gap 0.3s`)"
             }
             Self::Empty(_) => "name a recording with movement",

@@ -265,7 +265,7 @@ impl<'a> Evaluator<'a> {
         self.report.warnings.extend(done.warnings);
         if let Some(residual) = done.residual.filter(|residual| *residual > 1e-3) {
             self.report.warnings.push(format!(
-                "{step}: a hand stays up to {:.1} cm from where it should be",
+                "{step}: a hand stays up to {:.1} cm from its target",
                 residual * 100.0
             ));
         }

@@ -8,7 +8,7 @@ impl Display for Report {
     /// Writes the report as indented lines; a step without a residual has no target to miss.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let scaled = self.steps.iter().any(|step| step.residual.is_some());
-        let scale = " (residual: how far a wrist stays from its goal at most)";
+        let scale = " (residual: the largest distance of a wrist from its goal)";
         writeln!(f, "steps{}", if scaled { scale } else { "" })?;
         for step in &self.steps {
             write!(f, "  {}", step.step)?;

@@ -199,7 +199,7 @@ impl Looking<'_, '_> {
                 self.fault(
                     "block",
                     format!("block {name}"),
-                    "its bytes are not those it is named after",
+                    "its bytes do not match the hash that names it",
                     BACKUP,
                 );
             }
@@ -226,7 +226,7 @@ impl Looking<'_, '_> {
                 self.fault(
                     "skeleton",
                     place,
-                    "its document is not the one it is named after",
+                    "its document does not match the hash that names it",
                     BACKUP,
                 );
             }
@@ -344,7 +344,7 @@ impl Looking<'_, '_> {
                 self.fault(
                     "tokens",
                     place,
-                    "its tokens are not what its tiers say",
+                    "its tokens do not agree with its tiers",
                     MEND,
                 );
             }

@@ -271,7 +271,7 @@ fn store(
     gloss: &str,
 ) -> Result<(i64, i64, String)> {
     if made.clip.frames() == 0 {
-        return Err(Error::wrong("the recipe makes no movement at all"));
+        return Err(Error::wrong("the recipe generates no movement"));
     }
     let signer_id = signer_of(connection, made)?;
     let name = recordings::free_name(connection, gloss)?;

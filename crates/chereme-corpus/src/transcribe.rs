@@ -125,7 +125,7 @@ impl Corpus {
         let seconds = stretch.span.seconds();
         if seconds > LONGEST {
             return Err(Error::wrong(format!(
-                "{address} lasts {seconds:.0} s; one sign of at most {LONGEST:.0} s is written at once"
+                "{address} lasts {seconds:.0} s; at most one sign of {LONGEST:.0} s is transcribed at once"
             ))
             .at(address.to_string())
             .advise("name a token in it: token:41"));
@@ -217,7 +217,7 @@ impl Corpus {
             return Err(
                 Error::wrong(format!("{address} has another notation already"))
                     .at(address.to_string())
-                    .advise("add --force to write over it; undo brings it back"),
+                    .advise("add --force to replace it; undo brings it back"),
             );
         }
         let document = Notated {
@@ -263,7 +263,7 @@ fn corrected(hands: &[HandCorrection; 2]) -> Option<String> {
         .fold(0.0, f64::max);
     (most > MUCH).then(|| {
         format!(
-            "fingers are read against the straightest posture of this signer's own takes, up to {:.0} degrees bent",
+            "finger angles count from the straightest posture in this signer's takes, which is up to {:.0} degrees bent",
             most.to_degrees()
         )
     })

@@ -129,6 +129,6 @@ fn odd_first_frames_are_reported_with_their_numbers_and_cut_by_trim() {
         .expect("whole");
     assert!(
         back.clip.translation(0, 0).length() > 5.0,
-        "the numbers stay the file's"
+        "the stored numbers stay those of the file"
     );
 }

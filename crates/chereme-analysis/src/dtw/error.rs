@@ -23,7 +23,7 @@ impl fmt::Display for Obstacle {
             Self::Together(window, pattern) => {
                 write!(
                     f,
-                    "{pattern:?} steps find no way inside the window {window}"
+                    "{pattern:?} steps find no path inside the window {window}"
                 )
             }
         }

@@ -280,7 +280,7 @@ impl<'a> Writer<'a> {
             if track.is_none() {
                 let which = ["dominant", "other"][n];
                 self.findings
-                    .push(format!("the skeleton has no arm of the {which} side"));
+                    .push(format!("the skeleton has no arm on the {which} side"));
             }
         }
     }
@@ -290,7 +290,7 @@ impl<'a> Writer<'a> {
         let mut hands = self.scene.hands.iter().flatten();
         if hands.all(|track| track.rests.iter().all(|rests| *rests)) {
             self.findings.push(
-                "the hands rest or the arms stick out in every frame: what is told is that posture; \
+                "the hands rest or the arms stick out in every frame: only that posture is transcribed; \
                  give a span in which something is signed"
                     .to_owned(),
             );

@@ -140,8 +140,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
 
 fn show(choice: &Choice, output: &mut Output) -> Result<()> {
     let by = match choice.rank {
-        Rank::Nearest => "the most alike to its own face first",
-        Rank::Farthest => "the least alike to its own face first",
+        Rank::Nearest => "the most similar to its own face first",
+        Rank::Farthest => "the least similar to its own face first",
         Rank::Medoid => "the most usual first",
     };
     output.line(format!(

@@ -173,7 +173,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                     count => format!("; {count} are missing"),
                 };
                 output.line(format!(
-                    "{name}: {} markers, {:.1} % of their places seen{missing}",
+                    "{name}: {} markers, {:.1} % of their positions visible{missing}",
                     set.found,
                     set.seen * 100.0
                 ))?;
@@ -241,13 +241,13 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         Action::Recognise { train, test } => {
             let found = corpus.recognise_cues(train, test, &options)?;
             output.line(format!(
-                "{} recognised by what {} teach",
+                "{} recognised after training on {}",
                 output.counted(found.tested_on.len() as u64, "recordings"),
                 output.counted(found.trained_on.len() as u64, "recordings"),
             ))?;
             if found.same {
                 output.line(
-                    "warning: the keys that were recognised are those that were learned from",
+                    "warning: the recognisers were tested on the keys from which they learned",
                 )?;
             }
             confusion("shapes", &found.shapes, output)?;

@@ -140,7 +140,7 @@ fn fit(corpus: &mut Corpus, address: &Address, store: bool, output: &mut Output)
     findings(&fit.findings, output)?;
     if fit.stored {
         output.line(format!(
-            "stored: faces of {whose} are taken by it from now on"
+            "stored: from now on these weights apply to all faces of {whose}"
         ))?;
     }
     output.document(fit)

@@ -56,7 +56,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         .collect();
     output.table(&["marker", "joint", "median_mm", "most_mm", "seen"], &rows)?;
     output.line(format!(
-        "{} frames; the skeleton in {:.3} of its size; markers are {:.1} mm from it in the median",
+        "{} frames; the skeleton scaled by {:.3}; median distance of the markers {:.1} mm",
         report.frames, report.scale, report.median_mm
     ))?;
     if !report.unused.is_empty() {

@@ -212,7 +212,7 @@ fn files(args: &Args) -> Result<(Vec<PathBuf>, Vec<Stand>)> {
         }
         if chereme_corpus::is_film(&format!("film.{format}")) {
             return Err(Error::wrong(
-                "a corpus keeps the place of a film, and standard input has none",
+                "a corpus stores the path of a film, and standard input has none",
             )
             .at(format)
             .advise("name the file of the film")

@@ -81,7 +81,7 @@ enum Take {
 pub(super) fn merge(cli: &Cli, args: &MergeArgs, output: &mut Output) -> Result<()> {
     if is_corpus(&args.mine) && streams::is_standard(&args.other) {
         return Err(Error::wrong(
-            "standard input says no name, by which a corpus knows its file again",
+            "standard input has no name by which the corpus could find the earlier version of the file",
         )
         .at("-")
         .advise("write `chereme import CORPUS - --format eaf --name NAME --merge`")
@@ -190,12 +190,12 @@ fn list(conflicts: &[CorpusConflict], output: &mut Output) -> Result<()> {
 /// Imports a changed annotation file so that edits of both sides stay.
 fn file_into_corpus(cli: &Cli, args: &MergeArgs, output: &mut Output) -> Result<()> {
     if let Some(base) = &args.base {
-        return Err(
-            Error::wrong("a corpus knows the state from which the file went on")
-                .at(base.display().to_string())
-                .advise("leave --base out")
-                .into(),
-        );
+        return Err(Error::wrong(
+            "a corpus already has the state from which the file was exported",
+        )
+        .at(base.display().to_string())
+        .advise("leave --base out")
+        .into());
     }
     let mut corpus = cli.open(&args.mine)?;
     let options = ImportOptions {
@@ -265,7 +265,7 @@ pub(super) fn conflicts(cli: &Cli, args: &ConflictsArgs, output: &mut Output) ->
     let mut corpus = cli.open(&args.corpus)?;
     let Some(take) = args.take else {
         if let Some(number) = args.numbers.first() {
-            return Err(Error::wrong("what shall become of the conflict?")
+            return Err(Error::wrong("no decision is given")
                 .at(number.clone())
                 .advise("add --take mine, theirs or both")
                 .into());
@@ -285,7 +285,7 @@ pub(super) fn conflicts(cli: &Cli, args: &ConflictsArgs, output: &mut Output) ->
             text.parse::<usize>().map_err(|_| {
                 Error::wrong(format!("{text:?} is no number of a conflict"))
                     .at(text.clone())
-                    .advise("`chereme conflicts CORPUS` lists them; all is all of them")
+                    .advise("`chereme conflicts CORPUS` lists them; `all` means all of them")
             })
         };
         let numbers: Result<Vec<usize>, Error> = args.numbers.iter().map(number).collect();

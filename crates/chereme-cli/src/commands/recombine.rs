@@ -11,22 +11,22 @@ use crate::output::{Bar, Output};
 use crate::streams;
 
 const RECIPES: &str = "\
-What a recipe begins with
+Sources: what a recipe begins with
   ESCARGOT  token:41  sign:LIMACE         a sign of the corpus, with movement or as notation
-  take-1  recording:3                     a whole recording, by its name where no sign is called so
+  take-1  recording:3                     a whole recording, by its name if no sign has that name
   spell LSF left hold 0.2s                a word in a manual alphabet
   point right at 30cm,140cm,50cm          reaching for a point: to the left, up from the floor, forward
   hamnosys \"...\"  sigml HUIS.sigml        notation
 
-What is done to it, step by step, each after |
+Operators: the changes, one after another, each after |
   configure right U   both from LION      another handshape; that of another sign
   place both by left 25cm up 5cm          another place: moved
   place right at chin with index          at a placement, or a point such as 0cm,120cm,40cm
-  place both near BOL by up 5cm           where another sign is
-  orient right palm up fingers forward    the hand turned; or: by 30deg about up
+  place both near BOL by up 5cm           at the place of another sign
+  orient right palm up fingers forward    another direction of the hand; or: by 30deg about up
   reverse   swap   mirror right           backwards; the arms exchanged; one arm like the other
   repeat 3 scale 0.8 tempo 1.2 gap 0.1s   again, each smaller and faster
-  amplify both 1.5                        larger ways
+  amplify both 1.5                        larger paths
   travel right down 20cm then up 20cm     along a path
   travel right through 10cm,8cm,0cm then 20cm,0cm,0cm in 1s   along a curve: left, up, forward
   from me to left                         a directional verb between other places

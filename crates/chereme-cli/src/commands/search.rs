@@ -250,7 +250,7 @@ pub(super) fn separated_line(cells: &[String], tabs: bool) -> String {
 /// Keeps a query, and says so.
 fn keep(corpus: &mut Corpus, name: &str, query: String) -> Result<String> {
     let name = name.trim().trim_start_matches('@').to_owned();
-    let said = format!("kept: @{name} asks this again");
+    let said = format!("saved: @{name} stands for this query");
     corpus.keep_searches(&[KeptSearch { name, query }])?;
     Ok(said)
 }

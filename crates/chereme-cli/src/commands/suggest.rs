@@ -61,7 +61,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let shown = &found.possible[..found.possible.len().min(MOST_POSSIBLE)];
     if !shown.is_empty() {
         output.line(format!(
-            "possible, where one of the two is not coded for all fields ({} of {}):",
+            "possible pairs, in which one sign is not coded for all fields ({} of {}):",
             shown.len(),
             found.possible.len()
         ))?;
@@ -69,7 +69,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     for (field, values) in &found.unused {
         output.line(format!(
-            "no sign has, with the rest, {field}: {}",
+            "values of {field} that no sign has with the rest: {}",
             values.join(", ")
         ))?;
     }

@@ -128,8 +128,9 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             found.confidence
         ))?;
         if found.confidence < 0.5 {
-            output
-                .line("this is not sure: look at both before it is used, or name other channels")?;
+            output.line(
+                "this is uncertain: look at both tracks before you use it, or name other channels",
+            )?;
         }
         if args.store {
             corpus.change_track(&args.recording, name, &TrackChange::Offset(found.offset_us))?;

@@ -694,6 +694,6 @@ fn a_hand_touches_with_what_stands_before_a_part_that_looks_away() {
     let begun = posture(HandClass::Flat, "l", "d", Some(place));
     let made = made(&notated(HandsUsed::Dominant, begun, vec![]), Axes::Odd);
     let said = made.report.warnings.join("; ");
-    assert!(said.contains("stands before the part"), "{said}");
+    assert!(said.contains("the part in front of"), "{said}");
     assert!(!said.contains("short of"), "{said}");
 }

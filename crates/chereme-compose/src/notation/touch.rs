@@ -92,7 +92,7 @@ impl Planner<'_> {
         if by > TOLD {
             let side = self.sides[n].name();
             self.remark(&format!(
-                "the {side} hand touches with what stands before the part that is named"
+                "the {side} hand touches with the part in front of the named one"
             ));
         }
     }

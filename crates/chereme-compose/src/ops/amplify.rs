@@ -98,7 +98,7 @@ pub(crate) fn amplify(
     });
     work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
     let mut did = vec![format!(
-        "the hands' ways are {:.0}% as large",
+        "the hands' paths are {:.0}% as large",
         factor * 100.0
     )];
     did.extend(told(&reach));

@@ -245,7 +245,7 @@ pub(crate) fn indicate(
         }
     }
     did.push(format!(
-        "the way of {:.0} cm became {:.0} cm",
+        "the path of {:.0} cm became {:.0} cm",
         start.distance(end) * 100.0,
         from.distance(to) * 100.0
     ));

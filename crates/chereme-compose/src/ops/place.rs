@@ -172,7 +172,7 @@ impl Operator for Place {
         let step = Self::NAME;
         match &self.to {
             Goal::By(legs) => {
-                check::filled(step, legs, "no way is given")?;
+                check::filled(step, legs, "no path is given")?;
                 check::legs(step, legs)
             }
             Goal::Near { of, by } => {
@@ -510,8 +510,8 @@ pub(crate) fn told(reach: &Reach) -> Vec<String> {
     }
     if reach.is_softened() {
         told.push(format!(
-            "the wrist leaves the arm's reach fast: beyond {:.1}% of its length it falls behind, so \
-             that the elbow opens calmly",
+            "the wrist leaves the arm's reach fast: beyond {:.1}% of its length it lags behind, so \
+             that the elbow opens smoothly",
             (1.0 - reach.soft) * 100.0
         ));
     }

@@ -116,10 +116,10 @@ impl Operator for Travel {
         let step = Self::NAME;
         let refused = |what| Err(RecipeError::Empty { step, what });
         if !self.path.is_empty() && !self.through.is_empty() {
-            return refused("it has legs and a curve: keep one of them");
+            return refused("legs and a curve are given: keep one of them");
         }
         if self.through.is_empty() {
-            check::filled(step, &self.path, "no way is given")?;
+            check::filled(step, &self.path, "no path is given")?;
             if self.time.is_some() {
                 return refused(
                     "only a curve has a time; each leg has its own, such as left 5cm in 0.2s",

@@ -110,7 +110,7 @@ fn add(
             "the recording {:?} has all of these tiers already",
             recording.name
         ))
-        .advise("add single tiers, or make it like another recording"));
+        .advise("add single tiers, or copy those of another recording"));
     }
     Ok(added)
 }
@@ -213,7 +213,7 @@ fn like(
 ) -> Result<Vec<Wanted>> {
     let tiers = rows::tiers(connection, other.id)?;
     if tiers.is_empty() {
-        let wrong = format!("the recording {:?} has no tiers to be like", other.name);
+        let wrong = format!("the recording {:?} has no tiers to copy", other.name);
         return Err(Error::wrong(wrong).advise("name another, or take the usual tiers"));
     }
     let (from, to) = (signer(connection, other)?, signer(connection, recording)?);

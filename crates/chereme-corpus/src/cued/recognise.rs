@@ -173,7 +173,7 @@ pub(super) fn learned(
 ) -> Result<(Recognisers, Vec<Vec<chereme_analysis::cue::session::Shown>>)> {
     let pairs: Vec<_> = takes.iter().map(Cued::pair).collect();
     find(&pairs).map_err(|error| {
-        Error::wrong(format!("the keys teach no recogniser: {error}"))
+        Error::wrong(format!("the recognisers cannot learn from these keys: {error}"))
             .advise("import more takes with keys, or restore their hidden markers first: chereme cued CORPUS restore")
     })
 }

@@ -205,7 +205,7 @@ impl Corpus {
             without_dictionary: true,
             recording: done.name,
             findings: [format!(
-                "the program's own movement stands for a dictionary: {why}"
+                "the program's own movement is used, as there is no dictionary: {why}"
             )]
             .into_iter()
             .chain(done.report.warnings)

@@ -184,7 +184,7 @@ fn place_joints(
     report.understood.placed_by_movement = Some(owned);
     if !names.is_empty() {
         report.findings.push(ReportFinding::note(format!(
-            "the offsets of {} are not where the movement puts {}: the movement counts, the numbers stay the file's",
+            "the offsets of {} are not where the movement puts {}: the movement is used, and the stored numbers stay those of the file",
             listed(&names),
             if names.len() == 1 { "it" } else { "them" }
         )));
@@ -291,7 +291,7 @@ fn understand(
     {
         report.findings.push(ReportFinding::warning(
             format!(
-                "which way is up and which is left is not sure; {} is taken ({reason})",
+                "the directions up and left are uncertain; {} is assumed ({reason})",
                 convention.axes
             ),
             "look at it with `chereme render`; say the axes with --axes, or name the joints in a roles file",
@@ -427,7 +427,7 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
     if !markers.is_empty() {
         let names: Vec<&str> = markers.iter().map(String::as_str).collect();
         report.findings.push(ReportFinding::note(format!(
-            "{} optical markers stand beside the skeleton and are taken for no joint: {}",
+            "{} optical markers are beside the skeleton and do not count as joints: {}",
             markers.len(),
             listed(&names)
         )));
@@ -606,7 +606,7 @@ fn mend_root(
     if let Some(scale) = scale {
         report.findings.push(ReportFinding::warning(
             format!(
-                "the root seems to be in another unit than the bones: its places times {scale} would \
+                "the root seems to be in another unit than the bones: its positions times {scale} would \
                  put the feet on the ground"
             ),
             MEND,

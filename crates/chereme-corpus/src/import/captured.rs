@@ -201,7 +201,7 @@ fn facing(job: &Job<'_>, scene: &Scene, anatomy: &Anatomy, report: &mut FileRepo
         if step != 1.0 {
             report.findings.push(ReportFinding::warning(
                 format!(
-                    "in the unit that the file states the body is {:.4} m tall; its lengths are taken times {step}",
+                    "in the unit that the file states the body is {:.4} m tall; its lengths are multiplied by {step}",
                     stature.unwrap_or_default()
                 ),
                 "say the unit with --unit, such as --unit cm, if the body is as tall as the file says",

@@ -104,7 +104,7 @@ pub(super) fn import_as(
         report.findings.insert(
             0,
             ReportFinding::note(format!(
-                "it is the recording {:?} already (from {}); its tiers are what the mapping says now",
+                "it is the recording {:?} already (from {}); its tiers now have the roles of the mapping",
                 report.recording.as_deref().unwrap_or_default(),
                 base.path.as_ref().unwrap_or(&base.name)
             )),
@@ -143,7 +143,7 @@ pub(super) fn import_as(
     {
         report.findings.push(ReportFinding::warning(
             "no tier was recognised as one of glosses, so no tokens were made",
-            "say which tier is what in a mapping file (--map), or with `chereme annotate`",
+            "give tiers their roles in a mapping file (--map), or with `chereme annotate`",
         ));
     }
     Ok(report)
@@ -199,7 +199,7 @@ fn update(
         updated.report(&sides, report);
         if merge && let Some(rule) = rules_broken(job, recording)?.difference(&broken).next() {
             return Err(Error::wrong(format!(
-                "the file and your edits do not fit together: {rule}"
+                "the file and your edits contradict each other: {rule}"
             ))
             .advise("import it with --theirs (the file as it is) or --mine (your edits)"));
         }
@@ -255,7 +255,7 @@ fn guess(
         Some(Err(error)) => {
             report.findings.push(ReportFinding::warning(
                 format!("its property {TIERS:?} is not understood: {error}"),
-                "tiers are taken for what their names say",
+                "the roles of tiers are inferred from their names",
             ));
             job.options.mapping.clone()
         }

@@ -60,10 +60,10 @@ pub(super) fn import_vocabularies(job: &mut Job<'_>, _: &mut Progress<'_>) -> Re
     if !others.is_empty() {
         report.findings.push(ReportFinding {
             remedy: Some(
-                "import the .eaf that uses them, or say what they are in a mapping file (--map)".into(),
+                "import the .eaf that uses them, or give their components in a mapping file (--map)".into(),
             ),
             ..ReportFinding::note(format!(
-                "the names of the vocabularies {} say no component: they are kept for the annotation files that use \
+                "the names of the vocabularies {} name no component: they are kept for the annotation files that use \
                  them",
                 others.join(", ")
             ))

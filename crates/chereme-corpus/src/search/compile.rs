@@ -175,7 +175,9 @@ fn inner(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
         None => plan(ask, expr),
         Some(like) => Err(QueryError {
             at: like.at.range(),
-            message: "`like` puts the whole answer in order, or leaves out of all of it what is less alike".to_owned(),
+            message:
+                "`like` orders the whole answer, or removes less similar tokens from all of it"
+                    .to_owned(),
             remedy: "write it beside the other terms, not after `not` or `or`".to_owned(),
             suggestion: None,
         }
@@ -186,9 +188,9 @@ fn inner(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
 fn phase_of_no_token(at: std::ops::Range<usize>) -> QueryError {
     QueryError {
         at,
-        message: "phases of movement are values of no token: they cut up the time of signing"
+        message: "phases of movement are not values of a token: they divide the time of signing"
             .to_owned(),
-        remedy: "say how the token lies to them: overlaps movement.phase=stroke".to_owned(),
+        remedy: "write a relation to them: overlaps movement.phase=stroke".to_owned(),
         suggestion: None,
     }
 }

@@ -165,9 +165,9 @@ fn nothing(test: &ComponentTest, known: &KnownReadings, literal: Option<&str>) -
     let why = if own.is_empty() {
         let parts: Vec<&str> = known.parts.keys().flatten().map(String::as_str).collect();
         match field.hand.is_some() || field.phase.is_some() {
-            true => format!("nothing of {field} is coded in this corpus"),
+            true => format!("no value of {field} is coded in this corpus"),
             false => format!(
-                "of {field} only parts are coded in this corpus: {}",
+                "only parts of {field} are coded in this corpus: {}",
                 parts.join(", ")
             ),
         }

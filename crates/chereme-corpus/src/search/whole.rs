@@ -268,7 +268,7 @@ fn fuzzy(test: &Test, field: TextField, text: &str, slips: u8) -> Asked<Vec<Opti
     if whole.chars().count() > LONGEST_FUZZY {
         return Err(QueryError {
             at: test.at.range(),
-            message: "this is too long to be compared up to slips".to_owned(),
+            message: "this is too long for a comparison that tolerates slips".to_owned(),
             remedy: format!("write at most {LONGEST_FUZZY} characters"),
             suggestion: None,
         }

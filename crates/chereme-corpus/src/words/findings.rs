@@ -79,8 +79,8 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "aucun acteur n’a été reconnu comme celui des gloses : pas d’occurrences",
     ),
     (
-        "say which tier is what in a mapping file (--map), or with `chereme annotate`",
-        "dites ce qu’est chaque acteur dans un fichier de correspondances (--map), ou avec `chereme annotate`",
+        "give tiers their roles in a mapping file (--map), or with `chereme annotate`",
+        "donnez leurs rôles aux acteurs dans un fichier de correspondances (--map), ou avec `chereme annotate`",
     ),
     (
         "the file's unit of length cannot be inferred from its skeleton; one unit is taken for {n} m",

@@ -243,11 +243,11 @@ const MESSAGES: &[(&str, &str)] = &[
         "aucune occurrence n’est ainsi placée par rapport à une telle annotation",
     ),
     (
-        "nothing of {field} is coded in this corpus",
+        "no value of {field} is coded in this corpus",
         "rien de {field} n’est codé dans ce corpus",
     ),
     (
-        "of {field} only parts are coded in this corpus: {parts}",
+        "only parts of {field} are coded in this corpus: {parts}",
         "de {field}, seules des parties sont codées dans ce corpus : {parts}",
     ),
     (

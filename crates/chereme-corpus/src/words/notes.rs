@@ -69,11 +69,11 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{spot} est plus près de {cm} cm, autant que les bras atteignent",
     ),
     (
-        "the way of {from} cm became {to} cm",
+        "the path of {from} cm became {to} cm",
         "le trajet de {from} cm est devenu {to} cm",
     ),
     (
-        "the hands' ways are {share} as large",
+        "the hands' paths are {share} as large",
         "les trajets des mains font {share} de leur taille",
     ),
     ("nothing to do", "rien à faire"),

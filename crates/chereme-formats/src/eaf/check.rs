@@ -339,7 +339,7 @@ fn stereotypes(doc: &Document<'_>, resolved: &mut Resolved, findings: &mut Findi
                 let what = if child {
                     "hangs below another, and its type has no stereotype"
                 } else {
-                    "hangs below none, and its type has a stereotype"
+                    "has no parent, and its type has a stereotype"
                 };
                 Finding::warning(doc.line(tier.at), format!("the tier {:?} {what}", tier.id))
             });

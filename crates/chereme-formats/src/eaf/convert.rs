@@ -519,7 +519,7 @@ impl<'d> Tiers<'d> {
             if !whole {
                 findings.add("broken chains of annotations", || {
                     let above = self.tiers[parent.tier].annotations.get(parent.index).map_or("", |it| &it.id);
-                    Finding::warning(None, format!("the annotations below {above:?} are not one chain; what hangs loose follows in the order of the file"))
+                    Finding::warning(None, format!("the annotations below {above:?} are not one chain; loose annotations follow in the order of the file"))
                 });
             }
             let (span, count) = (

@@ -37,7 +37,7 @@ pub enum Error {
     /// The text ends inside an element.
     #[error(
         "line {line}: the file ends inside <{open}>; it was cut short: \
-         copy it anew, or take one of ELAN's backups (.001 to .005)"
+         copy it again, or take one of ELAN's backups (.001 to .005)"
     )]
     Truncated {
         /// The last line, counted from 1.

@@ -114,7 +114,7 @@ pub enum EditError {
         second: AnnotationId,
     },
     /// Two annotations to merge have different values.
-    #[error("{first} says {:?} and {second} says {:?}; give the value that both shall have", values.0.to_string(), values.1.to_string())]
+    #[error("{first} says {:?} and {second} says {:?}; give the value for the merged annotation", values.0.to_string(), values.1.to_string())]
     ValuesDiffer {
         /// The first.
         first: AnnotationId,

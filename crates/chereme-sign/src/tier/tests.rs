@@ -323,11 +323,11 @@ fn refusals_name_the_rule_and_what_would_be_right() {
         ),
         (
             merge(11, 12, None),
-            r#"annotation:11 says "v11" and annotation:12 says "v12"; give the value that both shall have"#,
+            r#"annotation:11 says "v11" and annotation:12 says "v12"; give the value for the merged annotation"#,
         ),
         (
             merge(10, 11, Some("x")),
-            r#"annotation:50 says "v50" and annotation:51 says "v51"; give the value that both shall have"#,
+            r#"annotation:50 says "v50" and annotation:51 says "v51"; give the value for the merged annotation"#,
         ),
     ] {
         let error = planned(&example(), &change).expect_err(message);

@@ -54,7 +54,7 @@ mod tests {
             ),
             ("import it with --mend-root to read it so", "Tick"),
             (
-                "say which tier is what in a mapping file (--map), or with `chereme annotate`",
+                "give tiers their roles in a mapping file (--map), or with `chereme annotate`",
                 "Choose what",
             ),
         ] {

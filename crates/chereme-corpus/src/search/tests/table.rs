@@ -307,7 +307,7 @@ fn what_is_not_there_is_pointed_at() {
         ("signer=Bem", 8, "did you mean Ben?"),
         ("recording=\"Session 3\"", 11, "did you mean \"Session 1\"?"),
         ("overlaps nonmanual.brows=razed", 26, "did you mean raised?"),
-        ("not like token:1", 5, "puts the whole answer in order"),
+        ("not like token:1", 5, "orders the whole answer"),
         ("like CHAR", 6, "did you mean CHAT?"),
         ("like token:99", 6, "there is no token:99"),
         ("token=x", 7, "no number"),

@@ -41,7 +41,7 @@ pub fn print(sign: &Sign) -> Printed {
     out.sign(sign);
     let same = |text: &str| parse::parse(text).is_ok_and(|read| read.sign == *sign);
     if out.losses.is_empty() && !same(&out.text) {
-        out.lose("HamNoSys groups this otherwise: the text reads back as another tree");
+        out.lose("HamNoSys groups this differently: the text reads back as another tree");
     }
     Printed {
         text: out.text,
