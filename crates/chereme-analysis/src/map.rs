@@ -1,4 +1,4 @@
-//! A map of things by similarity: similar things lie near each other in a plane.
+//! Computes a map: a position in a plane for each of many things, such as signs, with similar things near each other.
 //!
 //! [`neighbours`] finds the nearest neighbours by the cosine of sparse features. [`lay_out`] places the things from those
 //! neighbours alone: two eigenvectors of the neighbour graph are the start (Belkin and Niyogi, *Laplacian eigenmaps*, 2003), and
@@ -283,7 +283,8 @@ impl Random {
 mod tests {
     use super::*;
 
-    /// Things on a grid in a plane: each has a feature for each small square near it, so that likeness falls with distance.
+    /// Returns things on a grid in a plane. Each has a feature for every square near it, so that similarity falls with
+    /// distance.
     fn grid(side: usize) -> Vec<Features> {
         let number = |x: i32, y: i32| (y + 2) as u32 * (side as u32 + 4) + (x + 2) as u32;
         let near = |x: i32, y: i32| {

@@ -1,4 +1,4 @@
-//! The words of the command line.
+//! The options of all commands, and readers for arguments that several commands share.
 
 use std::ffi::OsString;
 use std::fmt::Display;
@@ -44,7 +44,7 @@ pub(crate) struct Cli {
 }
 
 impl Cli {
-    /// Returns who does the work: as given, else as the environment says, else the user of the machine.
+    /// Returns the author for the history: the option's, otherwise the environment's, otherwise the machine's user.
     pub(crate) fn author(&self) -> String {
         let user = || {
             ["CHEREME_AUTHOR", "USER", "USERNAME", "LOGNAME"]
@@ -64,7 +64,7 @@ impl Cli {
     }
 }
 
-/// One of the two sides, as a word of the command line.
+/// A side, as the word for it in an argument.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(crate) enum SideWord {
     Right,
@@ -80,7 +80,7 @@ impl SideWord {
     }
 }
 
-/// Takes `--language en` or `fr`, wherever it stands, out of the words of the command line, and returns the code.
+/// Removes `--language en` or `fr` from any position in the words of the command line, and returns the code.
 /// Other values of an option of this name belong to the commands.
 pub(crate) fn take_language(words: &mut Vec<OsString>) -> Option<String> {
     let code = |word: &OsString| {
@@ -110,7 +110,7 @@ pub(crate) fn take_language(words: &mut Vec<OsString>) -> Option<String> {
     asked
 }
 
-/// Returns the language of a code, else that of the locale.
+/// Returns the language of a code; without one the language of the locale.
 pub(crate) fn language(asked: Option<&str>) -> Language {
     let locale = ["LC_ALL", "LC_MESSAGES", "LANG"]
         .into_iter()
@@ -127,7 +127,7 @@ pub(crate) fn read_text(path: &PathBuf) -> Result<String> {
     Ok(std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?)
 }
 
-/// Returns the failure that a small file of the user does not say what it should.
+/// Returns the error for a text file of the user whose content cannot be used.
 pub(crate) fn wrong_text(path: &Path, error: impl Display, remedy: &str) -> Error {
     let place = path.display().to_string();
     Error::wrong(format!("{place}: {error}"))

@@ -1,4 +1,4 @@
-//! The terminal skin: the binary `chereme`.
+//! The program `chereme`: parses the command line, runs a command, and reports its errors.
 //!
 //! Every command is an argument struct whose words are its help, a call of `chereme-corpus`, and
 //! printing: a table for people, or with `--json` one document for programs.
@@ -20,7 +20,7 @@ use clap::{CommandFactory, FromArgMatches};
 use args::Cli;
 use output::Output;
 
-/// Returns the actions of the command that the words name, if it has some and they name none of them.
+/// Returns the subcommands of the named command, if it has some and the words contain none of them.
 fn actions(words: &[OsString]) -> Vec<String> {
     let whole = Cli::command();
     let named = words.iter().skip(1).filter_map(|word| word.to_str());

@@ -1,4 +1,4 @@
-//! The output on the terminal: tables and sentences for people, one JSON document for programs.
+//! Writes results to the terminal: tables and sentences for people, one JSON document for programs, progress bars.
 
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
@@ -16,10 +16,10 @@ use serde_json::{Value, json};
 
 use crate::{table, words};
 
-/// Where a command writes; a reader that goes away early ends the program quietly.
+/// The output of a command. If its reader stops reading early, the program ends quietly.
 pub(crate) struct Output {
     json: bool,
-    /// How wide tables may be; nothing for as wide as they are.
+    /// The largest width of a table in letters; `None` for no limit.
     width: Option<usize>,
     language: Language,
     document: Option<Value>,
@@ -27,7 +27,7 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Tables are `width` letters wide, 0 for as wide as they are; without it as wide as the terminal.
+    /// Returns an output whose tables are at most `width` letters wide; 0 sets no limit, `None` the terminal's width.
     pub(crate) fn new(json: bool, width: Option<usize>, language: Language) -> Self {
         let terminal = || {
             let terminal = io::stdout()
@@ -49,13 +49,13 @@ impl Output {
         self.json
     }
 
-    /// Sets the JSON document; tables and sentences are for people only.
+    /// Sets the JSON document, which replaces tables and sentences if JSON was requested.
     pub(crate) fn document(&mut self, document: impl Serialize) -> Result<()> {
         self.document = Some(serde_json::to_value(document)?);
         Ok(())
     }
 
-    /// Writes nothing more: standard output belongs to a document.
+    /// Suppresses all further lines, because a file is written to standard output.
     pub(crate) fn silence(&mut self) {
         self.json = false;
         self.document = None;
@@ -69,7 +69,7 @@ impl Output {
         Ok(())
     }
 
-    /// Writes a table for people, as wide as may be.
+    /// Writes a table for people, shortened to the largest width.
     pub(crate) fn table(&mut self, header: &[&str], rows: &[Vec<String>]) -> Result<()> {
         if self.json {
             return Ok(());
@@ -80,12 +80,12 @@ impl Output {
         Ok(())
     }
 
-    /// Returns how many of something there are, in the language of the output.
+    /// Returns a count with its noun, such as `2 tokens`, in the language of the output.
     pub(crate) fn counted(&self, count: u64, noun: &str) -> String {
         counted_in(count, noun, self.language)
     }
 
-    /// Returns a message of the library in the language of the output; as it is if it has no other words.
+    /// Returns a message of the library in the language of the output; unchanged if there is no translation.
     pub(crate) fn spoken(&self, text: &str) -> String {
         message(text, self.language).unwrap_or_else(|| text.to_owned())
     }
@@ -100,7 +100,7 @@ impl Output {
         self.language
     }
 
-    /// Writes the rest out.
+    /// Writes the JSON document, if any, and flushes the output.
     pub(crate) fn finish(&mut self) -> Result<()> {
         if self.json {
             let document = self.document.take().unwrap_or_else(|| json!({}));
@@ -137,8 +137,8 @@ impl Output {
     }
 }
 
-/// Returns a message whose drawing of the place comes first (words, carets below them, what is wrong) with
-/// the drawing at its end, so that what stands before the message moves no caret.
+/// Returns a message that begins with a drawing of the error's position (words, carets below them, the error) with
+/// the drawing at its end, so that text before the message cannot shift the carets.
 fn drawn_below(message: &str) -> String {
     let lines: Vec<&str> = message.splitn(3, '\n').collect();
     match lines[..] {
@@ -189,7 +189,7 @@ pub(crate) fn usage(
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
 }
 
-/// A progress bar on a terminal, nothing elsewhere.
+/// A progress bar, shown only on a terminal.
 pub(crate) struct Bar {
     bar: ProgressBar,
     unit: Option<Unit>,
@@ -202,7 +202,7 @@ impl Bar {
         } else {
             ProgressDrawTarget::hidden()
         };
-        // Where it cannot be had, Ctrl-C ends the program at once, which harms no corpus either.
+        // If no handler can be installed, Ctrl-C ends the program at once, which does not damage a corpus.
         static LISTEN: Once = Once::new();
         LISTEN.call_once(|| drop(ctrlc::set_handler(interrupted)));
         BARS.fetch_add(1, Ordering::Relaxed);
@@ -238,21 +238,21 @@ impl Bar {
     }
 }
 
-/// Says that another program writes to the corpus.
+/// Prints a note that another program is writing to the corpus.
 pub(crate) fn waiting() {
     note("waiting up to 20 seconds for another program that is writing to the corpus ...");
 }
 
-/// Says something beside the output.
+/// Prints a line on standard error.
 fn note(text: &str) {
-    // Whoever closed the terminal need not know.
+    // A closed terminal is not an error.
     let _ = writeln!(io::stderr(), "{text}");
 }
 
 static STOP: AtomicBool = AtomicBool::new(false);
 static BARS: AtomicUsize = AtomicUsize::new(0);
 
-/// What Ctrl-C does: it asks long work to stop, and ends everything else, as it ends work that was asked before.
+/// Handles Ctrl-C: the first one asks long work to stop; a second one, or one without long work, ends the program.
 fn interrupted() {
     if BARS.load(Ordering::Relaxed) == 0 || STOP.swap(true, Ordering::Relaxed) {
         std::process::exit(130);

@@ -6,7 +6,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use crate::args::Cli;
 
-/// Returns the words of a command as a shell parts them; blanks of formats become a word.
+/// Splits a command into words as a shell does; placeholders of format strings become a word.
 fn words(line: &str) -> Vec<String> {
     let mut plain = String::new();
     let mut open = false;
@@ -41,7 +41,7 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// Returns the commands between backquotes of the lines of code that are no comments.
+/// Returns the commands between backquotes in source code, without comments.
 fn of_source(text: &str) -> Vec<String> {
     let joined = text.replace("\\\n", " ");
     let code = joined
@@ -64,7 +64,7 @@ fn of_source(text: &str) -> Vec<String> {
     found
 }
 
-/// Returns the commands of the blocks of a guide that are written for a shell.
+/// Returns the commands in the shell blocks of a guide.
 fn of_guide(text: &str) -> Vec<String> {
     let lines = text
         .lines()
@@ -75,7 +75,7 @@ fn of_guide(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// Returns whether the value that is wrong stands for another one, as RECORDING does.
+/// Returns whether the rejected value is a placeholder such as RECORDING.
 fn is_of_a_placeholder(error: &clap::Error) -> bool {
     match error.get(ContextKind::InvalidValue) {
         Some(ContextValue::String(value)) => value.chars().all(|c| c.is_ascii_uppercase()),
@@ -85,7 +85,7 @@ fn is_of_a_placeholder(error: &clap::Error) -> bool {
 
 fn fault(command: &str) -> Option<String> {
     let mut words = words(command);
-    // A redirection belongs to the shell.
+    // The shell handles redirections.
     if let Some(end) = words
         .iter()
         .position(|word| ["|", ">", ">>", "<"].contains(&word.as_str()))
@@ -97,7 +97,7 @@ fn fault(command: &str) -> Option<String> {
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => None,
         ErrorKind::ValueValidation if is_of_a_placeholder(&error) => None,
-        // A command may be named without its arguments.
+        // A text may name a command without its arguments.
         ErrorKind::MissingRequiredArgument
         | ErrorKind::MissingSubcommand
         | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand

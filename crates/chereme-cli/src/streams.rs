@@ -1,4 +1,4 @@
-//! Standard input and output in place of files, written `-`.
+//! Standard input and output instead of files, for arguments written `-`.
 
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ pub(crate) fn read_text() -> Result<String> {
     })
 }
 
-/// A file that stands for standard input or output while a command works.
+/// A temporary file that replaces standard input or output while a command works.
 pub(crate) struct Stand {
     /// Keeps the folder until the file is no longer needed.
     _folder: TempDir,
@@ -42,14 +42,14 @@ pub(crate) struct Stand {
     pub(crate) path: PathBuf,
 }
 
-/// Writes standard input to a file `NAME.FORMAT`, so that what reads files can read it.
+/// Writes standard input to a temporary file `NAME.FORMAT`, for readers that need a file.
 pub(crate) fn input(name: &str, format: &str) -> Result<Stand> {
     let stand = output(name, format)?;
     std::fs::write(&stand.path, read()?).map_err(|error| Error::file(&stand.path, error))?;
     Ok(stand)
 }
 
-/// Returns a place for a file `NAME.FORMAT` that [`copy`] then writes to standard output.
+/// Returns the path for a temporary file `NAME.FORMAT`, which [`copy`] later writes to standard output.
 pub(crate) fn output(name: &str, format: &str) -> Result<Stand> {
     let folder = tempfile::tempdir()?;
     let format = format.trim_start_matches('.');
@@ -60,7 +60,7 @@ pub(crate) fn output(name: &str, format: &str) -> Result<Stand> {
     })
 }
 
-/// Standard output for a document. Its reader may go before the end, as `head` does; the rest is dropped then.
+/// Standard output for a document. If its reader stops before the end, as `head` does, the rest is dropped.
 pub(crate) struct Document {
     out: BufWriter<io::StdoutLock<'static>>,
     is_read: bool,
@@ -75,7 +75,7 @@ impl Document {
         }
     }
 
-    /// Returns what an attempt gave, or `dropped` if the reader has gone.
+    /// Returns the result of an attempt to write, or `dropped` if the reader has stopped.
     fn heard<T>(&mut self, attempt: io::Result<T>, dropped: T) -> io::Result<T> {
         match attempt {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
@@ -113,7 +113,7 @@ pub(crate) fn copy(stand: &Stand) -> Result<()> {
     Ok(out.flush()?)
 }
 
-/// Refuses `--json` where the document itself goes to standard output.
+/// Fails if `--json` is given although a file is written to standard output.
 pub(crate) fn not_with_json(json: bool) -> Result<()> {
     if json {
         return Err(Error::wrong("--json and --to - both want standard output")

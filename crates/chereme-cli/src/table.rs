@@ -1,10 +1,10 @@
 //! Tables for people, as wide as the terminal.
 
-/// The blanks between two columns.
+/// The number of blanks between two columns.
 const GAP: usize = 2;
-/// The narrowest that a column of text is made.
+/// The least width of a shortened column of text.
 const NARROWEST: usize = 8;
-/// How wide the rule below the titles is at most, unless the titles are wider.
+/// The largest width of the rule below the titles, unless the titles are wider.
 const RULE: usize = 100;
 
 /// Returns the lines of a table: columns as wide as their widest cell, numbers to the right. With a width the
@@ -54,7 +54,7 @@ fn is_numeric(rows: &[Vec<String>], column: usize) -> bool {
     cells.peek().is_some() && cells.all(|cell| cell.is_empty() || cell.parse::<f64>().is_ok())
 }
 
-/// Takes from the widest column of text, as long as there is one to take from.
+/// Narrows the widest columns of text until the table fits or all are at their least width.
 fn fit(widths: &mut [usize], numeric: &[bool], width: usize) {
     let gaps = GAP * widths.len().saturating_sub(1);
     loop {
@@ -75,7 +75,7 @@ fn fit(widths: &mut [usize], numeric: &[bool], width: usize) {
     }
 }
 
-/// Returns a cell of at most that many letters, the last of them an ellipsis where it had more.
+/// Returns a cell shortened to `width` letters, with an ellipsis as the last one if it was longer.
 fn shortened(cell: &str, width: usize) -> String {
     match cell.char_indices().nth(width) {
         Some(_) => {

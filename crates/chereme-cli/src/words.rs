@@ -171,7 +171,7 @@ mod tests {
         let mut all = BTreeSet::new();
         texts(&Cli::command(), &mut all);
         let missing: Vec<&String> = all.iter().filter(|text| help::of(text).is_none()).collect();
-        // Words of options that are newer than their translation are shown in English.
+        // Options that are newer than the translation are shown in English.
         assert!(
             missing.len() * 5 < all.len(),
             "{} of {} are not there:\n{missing:#?}",

@@ -80,7 +80,7 @@ impl TextError {
 /// The fault at a character of a recipe's text.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Problem {
-    /// Something else was expected.
+    /// A word stands where another one was expected.
     #[error(
         "{} where {expected} was expected{}",
         found.as_ref().map_or("the text ends".to_owned(), |found| format!("{found:?} stands")),

@@ -25,7 +25,7 @@ pub struct Tracks {
 pub struct Track {
     /// The name, unique in its document.
     pub name: String,
-    /// When its first frame is, from the start of the file.
+    /// The time of its first frame, from the start of the file.
     pub offset: Instant,
     /// The time of day of its own time 0, if the file has timecodes.
     pub clock: Option<Instant>,

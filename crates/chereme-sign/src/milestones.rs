@@ -308,8 +308,8 @@ impl Milestones {
     /// Returns the time in this performance, in seconds, that corresponds to a time of a target with other milestones:
     /// each phase is stretched evenly to the target's; `None` before the target's M1 and after its M5.
     ///
-    /// If the body of either is one phase, the other's counts as one, too. A phase that is empty in the target is
-    /// skipped; one that is empty here gives its only time.
+    /// If the middle part (from M2 to M4) is a single phase in one of them, it counts as a single phase in the other,
+    /// too. A phase that is empty in the target is skipped; a phase that is empty here gives its only time.
     #[must_use]
     pub fn moment_for(&self, target: &Self, seconds: f64) -> Option<f64> {
         let one = self.m3.is_none() || target.m3.is_none();

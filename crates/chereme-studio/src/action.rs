@@ -1,7 +1,7 @@
 //! The table of everything that keys, menus and the command palette can request; each row is an [`Action`].
 //!
-//! An action has no data; its object is the selection. To add one, write a row into [`table`] and an arm where its
-//! [`Owner`] carries it out; one that only shows a pane needs no arm.
+//! An action has no data; its object is the selection. To add one, write a row into [`table`] and a match arm in the code
+//! of its [`Owner`]; an action that only shows a pane needs no arm.
 
 /// Declares the actions.
 macro_rules! actions {
@@ -9,7 +9,7 @@ macro_rules! actions {
         $action:ident $id:literal $en:literal | $fr:literal
         $menu:ident, $context:expr, $owner:expr, $($flag:ident)* $(,)? $elan:literal $praat:literal $editor:literal;
     )*) => {
-        /// Something a person can ask for without further words.
+        /// A request that needs no further input.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub(crate) enum Action {
             $(#[doc = concat!("`", $id, "`")] $action,)*
@@ -79,7 +79,7 @@ impl Menu {
     ];
 }
 
-/// Where the keys of an action have an effect.
+/// The part of the window in which the keys of an action have an effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Context {
     /// In the whole window.
@@ -90,7 +90,7 @@ pub(crate) enum Context {
     Pane(PaneKind),
 }
 
-/// Who carries an action out.
+/// The part of the program that carries out an action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Owner {
     /// The window, with or without a corpus.

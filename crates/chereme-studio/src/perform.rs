@@ -200,7 +200,8 @@ impl Studio {
         }
     }
 
-    /// Returns whether a corpus is open that an action may change if it changes one; else says why not.
+    /// Returns whether the action can be carried out: a corpus is open, and the corpus is writable if the action changes
+    /// it. Otherwise shows the reason.
     fn may_act(&mut self, action: Action) -> bool {
         let changes = action.changes();
         if changes && self.desk.is_some() && self.gone {

@@ -111,7 +111,7 @@ pub(super) struct Mover<'a> {
     /// The number of leading `points` that notation may refer to.
     meant: usize,
     seen: Seeing<'a>,
-    /// Answers of `seen.parts` by (contact frame, frame), in the hand's own space.
+    /// Cache of `seen.parts`, by contact frame and frame: positions in the hand's own space.
     known: RefCell<BTreeMap<(usize, usize), Vec<DVec3>>>,
 }
 

@@ -219,7 +219,7 @@ impl Forms {
         found
     }
 
-    /// Returns the same form with one digit as an exception, if that fits better.
+    /// Returns the handshape with a separate notation for one digit, if that fits better.
     fn excepted(
         &self,
         from: &Tried,

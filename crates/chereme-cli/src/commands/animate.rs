@@ -54,7 +54,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut notation = args.notation.clone();
     let mut stands = Vec::new();
     for text in notation.iter_mut().filter(|text| *text == "-") {
-        // SiGML is read from files; a line of HamNoSys is notation as it stands.
+        // SiGML is read from files; a line of HamNoSys is used directly.
         let read = streams::read_text()?;
         *text = if read.trim_start().starts_with('<') {
             let stand = streams::output("stdin", "sigml")?;

@@ -298,7 +298,7 @@ fn table(
     Ok(corpus.annotate_table(&bytes, &name, recording, options, progress)?)
 }
 
-/// Reads `recording:3`, or else a recording's name.
+/// Parses `recording:3` or a recording's name.
 pub(super) fn name(text: &str) -> Result<Name> {
     match text.parse()? {
         Address::Recording(name) => Ok(name),
@@ -306,7 +306,7 @@ pub(super) fn name(text: &str) -> Result<Name> {
     }
 }
 
-/// How many ids are named in words, and in JSON, if nobody asks for all.
+/// The numbers of ids in the text output and in JSON, unless `--ids` asks for all.
 const NAMED: usize = 20;
 const LISTED: usize = 100;
 
@@ -338,7 +338,7 @@ fn tell(mut report: AnnotateReport, all: bool, output: &mut Output) -> Result<()
     output.document(document)
 }
 
-/// Reads a time with a sign, such as -200ms, in microseconds.
+/// Parses a time with a sign, such as -200ms; returns microseconds.
 fn signed(text: &str) -> Result<i64, String> {
     let (sign, rest) = match text.strip_prefix('-') {
         Some(rest) => (-1, rest),

@@ -21,7 +21,7 @@ pub(crate) struct Args {
     dir: Option<PathBuf>,
 }
 
-/// What the demo makes: gloss, recipe, and what it shows.
+/// The signs that the demo generates: gloss, recipe, and an explanation.
 const MADE: [(&str, &str, &str); 3] = [
     (
         "LIMACE",
@@ -58,7 +58,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     output.document(json!({ "folder": demo.folder, "corpus": demo.path, "steps": demo.steps }))
 }
 
-/// The folder that was named, empty or not there yet, or a new one.
+/// Returns the folder for the results: the named one, which must be empty or missing, or a new one.
 fn folder(named: Option<&Path>) -> Result<PathBuf> {
     if let Some(named) = named {
         let taken = named
@@ -82,7 +82,7 @@ fn folder(named: Option<&Path>) -> Result<PathBuf> {
         .context("no folder name is free here")
 }
 
-/// The recipes of the starter corpus, as gloss and recipe.
+/// Returns the recipes of the starter corpus, as gloss and recipe.
 fn recipes() -> Vec<(String, String)> {
     let file = starter_files().find(|(name, _)| *name == Path::new("recipes.txt"));
     let text = file.map_or_else(Default::default, |(_, bytes)| {

@@ -48,7 +48,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     Ok(ExitCode::from(u8::from(args.exit_code && differ)))
 }
 
-/// Reads a file, or takes an address for what it says.
+/// Returns a side of the comparison: a file with its bytes, or an address.
 fn side(path: &Path) -> Result<CompareSide> {
     if streams::is_standard(path) || path.is_file() {
         return file(path);
@@ -71,7 +71,7 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
     Ok(std::fs::read(path).map_err(|error| Error::file(path, error))?)
 }
 
-/// Prints differences a line each.
+/// Prints one line for each difference.
 pub(super) fn print(found: &Difference, output: &mut Output) -> Result<()> {
     let time = |us: i64| format!("{:.3}", us as f64 / 1e6);
     let span = |from: i64, to: i64| format!("{}–{}", time(from), time(to));

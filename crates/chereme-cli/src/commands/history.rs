@@ -105,7 +105,7 @@ fn walk(output: &mut Output, times: usize, back: bool, corpus: &mut Corpus) -> R
     output.document(json!({ "operations": operations, "left": left }))
 }
 
-/// Returns what an operation did: by its own words in English, as a sentence in other languages.
+/// Describes an operation: by its stored name and summary in English, as a sentence in other languages.
 fn what(row: &OperationRow, language: Language) -> String {
     match language {
         Language::English => format!("{}: {}", row.name, row.summary),

@@ -171,7 +171,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     };
     if fresh && scratch.is_none() {
         if report.as_ref().map_or(true, empty) {
-            // An empty corpus is not left behind.
+            // A failed import leaves no empty corpus behind.
             drop(corpus);
             let _ = std::fs::remove_file(path);
         } else {
@@ -189,7 +189,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     })
 }
 
-/// Returns the files to import, with a file in place of standard input.
+/// Returns the files to import, with a temporary file for standard input.
 fn files(args: &Args) -> Result<(Vec<PathBuf>, Vec<Stand>)> {
     let mut stands = Vec::new();
     let mut files = args.files.clone();
@@ -225,7 +225,7 @@ fn files(args: &Args) -> Result<(Vec<PathBuf>, Vec<Stand>)> {
     Ok((files, stands))
 }
 
-/// A throw-away corpus for a dry run, if the named one does not exist yet.
+/// Returns a temporary corpus for a dry run, if the named one does not exist yet.
 fn tempfile_for(args: &Args) -> Result<Option<(tempfile::TempDir, PathBuf)>> {
     if !args.dry_run || args.corpus.exists() {
         return Ok(None);
@@ -279,7 +279,7 @@ fn options(args: &Args) -> Result<ImportOptions> {
     })
 }
 
-/// Of more files than these only those are shown that somebody should look at.
+/// If there are more files than this, only those with a warning are shown.
 const SHOWN: usize = 50;
 
 fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
@@ -346,7 +346,7 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
     Ok(())
 }
 
-/// Of more files of one kind that were not read than these, the rest are counted.
+/// The number of unread files of one kind that are named; further ones are only counted.
 const NAMED: usize = 3;
 
 fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {

@@ -39,7 +39,7 @@ pub(crate) struct Args {
     pace: Option<f64>,
 }
 
-/// The text or phones to read, and how.
+/// Options for the text or phones to read.
 #[derive(Debug, clap::Args)]
 pub(super) struct Spoken {
     /// The text, or the phones separated by blanks (a=120 is a phone of 120 ms)
@@ -72,7 +72,7 @@ pub(super) struct Spoken {
 }
 
 impl Spoken {
-    /// Returns the text and how it is read, after espeak-ng has said it if that is asked for.
+    /// Returns the input with the options for reading it; with `--espeak` the input is the program's phones.
     pub(super) fn said(
         &self,
         text: &str,

@@ -187,7 +187,7 @@ fn list(conflicts: &[CorpusConflict], output: &mut Output) -> Result<()> {
     output.table(&titles, &rows)
 }
 
-/// Imports a changed annotation file so that edits of both sides stay.
+/// Imports a changed annotation file, and keeps the edits of both sides.
 fn file_into_corpus(cli: &Cli, args: &MergeArgs, output: &mut Output) -> Result<()> {
     if let Some(base) = &args.base {
         return Err(Error::wrong(

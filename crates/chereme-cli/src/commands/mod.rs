@@ -1,4 +1,4 @@
-//! The commands, one module each.
+//! The list of commands, with one module for each, and errors that all of them share.
 
 mod animate;
 mod annotate;
@@ -45,7 +45,7 @@ use clap::Subcommand;
 use crate::args::Cli;
 use crate::output::Output;
 
-/// What to do.
+/// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Demo(demo::Args),
@@ -133,7 +133,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Advises something else than `chereme check` if that itself fails on damage.
+/// Replaces the remedy `chereme check` by another one if that command itself fails on damage.
 fn past_checking(error: anyhow::Error) -> anyhow::Error {
     match error.downcast_ref::<Error>() {
         Some(known)
@@ -151,7 +151,7 @@ fn past_checking(error: anyhow::Error) -> anyhow::Error {
     }
 }
 
-/// Adds to the failure that a file is there already how to write over it, for commands that can.
+/// Adds the option `--force` to the remedy for an existing file, for commands that have this option.
 fn offer_force(error: anyhow::Error) -> anyhow::Error {
     match error.downcast_ref::<Error>() {
         Some(Error::File { path, source }) if source.kind() == ErrorKind::AlreadyExists => {

@@ -90,12 +90,12 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     Ok(())
 }
 
-/// Returns whether the recording has another name than its sign, because that name was taken.
+/// Returns whether the recording's name differs from the gloss, because that name was taken.
 fn one_more(done: &Recombination) -> bool {
     done.name.as_ref().is_some_and(|name| *name != done.gloss)
 }
 
-/// Prints the result, and draws it if asked.
+/// Prints the result, and draws it if a file is given.
 pub(super) fn tell(
     done: &Recombination,
     explain: bool,

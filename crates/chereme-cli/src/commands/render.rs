@@ -70,7 +70,7 @@ pub(crate) struct Args {
     force: bool,
 }
 
-/// Reads a speed at which animations run.
+/// Parses the speed of an animation.
 fn speed(text: &str) -> Result<f64, String> {
     let speed: Option<f64> = text.parse().ok();
     speed.filter(|speed| SPEEDS.contains(speed)).ok_or_else(|| {

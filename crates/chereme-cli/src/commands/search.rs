@@ -91,10 +91,10 @@ enum OrderWord {
     Duration,
 }
 
-/// How many values of a field people are shown without --facets.
+/// The number of values of a field that are shown without `--facets`.
 const TABLE_FACETS: usize = 8;
 
-/// The rows of a table without --limit.
+/// The number of rows of a table without `--limit`.
 const TABLE_ROWS: usize = 50;
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
@@ -190,7 +190,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     output.document(answer)
 }
 
-/// Shows how many of the tokens found have each value of one field or of two.
+/// Prints the number of tokens found for each value of one field, or for each pair of values of two.
 fn tally(corpus: &mut Corpus, args: &Args, fields: &[String], output: &mut Output) -> Result<()> {
     let mut bar = Bar::new();
     let mut hear = |step: Step<'_>| bar.show(step);
@@ -233,7 +233,7 @@ fn tally(corpus: &mut Corpus, args: &Args, fields: &[String], output: &mut Outpu
     output.document(tally)
 }
 
-/// Returns cells as a line of CSV, or with tabs between them.
+/// Returns cells as a line of a CSV or TSV table.
 pub(super) fn separated_line(cells: &[String], tabs: bool) -> String {
     let separator = if tabs { "\t" } else { "," };
     let quoted = |cell: &String| {
@@ -247,7 +247,7 @@ pub(super) fn separated_line(cells: &[String], tabs: bool) -> String {
     cells.join(separator)
 }
 
-/// Keeps a query, and says so.
+/// Saves a query in the corpus, and reports its name.
 fn keep(corpus: &mut Corpus, name: &str, query: String) -> Result<String> {
     let name = name.trim().trim_start_matches('@').to_owned();
     let said = format!("saved: @{name} stands for this query");

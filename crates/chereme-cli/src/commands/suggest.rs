@@ -20,7 +20,7 @@ pub(crate) struct Args {
     token: String,
 }
 
-/// How many possible partners people are shown.
+/// The number of possible partners that are shown.
 const MOST_POSSIBLE: usize = 20;
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {

@@ -153,13 +153,13 @@ pub(super) struct People {
     language: Option<String>,
 }
 
-/// Returns the text, if it is more than blanks.
+/// Returns the text; `None` if it is empty or blank.
 fn filled(text: &Option<String>) -> Option<String> {
     let text = text.as_deref().map(str::trim);
     text.filter(|text| !text.is_empty()).map(str::to_owned)
 }
 
-/// Returns the hand that a role or an option names, and nothing where neither does.
+/// Returns the hand that a role or an option names; `None` if neither does.
 fn hand_of(topic: Option<&TierTopic>, word: Option<HandWord>) -> Result<Option<Option<Hands>>> {
     let said = word.map(HandWord::hands);
     match (topic.and_then(|topic| topic.hand), said) {

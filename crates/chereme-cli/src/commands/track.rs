@@ -76,7 +76,7 @@ pub(crate) struct Args {
     store: bool,
 }
 
-/// Reads `recording:3`.
+/// Parses the address of a recording, such as `recording:3`.
 pub(super) fn recording(text: &str) -> Result<Name, String> {
     match text.parse() {
         Ok(Address::Recording(name)) => Ok(name),
@@ -85,7 +85,7 @@ pub(super) fn recording(text: &str) -> Result<Name, String> {
     }
 }
 
-/// Reads a time such as `0.48s`, `480ms` or `-0.48`, in seconds if no unit is given.
+/// Parses a time such as `0.48s`, `480ms` or `-0.48`, in seconds if it has no unit; returns microseconds.
 pub(super) fn micros(text: &str) -> Result<i64, String> {
     let text = text.trim();
     let (number, factor) = match (text.strip_suffix("ms"), text.strip_suffix('s')) {

@@ -18,7 +18,7 @@ const HEAD: [f64; 3] = [0.33, 0.49, 0.42];
 const MIDDLE: f64 = 0.5;
 /// The depth in metres that a joint of a finger may have in a body without skin.
 const SKIN: f64 = 0.01;
-/// The most rounds of moving hands out; the report describes the rest.
+/// The largest number of rounds in which hands are moved out of the body; the report describes any remaining depth.
 const ROUNDS: usize = 4;
 
 /// The displacement that kept a hand out of the body.

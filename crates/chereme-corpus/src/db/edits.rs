@@ -111,7 +111,7 @@ pub(crate) fn recordings_of_signer(connection: &Connection, signer: i64) -> Resu
     Ok(ids)
 }
 
-/// Writes a sign's gloss and notes again.
+/// Replaces a sign's gloss and notes.
 pub(crate) fn update_sign(
     connection: &Connection,
     sign: i64,

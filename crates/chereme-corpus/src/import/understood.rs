@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::track::TrackKind;
 
-/// How a file was understood. JSON has the fields of all parts side by side.
+/// The interpretation of a file. JSON has the fields of all parts side by side.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Understood {
     /// Movement: its rate, unit and axes.

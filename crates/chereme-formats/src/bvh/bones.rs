@@ -34,8 +34,8 @@ struct Placed {
 }
 
 impl Bones {
-    /// Starts for a hierarchy. Joints that carry most of the body are left out: their positions are in the
-    /// room, not relative to a parent's bone.
+    /// Returns an estimator for a hierarchy, without frames yet. It leaves out joints that carry most of the body: their
+    /// positions are in the room, not relative to a parent's bone.
     #[must_use]
     pub fn new(hierarchy: &Hierarchy) -> Self {
         let count = hierarchy.joints.len();

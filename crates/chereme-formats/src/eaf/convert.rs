@@ -664,7 +664,7 @@ struct Held {
     millis: Option<[i64; 2]>,
 }
 
-/// The `k`-th of `count` even shares of `span`.
+/// Returns the `k`-th of `count` even shares of `span`.
 fn share(span: Span, k: usize, count: usize) -> Span {
     let cut = |k: usize| {
         let offset = i128::from(span.micros()) * k as i128 / count as i128;

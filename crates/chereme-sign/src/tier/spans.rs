@@ -25,7 +25,7 @@ pub enum Mode {
     /// They stay: a moved annotation takes the nearest free place, a resized one stops at them.
     #[default]
     Normal,
-    /// They are pushed on as far as they are in the way.
+    /// They are pushed along as far as necessary.
     Bulldozer,
     /// All later annotations move too; all earlier ones if the start is resized.
     Shift,
@@ -242,7 +242,7 @@ fn resized(items: &[Item], at: usize, by: i64, mode: Mode, limits: Limits) -> Ve
     new
 }
 
-/// Pushes the annotations after `at` as far as they are in the way.
+/// Pushes the annotations after `at` along as far as necessary.
 fn push(items: &mut [Item], at: usize) {
     for next in at + 1..items.len() {
         let by = items[next - 1].end - items[next].start;

@@ -200,7 +200,7 @@ pub fn sentence(settings: &Settings, number: u64, syllables: usize) -> Take {
     moved(settings, &mut random, phones, keys, false)
 }
 
-/// Returns a sentence of French text, read by the rules of spelling; nothing if it has no key.
+/// Returns a generated take of a French text, which is pronounced by spelling rules; `None` if the text gives no key.
 #[must_use]
 pub fn said(settings: &Settings, number: u64, text: &str) -> Option<Take> {
     let mut random = Random::new(settings.seed.wrapping_mul(0x5851_F42D_4C95_7F2D) ^ number);
