@@ -38,7 +38,7 @@ fn a_text_is_cued_corrected_shown_and_stored() {
     until(&mut window, "the keys", |window| {
         has(window, "side 6 for l a")
     });
-    let doubt = "chin 5 for m E; some say the vowel otherwise: a click takes throat 5";
+    let doubt = "chin 5 for m E; some pronounce the vowel differently: a click takes throat 5";
     assert!(has(&window, doubt), "the mid vowel is marked");
     press(&mut window, doubt);
     assert!(
@@ -56,7 +56,7 @@ fn a_text_is_cued_corrected_shown_and_stored() {
         shows(window, "Stored as MAISON")
     });
     idle(&mut window);
-    press(&mut window, "Change how la is said: l a");
+    press(&mut window, "Change the pronunciation of la: l a");
     until(&mut window, "the phones of a word", |window| {
         has(window, "Phones of la")
     });

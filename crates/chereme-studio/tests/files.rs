@@ -58,7 +58,7 @@ fn files_are_looked_at_before_anything_is_written_and_then_taken_in() {
         corpus.overview(1).expect("read").recordings.len()
     };
     assert_eq!(count(), 1, "nothing is written by looking");
-    let header = window.get_by_label("Which joint is which part of the body");
+    let header = window.get_by_label("Joints and their parts of the body");
     header.click_accesskit();
     window.run_steps(12);
     window.get_by_label("Joint of: head").focus();

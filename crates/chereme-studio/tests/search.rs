@@ -251,7 +251,7 @@ fn what_is_like_the_selected_sign_is_found_and_weighed_and_shown_as_a_table() {
             .query_by_role_and_label(Role::Slider, "placement")
             .is_some()
     );
-    let slider = window.get_by_role_and_label(Role::Slider, "at least alike");
+    let slider = window.get_by_role_and_label(Role::Slider, "least similarity");
     slider.focus();
     window.run_steps(2);
     window.key_press(Key::ArrowRight);

@@ -71,11 +71,11 @@ fn a_tier_is_copied_with_what_it_is_to_hold() {
         .type_text(" 2");
     window.get_by_role_and_label(Role::ComboBox, "With").click();
     window.run_steps(3);
-    click(&mut window, "annotations that hold:");
-    let field = window.get_by_role_and_label(Role::TextInput, "Text they hold");
+    click(&mut window, "annotations that contain:");
+    let field = window.get_by_role_and_label(Role::TextInput, "Text they contain");
     field.focus();
     window.run_steps(2);
-    let field = window.get_by_role_and_label(Role::TextInput, "Text they hold");
+    let field = window.get_by_role_and_label(Role::TextInput, "Text they contain");
     field.type_text("B");
     window.step();
     click(&mut window, "Copy");

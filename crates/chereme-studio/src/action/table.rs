@@ -49,7 +49,7 @@ actions! {
         Edit, Corpus, WithCorpus, "Shift+Alt+C" "=" "Ctrl+D";
     Copy "edit.copy" "Copy the annotations" | "Copier les annotations"
         Edit, Corpus, In(Timeline), "Ctrl+C" "=" "=";
-    CopyWithBelow "edit.copy-with-below" "Copy the annotations with all below" | "Copier les annotations avec celles qui en dépendent"
+    CopyWithBelow "edit.copy-with-below" "Copy the annotations with their dependents" | "Copier les annotations avec celles qui en dépendent"
         Edit, Corpus, In(Timeline), "Ctrl+Alt+C" "=" "=";
     Cut "edit.cut" "Cut the annotations" | "Couper les annotations"
         Edit, Corpus, In(Timeline), changes, "Ctrl+X" "=" "=";
@@ -187,7 +187,7 @@ actions! {
         Timing, Corpus, In(Timeline), "F6" "=" "=";
     ModeBulldozer "timing.mode-bulldozer" "Bulldozer mode: neighbours are pushed" | "Mode bulldozer : les voisins sont poussés"
         Timing, Corpus, In(Timeline), "F7" "=" "=";
-    ModeShift "timing.mode-shift" "Shift mode: all that follows moves along" | "Mode décalage : tout ce qui suit se décale"
+    ModeShift "timing.mode-shift" "Shift mode: all later annotations move along" | "Mode décalage : toutes les annotations suivantes se décalent"
         Timing, Corpus, In(Timeline), "F8" "=" "=";
     SnapFrames "timing.snap-frames" "Snap to frames" | "Caler sur les images"
         Timing, Corpus, In(Timeline), "Shift+F6" "=" "=";
@@ -215,7 +215,7 @@ actions! {
         Tier, Corpus, In(Timeline), changes repeats, "Ctrl+Shift+Down" "=" "=";
     TiersByName "tier.by-name" "Sort the tiers by name" | "Trier les acteurs par nom"
         Tier, Corpus, In(Timeline), changes, "Shift+Alt+O" "=" "=";
-    TiersByKind "tier.by-kind" "Sort the tiers by what they say" | "Trier les acteurs selon ce qu’ils disent"
+    TiersByKind "tier.by-kind" "Sort the tiers by subject" | "Trier les acteurs par objet"
         Tier, Corpus, In(Timeline), changes, "Shift+Alt+K" "=" "=";
     FoldTier "tier.fold" "Fold or unfold the tiers below" | "Replier ou déplier les acteurs du dessous"
         Tier, Corpus, In(Timeline), "Ctrl+Alt+F" "=" "=";
@@ -301,7 +301,7 @@ actions! {
         Stage, Corpus, In(Stage), "Alt+P" "=" "=";
     StageHands "stage.hands" "Hands in the corners" | "Mains dans les coins"
         Stage, Corpus, In(Stage), "Alt+H" "=" "=";
-    StagePalms "stage.palms" "Palms turned to the eye" | "Paumes tournées vers l’œil"
+    StagePalms "stage.palms" "Palms turned to the viewer" | "Paumes tournées vers l’œil"
         Stage, Corpus, In(Stage), "Alt+Y" "=" "=";
     StageFace "stage.face" "Face in the corner" | "Visage dans le coin"
         Stage, Corpus, In(Stage), "Alt+W" "=" "=";
@@ -309,7 +309,7 @@ actions! {
         Stage, Corpus, In(Stage), "Alt+R" "=" "=";
     StageCompare "stage.compare" "Original: beside, over, away" | "Original : à côté, dessus, masqué"
         Stage, Corpus, In(Stage), "Alt+O" "=" "=";
-    StageRecording "stage.recording" "Back from the made sign to the recording" | "Revenir du signe composé à l’enregistrement"
+    StageRecording "stage.recording" "Back from the generated sign to the recording" | "Revenir du signe composé à l’enregistrement"
         Stage, Corpus, In(Stage), "Alt+0" "=" "=";
     OrbitLeft "stage.orbit-left" "Turn the signer to the left" | "Tourner vers la gauche"
         Stage, Corpus, In(Stage), repeats, "Shift+Alt+Left" "=" "=";
@@ -339,7 +339,7 @@ actions! {
         Stage, Corpus, WithCorpus, "none" "none" "none";
     ShareGlb "share.glb" "Share as a body that moves (GLB)" | "Partager en corps animé (GLB)"
         Stage, Corpus, WithCorpus, "none" "none" "none";
-    StageReset "stage.reset" "The view as it was" | "Vue d’origine"
+    StageReset "stage.reset" "The original view" | "Vue d’origine"
         Stage, Corpus, In(Stage), "Shift+Alt+0" "=" "=";
     ZoomIn "view.zoom-in" "Zoom in in time" | "Agrandir le temps"
         View, Corpus, In(Timeline), repeats, "Ctrl+Equals Ctrl+Plus" "Ctrl+I" "=";
@@ -361,7 +361,7 @@ actions! {
         View, Corpus, In(Timeline), "Ctrl+F7" "=" "=";
     LaneDistance "view.lane-distance" "Lane of hand distance" | "Piste de distance des mains"
         View, Corpus, In(Timeline), "Ctrl+F8" "=" "=";
-    LaneFace "view.lane-face" "Lanes of the face and the trunk, where they are stored" | "Pistes du visage et du tronc, s’il y en a"
+    LaneFace "view.lane-face" "Lanes of the face and the trunk, if they are stored" | "Pistes du visage et du tronc, s’il y en a"
         View, Corpus, In(Timeline), "Ctrl+F10" "=" "=";
     Larger "view.larger" "Larger interface" | "Interface plus grande"
         View, Everywhere, Window, repeats, "Ctrl+Alt+Equals Ctrl+Alt+Plus" "=" "=";

@@ -11,13 +11,13 @@ texts! {
     LIAISON: "Liaisons", "Liaisons";
     SCHWA: "Say every e", "Dire tous les e";
     LEFT: "Left hand", "Main gauche";
-    WORDS: "Words and how they are said", "Les mots et leur prononciation";
-    WORD: "Change how {word} is said: {phones}", "Changer la prononciation de {word} : {phones}";
+    WORDS: "Words and their pronunciation", "Les mots et leur prononciation";
+    WORD: "Change the pronunciation of {word}: {phones}", "Changer la prononciation de {word} : {phones}";
     SAID: "Phones of {word}", "Phones de {word}";
     USUAL: "As the rules say", "Selon les règles";
     KEYS: "Keys", "Clés";
     KEY: "{key} for {phones}", "{key} pour {phones}";
-    DOUBT: "{key} for {phones}; some say the vowel otherwise: a click takes {other}", "{key} pour {phones} ; certains disent la voyelle autrement : un clic choisit {other}";
+    DOUBT: "{key} for {phones}; some pronounce the vowel differently: a click takes {other}", "{key} pour {phones} ; certains prononcent la voyelle autrement : un clic choisit {other}";
     AT_SIDE: "side", "côté";
     AT_MOUTH: "mouth", "bouche";
     AT_CHIN: "chin", "menton";
@@ -26,7 +26,7 @@ texts! {
     AT_SIDE_FORWARD: "side, forward", "côté, en avant";
     AT_SIDE_DOWN: "side, down", "côté, en bas";
     SHOW: "Show the cuer", "Montrer le codeur";
-    MAKING: "The cuer is on the way", "Le codeur arrive";
+    MAKING: "The cuer is being generated", "Le codeur est en cours de génération";
     GLOSS: "Gloss of the new sign", "Glose du nouveau signe";
     STORE: "Store", "Enregistrer";
     STORED: "Stored as {name}: export it as a film, subtitles, TextGrid or EAF with {key}", "Enregistré sous {name} : exportez-le en film, sous-titres, TextGrid ou EAF avec {key}";

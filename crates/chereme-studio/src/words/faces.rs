@@ -5,9 +5,9 @@ texts! {
     FUNCTION: "Function", "Fonction";
     SENTENCE: "Sentence", "Phrase";
     FIRST: "First", "D’abord";
-    NEAREST: "most alike to its own face", "les plus proches de son propre visage";
-    FARTHEST: "least alike to its own face", "les plus éloignés de son propre visage";
-    MEDOID: "most usual", "les plus habituels";
+    NEAREST: "most similar to its own face", "les plus proches de son propre visage";
+    FARTHEST: "least similar to its own face", "les plus éloignés de son propre visage";
+    MEDOID: "most typical", "les plus typiques";
     COMPARED: "Compared", "Comparés";
     USUAL: "head and brows", "tête et sourcils";
     HEAD: "head", "tête";
@@ -49,7 +49,7 @@ texts! {
     RECIPE: "Open as a recipe", "Ouvrir comme recette";
     STORED: "{gloss} is stored", "{gloss} est enregistré";
     SHOW_STORED: "Show it", "L’afficher";
-    ONSETS: "Begin and end against the signs", "Début et fin par rapport aux signes";
+    ONSETS: "Begin and end relative to the signs", "Début et fin par rapport aux signes";
     ONSETS_TIP: "Seconds from the begin of the first sign to the begin of the movement, and from the end of the last sign to its end; a box holds the middle half, the line is the median", "Secondes du début du premier signe au début du mouvement, et de la fin du dernier signe à sa fin ; une boîte contient la moitié centrale, le trait est la médiane";
     MEASURE: "Measure", "Mesurer";
     CHANNEL: "channel", "canal";
@@ -58,5 +58,5 @@ texts! {
     END: "end", "fin";
     PLOT: "Begin and end of {n} channels", "Début et fin de {n} canaux";
     PROPOSE: "Propose brows, lids, gaze, mouth and head", "Proposer sourcils, paupières, regard, bouche et tête";
-    PROPOSE_TIP: "Writes what the face of the shown recording seems to do onto tiers of proposals, with a confidence; an undo takes them back", "Écrit ce que le visage de l’enregistrement affiché semble faire sur des acteurs de propositions, avec une confiance ; une annulation les retire";
+    PROPOSE_TIP: "Writes proposals for the face of the displayed recording onto separate tiers, with their confidence; an undo takes them back", "Écrit sur des acteurs à part des propositions pour le visage de l’enregistrement affiché, avec leur confiance ; une annulation les retire";
 }

@@ -17,6 +17,6 @@ texts! {
     HERE: "This frame is here", "Cette image est ici";
     HERE_HINT: "The frame of the film that you see is the moment of the playhead; undo takes it back", "L’image du film que vous voyez est le moment de la tête de lecture ; annuler revient en arrière";
     OFFSET: "Start of the film", "Début du film";
-    OFFSET_HINT: "Where the film starts on the clock of the recording; drag it, or type seconds", "Où le film commence sur l’horloge de l’enregistrement ; faites glisser, ou tapez des secondes";
+    OFFSET_HINT: "The start of the film on the clock of the recording; drag it, or type seconds", "Le début du film sur l’horloge de l’enregistrement ; faites glisser, ou tapez des secondes";
     FRAME_OF: "film frame {n} of {all}", "image {n} sur {all} du film";
 }

@@ -61,7 +61,7 @@ texts! {
     TRUNK: "Trunk", "Tronc";
     HEAD: "Head", "Tête";
     JOINTS: "Joints", "Articulations";
-    ROLES: "Joints and what they are ({n})", "Articulations et leurs rôles ({n})";
+    ROLES: "Joints and their parts of the body ({n})", "Articulations et leurs parties du corps ({n})";
     MISSING: "Not in the skeleton: {what}", "Absents du squelette : {what}";
     UNITS: "Unit", "Unité";
     AXES: "Axes", "Axes";
@@ -72,11 +72,11 @@ texts! {
     MEDIA: "Media", "Médias";
     MEDIA_THERE: "is at {path}", "se trouve à {path}";
     MEDIA_GONE: "is not at {path}, nor beside the corpus", "n’est ni à {path}, ni à côté du corpus";
-    MEDIA_ELSEWHERE: "lies on another machine", "se trouve sur une autre machine";
+    MEDIA_ELSEWHERE: "is on another machine", "se trouve sur une autre machine";
     MEDIA_FIND: "Find it…", "Le retrouver…";
     MEDIA_REMOVE: "Unlink", "Délier";
     MEDIA_ADD: "Link a media file…", "Lier un média…";
-    MEDIA_HINT: "A film of the take; Chereme keeps where it lies, ELAN plays it from an exported file.", "Un film de la prise ; Chereme retient où il se trouve, ELAN le lit depuis un fichier exporté.";
+    MEDIA_HINT: "A film of the take; Chereme stores its path, and ELAN plays it from an exported file.", "Un film de la prise ; Chereme en retient le chemin, et ELAN le lit depuis un fichier exporté.";
     ENGINE: "Made by version", "Fait par la version";
     USES: "Tokens with it", "Occurrences avec elle";
     SEARCH_USES: "Find them", "Les trouver";
@@ -85,7 +85,7 @@ texts! {
     FEATURES: "Features", "Traits";
     SHOW: "Show it", "Le voir";
     UNSET_ALL: "Nothing is coded yet.", "Rien n’est encore codé.";
-    EDIT_TIP: "Enter stores it, Escape leaves it as it was", "Entrée enregistre, Échap laisse comme avant";
+    EDIT_TIP: "Enter stores it, Escape restores the old text", "Entrée enregistre, Échap laisse comme avant";
     CONFIGURATION: "Handshape", "Configuration";
     PLACEMENT: "Place", "Emplacement";
     MOVEMENT: "Movement", "Mouvement";

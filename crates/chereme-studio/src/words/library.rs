@@ -4,8 +4,8 @@ texts! {
     TITLE: "Library", "Fonds";
     FILTER: "Filter", "Filtrer";
     EMPTY: "The corpus is empty. Import recordings to begin.", "Le corpus est vide. Importez des enregistrements pour commencer.";
-    NONE_FIT: "No recording is called like that.", "Aucun enregistrement ne s’appelle ainsi.";
-    NO_SIGN_FITS: "No sign is called like that.", "Aucun signe ne s’appelle ainsi.";
+    NONE_FIT: "No recording has this name.", "Aucun enregistrement ne porte ce nom.";
+    NO_SIGN_FITS: "No sign has this name.", "Aucun signe ne porte ce nom.";
     RECORDINGS: "Recordings ({n})", "Enregistrements ({n})";
     SIGNS: "Signs ({n})", "Signes ({n})";
     WALL: "Wall", "Mur";
@@ -15,7 +15,7 @@ texts! {
     IN_LEXICON: "lexicon entry", "entrée de lexique";
     TOKENS: "tokens: {n}", "occurrences : {n}";
     INSPECT: "All that is known of it", "Tout ce qu’on en sait";
-    ONLY_CODED: "{gloss} is coded, and nothing moves yet.", "{gloss} est codé, mais rien ne bouge encore.";
+    ONLY_CODED: "{gloss} is coded, but has no movement yet.", "{gloss} est codé, mais rien ne bouge encore.";
     ANIMATING: "{gloss} is being animated from its notation…", "{gloss} : animation d’après sa notation…";
     NOT_ANIMATED: "{gloss} could not be animated from its notation:", "{gloss} n’a pas pu être animé d’après sa notation :";
     ANIMATED: "{gloss} is animated from its notation, and not stored.", "{gloss} est animé d’après sa notation, et pas enregistré.";

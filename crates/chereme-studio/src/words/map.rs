@@ -2,10 +2,10 @@
 
 texts! {
     TITLE: "Map", "Carte";
-    BY: "Alike by", "Semblables par";
+    BY: "Similar by", "Semblables par";
     WHOLE: "Whole map", "Toute la carte";
     COUNT: "Signs on the map: {n}", "Signes sur la carte : {n}";
     LEFT_OUT: "not coded for these: {n}", "non codés pour cela : {n}";
-    ALIKE: "most alike:", "les plus proches :";
+    ALIKE: "most similar:", "les plus proches :";
     HINT: "The wheel zooms, a drag moves, a click opens a sign, Shift and a drag around signs select them.", "La molette agrandit, un glissement déplace, un clic ouvre un signe, Maj et un glissement autour de signes les choisissent.";
 }

@@ -9,12 +9,12 @@ texts! {
     SHOW_STORED: "Show it", "Le voir";
     STORE_AGAIN: "Store as new", "Enregistrer à part";
     REPLACE: "Replace {name}", "Remplacer {name}";
-    REPLACE_TIP: "Its gloss, its token and what was written on its tiers stay; undo brings the former sign back", "Sa glose, son occurrence et ce qui est écrit sur ses lignes restent ; annuler ramène l’ancien signe";
-    REPLACE_SAME: "The recipe is the one that it has.", "La recette est celle qu’il a déjà.";
+    REPLACE_TIP: "Its gloss, its token and people's annotations on its tiers stay; undo restores the former sign", "Sa glose, son occurrence et les annotations sur ses acteurs restent ; annuler rétablit l’ancien signe";
+    REPLACE_SAME: "The sign has this recipe already.", "Le signe a déjà cette recette.";
     NEEDS_GLOSS: "A new sign needs a gloss.", "Un nouveau signe a besoin d’une glose.";
     NEEDS_RECIPE: "There is nothing to store yet.", "Il n’y a encore rien à enregistrer.";
     EMPTY: "A new sign begins with an existing one.", "Un nouveau signe part d’un signe existant.";
-    EMPTY_MORE: "Choose a sign, change its parts, and see at once what comes of it.", "Choisissez un signe, changez ses composants, et voyez aussitôt le résultat.";
+    EMPTY_MORE: "Choose a sign, change its components, and see the result at once.", "Choisissez un signe, changez ses composants, et voyez aussitôt le résultat.";
     BEGIN_SELECTED: "Begin with {gloss}", "Partir de {gloss}";
     OPENED: "The recipe of {name}", "La recette de {name}";
     CLEAR: "Clear", "Vider";
@@ -29,10 +29,10 @@ texts! {
     SWITCH_TIP: "Switch on or off; it stays in the stack", "Mettre en ou hors service ; la carte reste";
     INCOMPLETE: "Not filled in yet; left out.", "Pas encore rempli ; laissé de côté.";
     RESIDUAL: "{mm} mm from its goal", "à {mm} mm du but";
-    MADE_LASTS: "{time} s, made in {took} ms", "{time} s, fait en {took} ms";
+    MADE_LASTS: "{time} s, generated in {took} ms", "{time} s, généré en {took} ms";
     SHOW_ORIGINAL: "Original", "Original";
     SHOW_MADE: "Made", "Résultat";
-    CHANNELS: "Where each channel comes from ({n})", "D’où vient chaque canal ({n})";
+    CHANNELS: "The source of each channel ({n})", "La source de chaque canal ({n})";
     JOINS: "Joins ({n})", "Raccords ({n})";
     CONTACTS: "Contacts undone ({n})", "Contacts défaits ({n})";
     OTHER_SIGN: "Take another sign", "Prendre un autre signe";
@@ -70,7 +70,7 @@ texts! {
     ORIENT: "Orientation", "Orientation";
     ORIENT_HINT: "the hands turned", "les mains tournées";
     TRAVEL: "Path", "Trajet";
-    TRAVEL_HINT: "the hands carried along a way", "les mains portées le long d’un chemin";
+    TRAVEL_HINT: "the hands moved along a path", "les mains portées le long d’un chemin";
     AMPLIFY: "Size", "Ampleur";
     AMPLIFY_HINT: "larger or smaller movement", "mouvement plus ample ou plus petit";
     REPEAT: "Repeat", "Répéter";
@@ -78,7 +78,7 @@ texts! {
     REVERSE: "Reverse", "Inverser";
     REVERSE_HINT: "backwards", "à l’envers";
     SWAP: "Swap hands", "Échanger les mains";
-    SWAP_HINT: "the arms exchange what they do", "les bras échangent leurs rôles";
+    SWAP_HINT: "the arms exchange their movement", "les bras échangent leurs rôles";
     MIRROR: "Mirror", "Miroir";
     MIRROR_HINT: "one arm copies the other", "un bras copie l’autre";
     RETIME: "Speed", "Vitesse";
@@ -173,7 +173,7 @@ texts! {
     DRAW_ON_STAGE: "Draw on the stage", "Dessiner sur la scène";
     DRAW_ON_STAGE_HINT: "The next drag on the stage draws the path of the hand, as it is seen there", "Le prochain glissement sur la scène dessine le trajet de la main, tel qu’on l’y voit";
     CURVE: "Curve through {n} points", "Courbe par {n} points";
-    CURVE_HINT: "Pull it on the stage: a point, or the line between; the other button takes a point away.", "Tirez-la sur la scène : un point, ou la ligne entre deux ; l’autre bouton enlève un point.";
+    CURVE_HINT: "Pull it on the stage, at a point or between two; a right click removes a point.", "Tirez-la sur la scène, à un point ou entre deux ; un clic droit enlève un point.";
     COURSE_POINT: "Point {n} of the path", "Point {n} du trajet";
     COURSE_LINE: "Path of the hand", "Trajet de la main";
     ADD_WAY: "+ way", "+ chemin";

@@ -2,21 +2,21 @@
 
 texts! {
     TITLE: "Stage", "Scène";
-    EMPTY: "Nothing is here yet: take in files or a folder, or drop them on the window.", "Il n’y a encore rien ici : importez des fichiers ou un dossier, ou déposez-les sur la fenêtre.";
+    EMPTY: "Nothing is here yet: import files or a folder, or drop them on the window.", "Il n’y a encore rien ici : importez des fichiers ou un dossier, ou déposez-les sur la fenêtre.";
     NO_RECORDING: "Choose a recording to see it here.", "Choisissez un enregistrement pour le voir ici.";
     ONLY_SIGNS: "There are no recordings here, but signs; they are found in the search.", "Il n’y a pas d’enregistrements ici, mais des signes ; la recherche les trouve.";
     TO_SIGNS: "To the search", "Vers la recherche";
     NO_MOVEMENT: "This recording holds no movement. Import the motion file of the same name.", "Cet enregistrement ne contient pas de mouvement. Importez le fichier de mouvement du même nom.";
     LOADING: "Loading the movement…", "Chargement du mouvement…";
     NO_FINGERS: "This skeleton has no fingers: they are drawn at rest.", "Ce squelette n’a pas de doigts : ils sont dessinés au repos.";
-    COMING: "Loading what is here…", "Chargement de ce passage…";
+    COMING: "Loading this passage…", "Chargement de ce passage…";
     NO_MORE: "no movement after {time}", "pas de mouvement après {time}";
     FRAME_OF: "frame {n} of {all}", "image {n} sur {all}";
     SPLIT_1: "One view", "Une vue";
     SPLIT_2: "Two views", "Deux vues";
     SPLIT_4: "Four views", "Quatre vues";
     TRAILS: "Trails", "Traces";
-    TRAILS_HINT: "Ways of wrists and fingertips, past and to come", "Trajets des poignets et du bout des doigts, passés et à venir";
+    TRAILS_HINT: "Paths of wrists and fingertips, before and after this moment", "Trajets des poignets et du bout des doigts, passés et à venir";
     REACH: "Length of the trails in seconds", "Longueur des traces en secondes";
     GHOSTS: "Ghosts", "Fantômes";
     GHOSTS_HINT: "Moments before (blue) and after (orange)", "Instants d’avant (bleu) et d’après (orange)";
@@ -30,11 +30,11 @@ texts! {
     ESTIMATED_FLAT: "Points estimated from film, without depth", "Points estimés d’après un film, sans profondeur";
     NO_DEPTH: "Points without depth", "Points sans profondeur";
     HANDS: "Hands", "Mains";
-    HANDS_HINT: "Both hands from near, in the corners", "Les deux mains de près, dans les coins";
+    HANDS_HINT: "Close-ups of both hands, in the corners", "Les deux mains de près, dans les coins";
     PALMS: "Palms", "Paumes";
-    PALMS_HINT: "Hands in the corners are turned palm to the eye, fingers up: a handshape always looks the same", "Les mains des coins sont tournées paume vers l’œil, doigts en haut : une configuration a toujours le même aspect";
+    PALMS_HINT: "Hands in the corners turn their palms to the viewer, fingers up: a handshape always looks the same", "Les mains des coins sont tournées paume vers l’œil, doigts en haut : une configuration a toujours le même aspect";
     FACE: "Face", "Visage";
-    FACE_HINT: "The face from near, in a corner", "Le visage de près, dans un coin";
+    FACE_HINT: "A close-up of the face, in a corner", "Le visage de près, dans un coin";
     INSET_TIP: "{name}; a click turns palms to the eye, or back ({keys})", "{name} ; un clic tourne les paumes vers l’œil, ou revient ({keys})";
     PREVIEW: "Preview: the stroke at {time}", "Aperçu : le geste à {time}";
     PREVIEW_LOOP: "Preview: {play.toggle} plays from the playhead", "Aperçu : {play.toggle} lit depuis le curseur";
