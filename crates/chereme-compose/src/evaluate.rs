@@ -168,7 +168,7 @@ impl<'a> Evaluator<'a> {
         }
         if plan.len() < pipe.steps.len() {
             let less = pipe.steps.len() - plan.len();
-            let did = format!("{less} operators that cancel out or become one were left out");
+            let did = format!("operators left out, as they cancel out or become one: {less}");
             self.report.warnings.push(did);
         }
         Ok(work)

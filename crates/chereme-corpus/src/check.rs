@@ -325,7 +325,7 @@ impl Looking<'_, '_> {
                 let place = format!("recording {:?}", recording.name);
                 let message = told::named(
                     connection,
-                    &format!("{more} more annotations overlap on {tier}"),
+                    &format!("further overlapping annotations on {tier}: {more}"),
                 );
                 self.fault(
                     "tier",

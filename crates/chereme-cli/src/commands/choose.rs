@@ -200,7 +200,7 @@ fn show(choice: &Choice, output: &mut Output) -> Result<()> {
     }
     if choice.adapted > 0 {
         output.line(format!(
-            "{} comparisons had phases of too different lengths for the window of 10 frames, which was widened",
+            "comparisons with phases of too different lengths for the window of 10 frames, which was widened: {}",
             choice.adapted
         ))?;
     }

@@ -77,7 +77,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         output.line(format!("the weights were fitted on {on}"))?;
     }
     if face.bridged > 0 {
-        output.line(format!("{} frames with gaps were bridged", face.bridged))?;
+        output.line(format!("frames with bridged gaps: {}", face.bridged))?;
     }
     findings(&face.findings, output)?;
     output.document(face)

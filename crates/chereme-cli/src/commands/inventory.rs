@@ -103,7 +103,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         } => {
             let merged = corpus.merge_values(inventory, from, into)?;
             output.line(format!(
-                "{from:?} is {:?} from now on: {} annotations and {} entries of lexicons changed",
+                "{from:?} is {:?} from now on; annotations changed: {}, lexicon entries: {}",
                 merged.value, merged.annotations, merged.entries
             ))?;
             output.document(merged)

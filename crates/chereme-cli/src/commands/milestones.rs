@@ -107,7 +107,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     } else {
         output.table(&titles, &rows)?;
         output.line(format!(
-            "{} phases written; {} expressions keep corrected milestones",
+            "phases written: {}; expressions that keep corrected milestones: {}",
             found.written, found.kept
         ))?;
     }

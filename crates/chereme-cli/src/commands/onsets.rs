@@ -68,7 +68,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     ];
     output.table(&titles, &rows)?;
     output.line(format!(
-        "{} expressions, {} without a face",
+        "expressions: {}; without a face: {}",
         found.expressions, found.without_face
     ))?;
     if let Some(path) = &args.draw {

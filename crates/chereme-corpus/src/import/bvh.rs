@@ -394,7 +394,7 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
     let missing: Vec<String> = anatomy.missing().iter().map(ToString::to_string).collect();
     if guessed > 0 {
         report.findings.push(ReportFinding::note(format!(
-            "{guessed} joints were identified by their position in the skeleton, not by name"
+            "joints identified by their position in the skeleton, not by name: {guessed}"
         )));
     }
     if !missing.is_empty() {

@@ -64,7 +64,9 @@ fn import(job: &mut Job<'_>, form: Form, progress: &mut Progress<'_>) -> Result<
     let left = place.earlier.0.values().map(Vec::len).sum::<usize>();
     if left > 0 {
         report.findings.push(ReportFinding::warning(
-            format!("{left} signs of an earlier file of this name are not in it; they were kept"),
+            format!(
+                "signs of an earlier file of this name that are missing here, and were kept: {left}"
+            ),
             "undo the earlier import, if the new file is to take its place",
         ));
     }

@@ -186,7 +186,7 @@ fn report(markers: &str, fitted: &Fitted) -> FitReport {
     }
     if fitted.held > 0 {
         findings.push(format!(
-            "{} frames have too few markers; the posture before is held in them",
+            "frames with too few markers, in which the posture before is held: {}",
             fitted.held
         ));
     }

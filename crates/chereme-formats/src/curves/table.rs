@@ -130,7 +130,7 @@ pub(super) fn open_face(text: &str, findings: &mut Findings) -> Result<Channels,
     if failed > 0 {
         findings.push(Finding::warning(
             None,
-            format!("in {failed} rows no face was found (success is 0); their numbers are kept and mean nothing"),
+            format!("rows without a face (success is 0), whose numbers are kept and mean nothing: {failed}"),
         ));
     }
     for (at, name) in channels.names.iter().enumerate() {

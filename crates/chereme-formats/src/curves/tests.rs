@@ -58,7 +58,9 @@ fn open_face_keeps_every_column_and_reports_lost_faces() {
         Some("mm")
     );
     assert!(
-        findings[0].message.contains("in 1 rows no face was found"),
+        findings[0]
+            .message
+            .contains("whose numbers are kept and mean nothing: 1"),
         "{findings:?}"
     );
 }

@@ -264,9 +264,7 @@ fn moving(
     if wrong > 0 {
         findings.push(Finding::note(
             None,
-            format!(
-                "{wrong} joints at rest are not where the movement has them; the movement counts"
-            ),
+            format!("joints whose rest position contradicts the movement, which is used: {wrong}"),
         ));
     }
     let fault = |error: String| Error::Skeleton(error);

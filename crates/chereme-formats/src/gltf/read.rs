@@ -450,9 +450,7 @@ fn scene(data: &Data<'_>, rig: Rig, findings: &mut Findings) -> Result<Scene, Er
     if wrong > 0 {
         findings.push(Finding::note(
             None,
-            format!(
-                "{wrong} joints at rest are not where the movement has them; the movement counts"
-            ),
+            format!("joints whose rest position contradicts the movement, which is used: {wrong}"),
         ));
     }
     let fault = |error: chereme_motion::SkeletonError| Error::Skeleton(error.to_string());

@@ -99,7 +99,7 @@ pub fn read(input: &mut (impl Read + Seek)) -> Result<(Container, Vec<Finding>),
     }
     if shape.beyond > 0 {
         let told = format!(
-            "{} frames lie beyond the end of the file and are left out; it is cut short",
+            "the file is cut short; frames beyond its end, which are left out: {}",
             shape.beyond
         );
         findings.push(Finding::warning(None, told));
