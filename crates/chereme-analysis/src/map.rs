@@ -15,7 +15,7 @@ pub type Neighbours = Vec<(usize, f32)>;
 
 /// The number of rounds of refinement.
 const ROUNDS: usize = 200;
-/// The number of random others that push a thing away at each step along an edge.
+/// The number of random things from which a thing is pushed away at each step along an edge (UMAP's negative samples).
 const OTHERS: usize = 5;
 /// The curve of closeness 1 / (1 + a d^2b) for neighbours that lie at 0.1 or nearer (UMAP, section 3.2).
 const CURVE: (f32, f32) = (1.577, 0.895);

@@ -12,7 +12,6 @@ use super::tree::Sight;
 
 /// The largest error of a direction and of a palm that are held exactly, in degrees: by chance, one frame in a thousand
 /// is this exact.
-/// thousand is, by chance.
 const TURNED: [f64; 2] = [1.2, 1.8];
 /// The largest error of a handshape's angles that is held exactly, in degrees.
 const SHAPED: f64 = 0.5;

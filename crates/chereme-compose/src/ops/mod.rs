@@ -202,7 +202,7 @@ macro_rules! operators {
                 )),*
             ];
 
-            /// Reads the operator that `word` begins; `None` if it begins none.
+            /// Reads the operator that `word` begins; `None` for other words.
             pub(crate) fn parse(parser: &mut Parser<'_>, word: &str) -> Option<Parsed<Self>> {
                 $(if <operators!(@type $module $name $($settings)?)>::WORDS.contains(&word) {
                     let read = Syntax::parse(parser, word);

@@ -92,32 +92,32 @@ pub const MAX_CHARS: usize = 10_000;
 pub const MAX_DEPTH: usize = 64;
 
 /// A guide to writing queries, in plain text of at most 80 columns.
-pub const HELP: &str = r#"A query is a row of terms that must all hold of a token:
+pub const HELP: &str = r#"A query is a list of conditions; a token must meet all of them:
 
   right.configuration=U placement=chin    U on the right hand, near the chin
-  gloss:BO* not weak.configuration=S      a gloss in BO..., the weak hand no S
+  gloss:BO* not weak.configuration=S      a gloss in BO..., weak hand without S
   movement=arc or movement=circle         one or the other; parentheses group
 
 Components, on either hand unless one is named
   configuration  placement  movement  orientation  nonmanual
-  right. left. dominant. weak.            before it: which hand
+  right. left. dominant. weak.            before it: the hand
   initial. middle. final.                 before it: first, between, last value;
-                                          the only value is first and last alike
+                                          a single value is both first and last
   .palm .brows ...                        after it: one part of it
-  also: handshape, location, emplacement, mouvement
+  synonyms: handshape, location, emplacement, mouvement
 
 Values
-  placement=chest,chin                    one of these, or narrower (chin: head)
-  placement==head                         this one, nothing narrower
-  placement=head > chest                  begins there, moves on to the chest
-  placement=head > *                      begins at the head and moves on
-  placement!=chest                        coded, and not this
+  placement=chest,chin                    one of these, or a narrower value
+  placement==head                         exactly this, nothing narrower
+  placement=head > chest                  begins at the head, then the chest
+  placement=head > *                      begins at the head, then elsewhere
+  placement!=chest                        coded, with another value
   placement="neutral space"               with blanks: in quotes
-  configuration=B*                        * for any characters of value or name,
-                                          in any case (the double sign minds it)
+  configuration=B*                        * for any characters of value or name;
+                                          case counts only after a double sign
   configuration=[index middle -thumb]     features, and one that is absent
   placement=*                             has a value
-  placement=unset   =n/a   =unclear       has none, and why
+  placement=unset   =n/a   =unclear       the three kinds of missing values
 
 Texts: gloss, translation, comment, text (all three)
   slow animal "slow animal"               words anywhere; a phrase
@@ -129,10 +129,10 @@ Texts: gloss, translation, comment, text (all three)
 Times: duration, start, end, in s, ms or min
   duration<0.8s   duration=0.5s..1s   start>=2min
 
-Attributes of the sign, as its table has them
+Attributes of the sign, from a lexicon table
   frequency>0.4   attribute.class=Noun   attribute("Sign Frequency")=2..5
 
-Curves of face and head, while the token lasts (1: the usual reach; degrees)
+Curves of face and head during the token (1 is the usual reach, or degrees)
   nonmanual.brows>0.5 for 0.3s   nonmanual.jaw_open>0.4   nonmanual.head_yaw<-10
 
 Keys of cued speech, placement before shape
@@ -141,10 +141,10 @@ Keys of cued speech, placement before shape
 
 The token as a whole
   origin=captured,made,lexicon,generated
-  hand=right,left,dominant,weak,both      it is annotated for, else coded for
+  hand=right,left,dominant,weak,both      of its annotation, else of its values
   signer=  recording=  sign=  token=  tier=  inventory=
 
-Beside another annotation of the recording
+Relation to another annotation of the recording
   gloss=CHAT overlaps nonmanual.brows=raised
   before gloss=CHIEN   not overlaps tier("Mouthing")=ma*
   overlaps  not-overlaps  inside  not-inside  overlaps-begin  overlaps-end
@@ -153,14 +153,14 @@ Beside another annotation of the recording
 
 By example
   like token:41   like CHAT on configuration:2, placement
-  like token:41 on configuration above 0.6    only what is more alike than this
+  like token:41 on configuration above 0.6    only more similar tokens
 
 Saved searches, anywhere in a query
   @chin not @short   @"my search" or gloss=CHAT
 
 French works, too: et, ou, non, chevauche, avant, après, dans, couvre.
 Everyday words that find nothing, such as handshape U placement chin,
-are offered as the query that they may mean.
+lead to a suggested query.
 "#;
 
 impl Query {
