@@ -101,7 +101,7 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             turned += usize::from(most > 22.5);
             told += usize::from(most > 0.0);
             pushed += warned("out of the trunk");
-            other += warned("before the part that is named");
+            other += warned("the part in front of the named one");
             let own = worst(&made);
             list.push((name.clone(), own));
             all = all.and(own);
@@ -113,7 +113,7 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             frames as f64 / spent.as_secs_f64()
         );
         println!(
-            "  short of what they touch {short}, touch with what stands before the part {other}, off their way {off}, turned by more than 22.5° {turned}, by more than 10° {told}, moved out of the trunk {pushed}"
+            "  short of what they touch {short}, touch with the part in front {other}, off their way {off}, turned by more than 22.5° {turned}, by more than 10° {told}, moved out of the trunk {pushed}"
         );
         println!("  worst: {all:?}");
         let by: [Judged; 7] = [

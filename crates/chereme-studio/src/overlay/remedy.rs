@@ -55,7 +55,7 @@ mod tests {
             ("import it with --mend-root to read it so", "Tick"),
             (
                 "give tiers their roles in a mapping file (--map), or with `chereme annotate`",
-                "Choose what",
+                "Choose the role",
             ),
         ] {
             for language in [Language::English, Language::French] {
