@@ -122,7 +122,7 @@ fn shapes_of_arkit_are_a_face_and_its_brows_have_no_side() {
         (it.faces[1].lids[1], it.faces[0].parted, it.faces[1].parted),
         (0.25, 0.0, 0.3)
     );
-    assert!(says(&it, "one brow is raised cannot be seen"));
+    assert!(says(&it, "single raised brow cannot be seen"));
     assert!(says(&it, "lacks channels for eye_close_right"));
     assert_eq!(it.value("eye_close_right"), None, "unknown is not at rest");
     assert_eq!(it.value("jaw_open"), Some(vec![0.6, 0.6]));
@@ -152,7 +152,7 @@ fn parameters_of_mpeg_4_keep_both_sides_and_the_head() {
     );
     assert_eq!(face.gaze[0], 1.0);
     assert_eq!(it.head, Some(vec![[0.1, -0.2, 0.0]]));
-    assert!(!says(&it, "one brow"));
+    assert!(!says(&it, "single raised brow"));
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn scores_of_mediapipe_leave_cheeks_nose_and_tongue_unknown() {
     for name in ["cheek_puff_left", "nose_wrinkle", "tongue_out"] {
         assert_eq!(it.value(name), None, "{name}");
     }
-    assert!(says(&it, "there is no tongue") && says(&it, "cheeks and nose hardly answer"));
+    assert!(says(&it, "there is no tongue") && says(&it, "cheeks and nose hardly react"));
 }
 
 #[test]
