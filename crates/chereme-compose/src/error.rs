@@ -128,7 +128,7 @@ pub struct MakeError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Cause {
     /// The result is no longer wanted.
-    #[error("making it was stopped")]
+    #[error("the evaluation was stopped")]
     Stopped,
     /// The corpus has no answer.
     #[error(transparent)]
@@ -149,7 +149,7 @@ pub enum Cause {
     #[error("the body language cannot be used: {0}")]
     Language(String),
     /// The skeleton has no such arm.
-    #[error("there is no {} arm (shoulder, elbow, wrist) in this skeleton", .0.name())]
+    #[error("this skeleton has no {} arm (shoulder, elbow, wrist)", .0.name())]
     NoArm(Side),
     /// The hand has no fingers, or too few to define its palm.
     #[error("the {} hand has no fingers in this skeleton", .0.name())]
@@ -225,7 +225,7 @@ pub enum Cause {
     Empty(String),
     /// The result would be too long to hold.
     #[error(
-        "the result would have {frames} frames, and at most {most} can be made of this skeleton"
+        "the result would have {frames} frames, and at most {most} can be generated for this skeleton"
     )]
     TooLong {
         /// Its frames.
@@ -237,7 +237,7 @@ pub enum Cause {
     #[error("the corpus shows too few transitions to learn their course from")]
     NoProfile,
     /// A source has changed since the recipe was resolved.
-    #[error("{address:?} has changed since this sign was made")]
+    #[error("{address:?} has changed since this sign was generated")]
     Changed {
         /// The source.
         address: String,
@@ -301,9 +301,9 @@ impl Cause {
             Self::Count { held: count, .. } | Self::Phases { phases: count, .. } => {
                 return Some(format!("give 1 or {count}"));
             }
-            Self::Stopped => "make it again",
+            Self::Stopped => "generate it again",
             Self::NoPhases => "name another rule: paper, attina, sppas or duchnowski",
-            Self::Language(_) => "make the sign again",
+            Self::Language(_) => "generate the sign again",
             Self::NoArm(_) => ROLES,
             Self::NoFingers(_) => {
                 "use a recording of the hands, or name its joints in a roles file"

@@ -367,7 +367,7 @@ pub enum SourceError {
         address: String,
     },
     /// Something has no expression with milestones.
-    #[error("{address:?} has no expression of the face to carry over: {why}")]
+    #[error("{address:?} has no expression of the face to transfer: {why}")]
     Expression {
         /// The address as written.
         address: String,
@@ -450,7 +450,7 @@ impl SourceError {
                 format!("did you mean {:?}?", nearest.as_ref()?)
             }
             Self::Ambiguous { .. } => "name one of them".to_owned(),
-            Self::NoMovement { .. } => "name a sign that was captured or made".to_owned(),
+            Self::NoMovement { .. } => "name a sign that was captured or generated".to_owned(),
             Self::Expression { remedy, .. } => remedy.as_ref()?.to_string(),
             Self::NoNotation { address } => format!(
                 "import it as SiGML or HamNoSys, or write it from its movement: \

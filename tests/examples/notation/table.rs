@@ -95,8 +95,8 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             frames += made.clip.frames();
             let warned =
                 |word: &str| usize::from(made.report.warnings.iter().any(|w| w.contains(word)));
-            short += warned("short of what it touches");
-            off += warned("off its way");
+            short += warned("short of its contact");
+            off += warned("off its path");
             let most = turned_by(&made.report.warnings);
             turned += usize::from(most > 22.5);
             told += usize::from(most > 0.0);

@@ -109,7 +109,7 @@ pub enum NotationError {
     #[error("the body of {0:?} has no arm with shoulder, elbow and wrist")]
     NoArm(String),
     /// The movement would be too long.
-    #[error("the movement would last {seconds:.0} s, and {most:.0} s can be made at once")]
+    #[error("the movement would last {seconds:.0} s; at most {most:.0} s can be generated at once")]
     Long {
         /// Its duration in seconds.
         seconds: f64,
@@ -222,7 +222,7 @@ pub fn animate(
     }
     if let Some(left) = cleared.and_then(|cleared| cleared.left) {
         plan.remarks.push(format!(
-            "the hands stay {:.1} cm within each other",
+            "the hands remain {:.1} cm deep in each other",
             left * 100.0
         ));
     }
@@ -230,7 +230,7 @@ pub fn animate(
     let parted = [parted, most].into_iter().flatten();
     if let Some(parted) = parted.max_by(|a, b| a.by.total_cmp(&b.by)) {
         plan.remarks.push(format!(
-            "the hands would go through each other at {:.2} s: each goes {:.1} cm aside",
+            "the hands would go through each other at {:.2} s: each moves {:.1} cm aside",
             warp.at(parted.time),
             parted.by * 100.0
         ));
@@ -364,14 +364,14 @@ fn report(signs: &[&Notated], plan: &Plan, sides: [Side; 2], fits: [Option<Fit>;
         let Some(fit) = fit else { continue };
         if fit.parted > 2e-3 {
             report.warnings.push(format!(
-                "the {} hand stays {:.1} cm short of what it touches",
+                "the {} hand stays {:.1} cm short of its contact",
                 side.name(),
                 fit.parted * 100.0
             ));
         }
         if fit.residual > fit.parted.max(5e-3) {
             report.warnings.push(format!(
-                "the {} hand stays up to {:.1} cm off its way",
+                "the {} hand stays up to {:.1} cm off its path",
                 side.name(),
                 fit.residual * 100.0
             ));

@@ -171,7 +171,7 @@ pub(crate) fn orient(
         let bend = wrist_bend(work, side).to_degrees();
         if bend > MOST_BEND {
             did.push(format!(
-                "the {} wrist bends by {bend:.0}°, more than wrists do",
+                "the {} wrist bends by {bend:.0}°, more than wrists can",
                 side.name()
             ));
         }

@@ -28,7 +28,7 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "la main {side} est tournée de {angle}",
     ),
     (
-        "the {side} wrist bends by {angle}, more than wrists do",
+        "the {side} wrist bends by {angle}, more than wrists can",
         "le poignet {side} se plie de {angle}, plus qu’un poignet ne peut",
     ),
     (
