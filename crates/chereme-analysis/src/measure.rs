@@ -7,7 +7,7 @@ use chereme_motion::{Anatomy, Clip, Side};
 use glam::{DQuat, DVec3};
 
 use crate::strokes::{Mover, between_minima, place_in, smoothed, speeds, strokes};
-use crate::transcribe::way::{self, Way};
+use crate::transcribe::path::{self, PathForm};
 
 /// The least peak of speed of a stroke, in metres per second: small strokes are slow.
 const LEAST: f64 = 0.05;
@@ -21,7 +21,7 @@ const INSIDE: f64 = 2.0 / 3.0;
 
 /// The kind of movement to measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum MeasuredKind {
     /// The wrist goes from place to place, straight or curved.
     Stroke,
     /// The wrist moves in a circle.
@@ -37,7 +37,7 @@ pub enum Kind {
 /// The measurements of one movement.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measured {
-    /// Its duration in seconds; of a [`Kind::Round`] that of one turn.
+    /// Its duration in seconds; of a [`MeasuredKind::Round`] that of one turn.
     pub seconds: f64,
     /// Distance from start to end, in metres; zero for circles.
     pub length: f64,
@@ -65,7 +65,7 @@ pub fn measure(
     anatomy: &Anatomy,
     side: Side,
     within: Range<usize>,
-    kind: Kind,
+    kind: MeasuredKind,
 ) -> Option<Measured> {
     let within = within.start..within.end.min(clip.frames());
     let arm = anatomy.arm(side)?;
@@ -75,14 +75,14 @@ pub fn measure(
         return None;
     }
     let within = match kind {
-        Kind::Round | Kind::Wave => moving(clip, wrist, within),
+        MeasuredKind::Round | MeasuredKind::Wave => moving(clip, wrist, within),
         _ => within,
     };
     let path = || -> Vec<DVec3> { within.clone().map(wrist).collect() };
     let whole = within.len() as f64 * clip.rate().frame_time();
     match kind {
-        Kind::Stroke => stroke(clip, wrist, &within),
-        Kind::Shape => {
+        MeasuredKind::Stroke => stroke(clip, wrist, &within),
+        MeasuredKind::Shape => {
             let found = strokes(clip, anatomy, side, Mover::Fingers);
             let mut inside = found.iter().filter(|frames| is_inside(frames, &within));
             let first = inside.next()?;
@@ -92,8 +92,8 @@ pub fn measure(
                 ..Measured::default()
             })
         }
-        Kind::Round => match way::fit(&path(), way::EXACT).way {
-            Way::Circle {
+        MeasuredKind::Round => match path::fit(&path(), path::EXACT).way {
+            PathForm::Circle {
                 turns,
                 long,
                 narrow,
@@ -106,8 +106,8 @@ pub fn measure(
             }),
             _ => None,
         },
-        Kind::Wave => match way::fit(&path(), way::EXACT).way {
-            Way::Wave { chord, width, .. } => Some(Measured {
+        MeasuredKind::Wave => match path::fit(&path(), path::EXACT).way {
+            PathForm::Wave { chord, width, .. } => Some(Measured {
                 seconds: whole,
                 length: chord.length(),
                 depth: width,
@@ -116,7 +116,7 @@ pub fn measure(
             }),
             _ => None,
         },
-        Kind::Transition => {
+        MeasuredKind::Transition => {
             let (first, last) = (within.start, within.end - 1);
             let turned = |frame| turned_in(clip, arm.hand, base, frame);
             Some(Measured {
@@ -145,7 +145,7 @@ fn stroke(clip: &Clip, wrist: impl Fn(usize) -> DVec3, within: &Range<usize>) ->
     if length <= 0.0 {
         return None;
     }
-    let even = way::evenly(points, 49);
+    let even = path::evenly(points, 49);
     let bow = (even[24] - points[0] - chord / 2.0).reject_from_normalized(chord / length);
     Some(Measured {
         seconds: (first.len() - 1) as f64 * clip.rate().frame_time(),

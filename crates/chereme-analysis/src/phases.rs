@@ -19,7 +19,7 @@
 use chereme_sign::milestones::Phase;
 use serde::{Deserialize, Serialize};
 
-use crate::dtw::{self, DtwError, Made, Policy, Series, StepPattern, Window};
+use crate::dtw::{self, CostMethod, DtwError, Policy, Series, StepPattern, Window};
 
 /// A performance cut into its phases.
 #[derive(Debug, Clone, PartialEq)]
@@ -167,7 +167,7 @@ pub struct PhaseScore {
     /// The cost divided by the query's frames; 0 if the phase is empty in both.
     pub normalized: Option<f64>,
     /// How the alignment was computed; `None` without one.
-    pub made: Option<Made>,
+    pub made: Option<CostMethod>,
     /// For each channel the mean difference of aligned frames, in the units of the channels; only on request.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub channels: Vec<f64>,
@@ -254,7 +254,7 @@ fn scored(
 
 struct Aligned {
     distance: f64,
-    made: Made,
+    made: CostMethod,
     channels: Vec<f64>,
 }
 
@@ -400,12 +400,12 @@ mod tests {
         assert!(error.to_string().starts_with("first: "), "{error}");
         let made = score(&long, &short, 1.0, &Options::default()).expect("scored");
         assert!(
-            matches!(made.phases[1].made, Some(Made::SlantedBand(_))),
+            matches!(made.phases[1].made, Some(CostMethod::SlantedBand(_))),
             "{made:?}"
         );
         let steep = Phased::new(&wave(130, 1.0), [0, 10, 110, 120, 130], 1.0).expect("phases");
         let made = score(&short, &steep, 1.0, &Options::default()).expect("scored");
-        assert_eq!(made.phases[1].made, Some(Made::Resampled));
+        assert_eq!(made.phases[1].made, Some(CostMethod::Resampled));
     }
 
     #[test]

@@ -23,7 +23,7 @@ use chereme_sign::Component;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::dtw::{self, DtwError, Made, Series};
+use crate::dtw::{self, CostMethod, DtwError, Series};
 
 /// Half the time over which a velocity is measured, in seconds: longer than the jitter of
 /// captured markers, shorter than a stroke.
@@ -95,7 +95,7 @@ pub struct Score {
     /// Corresponding frames of the first and of the second clip.
     pub alignment: Vec<(usize, usize)>,
     /// Whether the policy for missing paths was needed.
-    pub made: Made,
+    pub made: CostMethod,
     /// The components that were not compared, because one or both of the skeletons do not show them.
     pub left_out: Vec<LeftOut>,
     /// Joints of the first clip without a counterpart in the second, by name.

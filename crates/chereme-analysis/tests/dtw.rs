@@ -2,7 +2,7 @@
 //! field's reference implementation.
 
 use chereme_analysis::dtw::{
-    Alignment, DtwError, Limits, Local, Made, Obstacle, Options, Policy, Series, StepPattern,
+    Alignment, CostMethod, DtwError, Limits, Local, Obstacle, Options, Policy, Series, StepPattern,
     Window, align, distance, nearest,
 };
 use proptest::prelude::*;
@@ -339,9 +339,9 @@ fn what_has_no_path_is_refused_with_a_remedy_or_remedied_as_the_policy_says() {
 
     let policy = |policy| align(&short, &long, &Options { policy, ..options }).expect("a path");
     let slanted = policy(Policy::SlantedBand);
-    assert_eq!(slanted.cost.made, Made::SlantedBand(10));
+    assert_eq!(slanted.cost.made, CostMethod::SlantedBand(10));
     let resampled = policy(Policy::Resample);
-    assert_eq!(resampled.cost.made, Made::Resampled);
+    assert_eq!(resampled.cost.made, CostMethod::Resampled);
     assert!(resampled.cost.distance < 1e-12 && resampled.path.last() == Some(&(29, 44)));
 
     let options = Options {

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use chereme_compose::{
-    Example, Held, Letter, Material, Recipe, Resolved, SourceError, Sources, Value, evaluate,
+    Example, HeldValue, Letter, Material, Recipe, Resolved, SourceError, Sources, Value, evaluate,
     resolve,
 };
 use chereme_motion::glam::{DQuat, DVec3};
@@ -77,7 +77,7 @@ impl Shelf {
             anatomy: Arc::new(Anatomy::detect(&skeleton)),
             curves: Vec::new(),
             held: held
-                .map(|(component, value)| Held {
+                .map(|(component, value)| HeldValue {
                     hand: Some(Side::Right),
                     component,
                     feature: None,

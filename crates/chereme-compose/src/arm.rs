@@ -9,8 +9,8 @@ use crate::body::Frame;
 use crate::recipe::Solver;
 use crate::work::{Columns, Work};
 
-mod calm;
-mod ease;
+mod free_angle;
+mod smooth;
 mod swivel;
 
 /// The share of the arm's length beyond which the collar bone helps to reach a target.

@@ -8,11 +8,11 @@ use chereme_motion::glam::DVec3;
 use crate::recipe::HandPoint;
 use crate::work::Work;
 
-mod mend;
 mod points;
+mod restore;
 
-pub(crate) use mend::{BLEND, Keep, blended, mend};
 use points::{Anchors, PLACES, POINTS, Tracks};
+pub(crate) use restore::{BLEND, Keep, blended, mend};
 
 /// The largest distance between two touching points of hands, in metres. Captures have no skin: in one of the sign for
 /// thanks, fingertips that touch the mouth come to 5.5 cm of it, thumbs that touch to 3.1 cm.

@@ -7,7 +7,7 @@ use crate::answers::Path;
 use crate::contact::Contacts;
 use crate::error::MakeError;
 use crate::evaluate;
-use crate::made::{Made, Report};
+use crate::outcome::{Generated, Report};
 use crate::recipe::{Joined, Node, Recipe, Step, Then};
 use crate::resolve::{self, Input, Resolved};
 use crate::simplify::Planned;
@@ -38,7 +38,7 @@ impl Draft {
         recipe: &Recipe,
         sources: &dyn Sources,
         goes_on: &dyn Fn() -> bool,
-    ) -> Result<Made, MakeError> {
+    ) -> Result<Generated, MakeError> {
         let resolved = resolve::after(recipe, sources, self.resolved.as_ref())?;
         self.kept.round += 1;
         let made = evaluate::with(&resolved, Some(&mut self.kept), goes_on);
@@ -70,19 +70,19 @@ pub(crate) struct Kept {
 
 /// A part of a recipe: a source, pieces joined so far, or movement with operators applied to it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Part {
+pub(crate) struct DraftPart {
     pub(crate) of: Node,
     pub(crate) steps: Vec<Planned>,
 }
 
 /// The answers for a part, by paths relative to the part's own.
-type Given = BTreeMap<String, (Option<Input>, Option<Arc<Material>>)>;
+type PartAnswers = BTreeMap<String, (Option<Input>, Option<Arc<Material>>)>;
 
 /// The movement after a part, with the report so far.
 #[derive(Debug)]
 pub(crate) struct Stage {
-    part: Part,
-    given: Given,
+    part: DraftPart,
+    given: PartAnswers,
     /// The path of the part in the recipe.
     base: String,
     pub(crate) work: Work,
@@ -91,7 +91,7 @@ pub(crate) struct Stage {
     round: u64,
 }
 
-impl Part {
+impl DraftPart {
     /// Returns whether `path`, relative to the part's own, belongs to the part.
     fn covers(&self, path: &str) -> bool {
         let own = Path::default();
@@ -125,8 +125,8 @@ impl Part {
 }
 
 /// Returns the answers of `resolved` for a part at `base`.
-fn given(resolved: &Resolved, base: &str, part: &Part) -> Given {
-    let mut given = Given::new();
+fn given(resolved: &Resolved, base: &str, part: &DraftPart) -> PartAnswers {
+    let mut given = PartAnswers::new();
     for (path, input) in resolved.below(base) {
         if part.covers(&path[base.len()..]) {
             let material = resolved.materials.get(path).cloned();
@@ -181,7 +181,12 @@ fn size(work: &Work) -> usize {
 
 impl Kept {
     /// Returns the movement after a part, if it was evaluated before.
-    pub(crate) fn find(&mut self, resolved: &Resolved, base: &str, part: &Part) -> Option<&Stage> {
+    pub(crate) fn find(
+        &mut self,
+        resolved: &Resolved,
+        base: &str,
+        part: &DraftPart,
+    ) -> Option<&Stage> {
         let at = self
             .stages
             .iter()
@@ -195,7 +200,7 @@ impl Kept {
     pub(crate) fn keep(
         &mut self,
         (resolved, base): (&Resolved, &str),
-        part: Part,
+        part: DraftPart,
         work: &Work,
         report: Report,
     ) {

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use crate::answers::{Given, Path};
 use crate::contact::{self, Contacts};
 use crate::cue;
-use crate::draft::{Kept, Part};
+use crate::draft::{DraftPart, Kept};
 use crate::error::{Cause, MakeError};
-use crate::made::{ChannelReport, Made, Report, StepReport};
 use crate::ops::notated::Written;
 use crate::ops::{Done, point, spell, then};
+use crate::outcome::{ChannelReport, Generated, Report, StepReport};
 use crate::recipe::*;
 use crate::resolve::{Input, JOIN, Resolved, SIGN};
 use crate::simplify::{self, Planned};
@@ -27,7 +27,7 @@ pub const ENGINE: u32 = 12;
 ///
 /// # Errors
 /// [`MakeError`] with the step that cannot be done, the reason, and a remedy.
-pub fn evaluate(resolved: &Resolved) -> Result<Made, MakeError> {
+pub fn evaluate(resolved: &Resolved) -> Result<Generated, MakeError> {
     with(resolved, None, &|| true)
 }
 
@@ -37,7 +37,7 @@ pub(crate) fn with(
     resolved: &Resolved,
     kept: Option<&mut Kept>,
     goes_on: &dyn Fn() -> bool,
-) -> Result<Made, MakeError> {
+) -> Result<Generated, MakeError> {
     let mut evaluator = Evaluator {
         resolved,
         kept,
@@ -64,7 +64,7 @@ pub(crate) fn with(
     let (signer, mut notes) = (work.signer.clone(), work.notes.clone());
     let curves = work.curves.clone();
     notes.sort_by_key(|note| (note.span.start(), note.span.end()));
-    Ok(Made {
+    Ok(Generated {
         clip: work.into_clip().map_err(|error| fault(error.into()))?,
         anatomy,
         handedness,
@@ -86,7 +86,7 @@ struct Evaluator<'a> {
 
 /// The lengths of the report's lists at some moment.
 #[derive(Clone, Copy)]
-struct Mark {
+struct ReportLengths {
     steps: usize,
     joins: usize,
     contacts: usize,
@@ -103,7 +103,7 @@ impl<'a> Evaluator<'a> {
     }
 
     fn source(&mut self, leaf: &Node, path: &Path) -> Result<Work, MakeError> {
-        let part = Part {
+        let part = DraftPart {
             of: leaf.clone(),
             steps: Vec::new(),
         };
@@ -129,7 +129,7 @@ impl<'a> Evaluator<'a> {
     fn pipe(&mut self, pipe: &Pipe, path: &Path) -> Result<Work, MakeError> {
         let mark = self.mark();
         let plan = simplify::plan(&pipe.steps);
-        let part = |count: usize| Part {
+        let part = |count: usize| DraftPart {
             of: (*pipe.of).clone(),
             steps: plan[..count].to_vec(),
         };
@@ -179,7 +179,7 @@ impl<'a> Evaluator<'a> {
         let mut found = None;
         if self.kept.is_some() {
             for count in (1..=then.next.len()).rev() {
-                let work = self.kept(path, &Part::pieces(then, count));
+                let work = self.kept(path, &DraftPart::pieces(then, count));
                 found = work.map(|work| (work, count));
                 if found.is_some() {
                     break;
@@ -198,7 +198,7 @@ impl<'a> Evaluator<'a> {
             match then_joined.and_then(|()| self.then(&mut work, next, joined, &at, &text)) {
                 Ok(done) => {
                     self.done(&at, text, done);
-                    self.keep(path, Part::pieces(then, n + 1), &work, mark);
+                    self.keep(path, DraftPart::pieces(then, n + 1), &work, mark);
                 }
                 Err(cause) => {
                     return Err(MakeError {
@@ -216,8 +216,8 @@ impl<'a> Evaluator<'a> {
         (self.goes_on)().then_some(()).ok_or(Cause::Stopped)
     }
 
-    fn mark(&self) -> Mark {
-        Mark {
+    fn mark(&self) -> ReportLengths {
+        ReportLengths {
             steps: self.report.steps.len(),
             joins: self.report.joins.len(),
             contacts: self.report.contacts.len(),
@@ -226,7 +226,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Returns the stored movement after a part, if any, and adds its report again.
-    fn kept(&mut self, path: &Path, part: &Part) -> Option<Work> {
+    fn kept(&mut self, path: &Path, part: &DraftPart) -> Option<Work> {
         let path = path.as_str();
         let stage = self.kept.as_mut()?.find(self.resolved, path, part)?;
         let report = stage.report_at(path);
@@ -237,7 +237,7 @@ impl<'a> Evaluator<'a> {
         Some(stage.work.clone())
     }
 
-    fn keep(&mut self, path: &Path, part: Part, work: &Work, mark: Mark) {
+    fn keep(&mut self, path: &Path, part: DraftPart, work: &Work, mark: ReportLengths) {
         let Some(kept) = &mut self.kept else { return };
         let report = Report {
             steps: self.report.steps[mark.steps..].to_vec(),

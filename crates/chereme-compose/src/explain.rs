@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::made::Report;
+use crate::outcome::Report;
 
 impl Display for Report {
     /// Writes the report as indented lines; a step without a residual has no target to miss.

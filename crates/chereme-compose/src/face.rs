@@ -5,7 +5,7 @@ use std::ops::Range;
 use chereme_motion::Face;
 use chereme_sign::hamnosys::face::Expression;
 
-use crate::made::Curve;
+use crate::outcome::Curve;
 
 /// The prefix of the names of curves that hold a number of a face.
 pub const NUMBER: &str = "face.";
@@ -75,7 +75,7 @@ fn core(values: &[f64], run: &Range<usize>) -> Range<usize> {
 #[cfg(test)]
 mod tests {
     use super::faces;
-    use crate::made::Curve;
+    use crate::outcome::Curve;
 
     fn curve(name: &str, values: &[f64]) -> Curve {
         Curve {

@@ -22,7 +22,7 @@
 //! | [`units`] | lengths, times, directions and hands as recipes write them |
 //! | [`sources`] | the questions to a corpus, and its answers |
 //! | [`cue`](mod@cue) | a cuer, its phases, and a dictionary of movements between keys |
-//! | [`made`] | movement with its notes and its report |
+//! | [`outcome`] | movement with its notes and its report |
 //! | [`notation`] | movement from HamNoSys and SiGML |
 //!
 //! The rest is reached through functions: [`resolve`] and [`restore`], [`evaluate`],
@@ -49,9 +49,9 @@ mod json;
 mod language;
 mod learn;
 mod lookup;
-pub mod made;
 pub mod notation;
 mod ops;
+pub mod outcome;
 mod poses;
 pub mod recipe;
 mod resolve;
@@ -76,10 +76,11 @@ pub use json::VERSION;
 pub use language::{Language, LanguageValue};
 pub use learn::{CourseLearner, Stretch, bridge, learn_course};
 pub use lookup::{letters_in, value_in};
-pub use made::{
-    About, ChannelReport, CueTier, Curve, HandReport, JoinReport, Made, Note, Report, StepReport,
-};
 pub use ops::repeat::MOST_REPETITIONS;
+pub use outcome::{
+    About, ChannelReport, CueTier, Curve, Generated, HandReport, JoinReport, Note, Report,
+    StepReport,
+};
 pub use poses::{Exact, HandPose, PoseOrigin};
 pub use recipe::Recipe;
 pub use resolve::{
@@ -87,6 +88,6 @@ pub use resolve::{
     restore,
 };
 pub use sources::{
-    Example, ExpressionSource, Held, LearnedCourse, LearnedProfile, Letter, LetterStroke, Material,
-    Meaning, MedianTime, SourceError, Sources, Spatial, SpellingTimes, Value,
+    Example, ExpressionSource, HeldValue, LearnedCourse, LearnedProfile, Letter, LetterStroke,
+    Material, Meaning, MedianTime, SourceError, Sources, Spatial, SpellingTimes, Value,
 };

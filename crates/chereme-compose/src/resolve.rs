@@ -17,7 +17,9 @@ use crate::ops::notated::Written;
 use crate::ops::{point, spell};
 use crate::poses::HandPose;
 use crate::recipe::*;
-use crate::sources::{Held, LearnedProfile, Letter, Material, Sources, Spatial, SpellingTimes};
+use crate::sources::{
+    HeldValue, LearnedProfile, Letter, Material, Sources, Spatial, SpellingTimes,
+};
 
 /// The movement of a sign.
 pub(crate) const SIGN: Slot<MaterialInput> = Slot::new("sign");
@@ -116,7 +118,7 @@ pub struct MaterialInput {
     /// The hand with which its signer signs.
     pub handedness: Handedness,
     /// Its component values.
-    pub held: Vec<Held>,
+    pub held: Vec<HeldValue>,
 }
 
 /// The place that was found.

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::cue::CuePhases;
 use crate::error::Meant;
 use crate::language::Language;
-use crate::made::Curve;
+use crate::outcome::Curve;
 
 /// The source of movement, values and examples for recipes; a corpus implements it.
 ///
@@ -209,7 +209,7 @@ pub struct Material {
     /// The parts of the body that its joints are.
     pub anatomy: Arc<Anatomy>,
     /// Its component values, in any order.
-    pub held: Vec<Held>,
+    pub held: Vec<HeldValue>,
     /// Its scalar curves, with a value per frame.
     pub curves: Vec<Curve>,
 }
@@ -228,7 +228,7 @@ pub struct ExpressionSource {
 /// A value of a component over a span of a piece of movement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Held {
+pub struct HeldValue {
     /// The hand; `None` for non-manual components.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hand: Option<Side>,

@@ -213,8 +213,8 @@ pub(crate) fn span(start: i64, end: i64) -> Span {
 }
 
 /// Returns a component value of a sign.
-pub(crate) fn held(hand: Side, component: Component, value: &str, span: Span) -> Held {
-    Held {
+pub(crate) fn held(hand: Side, component: Component, value: &str, span: Span) -> HeldValue {
+    HeldValue {
         hand: Some(hand),
         component,
         feature: None,
@@ -237,20 +237,23 @@ impl Shelf {
         let plain = Arc::new(skeleton(Axes::Plain, 1.0));
         let odd = Arc::new(skeleton(Axes::Odd, 0.85));
         let configuration = Component::Configuration;
-        let material =
-            |gloss: &str, skeleton: &Arc<Skeleton>, signer: &str, seed: f64, held: Vec<Held>| {
-                Material {
-                    address: format!("token:{gloss}"),
-                    hash: format!("{gloss}-{seed}"),
-                    gloss: gloss.to_owned(),
-                    signer: Some(signer.to_owned()),
-                    handedness: Handedness::Right,
-                    clip: clip(skeleton, 120, seed),
-                    anatomy: Arc::new(Anatomy::detect(skeleton)),
-                    curves: Vec::new(),
-                    held,
-                }
-            };
+        let material = |gloss: &str,
+                        skeleton: &Arc<Skeleton>,
+                        signer: &str,
+                        seed: f64,
+                        held: Vec<HeldValue>| {
+            Material {
+                address: format!("token:{gloss}"),
+                hash: format!("{gloss}-{seed}"),
+                gloss: gloss.to_owned(),
+                signer: Some(signer.to_owned()),
+                handedness: Handedness::Right,
+                clip: clip(skeleton, 120, seed),
+                anatomy: Arc::new(Anatomy::detect(skeleton)),
+                curves: Vec::new(),
+                held,
+            }
+        };
         let all = [
             material(
                 "ESCARGOT",

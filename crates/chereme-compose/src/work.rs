@@ -7,7 +7,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, Channel, Clip, Instant, Part, Pose, Rate, Side, Skeleton, Span};
 use chereme_sign::{Component, Handedness, Reading};
 
-use crate::made::{About, Curve, Made, Note};
+use crate::outcome::{About, Curve, Generated, Note};
 use crate::sources::Material;
 
 /// A clip under construction.
@@ -128,7 +128,7 @@ impl Work {
     }
 
     /// Takes movement that was generated from notation alone to work on.
-    pub(crate) fn made(made: Made, leaf: &str) -> Self {
+    pub(crate) fn made(made: Generated, leaf: &str) -> Self {
         Self {
             skeleton: Arc::clone(made.clip.skeleton()),
             anatomy: made.anatomy,

@@ -11,14 +11,14 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
-use crate::annotate::told;
+use crate::annotate::messages;
 use crate::db::check as rows;
 use crate::db::motion::hex;
 use crate::db::search::State;
 use crate::db::{notations, recordings, tiers, tracks};
 use crate::error::Result;
 use crate::inventories;
-use crate::movement::{ChannelGroup, Track};
+use crate::movement::{ChannelGroup, MotionTrack};
 use crate::notation;
 use crate::progress::{Progress, Step, Unit};
 use crate::tokens;
@@ -254,7 +254,7 @@ impl Looking<'_, '_> {
         if row.kind != TrackKind::Skeleton {
             return track::read::track(connection, row, None).map(|_| ());
         }
-        let track = Track::of_row(connection, row.id)?;
+        let track = MotionTrack::of_row(connection, row.id)?;
         for group in ChannelGroup::ALL {
             if track.columns_of(group).is_empty() {
                 continue;
@@ -315,7 +315,7 @@ impl Looking<'_, '_> {
                 }
                 let place = format!("recording {:?}", recording.name);
                 let remedy = "correct the annotation: `chereme annotate CORPUS set ANNOTATION --value TEXT`, or --start and --end";
-                let message = told::named(connection, &violation.to_string());
+                let message = messages::named(connection, &violation.to_string());
                 self.fault("tier", place, message, remedy);
             }
             for (tier, count) in overlaps {
@@ -323,7 +323,7 @@ impl Looking<'_, '_> {
                     continue;
                 };
                 let place = format!("recording {:?}", recording.name);
-                let message = told::named(
+                let message = messages::named(
                     connection,
                     &format!("further overlapping annotations on {tier}: {more}"),
                 );

@@ -14,8 +14,8 @@ use crate::db::tiers::{self, TierRow};
 use crate::db::{OperationRow, history_log};
 use crate::error::Result;
 use crate::inventories::{self, StoredInventory};
-use crate::kept::{self, KeptSearch};
 use crate::merge::CorpusConflict;
+use crate::saved_search::{self, KeptSearch};
 
 /// Overview of a corpus at one moment.
 #[derive(Debug, Clone, Default)]
@@ -104,7 +104,7 @@ impl Corpus {
                 .into_iter()
                 .map(inventories::read)
                 .collect::<Result<_>>()?,
-            searches: kept::searches(&reading)?,
+            searches: saved_search::searches(&reading)?,
             operations: history_log(&reading, operations)?,
             conflicts: crate::merge::waiting(&reading)?,
         })

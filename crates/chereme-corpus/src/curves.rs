@@ -14,7 +14,7 @@ use crate::db::upgrade::NONMANUALS;
 use crate::db::{motion, tracks};
 use crate::error::{Error, Result};
 use crate::face;
-use crate::movement::Track;
+use crate::movement::MotionTrack;
 use crate::track::{self, NewTrack};
 
 /// The number of decimals of stored numbers.
@@ -29,7 +29,7 @@ impl Corpus {
     pub fn curves_of(&self, address: &Address) -> Result<Vec<Curve>> {
         let connection = self.store.read();
         let stretch = address::stretch(connection, address)?;
-        let track = Track::of(connection, stretch.recording.id)?;
+        let track = MotionTrack::of(connection, stretch.recording.id)?;
         of_track(connection, &track, track.frames_in(stretch.span))
     }
 }
@@ -71,7 +71,7 @@ pub(crate) fn store(
 /// captured face gives the numbers of this program's own face, such as `face.jaw_open`.
 pub(crate) fn of_track(
     connection: &Connection,
-    track: &Track,
+    track: &MotionTrack,
     frames: Range<usize>,
 ) -> Result<Vec<Curve>> {
     let mut all = made(connection, track, frames.clone())?;
@@ -86,7 +86,7 @@ pub(crate) fn of_track(
 }
 
 /// Returns the curves that a recipe generated, over `frames` of its movement.
-fn made(connection: &Connection, track: &Track, frames: Range<usize>) -> Result<Vec<Curve>> {
+fn made(connection: &Connection, track: &MotionTrack, frames: Range<usize>) -> Result<Vec<Curve>> {
     let Some(row) = motion::nonmanuals(connection, track.row.id)? else {
         return Ok(Vec::new());
     };
@@ -132,7 +132,7 @@ pub(crate) fn write_table(
     delimiter: u8,
     out: &mut dyn Write,
 ) -> Result<()> {
-    let track = Track::of(connection, stretch.recording.id)?;
+    let track = MotionTrack::of(connection, stretch.recording.id)?;
     let frames = match stretch.token {
         Some(_) => track.frames_in(stretch.span),
         None => 0..track.frames(),

@@ -14,7 +14,7 @@ use crate::db::tracks::{self, TrackRow};
 use crate::db::{edits, notations, recipes};
 use crate::error::{Error, Result};
 use crate::media::MediaPlace;
-use crate::movement::Track;
+use crate::movement::MotionTrack;
 use crate::notation;
 
 /// Full details of one object.
@@ -211,7 +211,7 @@ impl Corpus {
             .collect();
         let measures = own
             .iter()
-            .filter_map(|row| Track::of(&reading, row.id).ok())
+            .filter_map(|row| MotionTrack::of(&reading, row.id).ok())
             .take(5)
             .find_map(|track| track.anatomy(&reading).ok()?.measures());
         Ok(SignerDetails {
@@ -244,7 +244,7 @@ impl Corpus {
             engine: recipes::of_recording(&reading, id)?.map(|it| it.engine),
         };
         if recordings::body_track(&reading, id)?.is_some() {
-            let track = Track::of(&reading, id)?;
+            let track = MotionTrack::of(&reading, id)?;
             let anatomy = track.anatomy(&reading)?;
             let name = |joint: usize| track.hierarchy.joints[joint].name.clone();
             details.joints = track.hierarchy.joints.len();

@@ -12,7 +12,7 @@ use crate::db::columns::Origin;
 use crate::db::contents::generation;
 use crate::db::recordings::{self, RecordingRow};
 use crate::error::Result;
-use crate::movement::{BLOCK_FRAMES, ChannelGroup, Track};
+use crate::movement::{BLOCK_FRAMES, ChannelGroup, MotionTrack};
 
 /// The largest number of a signer's takes that are read.
 const TAKES: usize = 12;
@@ -63,7 +63,7 @@ pub(crate) fn corrections(
     if let Some(found) = kept.found.get(&row.id) {
         return Ok(*found);
     }
-    let own = Track::of(connection, row.id)?;
+    let own = MotionTrack::of(connection, row.id)?;
     let mut ranges = [HandRange::default(), HandRange::default()];
     observe(connection, &own, &mut ranges)?;
     let mut takes = 1;
@@ -76,7 +76,11 @@ pub(crate) fn corrections(
             if recordings::body_track(connection, other.id)?
                 .is_some_and(|track| track.skeleton_id == own.row.skeleton_id)
             {
-                observe(connection, &Track::of(connection, other.id)?, &mut ranges)?;
+                observe(
+                    connection,
+                    &MotionTrack::of(connection, other.id)?,
+                    &mut ranges,
+                )?;
                 takes += 1;
             }
         }
@@ -87,7 +91,11 @@ pub(crate) fn corrections(
 }
 
 /// Adds a take to the ranges, without odd frames at its ends.
-fn observe(connection: &Connection, track: &Track, ranges: &mut [HandRange; 2]) -> Result<()> {
+fn observe(
+    connection: &Connection,
+    track: &MotionTrack,
+    ranges: &mut [HandRange; 2],
+) -> Result<()> {
     let anatomy = track.anatomy(connection)?;
     if Side::BOTH.iter().all(|&side| !anatomy.has_fingers(side)) {
         return Ok(());

@@ -9,7 +9,7 @@ use chereme_motion::{Rate, Span};
 use crate::Corpus;
 use crate::curves;
 use crate::error::Result;
-use crate::movement::{ChannelGroup, Track};
+use crate::movement::{ChannelGroup, MotionTrack};
 
 /// The time around the requested frames that is read too, in seconds, so that curves of neighbouring parts fit
 /// together.
@@ -39,7 +39,7 @@ impl Corpus {
     /// Fails if there is no such recording, it holds no movement, or the database fails.
     pub fn curves(&self, recording: i64, span: Span) -> Result<Curves> {
         let connection = self.store.read();
-        let track = Track::of(connection, recording)?;
+        let track = MotionTrack::of(connection, recording)?;
         let wanted = track.frames_in(span);
         let around = (AROUND * track.rate.per_second()).ceil() as usize;
         let end = (wanted.end + around).min(track.frames());

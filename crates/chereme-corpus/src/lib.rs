@@ -6,11 +6,11 @@
 mod address;
 mod animate;
 mod annotate;
-mod around;
 mod check;
 pub(crate) mod codec;
 mod compare;
 mod contents;
+mod context;
 mod cue;
 mod cued;
 mod curves;
@@ -25,7 +25,6 @@ mod hands;
 mod import;
 mod info;
 mod inventories;
-mod kept;
 mod kinematics;
 mod list;
 mod log;
@@ -42,6 +41,7 @@ mod progress;
 mod propose;
 pub mod recipe;
 mod recombine;
+mod saved_search;
 mod score;
 pub(crate) mod search;
 mod sources;
@@ -71,13 +71,12 @@ pub use chereme_sign::{Stereotype, TierRole, TierTopic};
 
 pub use address::{Address, Name, Stretch};
 pub use animate::Staging;
-pub use annotate::hold;
+pub use annotate::drag_limits;
 pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, Copied,
     Find, NewTier, RemovedTiers, Replaced, ReplacedValue, Scheme, TierChange, TierName, Values,
     Within,
 };
-pub use around::Around;
 pub use check::{CheckReport, Fault};
 pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
 pub use chereme_analysis::phases::{NoPath, PhaseScore};
@@ -85,13 +84,15 @@ pub use chereme_analysis::{Score, ScoreOptions};
 pub use chereme_compose::Curve;
 pub use chereme_figure::SPEEDS;
 pub use chereme_formats::compare::{
-    Conflict as FileConflict, Difference, Moved, Revalued, Said, TierChange as TierDifference,
+    ComparedAnnotation, Conflict as FileConflict, Difference, Moved, Revalued,
+    TierChange as TierDifference,
 };
 pub use chereme_sign::query::{facet_condition, narrow, wants, without};
 pub use compare::{CompareSide, FileMerge, merge_files};
 pub use contents::{
     AnnotationColumns, Contents, Overview, RecordingGlance, ShownFrames, SignGlance, TierContents,
 };
+pub use context::Around;
 pub use cue::{
     CueKey, CueKeys, CueOptions, KeysOptions, SpokenWord, cue_keys, cue_keys_of_file,
     cue_phones_of_espeak, cue_phones_of_file, cue_recipe,
@@ -126,7 +127,6 @@ pub use import::{
 };
 pub use info::{AttributeInfo, Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;
-pub use kept::{KeptSearch, kept_like};
 pub use kinematics::Curves;
 pub use list::{ListFilter, ListKind, Listing, cell_text, components_text};
 pub use log::{ChangeKind, Changed, FieldChange, OperationDetail};
@@ -138,10 +138,11 @@ pub use notation::{Notation, read_notation};
 pub use pairs::{Dense, Empty, FIELD_SETS, Pair, PairOptions, Pairs};
 pub use paths::paths_like;
 pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
-pub use place::Place;
+pub use place::FileIdentity;
 pub use progress::{Progress, Step, Unit, unheard};
 pub use propose::{ProposeOptions, ProposeScope, Proposed, proposed_for};
 pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
+pub use saved_search::{KeptSearch, kept_like};
 pub use search::{
     Answer, FACET_VALUES, Finding, FindingKind, Hit, NO_VALUE, Order, SearchOptions, Tally,
     TallyRow, guessed, meant,

@@ -192,7 +192,7 @@ fn skeleton_of(hierarchy: &Hierarchy, document: &str) -> Option<Skeleton> {
 }
 
 /// The motion track of a recording, with everything needed to read it.
-pub(crate) struct Track {
+pub(crate) struct MotionTrack {
     pub(crate) row: MotionTrackRow,
     pub(crate) hierarchy: Hierarchy,
     pub(crate) convention: Convention,
@@ -203,7 +203,7 @@ pub(crate) struct Track {
     exact: Option<(Layout, Arc<Skeleton>)>,
 }
 
-impl Track {
+impl MotionTrack {
     /// Returns the motion track of a recording's body.
     pub(crate) fn of(connection: &Connection, recording: i64) -> Result<Self> {
         let Some(row) = recordings::body_track(connection, recording)? else {

@@ -1,8 +1,8 @@
 //! Pictures of stored movement and of inventories, drawn without a window.
 
+mod atomic_write;
 mod faces;
 mod points;
-mod whole;
 
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -27,14 +27,14 @@ use crate::error::{Error, Result};
 use crate::face;
 use crate::film::{Shape, write_film};
 use crate::inventories;
-use crate::movement::{ChannelGroup, Track};
+use crate::movement::{ChannelGroup, MotionTrack};
 use crate::notation::{self, Notation};
 use crate::progress::{Progress, Step, Unit};
 use crate::recombine::Recombination;
 use crate::sources::notation::own_body;
 
-use whole::extension;
-pub(crate) use whole::write;
+use atomic_write::extension;
+pub(crate) use atomic_write::write;
 
 /// The height of a film in pixels, and its pictures per second.
 const FILM: usize = 540;
@@ -191,7 +191,7 @@ impl Corpus {
         if let Some(moving) = face::stage::moving(connection, &stretch)? {
             return Ok(moving);
         }
-        let track = Track::of(connection, stretch.recording.id)?;
+        let track = MotionTrack::of(connection, stretch.recording.id)?;
         let frames = track.frames_in(stretch.span);
         let clip = track.clip(connection, frames.clone(), groups)?;
         // A word is mouthed over its whole curve, even if only a part of it is displayed.

@@ -8,13 +8,13 @@ use crate::error::Result;
 
 /// Identity of the file at a path, at one moment.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct FileIdentity {
     path: PathBuf,
     /// The system's own id of the file, if it has one.
     id: Option<(u64, u64)>,
 }
 
-impl Place {
+impl FileIdentity {
     /// Returns the identity of the file that is at `path` now.
     #[must_use]
     pub fn of(path: &Path) -> Self {
@@ -77,7 +77,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let corpus = made(folder.path());
         let path = corpus.path().to_owned();
-        let place = Place::of(&path);
+        let place = FileIdentity::of(&path);
         assert!(place.stands());
         let moved = folder.path().join("moved.chereme");
         std::fs::rename(&path, &moved).expect("moved");

@@ -8,7 +8,7 @@ mod phases;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use chereme_compose::{About, CueTier, ENGINE, Input, Made, Note, Recipe, Report, Resolved};
+use chereme_compose::{About, CueTier, ENGINE, Generated, Input, Note, Recipe, Report, Resolved};
 use chereme_formats::bvh::convert;
 use chereme_formats::bvh::raw::{Column, Hierarchy};
 use chereme_motion::anatomy::Anatomy;
@@ -32,7 +32,7 @@ use crate::db::signs;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, FailedStep, Result};
 use crate::inventories::{self, StoredInventory};
-use crate::movement::{self, BLOCK_FRAMES, Track};
+use crate::movement::{self, BLOCK_FRAMES, MotionTrack};
 use crate::sources::CorpusSources;
 use crate::tokens;
 
@@ -180,7 +180,7 @@ impl Corpus {
         Ok(inventories)
     }
 
-    pub(crate) fn make(&mut self, recipe: &str) -> Result<(Resolved, Made, Recipe)> {
+    pub(crate) fn make(&mut self, recipe: &str) -> Result<(Resolved, Generated, Recipe)> {
         let recipe = read(recipe)?;
         let inventories = self.inventories_now()?;
         let sources = CorpusSources::open(&mut self.store, &inventories, &self.learned)?;
@@ -224,7 +224,7 @@ fn cannot(error: chereme_compose::MakeError) -> Error {
     }))
 }
 
-fn recombination(recipe: &Recipe, gloss: String, made: Made) -> Recombination {
+fn recombination(recipe: &Recipe, gloss: String, made: Generated) -> Recombination {
     Recombination {
         recipe: recipe.to_string(),
         gloss,
@@ -267,7 +267,7 @@ fn store(
     connection: &Connection,
     recipe: &Recipe,
     resolved: &Resolved,
-    made: &Made,
+    made: &Generated,
     gloss: &str,
 ) -> Result<(i64, i64, String)> {
     if made.clip.frames() == 0 {
@@ -303,7 +303,7 @@ fn store(
 }
 
 /// Returns the signer whose body moves, if known.
-fn signer_of(connection: &Connection, made: &Made) -> Result<Option<i64>> {
+fn signer_of(connection: &Connection, made: &Generated) -> Result<Option<i64>> {
     Ok(match made.signer.as_deref().map(str::parse) {
         Some(Ok(Address::Signer(name))) => Some(address::signer(connection, &name)?.id),
         _ => None,
@@ -315,7 +315,7 @@ fn signer_of(connection: &Connection, made: &Made) -> Result<Option<i64>> {
 fn source_of(
     connection: &Connection,
     resolved: &Resolved,
-    made: &Made,
+    made: &Generated,
 ) -> Result<Option<(Hierarchy, Convention)>> {
     for input in resolved.inputs().0.values() {
         let Input::Material(material) = input else {
@@ -328,7 +328,7 @@ fn source_of(
         if recordings::body_track(connection, stretch.recording.id)?.is_none() {
             continue;
         }
-        let track = Track::of(connection, stretch.recording.id)?;
+        let track = MotionTrack::of(connection, stretch.recording.id)?;
         let skeleton = convert::skeleton(&track.hierarchy).ok();
         let same =
             skeleton.is_some_and(|it| track.convention.skeleton(&it) == **made.clip.skeleton());
@@ -343,7 +343,7 @@ fn store_movement(
     connection: &Connection,
     recording: i64,
     resolved: &Resolved,
-    made: &Made,
+    made: &Generated,
 ) -> Result<()> {
     let (hierarchy, convention) = match source_of(connection, resolved, made)? {
         Some(source) => source,
@@ -413,7 +413,7 @@ fn store_movement(
 fn store_tiers(
     connection: &Connection,
     recording: i64,
-    made: &Made,
+    made: &Generated,
     gloss: &str,
     inventories: &[StoredInventory],
 ) -> Result<()> {
@@ -441,7 +441,7 @@ fn store_tiers(
 fn store_notes(
     connection: &Connection,
     recording: i64,
-    made: &Made,
+    made: &Generated,
     inventories: &[StoredInventory],
 ) -> Result<()> {
     let whole = made.clip.span();
@@ -559,7 +559,7 @@ fn store_recipe(
     recording: i64,
     recipe: &Recipe,
     resolved: &Resolved,
-    made: &Made,
+    made: &Generated,
 ) -> Result<()> {
     let row = recipe_row(recording, recipe, resolved, made)?;
     let id = recipes::insert(connection, &row)?;
@@ -570,7 +570,7 @@ fn recipe_row(
     recording: i64,
     recipe: &Recipe,
     resolved: &Resolved,
-    made: &Made,
+    made: &Generated,
 ) -> Result<RecipeRow> {
     let fault = |error: serde_json::Error| Error::wrong(error.to_string());
     let document = json!({

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use chereme_compose::{
-    CuePhases, Example, ExpressionSource, Held, Language, LearnedProfile, Letter, Material,
+    CuePhases, Example, ExpressionSource, HeldValue, Language, LearnedProfile, Letter, Material,
     SourceError, Sources, SpellingTimes, Value,
 };
 use chereme_motion::{Instant, Side, Span};
@@ -29,7 +29,7 @@ use crate::db::tiers;
 use crate::error::{Error, Result};
 use crate::face;
 use crate::inventories::StoredInventory;
-use crate::movement::{ChannelGroup, Track};
+use crate::movement::{ChannelGroup, MotionTrack};
 use crate::search::index::SearchIndex;
 use learned::language::Samples;
 
@@ -95,7 +95,7 @@ impl<'a> CorpusSources<'a> {
             material.held = self.held(stretch, material.handedness)?;
             return Ok(material);
         }
-        let track = Track::of(self.connection, stretch.recording.id)?;
+        let track = MotionTrack::of(self.connection, stretch.recording.id)?;
         let mut material = movement(self.connection, &track, stretch)?;
         material.held = self.held(stretch, material.handedness)?;
         material.curves = curves::of_track(self.connection, &track, track.frames_in(stretch.span))?;
@@ -103,7 +103,7 @@ impl<'a> CorpusSources<'a> {
     }
 
     /// Returns the values on the component tiers over a stretch, with times counted from its first frame.
-    fn held(&self, stretch: &Stretch, handedness: Handedness) -> Result<Vec<Held>> {
+    fn held(&self, stretch: &Stretch, handedness: Handedness) -> Result<Vec<HeldValue>> {
         let mut held = Vec::new();
         let (start, end) = (stretch.span.start().micros(), stretch.span.end().micros());
         for tier in tiers::tiers(self.connection, stretch.recording.id)? {
@@ -128,7 +128,7 @@ impl<'a> CorpusSources<'a> {
                 let known = inventory.and_then(|it| it.inventory.find(row.value.trim()));
                 let value = known.map_or(row.value.trim(), |value| value.id.as_str());
                 for hand in sides(tier.hand, handedness) {
-                    held.push(Held {
+                    held.push(HeldValue {
                         hand,
                         component,
                         feature: feature.map(str::to_owned),
@@ -182,7 +182,7 @@ impl<'a> CorpusSources<'a> {
 
 /// Returns the body of a recording in its first frame.
 pub(crate) fn standing(connection: &Connection, recording: RecordingRow) -> Result<Material> {
-    let track = Track::of(connection, recording.id)?;
+    let track = MotionTrack::of(connection, recording.id)?;
     let stretch = Stretch {
         span: track.rate.span(0..1),
         recording,
@@ -192,7 +192,7 @@ pub(crate) fn standing(connection: &Connection, recording: RecordingRow) -> Resu
 }
 
 /// Returns the movement of a stretch, without its annotations.
-fn movement(connection: &Connection, track: &Track, stretch: &Stretch) -> Result<Material> {
+fn movement(connection: &Connection, track: &MotionTrack, stretch: &Stretch) -> Result<Material> {
     let frames = track.frames_in(stretch.span);
     let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
     let name = format!(

@@ -50,7 +50,7 @@ fn bring(
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     let recording = recordings::recording(connection, recording)?;
-    let said = Said::read(connection, &recording, window, inventories, progress)?;
+    let said = AnnotationsByTime::read(connection, &recording, window, inventories, progress)?;
     let tokens = match said.within {
         Some(within) => {
             let (start, end) = (within.start().micros(), within.end().micros());
@@ -130,7 +130,7 @@ struct Gloss {
 }
 
 /// The annotations on the tiers of a recording, by time.
-struct Said {
+struct AnnotationsByTime {
     handedness: Handedness,
     /// The handedness of participants of tiers who are signers.
     of_participants: BTreeMap<String, Handedness>,
@@ -150,7 +150,7 @@ struct Coded {
     participant: Option<String>,
 }
 
-impl Said {
+impl AnnotationsByTime {
     fn read(
         connection: &Connection,
         recording: &RecordingRow,

@@ -15,7 +15,7 @@ use crate::db::columns::Origin;
 use crate::db::notations::{self, NotationRow};
 use crate::db::recordings;
 use crate::error::{Error, Result};
-use crate::movement::{ChannelGroup, Track};
+use crate::movement::{ChannelGroup, MotionTrack};
 use crate::progress::Progress;
 use again::Again;
 
@@ -130,7 +130,7 @@ impl Corpus {
             .at(address.to_string())
             .advise("name a token in it: token:41"));
         }
-        let track = Track::of(connection, stretch.recording.id)?;
+        let track = MotionTrack::of(connection, stretch.recording.id)?;
         let frames = again::signed(connection, &track, &stretch)?;
         let frames = frames.unwrap_or_else(|| track.frames_in(stretch.span));
         let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;

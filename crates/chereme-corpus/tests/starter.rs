@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use all::Take;
-use chereme_compose::Made;
+use chereme_compose::Generated;
 use chereme_formats::bvh::raw::{Block, Reader};
 use chereme_formats::roles::{Mapping, guess_tiers};
 use chereme_formats::{eaf, lexicon};
@@ -19,7 +19,7 @@ use chereme_motion::{Anatomy, Clip, ModelPose, Side};
 use chereme_sign::TierRole;
 use chereme_sign::inventory::builtin_by_id;
 
-static MADE: LazyLock<Vec<(Take, Made)>> = LazyLock::new(all::performances);
+static MADE: LazyLock<Vec<(Take, Generated)>> = LazyLock::new(all::performances);
 
 fn committed(name: &str) -> Vec<u8> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../corpus");

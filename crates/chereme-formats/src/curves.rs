@@ -18,14 +18,14 @@ use chereme_motion::{Curve, Curves, Instant, Rate, Times};
 use crate::finding::Finding;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
-use crate::tracks::{Content, Track, Tracks, rate_of, unique};
+use crate::tracks::{Content, FileTrack, Tracks, rate_of, unique};
 
 /// Largest distance of a time from an even grid, as a share of a frame, at which the rate still counts as even.
 const EVEN_SLACK: f64 = 0.1;
 
 /// The kinds of files of channels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum CurveFile {
     /// The CSV of Live Link Face: timecodes and the 52 shapes of ARKit.
     LiveLink,
     /// The CSV of OpenFace 2: gaze, head, landmarks and action units.
@@ -40,7 +40,7 @@ pub enum Kind {
     Plain,
 }
 
-impl Kind {
+impl CurveFile {
     /// Returns the kind of file that begins with these bytes; `None` if it holds no channels.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Option<Self> {
@@ -133,14 +133,14 @@ impl Error {
     }
 }
 
-/// Reads a file of channels of any kind that [`Kind::of`] recognises.
+/// Reads a file of channels of any kind that [`CurveFile::of`] recognises.
 ///
 /// # Errors
 /// [`Error`] if the file is of no known kind, or its rows do not fit their header.
 pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     let mut findings = Findings::default();
-    let kind = Kind::of(bytes).ok_or(Error::Unknown)?;
-    if kind == Kind::Packets {
+    let kind = CurveFile::of(bytes).ok_or(Error::Unknown)?;
+    if kind == CurveFile::Packets {
         let channels = packets::read(bytes, &mut findings)?;
         return Ok((channels.tracks(kind, &mut findings)?, findings.finish()));
     }
@@ -149,12 +149,12 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
         _ => Error::Unknown,
     })?;
     let channels = match kind {
-        Kind::LiveLink => table::live_link(&text, &mut findings)?,
-        Kind::OpenFace => table::open_face(&text, &mut findings)?,
-        Kind::Plain => table::plain(&text)?,
-        Kind::MediaPipe => mediapipe::read(&text, &mut findings)?,
-        Kind::Fap => fap::read(&text)?,
-        Kind::Packets => return Err(Error::Unknown),
+        CurveFile::LiveLink => table::live_link(&text, &mut findings)?,
+        CurveFile::OpenFace => table::open_face(&text, &mut findings)?,
+        CurveFile::Plain => table::plain(&text)?,
+        CurveFile::MediaPipe => mediapipe::read(&text, &mut findings)?,
+        CurveFile::Fap => fap::read(&text)?,
+        CurveFile::Packets => return Err(Error::Unknown),
     };
     Ok((channels.tracks(kind, &mut findings)?, findings.finish()))
 }
@@ -186,13 +186,13 @@ impl Channels {
         }
     }
 
-    fn tracks(self, kind: Kind, findings: &mut Findings) -> Result<Tracks, Error> {
+    fn tracks(self, kind: CurveFile, findings: &mut Findings) -> Result<Tracks, Error> {
         let rows = self.columns.first().map_or(0, Vec::len);
         if rows == 0 {
             return Err(Error::Empty);
         }
         let day = match (&self.clock, kind) {
-            (Clock::Seconds(seconds), Kind::LiveLink) => seconds.first().copied(),
+            (Clock::Seconds(seconds), CurveFile::LiveLink) => seconds.first().copied(),
             _ => None,
         };
         let (times, offset) = times(self.clock, kind, findings)?;
@@ -205,12 +205,12 @@ impl Channels {
         });
         let curves = Curves::new(times, curves.collect())
             .map_err(|error| Error::Track(error.to_string()))?;
-        let name = if kind == Kind::Plain {
+        let name = if kind == CurveFile::Plain {
             "curves"
         } else {
             "face"
         };
-        let mut track = Track::new(name, Content::Curves(curves));
+        let mut track = FileTrack::new(name, Content::Curves(curves));
         track.offset = offset;
         track.clock = day.map(Instant::from_seconds);
         Ok(Tracks {
@@ -221,7 +221,11 @@ impl Channels {
 }
 
 /// Returns an even rate if the rows are even, else their own times, and the time of the first row.
-fn times(clock: Clock, kind: Kind, findings: &mut Findings) -> Result<(Times, Instant), Error> {
+fn times(
+    clock: Clock,
+    kind: CurveFile,
+    findings: &mut Findings,
+) -> Result<(Times, Instant), Error> {
     let seconds = match clock {
         Clock::Rate(rate) => return Ok((Times::Even(rate), Instant::ZERO)),
         Clock::Seconds(seconds) => seconds,
@@ -229,10 +233,10 @@ fn times(clock: Clock, kind: Kind, findings: &mut Findings) -> Result<(Times, In
     let first = seconds.first().copied().unwrap_or_default();
     // A timecode is the time of day; the track begins with its first row.
     let offset = match kind {
-        Kind::LiveLink | Kind::Packets => Instant::ZERO,
+        CurveFile::LiveLink | CurveFile::Packets => Instant::ZERO,
         _ => Instant::from_seconds(first),
     };
-    if matches!(kind, Kind::LiveLink | Kind::Packets) {
+    if matches!(kind, CurveFile::LiveLink | CurveFile::Packets) {
         findings.push(Finding::note(
             None,
             format!("its first row has the time {first:.3} s of the day; that is 0 s here"),

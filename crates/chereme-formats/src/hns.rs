@@ -14,7 +14,7 @@ const LOOKED_AT: usize = 1 << 16;
 
 /// A notated sign and its line.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Entry {
+pub struct HnsSign {
     /// The sign; its gloss is empty if the line has none.
     pub sign: Notated,
     /// The line of the file, counted from 1.
@@ -45,7 +45,7 @@ pub enum Error {
 ///
 /// # Errors
 /// [`Error`] if the bytes are not text, or no line has a symbol.
-pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
+pub fn read(bytes: &[u8]) -> Result<(Vec<HnsSign>, Vec<Finding>), Error> {
     let mut findings = Findings::default();
     let text = decode(bytes, &mut findings).map_err(|error| match error {
         TableError::NotText { line } => Error::NotText { line },
@@ -134,7 +134,7 @@ fn begin(line: &str) -> Option<usize> {
     [line.find(character), named].into_iter().flatten().min()
 }
 
-fn entry(line: u64, (gloss, text): (&str, &str), findings: &mut Findings) -> Entry {
+fn entry(line: u64, (gloss, text): (&str, &str), findings: &mut Findings) -> HnsSign {
     let parting = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | ':' | '=' | '|' | '"');
     let (gloss, text) = (
         gloss.trim_matches(parting),
@@ -152,7 +152,7 @@ fn entry(line: u64, (gloss, text): (&str, &str), findings: &mut Findings) -> Ent
             told.with_remedy(found.remedy)
         });
     }
-    Entry {
+    HnsSign {
         sign: Notated {
             gloss: gloss.to_owned(),
             text: Some(text.to_owned()),
@@ -171,7 +171,7 @@ mod tests {
 
     fn glosses(text: &str) -> Vec<(u64, String, String)> {
         let (entries, _) = read(text.as_bytes()).expect("read");
-        let told = |entry: Entry| {
+        let told = |entry: HnsSign| {
             (
                 entry.line,
                 entry.sign.gloss,

@@ -12,7 +12,7 @@ use chereme_motion::{Capture, Convention, Marker, Markers, Quality, Space, Times
 
 use crate::finding::Finding;
 use crate::tally::Findings;
-use crate::tracks::{Content, Track, Tracks, rate_of};
+use crate::tracks::{Content, FileTrack, Tracks, rate_of};
 
 /// Why bytes could not be read as a `.pose` file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -150,7 +150,7 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
             };
             tracks
                 .tracks
-                .push(Track::new(name, Content::Markers(markers)));
+                .push(FileTrack::new(name, Content::Markers(markers)));
         }
     }
     let mut note = "the points are estimated from film".to_owned();

@@ -15,14 +15,14 @@ use crate::tally::Findings;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tracks {
     /// The tracks in the order of the file.
-    pub tracks: Vec<Track>,
+    pub tracks: Vec<FileTrack>,
     /// Named moments of the file as tiers, if it has any.
     pub events: Option<Transcript>,
 }
 
 /// One track of a file.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Track {
+pub struct FileTrack {
     /// The name, unique in its document.
     pub name: String,
     /// The time of its first frame, from the start of the file.
@@ -42,7 +42,7 @@ pub enum Content {
     Curves(Curves),
 }
 
-impl Track {
+impl FileTrack {
     /// Returns a track that begins with its file.
     #[must_use]
     pub fn new(name: impl Into<String>, content: Content) -> Self {

@@ -16,7 +16,7 @@ use glam::DVec3;
 use crate::finding::Finding;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
-use crate::tracks::{Content, Track, Tracks, axes_with_up, rate_of, unique, up_of};
+use crate::tracks::{Content, FileTrack, Tracks, axes_with_up, rate_of, unique, up_of};
 
 /// Why bytes could not be read as TRC.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -118,7 +118,7 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     let convention = convention(said("Units"), &points, &mut findings);
     let markers = Markers::new(times, Space::World(convention), points)
         .map_err(|error| Error::Track(error.to_string()))?;
-    let mut track = Track::new("markers", Content::Markers(markers));
+    let mut track = FileTrack::new("markers", Content::Markers(markers));
     track.offset = offset;
     let tracks = Tracks {
         tracks: vec![track],

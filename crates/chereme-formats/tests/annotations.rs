@@ -122,7 +122,7 @@ fn added(text: &str, unit: Option<TimeUnit>) -> Vec<(String, i64, i64, String)> 
         Some(Moment::Frame(frame)) => -i64::try_from(frame).expect("few"),
         None => i64::MIN,
     };
-    let row = |row: chereme_formats::table::annotations::Row| {
+    let row = |row: chereme_formats::table::annotations::ChangeRow| {
         let (tier, value) = (row.tier.expect("a tier"), row.value.unwrap_or_default());
         (tier, millis(row.start), millis(row.end), value)
     };

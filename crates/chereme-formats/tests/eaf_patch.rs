@@ -2,7 +2,9 @@
 
 #![allow(clippy::print_stderr, reason = "a test may say that it skips its work")]
 
-use chereme_formats::eaf::convert::{Annotation, Entry, EntryValue, Place, Tier, Timing};
+use chereme_formats::eaf::convert::{
+    Annotation, AnnotationAddress, EntryValue, Tier, Timing, VocabularyEntry,
+};
 use chereme_formats::eaf::{self, Transcript, patched, raw, read, same_meaning};
 use chereme_motion::{Instant, Span};
 use std::path::{Path, PathBuf};
@@ -20,10 +22,10 @@ fn transcript(text: &[u8]) -> Transcript {
     read(text).expect("an EAF file").0
 }
 
-fn place(it: &Transcript, id: &str) -> Place {
+fn place(it: &Transcript, id: &str) -> AnnotationAddress {
     let mut all = it.tiers.iter().enumerate().flat_map(|(tier, it)| {
         let own = it.annotations.iter().enumerate();
-        own.map(move |(index, it)| (it.id.clone(), Place { tier, index }))
+        own.map(move |(index, it)| (it.id.clone(), AnnotationAddress { tier, index }))
     });
     all.find(|(known, _)| known == id).expect("an annotation").1
 }
@@ -460,7 +462,7 @@ fn tiers_are_renamed_added_and_removed_in_place() {
 #[test]
 fn a_vocabulary_gets_entries_and_the_header_properties() {
     let after = changed(NEW, |it| {
-        let entry = Entry {
+        let entry = VocabularyEntry {
             id: "cveid1".into(),
             values: vec![EntryValue {
                 language: "und".into(),

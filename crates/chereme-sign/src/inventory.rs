@@ -11,7 +11,7 @@ mod json;
 #[cfg(test)]
 mod tests;
 
-pub use json::{InventoryError, Place};
+pub use json::{FilePosition, InventoryError};
 
 use crate::component::{Component, Field};
 use crate::text::{edit_distance, fold};

@@ -10,14 +10,14 @@ use egui_tiles::{Behavior, SimplificationOptions, Tile, TileId, Tiles, Tree, UiR
 
 use crate::Options;
 use crate::action::Action;
-use crate::choose::{Choose, Chooser, Chosen};
 use crate::clipboard::Clipboard;
 use crate::command::Command;
-use crate::context::{Outbox, Seen, Shown};
+use crate::context::{DisplayState, Outbox, PaneInput};
 use crate::draft::Drafts;
+use crate::file_dialogs::{Choose, Chooser, Chosen};
 use crate::film::Films;
-use crate::keys::{Keys, Place};
-use crate::little::Figures;
+use crate::keys::{KeyContext, Keys};
+use crate::miniatures::Figures;
 use crate::model::Snapshot;
 use crate::model::reel::Reel;
 use crate::overlay::Overlays;
@@ -53,7 +53,7 @@ pub struct Studio {
     pub(crate) gone: bool,
     /// `None` before the corpus is first read.
     pub(crate) snapshot: Option<Snapshot>,
-    pub(crate) shown: Shown,
+    pub(crate) shown: DisplayState,
     pub(crate) reel: Reel,
     pub(crate) little: Figures,
     pub(crate) films: Films,
@@ -69,7 +69,7 @@ pub struct Studio {
     untold: Untold,
     pub(crate) clipboard: Clipboard,
     pub(crate) overlays: Overlays,
-    pub(crate) walk: crate::bars::Walk,
+    pub(crate) walk: crate::menu_and_status::Walk,
     pub(crate) out: Outbox,
     pub(crate) drafts: Drafts,
     /// Key under which the view of the open corpus is stored in the settings.
@@ -127,7 +127,7 @@ impl Studio {
             looking: false,
             gone: false,
             snapshot: None,
-            shown: Shown::default(),
+            shown: DisplayState::default(),
             reel: Reel::default(),
             little: Figures::default(),
             films: Films::default(),
@@ -139,7 +139,7 @@ impl Studio {
             untold: Untold::default(),
             clipboard: Clipboard::default(),
             overlays: Overlays::default(),
-            walk: crate::bars::Walk::default(),
+            walk: crate::menu_and_status::Walk::default(),
             out,
             drafts: Drafts::default(),
             view: None,
@@ -254,8 +254,8 @@ impl Studio {
     }
 
     /// Returns the view that panes draw from; `None` without a snapshot.
-    pub(crate) fn seen(&self, ctx: &Context) -> Option<Seen<'_>> {
-        Some(Seen {
+    pub(crate) fn seen(&self, ctx: &Context) -> Option<PaneInput<'_>> {
+        Some(PaneInput {
             snapshot: self.snapshot.as_ref()?,
             shown: &self.shown,
             reel: &self.reel,
@@ -417,7 +417,7 @@ impl Studio {
     /// key that opens a field goes into that field.
     fn take_keys(&mut self, ctx: &Context) {
         while !self.overlays.takes_keys() {
-            let place = Place {
+            let place = KeyContext {
                 corpus: self.snapshot.is_some(),
                 pane: self.pane,
                 typing: ctx.text_edit_focused() || self.panes.timeline.is_typing(),
@@ -479,7 +479,7 @@ impl Studio {
                 ui.centered_and_justified(|ui| ui.label(words));
                 return;
             };
-            let seen = Seen {
+            let seen = PaneInput {
                 snapshot,
                 shown,
                 reel,
@@ -627,7 +627,7 @@ impl eframe::App for Studio {
 /// The panes, as drawn by the tile layout.
 struct Workbench<'a> {
     panes: &'a mut Panes,
-    seen: Seen<'a>,
+    seen: PaneInput<'a>,
     out: &'a mut Outbox,
     pane: &'a mut Option<PaneKind>,
     /// The pane whose tab is below the dragged thing.

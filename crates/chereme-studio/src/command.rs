@@ -8,9 +8,9 @@ use chereme_corpus::recipe::{Goal, Length};
 use chereme_motion::{Instant, Span};
 
 use crate::action::Action;
-use crate::choose::Choose;
+use crate::file_dialogs::Choose;
+use crate::model::generated::GeneratedClip;
 use crate::model::handle::{Course, Handle};
-use crate::model::made::Made;
 use crate::panes::Carried;
 use crate::panes::inspector::Thing;
 use crate::panes::stage::StageWays;
@@ -50,18 +50,18 @@ pub(crate) enum Command {
     Seek(Instant),
     /// Move the playhead of the stage, even if it shows generated movement.
     Cue(Instant),
-    /// Note the placement value that was clicked on the body: [`Shown::spot`](crate::context::Shown::spot).
+    /// Note the placement value that was clicked on the body: [`Shown::spot`](crate::context::DisplayState::spot).
     Spot(Option<String>),
     /// Play at that multiple of the recorded speed.
     Speed(f64),
     /// Show movement outside of recordings on the stage, in a loop, or `None` to end that. Commands that show or move
     /// something in a recording end it too.
-    Made(Option<Arc<Made>>),
+    Made(Option<Arc<GeneratedClip>>),
     /// Set the placement that can be dragged on the stage, or `None` to remove it:
-    /// [`Shown::handle`](crate::context::Shown::handle).
+    /// [`Shown::handle`](crate::context::DisplayState::handle).
     Handle(Option<Handle>),
     /// Set the path that can be pulled on the stage, or `None` to remove it:
-    /// [`Shown::course`](crate::context::Shown::course).
+    /// [`Shown::course`](crate::context::DisplayState::course).
     Course(Option<Box<Course>>),
     /// Change the path of a card, which was pulled or drawn: the card's number, and the points of the path as lengths
     /// to the left, up and forward.

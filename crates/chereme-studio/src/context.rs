@@ -8,10 +8,10 @@ use chereme_motion::{Instant, Span};
 use crate::command::Command;
 use crate::film::Films;
 use crate::keys::Keys;
-use crate::little::Figures;
+use crate::miniatures::Figures;
 use crate::model::Snapshot;
+use crate::model::generated::GeneratedClip;
 use crate::model::handle::{Course, Handle};
-use crate::model::made::Made;
 use crate::model::reel::Reel;
 use crate::player::Player;
 use crate::settings::Settings;
@@ -22,7 +22,7 @@ use crate::work::{Far, Work, WorkId};
 
 /// The state of the display and the selection; only commands change it.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Shown {
+pub(crate) struct DisplayState {
     /// The recording.
     pub(crate) recording: Option<i64>,
     /// The tier that edits apply to.
@@ -48,12 +48,12 @@ pub(crate) struct Shown {
 /// Generated movement on the stage.
 #[derive(Debug, Clone)]
 pub(crate) struct Showing {
-    pub(crate) made: Arc<Made>,
+    pub(crate) made: Arc<GeneratedClip>,
     /// Its own playhead; its time starts at 0.
     pub(crate) player: Player,
 }
 
-impl Shown {
+impl DisplayState {
     /// Returns the player of the movement on the stage: that of generated movement if it is shown.
     pub(crate) fn on_stage(&self) -> &Player {
         self.made.as_ref().map_or(&self.player, |it| &it.player)
@@ -106,9 +106,9 @@ fn hull(snapshot: &Snapshot, annotations: &BTreeSet<i64>) -> Option<Span> {
 
 /// The read-only input of a pane while it draws.
 #[derive(Clone, Copy)]
-pub(crate) struct Seen<'a> {
+pub(crate) struct PaneInput<'a> {
     pub(crate) snapshot: &'a Snapshot,
-    pub(crate) shown: &'a Shown,
+    pub(crate) shown: &'a DisplayState,
     pub(crate) reel: &'a Reel,
     /// Looping little figures of any movement.
     pub(crate) little: &'a Figures,
@@ -122,7 +122,7 @@ pub(crate) struct Seen<'a> {
     pub(crate) running: &'a BTreeMap<WorkId, Running>,
 }
 
-impl Seen<'_> {
+impl PaneInput<'_> {
     /// Returns a text in the window's language.
     pub(crate) fn say(&self, text: Text) -> &'static str {
         text.of(self.language)
@@ -202,10 +202,10 @@ mod tests {
     fn the_selected_time_goes_along_with_what_is_selected() {
         let moved = snapshot(&[(1, 30, 40), (2, 50, 60)]);
         let undone = snapshot(&[(1, 10, 20), (2, 50, 60)]);
-        let shown = |annotations: &[i64], span| Shown {
+        let shown = |annotations: &[i64], span| DisplayState {
             annotations: annotations.iter().copied().collect(),
             span,
-            ..Shown::default()
+            ..DisplayState::default()
         };
         for (annotations, before, after) in [
             (&[1][..], span(30, 40), span(10, 20)),

@@ -8,39 +8,39 @@
 //! |---|---|
 //! | `app` | the window: one frame after the other |
 //! | `action` | the table of everything that keys, menus and the palette can request |
-//! | `command`, `perform` | every possible request, and the one place that carries requests out |
+//! | `command`, `dispatch` | every possible request, and the one place that carries requests out |
 //! | `context` | the input of a pane, its requests, and the selection |
 //! | `model` | the corpus at one moment; movement in pieces around the playhead |
 //! | `work` | use cases of the corpus on threads, with progress and stopping |
 //! | `keys` | default keymaps as a table, the user's changes, matching |
 //! | `words` | every text in English and French |
 //! | `player` | the transport |
-//! | `little` | looping little figures, for any pane |
+//! | `miniatures` | looping little figures, for any pane |
 //! | `draft` | unfinished text, kept through a crash |
 //! | `settings`, `layout`, `theme` | the stored settings, the places of the panes, colours and fonts |
 //! | `script` | text in the scripts of the world: fonts, and text that is read from the right |
 //! | `panes` | one module each: rows by plain functions in `data`, widgets in `ui` |
-//! | `bars`, `start`, `overlay` | menus and status line, the page without a corpus, windows above the panes |
+//! | `menu_and_status`, `start`, `overlay` | menus and status line, the page without a corpus, windows above the panes |
 
 mod action;
 mod app;
-mod bars;
-mod choose;
 mod clipboard;
 mod command;
 mod context;
+mod dispatch;
 mod draft;
 mod error;
+mod file_dialogs;
 mod film;
 mod keys;
 mod layout;
-mod little;
+mod menu_and_status;
+mod miniatures;
 mod model;
 mod overlay;
 mod panes;
-mod perform;
 mod pickers;
-mod plain;
+mod pixel_rects;
 mod player;
 mod script;
 mod settings;

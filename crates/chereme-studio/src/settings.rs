@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::keys::{Keymap, Rebound};
 use crate::panes::PaneKind;
 use crate::panes::stage::StageWays;
-use crate::panes::timeline::Ways;
+use crate::panes::timeline::TimelineSettings;
 use crate::panes::timeline::data::Window;
 use crate::player::Stepping;
 use crate::words::Language;
@@ -53,7 +53,7 @@ pub(crate) struct Settings {
     /// The layout in small windows; the usual one if `None`.
     pub(crate) small_layout: Option<Tree<PaneKind>>,
     /// Settings and visible parts of the timeline.
-    pub(crate) timeline: Ways,
+    pub(crate) timeline: TimelineSettings,
     /// Settings of step-and-repeat playback.
     pub(crate) stepping: Stepping,
     /// Settings of the stage.
@@ -124,7 +124,7 @@ impl Default for Settings {
             busy: crate::layout::Busy::default(),
             layout: None,
             small_layout: None,
-            timeline: Ways::default(),
+            timeline: TimelineSettings::default(),
             stepping: Stepping::default(),
             stage: StageWays::default(),
             library_list: false,

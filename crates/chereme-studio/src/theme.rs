@@ -105,7 +105,7 @@ pub(crate) fn hands(dark: bool) -> [Color32; 2] {
 pub(crate) fn install(ctx: &Context) {
     ctx.set_fonts(fonts());
     crate::script::install(ctx);
-    ctx.add_plugin(crate::plain::Plain);
+    ctx.add_plugin(crate::pixel_rects::Plain);
     ctx.style_mut_of(Theme::Light, |style| refine(style, false));
     ctx.style_mut_of(Theme::Dark, |style| refine(style, true));
 }

@@ -7,7 +7,7 @@ use chereme_analysis::cue::gauss::{Confusion, Recogniser};
 use chereme_analysis::cue::generate::{self, RATE, Settings, Take};
 use chereme_analysis::cue::hand::{HandModel, Restored};
 use chereme_analysis::cue::labels::{HAND, THROAT, finger};
-use chereme_analysis::cue::session::{self, Followed, Kind};
+use chereme_analysis::cue::session::{self, Followed, KeySounds};
 use chereme_analysis::cue::targets::Quartiles;
 use chereme_motion::glam::DVec3;
 
@@ -326,7 +326,7 @@ fn recognisers(table: &mut Table) -> Vec<(&'static str, Confusion)> {
 
 fn sounds_of(take: &Take) -> Vec<session::Key> {
     let keys = take.keys.iter().map(|key| session::Key {
-        kind: Kind::ALL[key.kind],
+        kind: KeySounds::ALL[key.kind],
         placement: key.placement,
         shape: key.shape,
         a1: key.sound[0],
@@ -341,7 +341,7 @@ fn sounds_of(take: &Take) -> Vec<session::Key> {
 fn found_phases(
     settings: &Settings,
     sentences: std::ops::Range<u64>,
-) -> Vec<(Kind, f64, [f64; 2], [f64; 2])> {
+) -> Vec<(KeySounds, f64, [f64; 2], [f64; 2])> {
     let takes = takes(settings, sentences);
     let rigid = session::rigid_set(takes.iter().flat_map(|take| take.face.iter()));
     let keys: Vec<Vec<session::Key>> = takes.iter().map(sounds_of).collect();
@@ -399,7 +399,7 @@ fn phases(table: &mut Table) {
             half <= 8.4 && most <= 16.7,
         );
     }
-    let quartiles = |truth: bool, kind: Kind| {
+    let quartiles = |truth: bool, kind: KeySounds| {
         let own = found.iter().filter(|it| it.0 == kind);
         let phases: Vec<f64> = own
             .map(|it| 1000.0 * (if truth { it.2[1] } else { it.3[1] } - it.1))
@@ -407,9 +407,9 @@ fn phases(table: &mut Table) {
         Quartiles::of(&phases)
     };
     for (kind, name) in [
-        (Kind::Pair, "pairs"),
-        (Kind::Vowel, "vowels alone"),
-        (Kind::Consonant, "consonants alone"),
+        (KeySounds::Pair, "pairs"),
+        (KeySounds::Vowel, "vowels alone"),
+        (KeySounds::Consonant, "consonants alone"),
     ] {
         let (Some(truth), Some(own)) = (quartiles(true, kind), quartiles(false, kind)) else {
             continue;
@@ -429,7 +429,7 @@ fn phases(table: &mut Table) {
     let median = |phase: [f64; 3], seeds: std::ops::Range<u64>, truth: bool| {
         let settings = Settings { phase, ..clean() };
         let found = found_phases(&settings, seeds);
-        Kind::ALL.map(|kind| {
+        KeySounds::ALL.map(|kind| {
             let own: Vec<f64> = found
                 .iter()
                 .filter(|it| it.0 == kind)

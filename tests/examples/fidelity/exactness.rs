@@ -1,6 +1,6 @@
 //! Table of exactness: operators followed by their inverse, and the lengths of bones.
 
-use chereme_compose::Made;
+use chereme_compose::Generated;
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Clip, Side};
 
@@ -35,7 +35,7 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
 fn row(capture: &Capture) -> Result<Vec<String>> {
     let (clip, both) = (&capture.clip, capture.sides().len() == 2);
     let source = Shelf::new(clip.clone(), &capture.anatomy);
-    let after = |first: &str, second: &str| -> Result<[Made; 2]> {
+    let after = |first: &str, second: &str| -> Result<[Generated; 2]> {
         let one = source.make(first)?;
         let two = Shelf::new(one.clip.clone(), &one.anatomy).make(second)?;
         Ok([one, two])

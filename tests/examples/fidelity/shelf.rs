@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use chereme_compose::{
-    Example, Letter, Made, MakeError, Material, Meaning, Recipe, SourceError, Sources, Value,
+    Example, Generated, Letter, MakeError, Material, Meaning, Recipe, SourceError, Sources, Value,
     evaluate, resolve,
 };
 use chereme_motion::{Anatomy, Clip, HandAngles};
@@ -28,7 +28,7 @@ impl Shelf {
     }
 
     /// Evaluates the recipe `A | operators`.
-    pub(crate) fn make(&self, operators: &str) -> Result<Made, MakeError> {
+    pub(crate) fn make(&self, operators: &str) -> Result<Generated, MakeError> {
         let recipe: Recipe = match format!("A | {operators}").parse() {
             Ok(recipe) => recipe,
             Err(error) => unreachable!("{operators} is a recipe: {error}"),

@@ -1,6 +1,6 @@
 //! Table for hands placed elsewhere: the rest of the path, the rotation of hands, the movement of elbows.
 
-use chereme_compose::Made;
+use chereme_compose::Generated;
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{ArmChain, Clip, ModelPose, Rate, Side};
 
@@ -154,7 +154,7 @@ fn one(capture: &Capture, clip: &Clip, way: &str, cm: usize, found: &mut Found) 
     Ok(())
 }
 
-fn told(made: &Made) -> bool {
+fn told(made: &Generated) -> bool {
     let did = made.report.steps.iter().flat_map(|step| &step.did);
     did.into_iter().any(|did| did.contains("out of reach"))
 }

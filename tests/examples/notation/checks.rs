@@ -1,6 +1,6 @@
 //! Measures generated movement from its joints alone: lengths, limits, depths, speeds.
 
-use chereme_compose::Made;
+use chereme_compose::Generated;
 use chereme_motion::anatomy::BodyFrame;
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, ModelPose, Part, Side, Skeleton};
@@ -30,7 +30,7 @@ pub(crate) struct Worst {
 }
 
 /// Measures a movement frame by frame.
-pub(crate) fn worst(made: &Made) -> Worst {
+pub(crate) fn worst(made: &Generated) -> Worst {
     let (clip, anatomy) = (&made.clip, &made.anatomy);
     let skeleton = clip.skeleton();
     let mut worst = Worst::default();

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use chereme_compose::notation::{Settings, animate};
-use chereme_compose::{About, Made, Material};
+use chereme_compose::{About, Generated, Material};
 use chereme_motion::glam::DVec3;
 use chereme_motion::{ModelPose, Part, Rate, Side, Span};
 use chereme_sign::hamnosys::{Contact, MotionKind, NonmanualPart, Notated, WristMotion};
@@ -68,9 +68,9 @@ const FAULTS: [Judge; 18] = [
 struct Seen<'a> {
     notated: &'a Notated,
     findings: usize,
-    made: Made,
+    made: Generated,
     /// The same without its non-manuals, if it has some.
-    plain: Option<Made>,
+    plain: Option<Generated>,
     /// The posture in each frame, in model space.
     models: Vec<ModelPose>,
     rate: f64,

@@ -318,7 +318,7 @@ fn again(
 }
 
 /// Exports movement as BVH, imports it without its notation, and transcribes it like a capture.
-fn blind(made: chereme_compose::Made, span: Span, options: &Options) -> Option<Again> {
+fn blind(made: chereme_compose::Generated, span: Span, options: &Options) -> Option<Again> {
     let short = is_short(&made);
     let begins = made.clip.rate().frame_at(span.start());
     let (clip, anatomy) = bodies::again(&made.clip).ok()?;
@@ -336,7 +336,7 @@ fn blind(made: chereme_compose::Made, span: Span, options: &Options) -> Option<A
 }
 
 /// Returns whether the animator reports that the body fell short of the notation.
-fn is_short(made: &chereme_compose::Made) -> bool {
+fn is_short(made: &chereme_compose::Generated) -> bool {
     made.report.warnings.iter().any(|warning| {
         [
             "less than written",

@@ -8,7 +8,7 @@ use super::gauss::Recogniser;
 use super::hand::{self, HandModel};
 use super::labels::RIGID;
 use super::rigid::Rigid;
-use super::targets::{Quartiles, Sought, TargetOptions, Way, targets, way};
+use super::targets::{MinimumJerkFit, Quartiles, Sought, TargetOptions, targets, way};
 
 /// Measurements of a take, computed from its markers.
 #[derive(Debug, Clone, Default)]
@@ -182,7 +182,7 @@ pub fn points_with_index(shape: u8) -> bool {
 
 /// The sounds of a key: they determine when its target is expected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum KeySounds {
     /// A consonant and a vowel.
     Pair,
     /// A single vowel.
@@ -191,7 +191,7 @@ pub enum Kind {
     Consonant,
 }
 
-impl Kind {
+impl KeySounds {
     /// Every kind.
     pub const ALL: [Self; 3] = [Self::Pair, Self::Vowel, Self::Consonant];
 
@@ -210,7 +210,7 @@ impl Kind {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Key {
     /// The sounds of the key.
-    pub kind: Kind,
+    pub kind: KeySounds,
     /// The number of its placement.
     pub placement: u8,
     /// The number of its shape.
@@ -229,7 +229,7 @@ pub struct Gesture {
     /// The frame of the target.
     pub frame: usize,
     /// The movement to the target.
-    pub way: Way,
+    pub way: MinimumJerkFit,
     /// Whether the movement was long and clear enough to be measured.
     pub measured: bool,
     /// The most probable class at the target.
@@ -243,7 +243,7 @@ pub struct Gesture {
 
 /// The gestures of one key in a take.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shown {
+pub struct KeyGestures {
     /// The hand at its placement.
     pub hand: Gesture,
     /// The fingers in their shape.
@@ -297,7 +297,7 @@ impl Recognisers {
 
 /// Returns the examples of shapes and placements at the targets of takes.
 #[must_use]
-pub fn examples(takes: &[(&Followed, &[Key])], shown: &[Vec<Shown>]) -> (Examples, Examples) {
+pub fn examples(takes: &[(&Followed, &[Key])], shown: &[Vec<KeyGestures>]) -> (Examples, Examples) {
     let (mut shapes, mut placements) = (Vec::new(), Vec::new());
     for ((take, keys), shown) in takes.iter().zip(shown) {
         for (key, shown) in keys.iter().zip(shown) {
@@ -319,7 +319,9 @@ pub fn examples(takes: &[(&Followed, &[Key])], shown: &[Vec<Shown>]) -> (Example
 ///
 /// # Errors
 /// [`ModelError`] if too few keys were found to learn from.
-pub fn find(takes: &[(&Followed, &[Key])]) -> Result<(Recognisers, Vec<Vec<Shown>>), ModelError> {
+pub fn find(
+    takes: &[(&Followed, &[Key])],
+) -> Result<(Recognisers, Vec<Vec<KeyGestures>>), ModelError> {
     let mut frames: Vec<Frames> = takes
         .iter()
         .map(|(take, keys)| frames_of(take, keys, None))
@@ -340,7 +342,7 @@ pub fn find(takes: &[(&Followed, &[Key])]) -> Result<(Recognisers, Vec<Vec<Shown
 
 /// Finds the gestures of the keys in a take with given recognisers; empty if the take has too few frames for the keys.
 #[must_use]
-pub fn find_known(take: &Followed, keys: &[Key], recognisers: &Recognisers) -> Vec<Shown> {
+pub fn find_known(take: &Followed, keys: &[Key], recognisers: &Recognisers) -> Vec<KeyGestures> {
     let frames = frames_of(take, keys, Some(recognisers));
     gestures(take, keys, &frames, recognisers)
 }
@@ -455,7 +457,12 @@ fn teach(takes: &[(&Followed, &[Key])], frames: &[Frames]) -> Result<Recognisers
     Recognisers::learn(&shapes, &placements)
 }
 
-fn gestures(take: &Followed, keys: &[Key], frames: &Frames, known: &Recognisers) -> Vec<Shown> {
+fn gestures(
+    take: &Followed,
+    keys: &[Key],
+    frames: &Frames,
+    known: &Recognisers,
+) -> Vec<KeyGestures> {
     let Some([hand, fingers]) = frames else {
         return Vec::new();
     };
@@ -489,7 +496,7 @@ fn gestures(take: &Followed, keys: &[Key], frames: &Frames, known: &Recognisers)
                 fingers.get(n + 1).copied(),
             );
             let fingers = gesture(take, around, key.shape, row, posteriors, (SHORT, same));
-            Shown { hand, fingers }
+            KeyGestures { hand, fingers }
         })
         .collect()
 }
@@ -511,7 +518,7 @@ fn gesture<'a>(
     let from = before.map_or(earliest, |before| before.max(earliest));
     let to = (frame + 2).min(after.unwrap_or(last)).min(last);
     let found = way(row, (from, to), frame_time);
-    let still = Way {
+    let still = MinimumJerkFit {
         start: frame as f64 * frame_time,
         end: frame as f64 * frame_time,
         length: 0.0,
@@ -553,7 +560,7 @@ fn gesture<'a>(
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Phases {
     /// The sounds of the keys.
-    pub kind: Kind,
+    pub kind: KeySounds,
     /// Whether the movements are those of the fingers; otherwise those of the hand.
     pub of_fingers: bool,
     /// The begin of the movement minus the start of the key's sound, in seconds.
@@ -567,10 +574,12 @@ pub struct Phases {
 /// Returns the phases of measured keys by kind, for the hand and the fingers; a key with the same placement, or the
 /// same shape, as the one before does not count.
 #[must_use]
-pub fn phases<'a>(takes: impl Iterator<Item = (&'a [Key], &'a [Shown])> + Clone) -> Vec<Phases> {
+pub fn phases<'a>(
+    takes: impl Iterator<Item = (&'a [Key], &'a [KeyGestures])> + Clone,
+) -> Vec<Phases> {
     let mut found = Vec::new();
     for of_fingers in [false, true] {
-        for kind in Kind::ALL {
+        for kind in KeySounds::ALL {
             let (mut begins, mut arrives, mut shares) = (Vec::new(), Vec::new(), Vec::new());
             for (keys, shown) in takes.clone() {
                 for (key, shown) in keys.iter().zip(shown) {
@@ -582,7 +591,11 @@ pub fn phases<'a>(takes: impl Iterator<Item = (&'a [Key], &'a [Shown])> + Clone)
                     if key.kind != kind || !own.measured {
                         continue;
                     }
-                    let end = if kind == Kind::Pair { key.a2 } else { key.a3 };
+                    let end = if kind == KeySounds::Pair {
+                        key.a2
+                    } else {
+                        key.a3
+                    };
                     begins.push(own.way.start - key.a1);
                     arrives.push(own.way.end - key.a1);
                     shares.push((own.way.end - key.a1) / (end - key.a1).max(0.01));

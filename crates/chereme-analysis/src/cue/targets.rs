@@ -110,7 +110,7 @@ pub fn targets(
 
 /// A minimum-jerk movement fitted to numbers by frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Way {
+pub struct MinimumJerkFit {
     /// Its start, in seconds.
     pub start: f64,
     /// Its end, in seconds.
@@ -137,7 +137,7 @@ pub fn way<'a>(
     row: impl Fn(usize) -> Option<&'a [f64]>,
     (from, to): (usize, usize),
     frame_time: f64,
-) -> Option<Way> {
+) -> Option<MinimumJerkFit> {
     let seen: Vec<(f64, &[f64])> = (from..=to)
         .filter_map(|frame| Some((frame as f64, row(frame)?)))
         .collect();
@@ -225,7 +225,7 @@ pub fn way<'a>(
     }
     let (_, start, end) = best;
     let (explained, square) = gain(start, end);
-    Some(Way {
+    Some(MinimumJerkFit {
         start: start * frame_time,
         end: end * frame_time,
         length: square.sqrt(),

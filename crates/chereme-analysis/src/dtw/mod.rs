@@ -116,7 +116,7 @@ pub struct Options {
 /// The method by which a cost was computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Made {
+pub enum CostMethod {
     /// Under the requested pattern and window.
     AsAsked,
     /// After resampling the reference to the query's length, by [`Policy::Resample`].
@@ -125,7 +125,7 @@ pub enum Made {
     SlantedBand(usize),
 }
 
-impl fmt::Display for Made {
+impl fmt::Display for CostMethod {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::AsAsked => f.write_str("as asked"),
@@ -144,7 +144,7 @@ pub struct Cost {
     /// counting the reference only up to the end of the path. `None` for symmetric1, which has no norm.
     pub normalized: Option<f64>,
     /// The method: as requested, or by the policy for missing paths.
-    pub made: Made,
+    pub made: CostMethod,
 }
 
 /// The best alignment of a query with a reference.
@@ -212,7 +212,7 @@ fn finish(last: &[f64], query: usize, options: &Options) -> Option<(usize, Cost)
     let cost = Cost {
         distance: last[end],
         normalized: normalized(end),
-        made: Made::AsAsked,
+        made: CostMethod::AsAsked,
     };
     cost.distance.is_finite().then_some((end, cost))
 }
@@ -291,7 +291,7 @@ fn with_policy(
             for (_, j) in &mut found.path {
                 *j = series::place(*j, n, m).round() as usize;
             }
-            found.cost.made = Made::Resampled;
+            found.cost.made = CostMethod::Resampled;
             found
         }),
         Policy::SlantedBand => {
@@ -304,7 +304,7 @@ fn with_policy(
                 options.limits.kept,
             )?;
             run(query, reference, &Options { window, ..*options }).map(|mut found| {
-                found.cost.made = Made::SlantedBand(half_width);
+                found.cost.made = CostMethod::SlantedBand(half_width);
                 found
             })
         }

@@ -98,7 +98,7 @@ impl pulp::NullaryFnOnce for Fill<'_> {
             };
             offsets.push((used, range.start));
             used += range.len();
-            let row = Row {
+            let row = RowInputs {
                 range,
                 start: i == 0 && !options.open_begin,
                 previous: [back(1), back(2)],
@@ -117,7 +117,7 @@ impl pulp::NullaryFnOnce for Fill<'_> {
 }
 
 /// The inputs of one row of the table. Slices begin [`PAD`] columns early.
-struct Row<'a> {
+struct RowInputs<'a> {
     range: Range<usize>,
     /// Whether the row's first cell is the fixed start of every path.
     start: bool,
@@ -127,7 +127,7 @@ struct Row<'a> {
     locals: [&'a [f64]; 2],
 }
 
-impl Row<'_> {
+impl RowInputs<'_> {
     #[inline(always)]
     fn fill(mut self, pattern: StepPattern, cost: &mut [f64], mut steps: &mut [u8]) {
         if self.start && self.range.contains(&0) {

@@ -14,8 +14,8 @@ use chereme_sign::hamnosys::Repeat;
 use glam::DVec3;
 
 use super::aim;
-use super::scene::{Scene, Track, length};
-use super::way::{EXACT, Fitted, ROUND, Way, fit};
+use super::path::{EXACT, Fitted, PathForm, ROUND, fit};
+use super::scene::{HandTrajectory, Scene, length};
 use cuts::{LEAST, cut, is_brief, joined, sure, ways};
 use fold::folded;
 use sway::{play, wrist};
@@ -51,7 +51,7 @@ const ASIDE: f64 = 0.5;
 pub(super) struct Act {
     /// First and last frame of its first execution.
     pub(super) frames: RangeInclusive<usize>,
-    pub(super) kind: Kind,
+    pub(super) kind: ActKind,
     /// The movement of wrist or fingers that goes on during the path.
     pub(super) with: Option<Sway>,
     /// Whether the hand ends in another orientation.
@@ -70,7 +70,7 @@ pub(super) struct Act {
 
 /// The kinds of acts.
 #[derive(Debug, Clone)]
-pub(super) enum Kind {
+pub(super) enum ActKind {
     /// The hand moves along a path.
     Way(Box<Fitted>),
     /// Wrist or fingers move to and fro while the hand stays in place.
@@ -106,7 +106,7 @@ pub(super) struct Seeing<'a> {
 /// A hand with the trajectories of some of its points: those that notation may refer to, and others that
 /// the hand may turn about.
 pub(super) struct Mover<'a> {
-    pub(super) track: &'a Track,
+    pub(super) track: &'a HandTrajectory,
     points: Vec<Vec<DVec3>>,
     /// The number of leading `points` that notation may refer to.
     meant: usize,
@@ -119,7 +119,7 @@ impl<'a> Mover<'a> {
     /// Tracks the parts that are in contact where the sign begins or ends, and the palm; also possible
     /// pivots: the wrist and `pivots`, each a position and its frame.
     pub(super) fn new(
-        track: &'a Track,
+        track: &'a HandTrajectory,
         ends: [usize; 2],
         seen: Seeing<'a>,
         pivots: &[(DVec3, usize)],
@@ -163,7 +163,8 @@ impl<'a> Mover<'a> {
         let turns = track.turn(first, last).length();
         let changes = track.reshaped(first, last);
         let reshaped = RESHAPED * self.seen.loose;
-        if matches!(plain.way, Way::Straight { .. }) || (turns < TURNED && changes < reshaped) {
+        if matches!(plain.way, PathForm::Straight { .. }) || (turns < TURNED && changes < reshaped)
+        {
             return plain;
         }
         let done = |n: usize| {
@@ -200,8 +201,8 @@ impl<'a> Mover<'a> {
                     // No signer draws a circle with one part after the other; and less likely parts count
                     // only if they make the path straight.
                     let taken = match found.way {
-                        Way::Straight { .. } => true,
-                        Way::Circle { .. } => false,
+                        PathForm::Straight { .. } => true,
+                        PathForm::Circle { .. } => false,
                         _ => n < told,
                     };
                     if taken && weight * self.score(&found) < self.score(&best) {
@@ -272,7 +273,7 @@ impl<'a> Mover<'a> {
 }
 
 /// Converts positions of a frame to the hand's own space.
-fn own(track: &Track, at: &[DVec3], frame: usize) -> Vec<DVec3> {
+fn own(track: &HandTrajectory, at: &[DVec3], frame: usize) -> Vec<DVec3> {
     let back = track.turned[frame].inverse();
     let from = track.wrist[frame];
     at.iter().map(|at| back * (*at - from)).collect()
@@ -280,23 +281,23 @@ fn own(track: &Track, at: &[DVec3], frame: usize) -> Vec<DVec3> {
 
 /// Returns the distance between a path and the same one along the nearest direction that notation has: the
 /// root of the mean square over the path, in metres.
-fn aside(way: &Way) -> f64 {
+fn aside(way: &PathForm) -> f64 {
     let course = way.line().normalize_or(DVec3::Z);
     let off = aim::nearest(course, false).residual.to_radians().sin();
     match way {
-        Way::Circle { long, .. } => off * long.length() * FRAC_1_SQRT_2,
+        PathForm::Circle { long, .. } => off * long.length() * FRAC_1_SQRT_2,
         _ => off * way.chord().length() / 3f64.sqrt(),
     }
 }
 
 /// Factor on the error of a path for the notation it takes; 1 for a straight path.
-fn plain(way: &Way) -> f64 {
+fn plain(way: &PathForm) -> f64 {
     match way {
-        Way::Straight { .. } => 1.0,
-        Way::Arc { .. } => 1.4,
-        Way::Circle { turns, .. } if turns * TAU < ROUND => 1.6,
-        Way::Circle { .. } => 1.2,
-        Way::Wave { .. } => 1.8,
+        PathForm::Straight { .. } => 1.0,
+        PathForm::Arc { .. } => 1.4,
+        PathForm::Circle { turns, .. } if turns * TAU < ROUND => 1.6,
+        PathForm::Circle { .. } => 1.2,
+        PathForm::Wave { .. } => 1.8,
     }
 }
 
@@ -356,8 +357,10 @@ pub(super) fn acts(
 /// fingers during that path.
 fn lulls(scene: &Scene<'_>, way: &Act, beside: &[Act], frames: usize) -> bool {
     let same = |act: &Act| match (&act.kind, &way.with) {
-        (Kind::Sway(Sway::Play { .. }), Some(Sway::Play { .. })) => true,
-        (Kind::Sway(Sway::Wrist { .. }) | Kind::Change, Some(Sway::Wrist { .. })) => !act.reshaped,
+        (ActKind::Sway(Sway::Play { .. }), Some(Sway::Play { .. })) => true,
+        (ActKind::Sway(Sway::Wrist { .. }) | ActKind::Change, Some(Sway::Wrist { .. })) => {
+            !act.reshaped
+        }
         _ => false,
     };
     scene.seconds(frames) < LULL && beside.iter().all(same)
@@ -402,7 +405,7 @@ fn going(
         frames: first..=last,
         turned: track.turn(first, last).length() > least,
         reshaped: plays.is_none() && track.reshaped(first, last) > RESHAPED * scene.loose,
-        kind: Kind::Way(Box::new(fitted)),
+        kind: ActKind::Way(Box::new(fitted)),
         with,
         repeat: None,
         times: 1,
@@ -414,7 +417,7 @@ fn going(
 /// Returns the acts of a hand that stays in place.
 fn on_the_spot(
     scene: &Scene<'_>,
-    track: &Track,
+    track: &HandTrajectory,
     first: usize,
     last: usize,
     plays: Option<&Sway>,
@@ -422,9 +425,9 @@ fn on_the_spot(
     if last < first + scene.frames(GAP) {
         return Vec::new();
     }
-    let act = |frames: RangeInclusive<usize>, kind: Kind| {
+    let act = |frames: RangeInclusive<usize>, kind: ActKind| {
         let (first, last) = (*frames.start(), *frames.end());
-        let change = matches!(kind, Kind::Change);
+        let change = matches!(kind, ActKind::Change);
         Act {
             turned: change && track.turn(first, last).length() > TURNED,
             reshaped: change && track.reshaped(first, last) > RESHAPED * scene.loose,
@@ -438,7 +441,7 @@ fn on_the_spot(
         }
     };
     if let Some(plays) = plays {
-        return vec![act(first..=last, Kind::Sway(plays.clone()))];
+        return vec![act(first..=last, ActKind::Sway(plays.clone()))];
     }
     let speeds: Vec<f64> = (first..=last)
         .map(|n| {
@@ -449,12 +452,12 @@ fn on_the_spot(
         .collect();
     let often = |sway: &Sway| matches!(sway, Sway::Wrist { cycles, .. } if *cycles >= 1.0);
     if let Some(sway) = wrist(scene, track, first, last).filter(often) {
-        return vec![act(first..=last, Kind::Sway(sway))];
+        return vec![act(first..=last, ActKind::Sway(sway))];
     }
     let changes = cut(scene, &speeds, LEAST.1, first);
     let found: Vec<Act> = changes
         .into_iter()
-        .map(|frames| act(frames, Kind::Change))
+        .map(|frames| act(frames, ActKind::Change))
         .filter(|act| act.turned || act.reshaped)
         .collect();
     if found.is_empty() {
@@ -467,10 +470,10 @@ fn on_the_spot(
 /// would be too small to count.
 fn to_and_fro(
     scene: &Scene<'_>,
-    track: &Track,
+    track: &HandTrajectory,
     first: usize,
     last: usize,
-    act: impl Fn(RangeInclusive<usize>, Kind) -> Act,
+    act: impl Fn(RangeInclusive<usize>, ActKind) -> Act,
 ) -> Vec<Act> {
     let changed = |a: usize, b: usize| [track.turn(a, b).length(), track.reshaped(a, b)];
     let speeds: Vec<f64> = (first..=last)
@@ -487,7 +490,7 @@ fn to_and_fro(
             Act {
                 turned: turn > TURNED * AGAIN,
                 reshaped: shape > RESHAPED * scene.loose * AGAIN,
-                ..act(frames, Kind::Change)
+                ..act(frames, ActKind::Change)
             }
         })
         .filter(|act| act.turned || act.reshaped)

@@ -6,7 +6,7 @@ use chereme_sign::hamnosys::Symmetry;
 use glam::DVec3;
 
 use super::acts::LAP;
-use super::scene::{Scene, Track};
+use super::scene::{HandTrajectory, Scene};
 
 /// A hand that stays within this distance of its start (arm lengths) does not move.
 const STAYS: f64 = 0.05;
@@ -133,7 +133,7 @@ pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Rel
     }
     let (first, last) = (*frames.start(), *frames.end());
     let middle = first + (last - first) / 2;
-    let still = |track: &Track| {
+    let still = |track: &HandTrajectory| {
         let mut way = track.palm[first..=last].iter();
         way.all(|at| at.distance(track.palm[first]) < STAYS * scene.arm)
     };
@@ -179,7 +179,7 @@ pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Rel
 /// Returns the difference of two still hands from a symmetry; 0 if they mirror each other.
 fn held_alike(
     scene: &Scene<'_>,
-    [a, b]: [&Track; 2],
+    [a, b]: [&HandTrajectory; 2],
     frame: usize,
     symmetry: &Symmetry,
 ) -> Option<f64> {
@@ -193,7 +193,7 @@ fn held_alike(
 }
 
 /// Returns the difference of two postures from a symmetry; `None` if they are unlike.
-fn posture_off([a, b]: [&Track; 2], frame: usize, symmetry: &Symmetry) -> Option<f64> {
+fn posture_off([a, b]: [&HandTrajectory; 2], frame: usize, symmetry: &Symmetry) -> Option<f64> {
     let signs = signs(symmetry);
     let along = (a.along[frame] * signs).angle_between(b.along[frame]);
     let normal = (a.normal[frame] * signs).angle_between(b.normal[frame]);
@@ -204,7 +204,12 @@ fn posture_off([a, b]: [&Track; 2], frame: usize, symmetry: &Symmetry) -> Option
 
 /// Returns the difference of two hands' movements from a symmetry, as a share of them. If the movements
 /// fit several symmetries, the postures decide.
-fn moved_alike([a, b]: [&Track; 2], first: usize, last: usize, symmetry: &Symmetry) -> Option<f64> {
+fn moved_alike(
+    [a, b]: [&HandTrajectory; 2],
+    first: usize,
+    last: usize,
+    symmetry: &Symmetry,
+) -> Option<f64> {
     let signs = signs(symmetry) * if symmetry.out_of_phase { -1.0 } else { 1.0 };
     let (mut off, mut all) = (0.0, 0.0);
     for n in first..last {

@@ -12,25 +12,25 @@
 //! | module | holds |
 //! |---|---|
 //! | `scene` | trajectories of the hands in the signer's own space, frame by frame |
-//! | `steady` | smoothing of joints that tremble from frame to frame |
+//! | `denoise` | smoothing of joints that tremble from frame to frame |
 //! | `shape`, `aim`, `place` | the nearest handshape, direction, palm, place |
-//! | `way`, `acts` | paths through space; the acts of a hand |
+//! | `path`, `acts` | paths through space; the acts of a hand |
 //! | `hands` | symmetry of the two hands |
 //! | `tree` | the sign's tree and its features |
 //! | `precision` | how exactly the hands hold the intended directions and handshapes |
-//! | `proof` | verification of hand placement by re-synthesis |
+//! | `resynthesis` | verification of hand placement by re-synthesis |
 
 mod acts;
 mod aim;
+mod denoise;
 mod hands;
+pub(crate) mod path;
 mod place;
 mod precision;
-mod proof;
+mod resynthesis;
 mod scene;
 mod shape;
-mod steady;
 mod tree;
-pub(crate) mod way;
 mod words;
 
 #[cfg(test)]
@@ -40,7 +40,7 @@ use chereme_motion::{Anatomy, Clip, HandCorrection, Side};
 use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, Sign};
 use serde::Serialize;
 
-pub use proof::MOST_POSTURES;
+pub use resynthesis::MOST_POSTURES;
 
 /// Settings of a transcription.
 #[derive(Debug, Clone, PartialEq)]
@@ -317,7 +317,7 @@ fn looked_at(
     options: &Options,
     performs: Option<&dyn Performs>,
 ) -> Result<Transcription, TranscribeError> {
-    let steadied = steady::steadied(clip);
+    let steadied = denoise::steadied(clip);
     let clip = steadied.as_ref().map_or(clip, |steadied| &steadied.clip);
     let scene = scene::Scene::of(clip, anatomy, options)?;
     let exact = Options {
@@ -327,11 +327,11 @@ fn looked_at(
     let sight = tree::Sight::new(&scene, options);
     let mut found = if options.slack > MADE && precision::is_exact(&scene, &sight) {
         let scene = scene::Scene::of(clip, anatomy, &exact)?;
-        proof::written(&tree::Sight::new(&scene, &exact), performs)
+        resynthesis::written(&tree::Sight::new(&scene, &exact), performs)
     } else {
-        proof::written(&sight, performs)
+        resynthesis::written(&sight, performs)
     };
-    if let Some(steady::Steadied { most, joints, .. }) = steadied {
+    if let Some(denoise::Steadied { most, joints, .. }) = steadied {
         found.findings.push(format!(
             "{joints} joints tremble from frame to frame, by {most:.1}° at most: they were smoothed"
         ));

@@ -33,11 +33,11 @@ pub(super) struct Scene<'a> {
     pub(super) hand: f64,
     /// The side of the only arm that signs, if the other rests.
     pub(super) alone: Option<Side>,
-    pub(super) hands: [Option<Track>; 2],
+    pub(super) hands: [Option<HandTrajectory>; 2],
 }
 
 /// The trajectory of one hand.
-pub(super) struct Track {
+pub(super) struct HandTrajectory {
     pub(super) side: Side,
     pub(super) wrist: Vec<DVec3>,
     /// Positions of the shoulder and the elbow.
@@ -143,8 +143,11 @@ impl<'a> Scene<'a> {
             hands: [None, None],
         };
         scene.alone = scene.lone_arm();
-        let mut tracks = [options.dominant, options.dominant.other()]
-            .map(|side| anatomy.arm(side).map(|_| Track::new(anatomy, side)));
+        let mut tracks = [options.dominant, options.dominant.other()].map(|side| {
+            anatomy
+                .arm(side)
+                .map(|_| HandTrajectory::new(anatomy, side))
+        });
         let mut model = clip.model_pose(0);
         for frame in 0..clip.frames() {
             let pose = clip.pose(frame);
@@ -202,7 +205,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    fn add(&self, track: &mut Track, model: &ModelPose, axes: &Axes) {
+    fn add(&self, track: &mut HandTrajectory, model: &ModelPose, axes: &Axes) {
         let (anatomy, side) = (self.anatomy, track.side);
         let Some(arm) = anatomy.arm(side) else {
             return;
@@ -264,7 +267,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-impl Track {
+impl HandTrajectory {
     fn new(anatomy: &Anatomy, side: Side) -> Self {
         let (known, missing) = Known::of(anatomy, side);
         Self {

@@ -60,7 +60,7 @@ const ODD: f64 = 16.0;
 
 /// An entry of the table: a form with its angles in degrees.
 #[derive(Debug)]
-struct Entry {
+struct FormAngles {
     shape: Handshape,
     angles: [f64; HandAngles::LEN],
     cost: f64,
@@ -71,7 +71,7 @@ struct Entry {
 #[derive(Debug)]
 pub(super) struct Forms {
     language: BodyLanguage,
-    entries: Vec<Entry>,
+    entries: Vec<FormAngles>,
 }
 
 impl Forms {
@@ -88,12 +88,12 @@ impl Forms {
     }
 
     fn made(language: &BodyLanguage) -> Self {
-        let mut entries: Vec<Entry> = Vec::new();
+        let mut entries: Vec<FormAngles> = Vec::new();
         let entry = |shape: Handshape, cost: f64| {
             let angles = hand_angles(&shape, language)
                 .to_array()
                 .map(f64::to_degrees);
-            Entry {
+            FormAngles {
                 shape,
                 angles,
                 cost,
@@ -340,7 +340,7 @@ fn other_digits(class: HandClass) -> Vec<Digits> {
     sets.iter().map(|digits| Digits(digits.to_vec())).collect()
 }
 
-fn add(entries: &mut Vec<Entry>, entry: Entry) {
+fn add(entries: &mut Vec<FormAngles>, entry: FormAngles) {
     if entries
         .iter()
         .all(|old| apart(&old.angles, &entry.angles) > SAME)

@@ -1,10 +1,10 @@
 //! Builds the sign's tree, and its features in words.
 
 mod manner;
+mod motion;
 mod posture;
-mod sight;
-mod tell;
-mod way;
+mod readings;
+mod record;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -18,18 +18,18 @@ use chereme_sign::hamnosys::{
 };
 use glam::DVec3;
 
-use super::acts::{Act, Kind, LETS_GO, Mover, Seeing, Sway, acts, signing};
+use super::acts::{Act, ActKind, LETS_GO, Mover, Seeing, Sway, acts, signing};
 use super::aim;
 use super::hands::{Relation, RelationKind, lead, relation, signs};
+use super::path::PathForm;
 use super::place::{Body, Placed, Together, named};
-use super::scene::{Scene, Track, length};
+use super::scene::{HandTrajectory, Scene, length};
 use super::shape::Forms;
-use super::way::Way;
 use super::words;
 use super::{Feature, FeatureKind, Found, Options, RunnerUp, Stage, Transcription, Unit};
 pub(super) use posture::Stand;
 use posture::behind;
-pub(super) use sight::Sight;
+pub(super) use readings::Sight;
 
 /// Upper bound (nepers) on the penalty of a hand's separate place, however far it is from every place.
 const MOST_APART: f64 = 12.0;
@@ -51,7 +51,7 @@ const MOST: usize = 12;
 
 /// The readings of one hand in one frame.
 #[derive(Debug, Clone)]
-pub(super) struct Seen {
+pub(super) struct HandReading {
     pub(super) shape: Option<Found<Handshape>>,
     pub(super) extended: Found<Aim<Direction>>,
     pub(super) palm: Option<Found<Aim<Compass>>>,
@@ -88,7 +88,7 @@ pub(super) struct Begun {
     pub(super) behind: Option<DVec3>,
 }
 
-impl Seen {
+impl HandReading {
     fn turned(self, turned: aim::Turned) -> Self {
         let palm = self.palm.as_ref().map(|_| turned.palm);
         Self {
@@ -301,15 +301,15 @@ impl<'a> Writer<'a> {
     fn split(
         &mut self,
         first: usize,
-        (track, own): (&Track, &[Act]),
-        (other, others): (&Track, &[Act]),
+        (track, own): (&HandTrajectory, &[Act]),
+        (other, others): (&HandTrajectory, &[Act]),
     ) -> Vec<Motion> {
         let alone = Relation {
             kind: RelationKind::Unlike { moves: true },
             residual: 0.0,
             runner_up: None,
         };
-        let mut of = |lead: usize, track: &Track, acts: &[Act]| -> Vec<Motion> {
+        let mut of = |lead: usize, track: &HandTrajectory, acts: &[Act]| -> Vec<Motion> {
             let mut before = first;
             acts.iter()
                 .enumerate()
@@ -351,15 +351,15 @@ impl<'a> Writer<'a> {
     fn motion(
         &mut self,
         hand: usize,
-        track: &Track,
+        track: &HandTrajectory,
         (act, idle): (&Act, usize),
         relation: &Relation,
     ) -> Motion {
         let (first, last) = (*act.frames.start(), *act.frames.end());
         let mut motion = match &act.kind {
-            Kind::Way(_) => Some(self.way(track, act)),
-            Kind::Sway(sway) => Some(self.sway(track, sway, first)),
-            Kind::Change => {
+            ActKind::Way(_) => Some(self.way(track, act)),
+            ActKind::Sway(sway) => Some(self.sway(track, sway, first)),
+            ActKind::Change => {
                 self.told_change(track, first);
                 None
             }
@@ -400,7 +400,7 @@ impl<'a> Writer<'a> {
         self.repeated(track, act, motion)
     }
 
-    fn repeated(&mut self, track: &Track, act: &Act, motion: Motion) -> Motion {
+    fn repeated(&mut self, track: &HandTrajectory, act: &Act, motion: Motion) -> Motion {
         let Some(repeat) = act.repeat else {
             return motion;
         };

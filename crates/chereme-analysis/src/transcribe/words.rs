@@ -11,12 +11,12 @@ use chereme_sign::hamnosys::{
 
 /// A value in words and as HamNoSys, which is empty if the value is written by omission.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Said {
+pub(super) struct WordsAndSymbols {
     pub(super) words: String,
     pub(super) text: String,
 }
 
-impl Said {
+impl WordsAndSymbols {
     pub(super) fn new(words: impl Into<String>, text: impl Into<String>) -> Self {
         Self {
             words: words.into(),
@@ -64,31 +64,31 @@ pub(super) fn hands(hands: HandsUsed) -> String {
     })
 }
 
-pub(super) fn direction(aim: &Aim<Direction>) -> Said {
+pub(super) fn direction(aim: &Aim<Direction>) -> WordsAndSymbols {
     let text = posture(Posture {
         extended: Each::Shared(*aim),
         ..Posture::default()
     });
-    Said::new(aimed(aim), text)
+    WordsAndSymbols::new(aimed(aim), text)
 }
 
-pub(super) fn palm(aim: &Aim<Compass>) -> Said {
+pub(super) fn palm(aim: &Aim<Compass>) -> WordsAndSymbols {
     let text = posture(Posture {
         palm: Each::Shared(*aim),
         ..Posture::default()
     });
-    Said::new(aimed(aim), text)
+    WordsAndSymbols::new(aimed(aim), text)
 }
 
 /// Returns the direction of a movement, or its axis if it is `round`.
-pub(super) fn course(aim: &Aim<Direction>, round: bool) -> Said {
+pub(super) fn course(aim: &Aim<Direction>, round: bool) -> WordsAndSymbols {
     let kind = if round { Kind::Circle } else { Kind::Move };
     let text = match aim.first.corner_parts() {
         None => vec![aim.first],
         Some((one, two)) => vec![one, two],
     };
     let symbols = text.into_iter().filter_map(|way| Symbol::of(kind(way)));
-    Said::new(aimed(aim), symbols.map(Symbol::char).collect::<String>())
+    WordsAndSymbols::new(aimed(aim), symbols.map(Symbol::char).collect::<String>())
 }
 
 fn aimed<D: Display>(aim: &Aim<D>) -> String {
@@ -98,12 +98,12 @@ fn aimed<D: Display>(aim: &Aim<D>) -> String {
     }
 }
 
-pub(super) fn shape(shape: &Handshape) -> Said {
+pub(super) fn shape(shape: &Handshape) -> WordsAndSymbols {
     let text = posture(Posture {
         shape: Each::Shared(shape.clone()),
         ..Posture::default()
     });
-    Said::new(shaped(shape), text)
+    WordsAndSymbols::new(shaped(shape), text)
 }
 
 fn shaped(shape: &Handshape) -> String {
@@ -157,7 +157,7 @@ fn digits(digits: &Digits) -> String {
 }
 
 /// Returns a place without its contact.
-pub(super) fn place(place: &BodyPlace) -> Said {
+pub(super) fn place(place: &BodyPlace) -> WordsAndSymbols {
     let neutral = || "neutral space".to_owned();
     let mut words = place.site.as_ref().map_or_else(neutral, site);
     if let Some(second) = &place.second {
@@ -168,11 +168,11 @@ pub(super) fn place(place: &BodyPlace) -> Said {
         second: place.second,
         ..BodyPlace::default()
     };
-    Said::new(words, placed(Place::Body(alone)))
+    WordsAndSymbols::new(words, placed(Place::Body(alone)))
 }
 
 /// Returns the contact at a place, with the part of the hand that is named.
-pub(super) fn nearness(place: &BodyPlace) -> Said {
+pub(super) fn nearness(place: &BodyPlace) -> WordsAndSymbols {
     let alone = BodyPlace {
         contact: place.contact,
         by: place.by.clone(),
@@ -184,10 +184,12 @@ pub(super) fn nearness(place: &BodyPlace) -> Said {
     }
     let says = alone.contact.is_some() || alone.by.is_some();
     let far = alone.contact == Some(Contact::ArmExtended) && alone.by.is_none();
-    Said::new(
+    WordsAndSymbols::new(
         words,
         match (far, says) {
-            (true, _) => Said::marked("", Some(Kind::Contact(Contact::ArmExtended))).text,
+            (true, _) => {
+                WordsAndSymbols::marked("", Some(Kind::Contact(Contact::ArmExtended))).text
+            }
             (_, true) => placed(Place::Body(alone)),
             _ => String::new(),
         },
@@ -195,7 +197,7 @@ pub(super) fn nearness(place: &BodyPlace) -> Said {
 }
 
 /// Returns the constellation of the two hands.
-pub(super) fn together(hands: &Constellation) -> Said {
+pub(super) fn together(hands: &Constellation) -> WordsAndSymbols {
     let part = |site: &Option<HandSite>| site.as_ref().map(hand_site).unwrap_or_default();
     let words = format!(
         "{} by {}: {}",
@@ -207,7 +209,7 @@ pub(super) fn together(hands: &Constellation) -> Said {
         at: None,
         ..hands.clone()
     };
-    Said::new(words, placed(Place::Hands(alone)))
+    WordsAndSymbols::new(words, placed(Place::Hands(alone)))
 }
 
 fn placed(place: Place) -> String {
@@ -266,20 +268,20 @@ fn contact(contact: Option<Contact>) -> &'static str {
     }
 }
 
-pub(super) fn size(size: Option<Size>) -> Said {
+pub(super) fn size(size: Option<Size>) -> WordsAndSymbols {
     let words = match size {
         Some(Size::Small) => "small",
         None => "usual",
         Some(Size::Big) => "big",
     };
-    Said::marked(words, size.map(Kind::Size))
+    WordsAndSymbols::marked(words, size.map(Kind::Size))
 }
 
-pub(super) fn repetition(times: usize, repeat: Repeat) -> Said {
-    Said::marked(&format!("{times} times"), Some(Kind::Repeat(repeat)))
+pub(super) fn repetition(times: usize, repeat: Repeat) -> WordsAndSymbols {
+    WordsAndSymbols::marked(&format!("{times} times"), Some(Kind::Repeat(repeat)))
 }
 
-pub(super) fn manner(words: &str, marks: &[Kind]) -> Said {
+pub(super) fn manner(words: &str, marks: &[Kind]) -> WordsAndSymbols {
     let symbols = marks.iter().filter_map(|mark| Symbol::of(*mark));
-    Said::new(words, symbols.map(Symbol::char).collect::<String>())
+    WordsAndSymbols::new(words, symbols.map(Symbol::char).collect::<String>())
 }

@@ -248,7 +248,7 @@ fn files(args: &MergeArgs, output: &mut Output) -> Result<()> {
     std::fs::write(to, &merged.bytes).map_err(|error| Error::file(to, error))?;
     diff::print(&merged.changes, output)?;
     for it in &merged.conflicts {
-        let shown = |side: &Option<chereme_corpus::Said>| match side {
+        let shown = |side: &Option<chereme_corpus::ComparedAnnotation>| match side {
             Some(side) => format!("{:?}", side.value),
             None => output.say(words::GONE).to_owned(),
         };

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use chereme_motion::glam::{DQuat, DVec3};
 
-use super::calm::Angles;
-use super::ease::{Circle, Turned, eased};
+use super::free_angle::{Circle, Turned, eased};
+use super::smooth::Angles;
 use super::{Source, Step, Turns, least_turn, line, off_line};
 
 /// The speed of an elbow about its shoulder beyond the source's, in radians per second: 3.5 degrees per frame at 120

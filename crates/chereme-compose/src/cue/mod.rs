@@ -21,8 +21,8 @@ use chereme_sign::{Component, Reading, cue};
 
 use crate::error::Cause;
 use crate::face::faces;
-use crate::made::{About, CueTier, Note};
 use crate::ops::join;
+use crate::outcome::{About, CueTier, Note};
 use crate::poses::HandPose;
 use crate::recipe::Cue;
 use crate::work::{Group, Work};

@@ -3,7 +3,7 @@
 use chereme_sign::cue::Utterance;
 use chereme_sign::hamnosys::face::Expression;
 
-use crate::made::Curve;
+use crate::outcome::Curve;
 
 /// The time before a sound at which the lips begin to form it, in seconds.
 const BEFORE: f64 = 0.06;

@@ -1,7 +1,7 @@
 //! Poses an arm: the elbow follows the rules of Kennaway, section 4.2, in closed form.
 //!
 //! The plane of the arm is at an angle to the vertical plane through shoulder and wrist: small in front of the arm's
-//! own shoulder, larger across the body; `choose` selects the deviation from that rule. Near full reach the collar bone
+//! own shoulder, larger across the body; `freedom` selects the deviation from that rule. Near full reach the collar bone
 //! helps, and it draws back if the wrist is too near. The hand stays within the limits of its wrist.
 
 use chereme_motion::glam::{DQuat, DVec3};
@@ -203,7 +203,7 @@ pub(crate) struct Posed {
 
 /// Directions of the hand that the wrist should hold.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Held {
+pub(crate) struct HeldDirections {
     /// Direction of the hand's axis, in the space of its joint.
     pub(crate) along: DVec3,
     /// Direction of the palm, in the space of its joint.
@@ -213,7 +213,7 @@ pub(crate) struct Held {
     level: DQuat,
 }
 
-impl Held {
+impl HeldDirections {
     pub(crate) fn of(along: DVec3, palm: DVec3, radial: DVec3) -> Self {
         Self {
             along,
@@ -481,7 +481,7 @@ impl Rig {
     }
 
     /// Returns the wrist's angles in a posture with this rotation of the hand in model space.
-    pub(crate) fn wrist(&self, posed: &Posed, hand: DQuat, held: &Held) -> WristAngles {
+    pub(crate) fn wrist(&self, posed: &Posed, hand: DQuat, held: &HeldDirections) -> WristAngles {
         let forearm = (posed.wrist - posed.elbow).normalize_or(self.forward);
         let in_hand = hand.inverse() * forearm;
         let [a, p, r] = [held.along, held.palm, held.radial].map(|axis| in_hand.dot(axis));
@@ -507,7 +507,7 @@ impl Rig {
 
     /// Returns the rotation in model space of a hand with these angles on its forearm: the inverse of
     /// [`wrist`](Self::wrist).
-    pub(crate) fn hung(&self, posed: &Posed, angles: &WristAngles, held: &Held) -> DQuat {
+    pub(crate) fn hung(&self, posed: &Posed, angles: &WristAngles, held: &HeldDirections) -> DQuat {
         let forearm = (posed.wrist - posed.elbow).normalize_or(self.forward);
         let out = self.elbow_out(posed, forearm);
         let inner = forearm.cross(out) * -self.side.sign();

@@ -2,7 +2,7 @@
 
 use chereme_motion::glam::DVec3;
 
-use super::part::Parted;
+use super::hands_apart::Parted;
 use super::solve::eased;
 use super::stage::{Hand, Stage};
 use super::track::Wanted;

@@ -11,10 +11,10 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, Notated};
 
 use super::nonmanual::{self, Bent};
-use super::plan::{Plan, SignSpan};
+use super::plan::{SignPlan, SignSpan};
 use super::stage::Stage;
 use super::track::Wanted;
-use crate::made::Curve;
+use crate::outcome::Curve;
 
 /// Shares of the sway about the axes to the left, up and forward: mostly a rotation about the vertical.
 const SWAY: DVec3 = DVec3::new(0.1, 1.0, 0.12);
@@ -51,7 +51,7 @@ impl Alive {
     pub(crate) fn of(
         body: &Stage,
         signs: &[&Notated],
-        plan: &Plan,
+        plan: &SignPlan,
         language: &BodyLanguage,
         hands: [&Wanted<'_>; 2],
         rate: f64,

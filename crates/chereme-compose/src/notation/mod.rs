@@ -10,70 +10,70 @@
 //! | `transit` | transitions of hands from one state to another |
 //! | `place` | positions of hands: on the body, in space, in constellations |
 //! | `touch` | the fit of a hand to the trunk's surface in contact |
-//! | `ease` | shifts of hands within their place for the comfort of the arm |
+//! | `comfort` | shifts of hands within their place for the comfort of the arm |
 //! | `motion` | motions, repetitions, sequences |
 //! | `path`, `pace` | paths through space; their course in time |
 //! | `stage` | the body: its surface, points of its hands |
 //! | `thumb`, `rest`, `lift` | the thumb of a pinch; hands at rest; arms raised to be touched |
 //! | `arm` | elbow, collar bone, wrist |
 //! | `track` | from events to the goals of the hands in each frame |
-//! | `part` | separation of two hands whose paths would pass through each other |
+//! | `hands_apart` | separation of two hands whose paths would pass through each other |
 //! | `bulk` | separation of two hands that would penetrate each other |
-//! | `choose` | over time: the arm's plane and its shoulder |
-//! | `solve`, `settle` | from goals to postures of an arm, without jumps |
-//! | `mend` | removal of remaining intersections with the trunk |
+//! | `freedom` | over time: the arm's plane and its shoulder |
+//! | `solve`, `solve_frame` | from goals to postures of an arm, without jumps |
+//! | `push_out` | removal of remaining intersections with the trunk |
 //! | `perform` | one sign after another on the same body, or their first postures alone |
-//! | `warp` | stretches of time for arms that would move too fast |
+//! | `stretch_time` | stretches of time for arms that would move too fast |
 //! | `life` | sway, head and eyes that follow the hands, blinks |
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | annotations of the synthesised movement |
 
 mod arm;
 mod bulk;
-mod choose;
-mod ease;
+mod comfort;
+mod freedom;
+mod hands_apart;
 mod life;
 mod lift;
-mod mend;
 mod motion;
 #[cfg(test)]
 mod natural;
 mod nonmanual;
 mod notes;
 mod pace;
-mod part;
 mod path;
 mod perform;
 mod place;
 mod plan;
+mod push_out;
 mod rest;
-mod settle;
 mod solve;
+mod solve_frame;
 pub(crate) mod stage;
+mod stretch_time;
 #[cfg(test)]
 mod tests;
 mod thumb;
 mod touch;
 mod track;
 mod transit;
-mod warp;
 
 use std::sync::Arc;
 
 use chereme_motion::{Channel, Clip, ClipError, Rate, Side};
 use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, Notated};
 
-use crate::made::{ChannelReport, HandReport, Made, Report, StepReport};
+use crate::outcome::{ChannelReport, Generated, HandReport, Report, StepReport};
 use crate::sources::Material;
 use crate::work::Group;
 
 use life::Alive;
 use pace::Paces;
 pub use perform::Performer;
-use plan::{Plan, Planner};
+use plan::{Planner, SignPlan};
 use stage::Stage;
-use track::{Fit, Track};
-use warp::{Fastest, Warp};
+use stretch_time::{Fastest, Warp};
+use track::{ArmTrack, Fit};
 
 /// The most frames of one animation: ten minutes at 120 Hz.
 const MOST_FRAMES: usize = 72_000;
@@ -144,7 +144,7 @@ pub fn animate(
     signs: &[&Notated],
     stage: &Material,
     settings: &Settings,
-) -> Result<Made, NotationError> {
+) -> Result<Generated, NotationError> {
     let body = Stage::of(stage).ok_or_else(|| NotationError::NoArm(stage.address.clone()))?;
     let rate = settings.rate.per_second();
     let planner = Planner::new(&body, &settings.language, stage.handedness, rate);
@@ -172,7 +172,7 @@ pub fn animate(
         alive.carry(&body, wanted);
     }
     let parted = match hands {
-        [Some(a), Some(b)] => part::part(&body, [a, b], [&mut first, &mut second], rate),
+        [Some(a), Some(b)] => hands_apart::part(&body, [a, b], [&mut first, &mut second], rate),
         _ => None,
     };
     let cleared = match hands {
@@ -185,10 +185,10 @@ pub fn animate(
     let mut wanted = [Some(first), Some(second)];
     let made = [0, 1].map(|n| {
         let (hand, wanted) = (hands[n]?, wanted[n].take()?);
-        let made = track::Made::of(&body, hand, (&plan, n), wanted, &limits, &timing);
+        let made = track::SolvedFrames::of(&body, hand, (&plan, n), wanted, &limits, &timing);
         Some(made)
     });
-    let arms: Vec<&track::Made<'_>> = made.iter().flatten().collect();
+    let arms: Vec<&track::SolvedFrames<'_>> = made.iter().flatten().collect();
     let moved: Vec<_> = arms.iter().map(|made| made.moved()).collect();
     let fastest = fastest(&settings.language, &body);
     let warp = Warp::of(&moved, rate, &fastest, |arm, n| arms[arm].hasty(n));
@@ -251,7 +251,7 @@ pub fn animate(
         curve.values.resize(total, last);
         curve
     }));
-    Ok(Made {
+    Ok(Generated {
         curves,
         notes: notes::notes(signs, &plan, sides, &clip, &warp),
         clip,
@@ -297,7 +297,7 @@ fn standing(body: &Stage, total: usize) -> Vec<Channel> {
         .collect()
 }
 
-fn lay(channels: &mut [Channel], hand: &stage::Hand, track: Track) {
+fn lay(channels: &mut [Channel], hand: &stage::Hand, track: ArmTrack) {
     for (joint, column) in hand.rig.joints().into_iter().zip(track.arm) {
         if let Some(joint) = joint {
             channels[joint].rotations = column;
@@ -308,7 +308,7 @@ fn lay(channels: &mut [Channel], hand: &stage::Hand, track: Track) {
     }
 }
 
-fn report(signs: &[&Notated], plan: &Plan, sides: [Side; 2], fits: [Option<Fit>; 2]) -> Report {
+fn report(signs: &[&Notated], plan: &SignPlan, sides: [Side; 2], fits: [Option<Fit>; 2]) -> Report {
     let mut report = Report::default();
     let hands = sides.into_iter().zip(fits).filter_map(|(hand, fit)| {
         let fit = fit?;

@@ -16,7 +16,7 @@ use super::tests::{at, directed, mirrored, model, notated, posture, stage};
 use super::*;
 use crate::testing::Axes;
 
-fn alive(sign: &Notated) -> Made {
+fn alive(sign: &Notated) -> Generated {
     animate(&[sign], &stage(Axes::Odd), &Settings::default()).expect("it can be animated")
 }
 
@@ -124,7 +124,7 @@ fn a_body_lives_and_can_be_kept_still() {
         flat(Some(at(BodyLocation::Chest, None))),
         vec![directed("u")],
     );
-    let turned = |made: &Made, part: Part| {
+    let turned = |made: &Generated, part: Part| {
         let joint = made.anatomy.joint(part).expect("a joint");
         let first = made.clip.model_pose(0).rotation(joint);
         let all = (0..made.clip.frames()).map(|frame| {
@@ -222,7 +222,7 @@ fn a_hand_at_the_face_goes_with_the_head() {
         posture(HandClass::Finger2, "ul", "l", Some(touch)),
         vec![],
     );
-    let off = |made: &Made| {
+    let off = |made: &Generated| {
         let model = model(made, 0.5);
         let place = |name: &str| {
             let skeleton = made.clip.skeleton();

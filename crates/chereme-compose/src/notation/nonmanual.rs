@@ -14,7 +14,7 @@ use chereme_sign::hamnosys::{
 
 use super::plan::SignSpan;
 use super::stage::Stage;
-use crate::made::Curve;
+use crate::outcome::Curve;
 
 /// Offset (s) of a tier that begins or ends slightly before or after the hands.
 const SLIGHTLY: f64 = 0.12;

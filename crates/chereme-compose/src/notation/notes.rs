@@ -8,18 +8,18 @@ use chereme_sign::hamnosys::Notated;
 use chereme_sign::hamnosys::components::{MappedValue, Mapper};
 use chereme_sign::{Component, Reading, inventory};
 
-use super::plan::{Act, PhaseKind, Plan, SignSpan};
-use super::warp::Warp;
-use crate::made::{About, Note};
+use super::plan::{Act, PhaseKind, SignPlan, SignSpan};
+use super::stretch_time::Warp;
+use crate::outcome::{About, Note};
 
 /// Shortest annotation (s) of a value that the hand has only momentarily.
 const SHORTEST: f64 = 0.04;
 
 /// Returns the glosses, the component values, the strokes and holds of each hand, and the transitions. All
-/// times in `plan` are stretched already, except those of its events; `warp` stretches those.
+/// times in `plan` are stretched already, except those of its events; `stretch_time` stretches those.
 pub(crate) fn notes(
     signs: &[&Notated],
-    plan: &Plan,
+    plan: &SignPlan,
     sides: [Side; 2],
     clip: &Clip,
     warp: &Warp,
@@ -101,7 +101,7 @@ fn name(sign: &Notated) -> &str {
 /// of the next. If those are unknown, successive values share the sign evenly.
 fn components(
     sign: &Notated,
-    plan: &Plan,
+    plan: &SignPlan,
     own: &SignSpan,
     warp: &Warp,
 ) -> Vec<(MappedValue, (f64, f64))> {
@@ -152,14 +152,14 @@ fn components(
 }
 
 /// A time span in which a hand has one value of a component, as an index.
-struct Held {
+struct ValueSpan {
     span: (f64, f64),
     what: usize,
 }
 
 /// Assigns `count` successive values to the spans: one after the other, or cyclically; `None` if the
 /// numbers do not match.
-fn matched(held: &[Held], count: usize) -> Option<Vec<usize>> {
+fn matched(held: &[ValueSpan], count: usize) -> Option<Vec<usize>> {
     if held.len() == count {
         return Some((0..count).collect());
     }
@@ -176,13 +176,19 @@ fn matched(held: &[Held], count: usize) -> Option<Vec<usize>> {
 }
 
 /// Returns the spans in which a hand has one value of a component each, within a sign.
-fn held(plan: &Plan, n: usize, component: Component, own: &SignSpan, warp: &Warp) -> Vec<Held> {
+fn held(
+    plan: &SignPlan,
+    n: usize,
+    component: Component,
+    own: &SignSpan,
+    warp: &Warp,
+) -> Vec<ValueSpan> {
     let within = |from: f64| (own.from - 1e-6..own.to - 1e-6).contains(&from);
     if component == Component::Movement {
         let strokes = plan.phases.iter().filter(|phase| {
             phase.hand == n && phase.kind == PhaseKind::Stroke && within(phase.from)
         });
-        let each = strokes.enumerate().map(|(what, phase)| Held {
+        let each = strokes.enumerate().map(|(what, phase)| ValueSpan {
             span: (phase.from, phase.to),
             what,
         });
@@ -220,7 +226,7 @@ fn held(plan: &Plan, n: usize, component: Component, own: &SignSpan, warp: &Warp
         }
     }
     changes.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
-    let mut all = vec![Held {
+    let mut all = vec![ValueSpan {
         span: (own.from, own.to),
         what: first,
     }];
@@ -230,7 +236,7 @@ fn held(plan: &Plan, n: usize, component: Component, own: &SignSpan, warp: &Warp
             last.span.1 = from.max(last.span.0 + SHORTEST.min(third));
         }
         let begins = to.min(own.to - SHORTEST.min(third));
-        all.push(Held {
+        all.push(ValueSpan {
             span: (begins.max(from), own.to),
             what,
         });

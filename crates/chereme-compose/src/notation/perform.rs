@@ -11,9 +11,9 @@ use super::plan::Planner;
 use super::solve::Arm;
 use super::stage::Stage;
 use super::{
-    NotationError, Settings, animate, bulk, frames, lay, nonmanual, part, standing, track,
+    NotationError, Settings, animate, bulk, frames, hands_apart, lay, nonmanual, standing, track,
 };
-use crate::made::About;
+use crate::outcome::About;
 use crate::sources::Material;
 
 /// Seconds around the first posture that are computed with it, as sudden changes are spread over the time
@@ -100,7 +100,7 @@ impl Performer {
             alive.carry(body, wanted);
         }
         if let [Some(a), Some(b)] = hands {
-            part::part(body, [a, b], [&mut first, &mut second], rate);
+            hands_apart::part(body, [a, b], [&mut first, &mut second], rate);
         }
         if let ([Some(a), Some(b)], false) = (hands, plan.laced) {
             bulk::clear(
@@ -117,7 +117,7 @@ impl Performer {
             let (_, got) = solver.over_time(&wanted.cut(span.clone()), rate);
             let got = &got[frame - span.start];
             let fingers = track::fingers(body, hand, &plan, n, &timing).into_iter();
-            let track = track::Track {
+            let track = track::ArmTrack {
                 arm: hand
                     .rig
                     .rotations(&got.posed, got.rotation)

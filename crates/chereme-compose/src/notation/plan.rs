@@ -18,8 +18,8 @@ use super::arm::Limits;
 use super::pace::Pace;
 use super::path::Path;
 use super::stage::{Shape, Stage};
+use super::stretch_time::Warp;
 use super::thumb;
-use super::warp::Warp;
 
 /// Seconds of rest before the first sign and after the last.
 const STILL: f64 = 0.1;
@@ -125,7 +125,7 @@ pub(crate) struct SignSpan {
 }
 
 /// The planned events of both hands.
-pub(crate) struct Plan {
+pub(crate) struct SignPlan {
     /// The dominant side, then the other.
     pub(crate) sides: [Side; 2],
     pub(crate) start: [HandState; 2],
@@ -144,7 +144,7 @@ pub(crate) struct Plan {
     pub(crate) remarks: Vec<String>,
 }
 
-impl Plan {
+impl SignPlan {
     /// Stretches the times of phases and signs; events keep their planned times.
     pub(crate) fn stretch(&mut self, warp: &Warp) {
         if warp.is_none() {
@@ -198,7 +198,7 @@ pub(crate) struct Planner<'a> {
     /// The hand that stays in place while the other moves to it.
     pub(crate) fixed: Option<usize>,
     /// Collects stances during a trial plan.
-    pub(crate) trail: Option<super::ease::Trail>,
+    pub(crate) trail: Option<super::comfort::Trail>,
     /// The last place of each hand at the body in this sign.
     pub(crate) at_body: [Option<BodyPlace>; 2],
     /// Indexes of shapes by handshape, for each hand.
@@ -206,7 +206,7 @@ pub(crate) struct Planner<'a> {
     speed: f64,
     /// Frames per second.
     rate: f64,
-    pub(crate) plan: Plan,
+    pub(crate) plan: SignPlan,
 }
 
 /// Returns the acting hands with their frames.
@@ -248,7 +248,7 @@ impl<'a> Planner<'a> {
             shaped: [Vec::new(), Vec::new()],
             speed: 1.0,
             rate,
-            plan: Plan {
+            plan: SignPlan {
                 sides,
                 start,
                 events: [Vec::new(), Vec::new()],
@@ -265,7 +265,7 @@ impl<'a> Planner<'a> {
     }
 
     /// Plans signs one after the other, from rest and back to rest.
-    pub(crate) fn signs(mut self, signs: &[&Notated]) -> Plan {
+    pub(crate) fn signs(mut self, signs: &[&Notated]) -> SignPlan {
         let mut time = STILL;
         let parts = signs.iter().flat_map(|notated| &notated.sign.parts);
         let mut next = parts.skip(1);

@@ -1,14 +1,14 @@
 //! Solves one arm over time: from the goals of its hand to postures without jumps.
 //!
-//! Thirty times a second `choose` selects the arm's plane and shoulder. In between, the hand of each frame
+//! Thirty times a second `freedom` selects the arm's plane and shoulder. In between, the hand of each frame
 //! gives way to the wrist's limits and to the trunk. Remaining sudden changes are spread over the time
 //! around them, as angles of the wrist, so that the wrist stays within its limits. Finally the wrist moves
 //! so that the hand's reference point is at its goal.
 
 use chereme_motion::glam::{DQuat, DVec3};
 
-use super::arm::{Bearing, Held, Limits, Posed, Rig, WristAngles};
-use super::choose::Choice;
+use super::arm::{Bearing, HeldDirections, Limits, Posed, Rig, WristAngles};
+use super::freedom::Choice;
 use super::stage::{Hand, Stage};
 use super::track::Wanted;
 
@@ -34,7 +34,7 @@ const LOST: f64 = 0.02;
 
 /// The settings of an arm in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Row {
+pub(crate) struct ArmFrame {
     /// The goal of the hand's reference point.
     pub(crate) point: DVec3,
     /// The reference point in the hand's space.
@@ -65,7 +65,7 @@ pub(crate) struct Got {
 pub(crate) struct Arm<'a> {
     pub(crate) stage: &'a Stage,
     pub(crate) hand: &'a Hand,
-    pub(crate) held: Held,
+    pub(crate) held: HeldDirections,
     pub(crate) limits: &'a Limits,
 }
 
@@ -159,8 +159,8 @@ impl<'a> Arm<'a> {
         wanted: &Wanted<'_>,
         ways: &[(Bearing, bool)],
         rate: f64,
-    ) -> Vec<Row> {
-        let mut rows: Vec<Row> = Vec::with_capacity(ways.len());
+    ) -> Vec<ArmFrame> {
+        let mut rows: Vec<ArmFrame> = Vec::with_capacity(ways.len());
         let mut before: Option<(Want<'_>, (Bearing, bool))> = None;
         for (frame, &way) in ways.iter().enumerate() {
             let want = self.want(wanted, frame);
@@ -171,7 +171,7 @@ impl<'a> Arm<'a> {
             }
             let (bearing, high) = way;
             let hung = self.hang(&want, bearing, high, TRIES);
-            rows.push(Row {
+            rows.push(ArmFrame {
                 point: want.point,
                 offset: want.offset,
                 turned: want.turned,
@@ -189,7 +189,7 @@ impl<'a> Arm<'a> {
 
     /// Leads hands from one orientation to the next within the wrist's limits, if the shortest rotation
     /// exceeds them.
-    fn lead(&self, rows: &mut [Row], wanted: &Wanted<'_>) {
+    fn lead(&self, rows: &mut [ArmFrame], wanted: &Wanted<'_>) {
         for (span, shares) in &wanted.ways {
             let Some(last) = rows.get(span.end).map(|row| row.angles) else {
                 continue;
@@ -301,7 +301,7 @@ impl<'a> Arm<'a> {
     }
 
     /// Returns the obstacle that keeps a hand from its notated orientation.
-    pub(crate) fn hindrance(&self, row: &Row, got: &Got) -> Hindrance {
+    pub(crate) fn hindrance(&self, row: &ArmFrame, got: &Got) -> Hindrance {
         let wrist = row.point + row.push - row.turned * row.offset;
         let posed = self.rig().reach(wrist, row.bearing, self.limits);
         let asked = self.rig().wrist(&posed, row.turned, &self.held);
@@ -345,7 +345,7 @@ impl<'a> Arm<'a> {
     }
 
     /// Spreads sudden pushes over the time before and after, except in contact.
-    fn spread(&self, rows: &mut [Row], touch: &[f64], rate: f64) {
+    fn spread(&self, rows: &mut [ArmFrame], touch: &[f64], rate: f64) {
         let near = ((AROUND * rate).ceil() as usize).max(1);
         let most = PUSHING * self.rig().length() / rate;
         let mut start = 0;
@@ -401,7 +401,7 @@ pub(super) fn eased(own: &[DVec3], near: usize) -> Vec<DVec3> {
 
 /// Spreads wrist movements that are too fast over the time before and after; if possible, over frames in
 /// which the hand is `free` to turn.
-fn calm(rows: &mut [Row], free: &[bool], rate: f64) {
+fn calm(rows: &mut [ArmFrame], free: &[bool], rate: f64) {
     let most = BENDING / rate;
     let near = ((AROUND * rate).ceil() as usize).max(1);
     for _ in 0..4 {

@@ -8,7 +8,7 @@ use chereme_motion::{Anatomy, Finger, HandAngles, ModelPose, Part, Pose, Side, S
 use chereme_sign::hamnosys::Digit;
 use chereme_sign::hamnosys::sites::{Face, HandPoint, digit_joint, from_bone, on_palm};
 
-use super::arm::{Held, Rig};
+use super::arm::{HeldDirections, Rig};
 use crate::sources::Material;
 
 /// A body in its standing posture.
@@ -380,8 +380,8 @@ impl Hand {
     }
 
     /// Returns the hand's directions in the space of its joint.
-    pub(crate) fn held(&self) -> Held {
-        Held::of(self.along, self.palm, self.radial)
+    pub(crate) fn held(&self) -> HeldDirections {
+        HeldDirections::of(self.along, self.palm, self.radial)
     }
 
     /// Returns the hand's joint.

@@ -94,7 +94,7 @@ pub(super) fn mirrored() -> HandsUsed {
     })
 }
 
-fn made(sign: &Notated, axes: Axes) -> Made {
+fn made(sign: &Notated, axes: Axes) -> Generated {
     let settings = Settings {
         language: chereme_sign::hamnosys::BodyLanguage::usual().without_life(),
         ..Settings::default()
@@ -103,7 +103,7 @@ fn made(sign: &Notated, axes: Axes) -> Made {
 }
 
 /// Returns the position of a landmark at a share of the sign's duration.
-fn landmark(made: &Made, share: f64, name: &str) -> DVec3 {
+fn landmark(made: &Generated, share: f64, name: &str) -> DVec3 {
     let model = model(made, share);
     let skeleton = made.clip.skeleton();
     made.anatomy
@@ -111,7 +111,7 @@ fn landmark(made: &Made, share: f64, name: &str) -> DVec3 {
         .expect("a landmark")
 }
 
-pub(super) fn model(made: &Made, share: f64) -> ModelPose {
+pub(super) fn model(made: &Generated, share: f64) -> ModelPose {
     let gloss = made.notes.iter().find(|note| note.about == About::Gloss);
     let span = gloss.expect("the gloss is noted").span;
     let from = span.start().seconds();
@@ -351,7 +351,7 @@ fn recipes_of_notation_are_made_and_kept() {
 }
 
 /// Returns the top speeds of wrists (m/s) and of arm joints (rad/s).
-fn fastest(made: &Made) -> [f64; 2] {
+fn fastest(made: &Generated) -> [f64; 2] {
     let rate = made.clip.rate().per_second();
     let mut fastest = [0.0_f64; 2];
     for frame in 1..made.clip.frames() {
@@ -502,16 +502,16 @@ fn head_and_trunk_move_as_the_tiers_say() {
         assert_eq!(curve.values[0], 0.0, "{} has an attack", curve.name);
         assert!(curve.values.contains(&1.0));
     }
-    let faces = |made: &Made, share: f64| {
+    let faces = |made: &Generated, share: f64| {
         let model = model(made, share);
         made.anatomy.head_axes(&model).expect("a head")[2]
     };
     let [ahead, turned] = [faces(&still, 0.5), faces(&made, 0.5)];
     assert!(ahead.distance(DVec3::Z) < 1e-6);
     assert!(turned.x > 0.4, "to the left: {turned}");
-    let frame = |made: &Made| made.anatomy.body_frame(&model(made, 0.5)).expect("a trunk");
+    let frame = |made: &Generated| made.anatomy.body_frame(&model(made, 0.5)).expect("a trunk");
     assert!(frame(&made).up.z > 0.08, "forwards: {}", frame(&made).up);
-    let hand = |made: &Made| frame(made).to_body(landmark(made, 0.5, "right-palm"));
+    let hand = |made: &Generated| frame(made).to_body(landmark(made, 0.5, "right-palm"));
     assert!(
         hand(&made).distance(hand(&still)) < 0.25,
         "the arms go with the trunk"

@@ -7,13 +7,13 @@ use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::Limits;
 use super::pace::{Pace, Paces};
-use super::plan::{Act, Event, Plan};
-use super::solve::{Arm, Got, Hindrance, Row};
+use super::plan::{Act, Event, SignPlan};
+use super::solve::{Arm, ArmFrame, Got, Hindrance};
 use super::stage::{Hand, Stage};
-use super::warp::{Moved, Warp};
+use super::stretch_time::{Moved, Warp};
 
 /// The movement of one arm and hand, frame by frame.
-pub(crate) struct Track {
+pub(crate) struct ArmTrack {
     /// Local rotations of collar bone, upper arm, forearm and hand.
     pub(crate) arm: [Vec<DQuat>; 4],
     /// Local rotations of the joints below the wrist.
@@ -22,7 +22,7 @@ pub(crate) struct Track {
     pub(crate) fit: Fit,
 }
 
-impl Track {
+impl ArmTrack {
     /// Returns the moving parts of the arm in each frame.
     pub(crate) fn moved(&self, hand: &Hand) -> Vec<Moved> {
         let frames = 0..self.arm[0].len();
@@ -163,21 +163,21 @@ pub(crate) struct Timing<'a> {
 }
 
 /// The solved frames of one hand before time is stretched.
-pub(crate) struct Made<'a> {
+pub(crate) struct SolvedFrames<'a> {
     solver: Arm<'a>,
     outlines: Outlines<'a>,
-    rows: Vec<Row>,
+    rows: Vec<ArmFrame>,
     arm: [Vec<DQuat>; 4],
     fingers: Vec<Vec<DQuat>>,
     got: Vec<Got>,
     fit: Fit,
 }
 
-impl<'a> Made<'a> {
+impl<'a> SolvedFrames<'a> {
     pub(crate) fn of(
         stage: &'a Stage,
         hand: &'a Hand,
-        (plan, n): (&'a Plan, usize),
+        (plan, n): (&'a SignPlan, usize),
         wanted: Wanted<'a>,
         limits: &'a Limits,
         timing: &Timing<'_>,
@@ -226,9 +226,9 @@ impl<'a> Made<'a> {
     }
 
     /// Returns the frames in stretched time.
-    pub(crate) fn track(self, warp: &Warp) -> Track {
+    pub(crate) fn track(self, warp: &Warp) -> ArmTrack {
         if warp.is_none() {
-            return Track {
+            return ArmTrack {
                 arm: self.arm,
                 fingers: self.fingers,
                 fit: self.fit,
@@ -247,7 +247,7 @@ impl<'a> Made<'a> {
         let mut arm: Vec<[DQuat; 4]> = arm.collect();
         let outlines = |frame: usize| self.outlines.at(frames[frame].0);
         self.solver.clear(&mut arm, outlines, warp.rate());
-        Track {
+        ArmTrack {
             arm: [0, 1, 2, 3].map(|joint| arm.iter().map(|turned| turned[joint]).collect()),
             fingers: all_stretched(&self.fingers, &frames),
             fit: self.fit,
@@ -330,9 +330,9 @@ impl Fit {
     fn take(
         &mut self,
         got: &Got,
-        row: &Row,
+        row: &ArmFrame,
         given: bool,
-        plan: &Plan,
+        plan: &SignPlan,
         n: usize,
         [time, step]: [f64; 2],
     ) {
@@ -353,7 +353,7 @@ impl Fit {
 }
 
 /// Returns whether a time is within a sign rather than a transition.
-fn signing(plan: &Plan, time: f64) -> bool {
+fn signing(plan: &SignPlan, time: f64) -> bool {
     plan.signs
         .iter()
         .any(|sign| (sign.from..=sign.to).contains(&time))
@@ -362,7 +362,7 @@ fn signing(plan: &Plan, time: f64) -> bool {
 /// Returns the goals of a hand in each frame.
 pub(crate) fn wanted<'a>(
     stage: &Stage,
-    plan: &'a Plan,
+    plan: &'a SignPlan,
     n: usize,
     timing: &Timing<'_>,
 ) -> Wanted<'a> {
@@ -515,7 +515,7 @@ fn early(event: &Event, frame: usize, timing: &Timing<'_>) -> f64 {
 pub(crate) fn fingers(
     stage: &Stage,
     hand: &Hand,
-    plan: &Plan,
+    plan: &SignPlan,
     n: usize,
     timing: &Timing<'_>,
 ) -> Vec<Vec<DQuat>> {
@@ -610,7 +610,7 @@ enum Outline<'a> {
 /// The number of steps for the outlines of a change of shape.
 const STEPS: usize = 4;
 
-fn outlines<'a>(stage: &Stage, plan: &'a Plan, n: usize, timing: &Timing<'_>) -> Outlines<'a> {
+fn outlines<'a>(stage: &Stage, plan: &'a SignPlan, n: usize, timing: &Timing<'_>) -> Outlines<'a> {
     let shapes = &plan.shapes[n];
     let of = |shape: usize| Outline::Shape(shapes[shape].outline.as_slice());
     let mut now = plan.start[n].shape;

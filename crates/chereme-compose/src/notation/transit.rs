@@ -2,7 +2,7 @@
 
 use chereme_sign::hamnosys::Manual;
 
-use super::ease::Trail;
+use super::comfort::Trail;
 use super::motion::Env;
 use super::pace::Pace;
 use super::path::Path;

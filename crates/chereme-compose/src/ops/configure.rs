@@ -8,8 +8,8 @@ use chereme_sign::{Component, Reading};
 
 use crate::course::Course;
 use crate::error::Cause;
-use crate::made::{About, Note};
 use crate::ops::say;
+use crate::outcome::{About, Note};
 use crate::poses::{self, HandPose};
 use crate::work::{Group, Work};
 use std::fmt::{self, Display, Formatter};

@@ -49,14 +49,14 @@ impl Syntax for Cut {
 
 impl Display for Cut {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "span {}", Part(self))
+        write!(f, "span {}", CutEnds(self))
     }
 }
 
 /// Prints the two ends alone: `0.4s..1.9s`.
-pub(crate) struct Part<'a>(pub(crate) &'a Cut);
+pub(crate) struct CutEnds<'a>(pub(crate) &'a Cut);
 
-impl Display for Part<'_> {
+impl Display for CutEnds<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         list(f, self.0.from, "")?;
         f.write_str("..")?;

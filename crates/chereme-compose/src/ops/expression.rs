@@ -8,8 +8,8 @@ use chereme_sign::Component;
 use chereme_sign::milestones::{EDGE, Function, Milestones, milestones};
 
 use crate::error::Cause;
-use crate::made::{About, Curve, Note};
 use crate::ops::retarget;
+use crate::outcome::{About, Curve, Note};
 use crate::recipe::{Nonmanual, Over};
 use crate::resolve::ExpressionInput;
 use crate::sources::Material;

@@ -5,7 +5,7 @@ use chereme_motion::{Part, Side};
 
 use crate::course::{Course, Courses};
 use crate::error::Cause;
-use crate::made::{About, Curve, JoinReport, Note};
+use crate::outcome::{About, Curve, JoinReport, Note};
 use crate::work::{Group, Work};
 
 /// The most joints times frames of a result: about 300 MB of rotations.

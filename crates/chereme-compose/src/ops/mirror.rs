@@ -11,7 +11,7 @@ use chereme_motion::{Part, Side, Skeleton};
 use chereme_sign::{Component, Reading};
 
 use crate::error::Cause;
-use crate::made::{About, Note};
+use crate::outcome::{About, Note};
 use crate::work::{Columns, Group, Work};
 use std::fmt::{self, Display, Formatter};
 
@@ -127,7 +127,7 @@ impl Operator for Mirror {
 
 /// Exchanges the movements of the arms.
 pub(crate) fn swap(work: &mut Work) -> Result<Vec<String>, Cause> {
-    let plan = Plan::of(work)?;
+    let plan = MirrorPlan::of(work)?;
     let images = plan.pairs.iter().map(|pair| (pair, plan.image(work, pair)));
     let mirrored: Vec<(&Pair, Column)> = images.collect();
     let did = plan.write(work, mirrored);
@@ -140,7 +140,7 @@ pub(crate) fn swap(work: &mut Work) -> Result<Vec<String>, Cause> {
 
 /// Gives the other arm the mirror image of the movement of `from`.
 pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> {
-    let plan = Plan::of(work)?;
+    let plan = MirrorPlan::of(work)?;
     let copied = plan.pairs.iter().filter(|pair| pair.side == from);
     let images = copied.map(|pair| (pair, plan.image(work, pair)));
     let mirrored: Vec<(&Pair, Column)> = images.collect();
@@ -178,7 +178,7 @@ pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> 
 
 /// Reports hands that are each other's mirror image and pass through each other: a joint of one is beyond the plane
 /// between them.
-fn crossing(work: &Work, plan: &Plan) -> Option<String> {
+fn crossing(work: &Work, plan: &MirrorPlan) -> Option<String> {
     let upper = |side| Some(work.anatomy.arm(side)?.upper);
     let (left, right) = (upper(Side::Left)?, upper(Side::Right)?);
     let hand = work.anatomy.arm(Side::Left)?.hand;
@@ -250,7 +250,7 @@ struct Pair {
     between: [Vec<usize>; 2],
 }
 
-struct Plan {
+struct MirrorPlan {
     /// The normal of the sagittal plane at rest in model space.
     normal: DVec3,
     rest: Vec<DQuat>,
@@ -259,7 +259,7 @@ struct Plan {
     alone: Vec<String>,
 }
 
-impl Plan {
+impl MirrorPlan {
     fn of(work: &Work) -> Result<Self, Cause> {
         let (skeleton, anatomy) = (&work.skeleton, &work.anatomy);
         let mut tops = [0; 2];

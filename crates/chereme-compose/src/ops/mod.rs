@@ -14,7 +14,7 @@ use crate::answers::{Ask, Given, Setting};
 use crate::contact::{Carry, Keep};
 use crate::error::{Cause, RecipeError};
 use crate::language::Language;
-use crate::made::{HandReport, JoinReport};
+use crate::outcome::{HandReport, JoinReport};
 use crate::text::{Parsed, Parser};
 use crate::work::Work;
 

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use chereme_sign::Component;
 
 use crate::error::Cause;
-use crate::made::{About, Curve, Note};
 use crate::ops::retarget;
+use crate::outcome::{About, Curve, Note};
 use crate::sources::Material;
 use crate::work::{Group, Work, groups};
 use std::fmt::{self, Display, Formatter};
@@ -19,7 +19,7 @@ use crate::answers::{Ask, Given, Setting, Slot};
 use crate::check;
 use crate::contact::{Carry, Keep};
 use crate::error::RecipeError;
-use crate::ops::cut::Part;
+use crate::ops::cut::CutEnds;
 use crate::ops::{Done, Field, FieldSetting, Operator, Syntax, expression};
 use crate::recipe::Cut;
 use crate::resolve::{ExpressionInput, MaterialInput};
@@ -137,7 +137,7 @@ impl Display for Nonmanual {
         write!(f, "from {}", Name(&self.from))?;
         match &self.over {
             None => {}
-            Some(Over::Part(cut)) => write!(f, " over {}", Part(cut))?,
+            Some(Over::Part(cut)) => write!(f, " over {}", CutEnds(cut))?,
             Some(Over::At(times)) => {
                 f.write_str(" over ")?;
                 list(f, times, ", ")?;

@@ -9,9 +9,9 @@ use crate::arm;
 use crate::body::Frame;
 use crate::course::Courses;
 use crate::error::Cause;
-use crate::made::{About, Note};
 use crate::ops::Done;
 use crate::ops::{join, place};
+use crate::outcome::{About, Note};
 use crate::poses::{self, HandPose, PoseOrigin};
 use crate::recipe::Point;
 use crate::recipe::Profile;
@@ -49,7 +49,7 @@ pub(crate) fn generate(
 ) -> Result<(Work, Done), Cause> {
     let mut work = Work::of(given.material(&BODY)?);
     let course = given.course(&VIA, &settings.via, Profile::Sigmoid)?;
-    let found = Given {
+    let found = PointInputs {
         shape: given.get(&WITH).map(Vec::as_slice),
         place: given.get(&AT),
     };
@@ -67,7 +67,7 @@ const STRETCH: f64 = 0.88;
 const SHORT_OF: f64 = 0.02;
 
 /// The inputs of a pointing gesture.
-pub(crate) struct Given<'a> {
+pub(crate) struct PointInputs<'a> {
     pub(crate) shape: Option<&'a [HandPose]>,
     pub(crate) place: Option<&'a PlaceInput>,
 }
@@ -76,7 +76,7 @@ pub(crate) struct Given<'a> {
 pub(crate) fn point(
     work: &mut Work,
     settings: &Point,
-    given: &Given<'_>,
+    given: &PointInputs<'_>,
     courses: &Courses,
 ) -> Result<(Vec<String>, f64), Cause> {
     let sides = settings.hand.sides(work.handedness);

@@ -6,9 +6,9 @@ use chereme_sign::Component;
 use crate::contact::{self, Carry, Keep};
 use crate::course::Courses;
 use crate::error::Cause;
-use crate::made::About;
 use crate::ops::join::{self, Seam};
 use crate::ops::{amplify, retime, say};
+use crate::outcome::About;
 use crate::work::{Group, Work};
 use std::fmt::{self, Display, Formatter};
 

@@ -4,8 +4,8 @@ use chereme_motion::{Instant, Side, Span};
 use chereme_sign::Component;
 
 use crate::error::Cause;
-use crate::made::About;
 use crate::ops::{join, say};
+use crate::outcome::About;
 use crate::work::{Group, Work};
 use std::fmt::{self, Display, Formatter};
 

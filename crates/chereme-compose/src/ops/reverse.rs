@@ -3,8 +3,8 @@
 use chereme_motion::Span;
 use chereme_sign::Reading;
 
-use crate::made::About;
 use crate::ops::say;
+use crate::outcome::About;
 use crate::work::{Group, Work};
 use std::fmt::{self, Display, Formatter};
 

@@ -7,7 +7,7 @@ use chereme_motion::{Side, Span};
 use chereme_sign::hamnosys::orientation;
 use chereme_sign::{Component, Reading};
 
-use crate::made::{About, Note};
+use crate::outcome::{About, Note};
 use crate::work::Work;
 
 /// Returns whether a note is about a hand in `sides`; a note without a hand is about the dominant one.

@@ -9,9 +9,9 @@ use chereme_sign::Component;
 use crate::contact::{self, Carry, Keep};
 use crate::course::Courses;
 use crate::error::Cause;
-use crate::made::{About, Note};
 use crate::ops::join::{self, Cut, Seam};
 use crate::ops::retarget;
+use crate::outcome::{About, Note};
 use crate::units::Seconds;
 use crate::work::{Columns, Group, Work};
 

@@ -1,4 +1,4 @@
-//! Tests of the choice of the sign that gives a value, and that stored choices give the same movement again.
+//! Tests of which sign a value is taken from, and that stored choices give the same movement again.
 
 use super::*;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::made::{Curve, Made};
+use crate::outcome::{Curve, Generated};
 use crate::sources::{
     Example, LearnedProfile, Letter, Material, SourceError, Sources, SpellingTimes, Value,
 };
@@ -25,13 +25,13 @@ fn shelf() -> Shelf {
     shelf
 }
 
-fn made(recipe: &str, sources: &dyn Sources) -> Made {
+fn made(recipe: &str, sources: &dyn Sources) -> Generated {
     let recipe: Recipe = recipe.parse().expect(recipe);
     let resolved = resolve(&recipe, sources).expect("resolved");
     evaluate(&resolved).expect("made")
 }
 
-fn names(made: &Made) -> Vec<&str> {
+fn names(made: &Generated) -> Vec<&str> {
     made.curves
         .iter()
         .map(|curve| curve.name.as_str())

@@ -3,7 +3,7 @@
 use chereme_motion::{Instant, Part};
 use chereme_sign::milestones::{Function, Milestones};
 
-use crate::made::{Curve, Made};
+use crate::outcome::{Curve, Generated};
 use crate::testing::Shelf;
 use crate::work::Group;
 use crate::{Cause, Recipe, evaluate, resolve, restore};
@@ -39,7 +39,7 @@ fn shelf() -> Shelf {
     shelf
 }
 
-fn made(recipe: &str, shelf: &Shelf) -> Made {
+fn made(recipe: &str, shelf: &Shelf) -> Generated {
     let recipe: Recipe = recipe
         .parse()
         .unwrap_or_else(|error| panic!("{recipe}: {error}"));
@@ -54,7 +54,7 @@ fn made(recipe: &str, shelf: &Shelf) -> Made {
     made
 }
 
-fn curve<'a>(made: &'a Made, name: &str) -> &'a [f64] {
+fn curve<'a>(made: &'a Generated, name: &str) -> &'a [f64] {
     let found = made.curves.iter().find(|curve| curve.name == name);
     &found.unwrap_or_else(|| panic!("{name}")).values
 }

@@ -14,17 +14,17 @@ use chereme_motion::{Clip, Part, Side};
 use chereme_sign::Component;
 use proptest::prelude::*;
 
-use crate::made::{About, Made};
+use crate::outcome::{About, Generated};
 use crate::testing::{Shelf, farthest, model};
 use crate::work::{Group, groups};
 use crate::{Cause, MakeError, evaluate, resolve};
 
-fn make(recipe: &str) -> Result<Made, MakeError> {
+fn make(recipe: &str) -> Result<Generated, MakeError> {
     let recipe: crate::Recipe = recipe.parse().unwrap_or_else(|e| panic!("{recipe}: {e}"));
     evaluate(&resolve(&recipe, &Shelf::new())?)
 }
 
-fn made(recipe: &str) -> Made {
+fn made(recipe: &str) -> Generated {
     make(recipe).unwrap_or_else(|error| panic!("{recipe}: {error}"))
 }
 
@@ -33,7 +33,7 @@ fn source(gloss: &str) -> Clip {
 }
 
 /// Returns the groups whose local channels differ between two clips.
-fn differing(a: &Made, b: &Clip) -> Vec<Group> {
+fn differing(a: &Generated, b: &Clip) -> Vec<Group> {
     let groups = groups(b.skeleton(), &a.anatomy);
     let mut found: Vec<Group> = (0..b.skeleton().len())
         .filter(|&joint| a.clip.channel(joint) != b.channel(joint))
@@ -57,7 +57,7 @@ fn bones_keep_their_lengths(clip: &Clip) {
     }
 }
 
-fn wrist(made: &Made, side: Side) -> Vec<DVec3> {
+fn wrist(made: &Generated, side: Side) -> Vec<DVec3> {
     let hand = made.anatomy.joint(Part::Hand(side)).expect("a hand");
     made.clip.path(hand)
 }

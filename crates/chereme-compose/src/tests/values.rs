@@ -6,7 +6,7 @@ use crate::recipe::HandPoint;
 use crate::work::Work;
 
 /// The notes on a hand: component, part, value, and the time in milliseconds.
-fn said(made: &Made, side: Side, component: Component) -> Vec<(String, String, i64, i64)> {
+fn said(made: &Generated, side: Side, component: Component) -> Vec<(String, String, i64, i64)> {
     let of = |note: &crate::Note| {
         let About::Component(found, feature) = &note.about else {
             return None;

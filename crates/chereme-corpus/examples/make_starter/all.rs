@@ -10,13 +10,13 @@ mod signer;
 mod signs;
 mod takes;
 
-use chereme_compose::Made;
+use chereme_compose::Generated;
 
 pub(crate) use notes::glosses;
 pub(crate) use takes::Take;
 
 /// Returns every recording and its performance, ordered by name.
-pub(crate) fn performances() -> Vec<(Take, Made)> {
+pub(crate) fn performances() -> Vec<(Take, Generated)> {
     let stage = perform::stage();
     let perform = |take| {
         let made = perform::perform(&stage, &take);
@@ -26,7 +26,7 @@ pub(crate) fn performances() -> Vec<(Take, Made)> {
 }
 
 /// Returns the files, by name, to which `performances` are written.
-pub(crate) fn files(performances: &[(Take, Made)]) -> Vec<(String, Vec<u8>)> {
+pub(crate) fn files(performances: &[(Take, Generated)]) -> Vec<(String, Vec<u8>)> {
     let said: Vec<Vec<notes::Note>> = performances
         .iter()
         .map(|(take, made)| notes::notes(take, made))

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::eaf::convert::{
-    Annotation, Entry, EntryValue, Place, Tier, Timing, Vocabulary,
+    Annotation, AnnotationAddress, EntryValue, Tier, Timing, Vocabulary, VocabularyEntry,
 };
 use chereme_formats::eaf::{Transcript, raw, to_raw};
 use chereme_motion::{Side, Span};
@@ -138,7 +138,13 @@ impl Builder {
         self.tiers.len() - 1
     }
 
-    fn add(&mut self, tier: usize, span: Span, value: &str, parent: Option<Place>) -> Place {
+    fn add(
+        &mut self,
+        tier: usize,
+        span: Span,
+        value: &str,
+        parent: Option<AnnotationAddress>,
+    ) -> AnnotationAddress {
         self.count += 1;
         let symbolic = self.tiers[tier].stereotype == Some(Stereotype::SymbolicAssociation);
         let entry = self.tiers[tier]
@@ -161,7 +167,7 @@ impl Builder {
             external_ref: None,
             millis: None,
         });
-        Place {
+        AnnotationAddress {
             tier,
             index: self.tiers[tier].annotations.len() - 1,
         }
@@ -214,7 +220,7 @@ impl Builder {
         let tier = self.tier(kind.name.replace('@', hand), &kind.kind(), parent);
         self.tiers[tier].vocabulary = Some(kind.inventory.unwrap_or("phases").to_owned());
         for note in notes {
-            let parent = gloss.map(|tier| Place {
+            let parent = gloss.map(|tier| AnnotationAddress {
                 tier,
                 index: note.sign,
             });
@@ -268,13 +274,13 @@ fn vocabularies(used: &Used) -> Vec<Vocabulary> {
 }
 
 /// Returns a vocabulary entry; its value is the same in both languages, and each language has its own description.
-fn entry(id: &str, english: &str, french: &str) -> Entry {
+fn entry(id: &str, english: &str, french: &str) -> VocabularyEntry {
     let value = |language: &str, description: &str| EntryValue {
         language: language.to_owned(),
         value: id.to_owned(),
         description: Some(description.to_owned()),
     };
-    Entry {
+    VocabularyEntry {
         id: id.to_owned(),
         values: vec![value("eng", english), value("fra", french)],
         external_ref: None,

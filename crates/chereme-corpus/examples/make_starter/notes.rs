@@ -1,6 +1,6 @@
 //! The annotations of a take on each tier, as the animator describes its movement.
 
-use chereme_compose::{About, Made};
+use chereme_compose::{About, Generated};
 use chereme_motion::{Instant, Side, Span};
 use chereme_sign::{Component, Reading};
 
@@ -96,13 +96,13 @@ pub(crate) struct Note {
 }
 
 /// Returns the times of a take's signs.
-pub(crate) fn glosses(made: &Made) -> Vec<Span> {
+pub(crate) fn glosses(made: &Generated) -> Vec<Span> {
     let glosses = made.notes.iter().filter(|note| note.about == About::Gloss);
     glosses.map(|note| later(note.span)).collect()
 }
 
 /// Returns the annotations of the signs of `take`, tier by tier in order of time.
-pub(crate) fn notes(take: &Take, made: &Made) -> Vec<Note> {
+pub(crate) fn notes(take: &Take, made: &Generated) -> Vec<Note> {
     let phases: Vec<Note> = Side::BOTH
         .iter()
         .flat_map(|side| phases(made, *side))
@@ -130,7 +130,7 @@ pub(crate) fn notes(take: &Take, made: &Made) -> Vec<Note> {
 fn of_tier(
     sign: &Sign,
     gloss: Span,
-    made: &Made,
+    made: &Generated,
     phases: &[Note],
     tier: usize,
     side: Option<Side>,
@@ -218,7 +218,7 @@ fn shares(span: Span, count: usize) -> Vec<Span> {
 }
 
 /// Returns the phases of a hand: preparation, strokes and holds, retraction.
-fn phases(made: &Made, side: Side) -> Vec<Note> {
+fn phases(made: &Generated, side: Side) -> Vec<Note> {
     let mut all: Vec<Note> = Vec::new();
     for note in made.notes.iter().filter(|note| note.hand == Some(side)) {
         let value = match (&note.about, &note.value) {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use chereme_compose::notation::{Settings, animate};
-use chereme_compose::{Made, Material};
+use chereme_compose::{Generated, Material};
 use chereme_motion::glam::{DQuat, DVec3, EulerRot};
 use chereme_motion::{Anatomy, Channel, Clip, Pose, Rate, Side};
 use chereme_sign::Handedness;
@@ -38,7 +38,7 @@ pub(crate) fn stage() -> Material {
 
 /// Performs `take`: the movement with rest before and after it, and the animator's notes, whose times count from the
 /// end of the first rest.
-pub(crate) fn perform(stage: &Material, take: &Take) -> Made {
+pub(crate) fn perform(stage: &Material, take: &Take) -> Generated {
     let signs: Vec<Notated> = take.signs.iter().map(|sign| sign.notated()).collect();
     let signs: Vec<&Notated> = signs.iter().collect();
     // The noise below adds this signer's sway.
@@ -55,7 +55,7 @@ pub(crate) fn perform(stage: &Material, take: &Take) -> Made {
     let acts = |side: &Side| made.notes.iter().any(|note| note.hand == Some(*side));
     let busy: Vec<Side> = Side::BOTH.into_iter().filter(acts).collect();
     let clip = alive(&clip, &busy, take.seed);
-    Made { clip, ..made }
+    Generated { clip, ..made }
 }
 
 /// Returns a channel that holds its first and last frame for the time of rest.

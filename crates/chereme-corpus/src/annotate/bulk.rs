@@ -1,7 +1,7 @@
 //! Changes of annotations from a table.
 
 use chereme_formats::table::TableError;
-use chereme_formats::table::annotations::{self, Action, Fault, Row};
+use chereme_formats::table::annotations::{self, Action, ChangeRow, Fault};
 
 use super::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, TierName,
@@ -93,7 +93,7 @@ fn fault(name: &str, fault: &Fault) -> Error {
         .at(format!("{name}, line {}", fault.line))
 }
 
-fn change(row: &Row, recording: Option<&Name>, place: &str) -> Result<AnnotationChange> {
+fn change(row: &ChangeRow, recording: Option<&Name>, place: &str) -> Result<AnnotationChange> {
     let own = row.recording.as_deref().map(recording_name);
     let recording = own.as_ref().or(recording);
     let tier = |text: &str| TierName::read(text, recording);

@@ -6,7 +6,7 @@ use chereme_motion::{Instant, Span};
 use chereme_sign::tier::Change;
 use chereme_sign::tier::spans::{self, Grip, Item, Limits, Mode};
 
-use super::hold::{self, Kind};
+use super::drag_limits::{self, TierTiming};
 use super::replace::item;
 use super::{Work, handle, span_of};
 use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
@@ -22,7 +22,9 @@ impl Work<'_> {
         span: Span,
     ) -> Result<bool> {
         let mode = self.options.mode;
-        if mode == Mode::Normal || !matches!(Kind::of(tier), Kind::Root | Kind::Inside) {
+        if mode == Mode::Normal
+            || !matches!(TierTiming::of(tier), TierTiming::Root | TierTiming::Inside)
+        {
             return Ok(false);
         }
         let limits = self.limits(tier, row.parent_id)?;
@@ -50,7 +52,7 @@ impl Work<'_> {
         let micros = Instant::from_micros;
         Err(Error::wrong(format!(
             "{} cannot go from {} to {}: there is no room for the others",
-            super::told::said(row),
+            super::messages::said(row),
             span.start(),
             span.end()
         ))
@@ -65,7 +67,9 @@ impl Work<'_> {
     /// Moves annotations out of the time of a new one, as the mode requires.
     pub(super) fn make_room(&mut self, tier: &TierRow, span: Span) -> Result<()> {
         let mode = self.options.mode;
-        if mode == Mode::Normal || !matches!(Kind::of(tier), Kind::Root | Kind::Inside) {
+        if mode == Mode::Normal
+            || !matches!(TierTiming::of(tier), TierTiming::Root | TierTiming::Inside)
+        {
             return Ok(());
         }
         let parent = match tier.parent_id {
@@ -103,7 +107,7 @@ impl Work<'_> {
     }
 
     fn limits(&mut self, tier: &TierRow, parent: Option<i64>) -> Result<Limits> {
-        let least = hold::LEAST;
+        let least = drag_limits::LEAST;
         if let Some(parent) = parent.filter(|_| tier.parent_id.is_some()) {
             let span = span_of(&rows::annotation(self.connection, parent)?);
             return Ok(Limits {
@@ -116,7 +120,7 @@ impl Work<'_> {
         let to = if scope.moves() {
             scope.recording.duration_us
         } else {
-            hold::FAR
+            drag_limits::FAR
         };
         Ok(Limits { from: 0, to, least })
     }

@@ -7,8 +7,9 @@ mod arrange;
 mod bulk;
 mod copies;
 mod deeds;
-pub mod hold;
+pub mod drag_limits;
 mod make_room;
+pub(crate) mod messages;
 mod names;
 mod replace;
 mod scheme;
@@ -16,7 +17,6 @@ mod scope;
 #[cfg(test)]
 mod tests;
 mod tiers;
-pub(crate) mod told;
 mod write;
 
 use std::collections::BTreeMap;
@@ -484,7 +484,7 @@ impl<'a> Work<'a> {
         };
         let edits = match plan(&near.set, change, &mut fresh) {
             Ok(edits) => edits,
-            Err(error) => return Err(told::refused(self.connection, tier, &error)?),
+            Err(error) => return Err(messages::refused(self.connection, tier, &error)?),
         };
         let named: Vec<i64> = change.annotations().into_iter().map(signed).collect();
         let named = match change {

@@ -162,7 +162,7 @@ impl Work<'_> {
                 let all: Vec<String> = several
                     .iter()
                     .take(12)
-                    .map(|id| super::told::candidate(self.connection, *id))
+                    .map(|id| super::messages::candidate(self.connection, *id))
                     .collect();
                 Err(Error::wrong(format!(
                     "{id:?} can be {} annotations: {}",
@@ -192,7 +192,7 @@ impl Work<'_> {
                 let starts = Instant::from_micros(row.start_us);
                 format!(
                     "the one there, {}, starts at {starts}",
-                    super::told::said(row)
+                    super::messages::said(row)
                 )
             },
         );

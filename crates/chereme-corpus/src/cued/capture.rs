@@ -6,7 +6,7 @@ use std::path::Path;
 use chereme_analysis::cue::face;
 use chereme_analysis::cue::hand;
 use chereme_analysis::cue::labels;
-use chereme_analysis::cue::session::{Followed, Key, Kind, rigid_set};
+use chereme_analysis::cue::session::{Followed, Key, KeySounds, rigid_set};
 use chereme_compose::CueTier;
 use chereme_motion::{Instant, Markers, Space, Span};
 use chereme_sign::cue::{self, Alphabet, CueCode, Phone, Utterance};
@@ -473,11 +473,11 @@ pub(super) fn keys(connection: &Connection, take: &Take, code: &CueCode) -> Resu
                 .take_while(|start| *start < row.end_us)
                 .collect();
             let (kind, a2) = match within.as_slice() {
-                [_, vowel, ..] => (Kind::Pair, *vowel),
+                [_, vowel, ..] => (KeySounds::Pair, *vowel),
                 _ if shape == code.vowel_alone && placement_is_of_vowel(code, &row.value) => {
-                    (Kind::Vowel, row.start_us)
+                    (KeySounds::Vowel, row.start_us)
                 }
-                _ => (Kind::Consonant, row.end_us),
+                _ => (KeySounds::Consonant, row.end_us),
             };
             Some(Key {
                 kind,
@@ -509,9 +509,9 @@ pub(super) fn predicted(read: &Utterance, offset: f64) -> Vec<Key> {
         let span = key.span?;
         let seconds = |at: Instant| at.seconds() - offset;
         let (kind, a2) = match key.vowel {
-            Some(vowel) if key.phones.len() > 1 => (Kind::Pair, vowel.start()),
-            Some(vowel) => (Kind::Vowel, vowel.start()),
-            None => (Kind::Consonant, span.end()),
+            Some(vowel) if key.phones.len() > 1 => (KeySounds::Pair, vowel.start()),
+            Some(vowel) => (KeySounds::Vowel, vowel.start()),
+            None => (KeySounds::Consonant, span.end()),
         };
         Some(Key {
             kind,

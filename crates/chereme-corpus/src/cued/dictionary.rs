@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use chereme_analysis::cue::pca::Pca;
 use chereme_analysis::cue::rigid::Rigid;
-use chereme_analysis::cue::session::{Recognisers, Shown, bridge, rigid_set};
+use chereme_analysis::cue::session::{KeyGestures, Recognisers, bridge, rigid_set};
 use chereme_compose::cue::dikey::{Dictionary, Dikey, DikeyEnd};
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::cue::{self, Utterance};
@@ -429,7 +429,7 @@ fn missed(components: &Pca, row: &[f64]) -> f64 {
 }
 
 /// Returns the keys of a take with the frames of the hand's arrival, including the rest before the first movement.
-fn goals(own: &Cued, shown: &[Shown]) -> Vec<(DikeyEnd, usize)> {
+fn goals(own: &Cued, shown: &[KeyGestures]) -> Vec<(DikeyEnd, usize)> {
     let frame_of = |seconds: f64| (seconds * own.take.rate).round().max(0.0) as usize;
     let last = own.take.frames().saturating_sub(1);
     let mut goals: Vec<(DikeyEnd, usize)> = Vec::with_capacity(shown.len() + 1);

@@ -170,7 +170,10 @@ impl Corpus {
 /// Finds the gestures of takes, and trains recognisers on them.
 pub(super) fn learned(
     takes: &[Cued],
-) -> Result<(Recognisers, Vec<Vec<chereme_analysis::cue::session::Shown>>)> {
+) -> Result<(
+    Recognisers,
+    Vec<Vec<chereme_analysis::cue::session::KeyGestures>>,
+)> {
     let pairs: Vec<_> = takes.iter().map(Cued::pair).collect();
     find(&pairs).map_err(|error| {
         Error::wrong(format!("the recognisers cannot learn from these keys: {error}"))

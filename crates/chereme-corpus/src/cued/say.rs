@@ -15,7 +15,7 @@ use rusqlite::Connection;
 use serde::Serialize;
 
 use super::dictionary::{Book, REST, book, named, pair_name};
-use super::targets::{Row, insert};
+use super::targets::{ScoredSpan, insert};
 use super::{CuedOptions, key_name, rounded};
 use crate::Corpus;
 use crate::address::Name;
@@ -162,7 +162,7 @@ impl Corpus {
             })?,
             _ => CuePhases::default(),
         };
-        let made = Said::of(&book, &read, (how.phase, &measured), costs)?;
+        let made = SentenceMovement::of(&book, &read, (how.phase, &measured), costs)?;
         let mut report = made.report(text, &book, &read);
         if let Some(gloss) = gloss {
             let name = self.store.operation("cue from dictionary", |connection| {
@@ -215,7 +215,7 @@ impl Corpus {
 }
 
 /// A sentence as movement of markers.
-struct Said {
+struct SentenceMovement {
     wanted: Vec<(DikeyEnd, f64)>,
     times: Vec<KeyTimes>,
     pieces: Vec<Piece>,
@@ -227,7 +227,7 @@ struct Said {
     lead: f64,
 }
 
-impl Said {
+impl SentenceMovement {
     fn of(
         book: &Book,
         read: &Utterance,
@@ -360,7 +360,7 @@ fn stored(
     connection: &Connection,
     gloss: &str,
     text: &str,
-    made: &Said,
+    made: &SentenceMovement,
     (book, read): (&Book, &Utterance),
 ) -> Result<String> {
     let gloss = gloss.trim();
@@ -389,8 +389,8 @@ fn stored(
     )?;
     let micros = |seconds: f64| (seconds * 1e6).round() as i64;
     let lead = micros(made.lead);
-    let row = |from: i64, to: i64, value: String| -> Row { (from, to, value, 0.0) };
-    let phones: Vec<Row> = read
+    let row = |from: i64, to: i64, value: String| -> ScoredSpan { (from, to, value, 0.0) };
+    let phones: Vec<ScoredSpan> = read
         .phones
         .iter()
         .filter_map(|phone| {
@@ -405,7 +405,7 @@ fn stored(
             })
         })
         .collect();
-    let keys: Vec<Row> = read
+    let keys: Vec<ScoredSpan> = read
         .keys
         .iter()
         .filter_map(|key| {
@@ -433,7 +433,7 @@ fn stored(
         ));
         before = *key;
     }
-    let dikeys: Vec<Row> = made
+    let dikeys: Vec<ScoredSpan> = made
         .pieces
         .iter()
         .enumerate()
@@ -480,7 +480,7 @@ fn stored(
 }
 
 /// Returns the sentence's markers: the hand, and the head's rigid ones.
-fn markers(made: &Said, book: &Book) -> Result<Markers> {
+fn markers(made: &SentenceMovement, book: &Book) -> Result<Markers> {
     let fault = |error: String| Error::wrong(error);
     let point = |name: String, at: &dyn Fn(usize) -> DVec3| {
         let column = |axis: usize| {

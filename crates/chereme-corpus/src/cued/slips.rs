@@ -303,7 +303,7 @@ impl CueSlips {
 
 #[cfg(test)]
 mod tests {
-    use chereme_analysis::cue::session::Kind;
+    use chereme_analysis::cue::session::KeySounds;
 
     use super::*;
 
@@ -350,6 +350,9 @@ mod tests {
         ];
         let words: std::collections::BTreeSet<&str> = all.iter().map(|kind| kind.name()).collect();
         assert_eq!(words.len(), all.len());
-        assert_eq!(Kind::ALL.map(Kind::name), ["pair", "vowel", "consonant"]);
+        assert_eq!(
+            KeySounds::ALL.map(KeySounds::name),
+            ["pair", "vowel", "consonant"]
+        );
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use chereme_analysis::cue::session::{Gesture, Kind, Shown, phases};
+use chereme_analysis::cue::session::{Gesture, KeyGestures, KeySounds, phases};
 use chereme_analysis::cue::targets::Quartiles;
 use chereme_compose::CueTier;
 use chereme_sign::TierRole;
@@ -235,14 +235,14 @@ impl CuePhaseStatistics {
     }
 }
 
-fn found_keys(own: &Cued, shown: &[Shown]) -> Vec<FoundKey> {
+fn found_keys(own: &Cued, shown: &[KeyGestures]) -> Vec<FoundKey> {
     let take = &own.take;
     let span = |times: [f64; 2]| times.map(|time| take.micros(time));
     let way = |it: &Gesture| it.measured.then(|| span([it.way.start, it.way.end]));
     let keys = own.keys.iter().zip(shown);
     keys.map(|(key, shown)| FoundKey {
         key: key_name(key.placement, key.shape),
-        kind: Kind::name(key.kind),
+        kind: KeySounds::name(key.kind),
         a1_us: take.micros(key.a1),
         hand_us: way(&shown.hand),
         fingers_us: way(&shown.fingers),
@@ -299,7 +299,7 @@ fn written(connection: &Connection, recording: i64, keys: &[FoundKey]) -> Result
 }
 
 /// A row of a tier: begin, end, value, and the logarithm of its probability.
-pub(super) type Row = (i64, i64, String, f64);
+pub(super) type ScoredSpan = (i64, i64, String, f64);
 
 /// Writes a tier of a detector and replaces its earlier version; a tier of that name that a person or a file wrote
 /// remains.
@@ -307,7 +307,7 @@ pub(super) fn write_tier(
     connection: &Connection,
     recording: i64,
     name: &str,
-    rows: &[Row],
+    rows: &[ScoredSpan],
 ) -> Result<String> {
     let all = tiers::tiers(connection, recording)?;
     let mut own = name.to_owned();
@@ -342,7 +342,7 @@ pub(super) fn insert(
     connection: &Connection,
     tier: &TierRow,
     origin: AnnotationOrigin,
-    rows: &[Row],
+    rows: &[ScoredSpan],
 ) -> Result<()> {
     let tier = tiers::insert_tier(connection, tier)?;
     let mut free_from = i64::MIN;

@@ -11,7 +11,7 @@ use rusqlite::Connection;
 
 use crate::address::Stretch;
 use crate::error::{Error, Result};
-use crate::movement::{BLOCK_FRAMES, ChannelGroup, Track};
+use crate::movement::{BLOCK_FRAMES, ChannelGroup, MotionTrack};
 use crate::progress::{Progress, Step, Unit};
 
 /// Writes the movement of a stretch of a recording, and returns the number of frames.
@@ -24,7 +24,7 @@ pub(crate) fn write(
     out: &mut dyn Write,
     progress: &mut Progress<'_>,
 ) -> Result<usize> {
-    let track = Track::of(connection, stretch.recording.id)?;
+    let track = MotionTrack::of(connection, stretch.recording.id)?;
     let frames = match stretch.token {
         Some(_) => track.frames_in(stretch.span),
         None => 0..track.frames(),
@@ -73,7 +73,7 @@ const DECIMALS: u8 = 6;
 /// Writes movement from another format, with rotations as Euler angles.
 fn write_converted(
     connection: &Connection,
-    track: &Track,
+    track: &MotionTrack,
     frames: Range<usize>,
     out: &mut dyn Write,
 ) -> Result<usize> {
@@ -98,7 +98,7 @@ fn write_converted(
 /// Returns the columns of the frames `own` within the block that starts at frame `first`, in the order of the file.
 fn columns(
     connection: &Connection,
-    track: &Track,
+    track: &MotionTrack,
     first: usize,
     own: &Range<usize>,
 ) -> Result<Vec<Column>> {

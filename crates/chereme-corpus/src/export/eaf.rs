@@ -10,7 +10,8 @@ use std::io::Write;
 use std::path::Path;
 
 use chereme_formats::eaf::convert::{
-    Annotation, Entry, EntryValue, Media, Place, Tier, Timing, Transcript, Vocabulary,
+    Annotation, AnnotationAddress, EntryValue, Media, Tier, Timing, Transcript, Vocabulary,
+    VocabularyEntry,
 };
 use chereme_formats::eaf::{decode, from_raw, patched, raw, to_raw};
 use chereme_formats::roles::{self, Mapping};
@@ -256,7 +257,7 @@ struct Writing<'a> {
     inventories: Vec<StoredInventory>,
     transcript: &'a mut Transcript,
     /// The place of each annotation in the written file.
-    places: BTreeMap<i64, Place>,
+    places: BTreeMap<i64, AnnotationAddress>,
 }
 
 impl Writing<'_> {
@@ -287,7 +288,8 @@ impl Writing<'_> {
         }
         for place in parents_first(&rows, &at) {
             for (index, row) in said[place].iter().enumerate() {
-                self.places.insert(row.id, Place { tier: place, index });
+                self.places
+                    .insert(row.id, AnnotationAddress { tier: place, index });
                 let annotation = self.annotation(&self.transcript.tiers[place], row, &mut ids);
                 self.transcript.tiers[place].annotations.push(annotation);
             }
@@ -364,7 +366,7 @@ impl Writing<'_> {
     fn entry(&self, vocabulary: &str, value: &str) -> Option<String> {
         let all = &self.transcript.vocabularies;
         let vocabulary = all.iter().find(|it| it.id == vocabulary)?;
-        let says = |entry: &&Entry| entry.values.iter().any(|it| it.value == value);
+        let says = |entry: &&VocabularyEntry| entry.values.iter().any(|it| it.value == value);
         let entry = vocabulary.entries.iter().find(says)?;
         Some(entry.id.clone()).filter(|id| !id.is_empty())
     }
@@ -444,7 +446,7 @@ fn of_inventory(stored: &StoredInventory) -> Vocabulary {
     let inventory = &stored.inventory;
     let entries = inventory.values.iter().enumerate().map(|(n, value)| {
         let name = value.name("en");
-        Entry {
+        VocabularyEntry {
             id: format!("cveid{n}"),
             values: vec![EntryValue {
                 language: String::new(),
@@ -485,7 +487,7 @@ fn complete(vocabulary: &mut Vocabulary, said: &[AnnotationRow]) {
         let id = (vocabulary.entries.len()..)
             .map(|n| format!("cveid{n}"))
             .find(|id| !taken(id));
-        vocabulary.entries.push(Entry {
+        vocabulary.entries.push(VocabularyEntry {
             id: id.unwrap_or_default(),
             values: vec![EntryValue {
                 language: language.clone(),

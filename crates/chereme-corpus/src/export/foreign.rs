@@ -13,7 +13,7 @@ use crate::address::Stretch;
 use crate::db::recordings::RecordingRow;
 use crate::db::{tiers, tracks};
 use crate::error::{Error, Result};
-use crate::movement::{ChannelGroup, Track};
+use crate::movement::{ChannelGroup, MotionTrack};
 use crate::track::{self, TrackKind};
 
 /// Writes the movement of a stretch as GLB, in metres, with the annotations in it, and returns their number.
@@ -25,7 +25,7 @@ pub(super) fn glb(
     stretch: &Stretch,
     out: &mut dyn Write,
 ) -> Result<usize> {
-    let track = Track::of(connection, stretch.recording.id)?;
+    let track = MotionTrack::of(connection, stretch.recording.id)?;
     let frames = match stretch.token {
         Some(_) => track.frames_in(stretch.span),
         None => 0..track.frames(),
@@ -47,7 +47,7 @@ pub(super) fn glb(
 }
 
 /// Returns the span of frames of a track on the clock of its recording.
-fn on_the_clock(track: &Track, clip: &Clip, frames: &Range<usize>) -> Span {
+fn on_the_clock(track: &MotionTrack, clip: &Clip, frames: &Range<usize>) -> Span {
     let own = Span::between(
         clip.rate().instant(frames.start),
         clip.rate().instant(frames.end),
@@ -60,7 +60,7 @@ fn on_the_clock(track: &Track, clip: &Clip, frames: &Range<usize>) -> Span {
 /// # Errors
 /// Fails if the recording has no movement of a humanoid, or writing fails.
 pub(super) fn vrma(connection: &Connection, stretch: &Stretch, out: &mut dyn Write) -> Result<()> {
-    let track = Track::of(connection, stretch.recording.id)?;
+    let track = MotionTrack::of(connection, stretch.recording.id)?;
     let frames = match stretch.token {
         Some(_) => track.frames_in(stretch.span),
         None => 0..track.frames(),

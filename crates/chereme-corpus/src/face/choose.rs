@@ -2,7 +2,7 @@
 
 use std::thread;
 
-use chereme_analysis::dtw::Made;
+use chereme_analysis::dtw::CostMethod;
 use chereme_analysis::phases::{self, NoPath, Phased, PhasedScore};
 use chereme_motion::{Instant, Span};
 use chereme_sign::milestones::{Function, Milestones};
@@ -546,7 +546,8 @@ fn carried(
 }
 
 fn adapted(score: &PhasedScore) -> u64 {
-    let made = |phase: &phases::PhaseScore| phase.made.is_some_and(|made| made != Made::AsAsked);
+    let made =
+        |phase: &phases::PhaseScore| phase.made.is_some_and(|made| made != CostMethod::AsAsked);
     u64::from(score.phases.iter().any(made))
 }
 

@@ -185,7 +185,7 @@ pub(crate) fn shown_alone(connection: &Connection) -> Result<BTreeMap<i64, Shown
 /// otherwise that of its face; 0 if it has neither.
 pub(crate) fn first_frame(connection: &Connection, recording: i64, span: Span) -> Result<i64> {
     if recordings::body_track(connection, recording)?.is_some() {
-        let track = crate::movement::Track::of(connection, recording)?;
+        let track = crate::movement::MotionTrack::of(connection, recording)?;
         let frames = track.frames_in(span);
         return Ok(track
             .rate

@@ -2,15 +2,15 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | `own` | H.264, decoded by the program itself |
+//! | `h264` | H.264, decoded by the program itself |
 //! | `helper` | all other formats, through the `ffmpeg` of the computer |
 //! | `colours` | conversion between film colours and screen colours |
 //! | `still` | one picture of a recording's film |
 //! | `write` | writing pictures as a film |
 
 mod colours;
+mod h264;
 mod helper;
-mod own;
 mod still;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -170,7 +170,7 @@ impl Film {
         if !matches!(container.coding.as_str(), "avc1" | "avc3") {
             return Self::helped(path, Some((container, findings)), &coding);
         }
-        let mut decoder = match own::Own::new(file, path, container.clone()) {
+        let mut decoder = match h264::Own::new(file, path, container.clone()) {
             Ok(decoder) => decoder,
             Err(reason) => return Self::helped(path, Some((container, findings)), &reason),
         };

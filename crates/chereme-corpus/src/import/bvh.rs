@@ -22,7 +22,7 @@ use crate::db::motion::hex;
 use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
 use crate::db::tracks;
 use crate::error::{Error, Result};
-use crate::movement::{self, BLOCK_FRAMES, ChannelGroup, Track};
+use crate::movement::{self, BLOCK_FRAMES, ChannelGroup, MotionTrack};
 use crate::progress::{Progress, Step, Unit};
 
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
@@ -207,7 +207,7 @@ pub(super) fn tell_odd_frames(
     recording: i64,
     report: &mut FileReport,
 ) -> Result<()> {
-    let stored = Track::of(job.connection, recording)?;
+    let stored = MotionTrack::of(job.connection, recording)?;
     let anatomy = stored.anatomy(job.connection)?;
     let odd = stored.odd_frames(job.connection, &anatomy)?;
     let told: Vec<String> = odd.iter().map(ToString::to_string).collect();

@@ -61,7 +61,7 @@ pub(super) fn import_table(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Re
 /// Reads JSON: scores of a face, points from film, otherwise an inventory or signs.
 pub(super) fn import_json(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     let head = head(job.path)?;
-    if curves::Kind::of(&head).is_some() {
+    if curves::CurveFile::of(&head).is_some() {
         return import_curves(job, progress);
     }
     match keypoints::is_keypoints(&head) {
@@ -89,7 +89,7 @@ pub(super) fn is_export_of_signs(path: &Path) -> bool {
 }
 
 fn holds_curves(path: &Path) -> Result<bool> {
-    Ok(curves::Kind::of(&head(path)?).is_some())
+    Ok(curves::CurveFile::of(&head(path)?).is_some())
 }
 
 /// Returns the first bytes of a file.

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::Finding;
 use chereme_formats::eaf;
-use chereme_formats::eaf::convert::{Annotation, Place, Timing, Transcript};
+use chereme_formats::eaf::convert::{Annotation, AnnotationAddress, Timing, Transcript};
 use chereme_formats::roles::{self, Mapping, TierGuess};
 use chereme_motion::Instant;
 use chereme_sign::TierRole;
@@ -518,7 +518,7 @@ fn write_annotations(
     tier_rows: &[i64],
     progress: &mut Progress<'_>,
 ) -> Result<()> {
-    let mut rows: BTreeMap<Place, i64> = BTreeMap::new();
+    let mut rows: BTreeMap<AnnotationAddress, i64> = BTreeMap::new();
     let mut count = 0;
     for tier in parents_first(transcript) {
         for (index, annotation) in transcript.tiers[tier].annotations.iter().enumerate() {
@@ -531,7 +531,7 @@ fn write_annotations(
             let row = annotation_row(annotation, tier_rows[tier], parent);
             let row = coded(row, &guesses[tier]);
             rows.insert(
-                Place { tier, index },
+                AnnotationAddress { tier, index },
                 tiers::insert_annotation(job.connection, &row)?,
             );
             count += 1;

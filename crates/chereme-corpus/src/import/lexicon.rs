@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use chereme_formats::lexicon::{self, Coding, Entry, Lexicon, Meaning};
+use chereme_formats::lexicon::{self, Coding, Lexicon, LexiconEntry, Meaning};
 use chereme_formats::table::TableError;
 use chereme_sign::query::number;
 use chereme_sign::{Component, Inventory, InventoryValue, Reading};
@@ -104,7 +104,7 @@ fn map_columns(job: &mut Job<'_>, table: &Lexicon) -> bool {
     any
 }
 
-type Part = (Component, Option<String>);
+type InventoryKey = (Component, Option<String>);
 
 /// The row of a part's inventory, and the value for each spelling in the table.
 struct Known {
@@ -150,7 +150,7 @@ impl Earlier {
 }
 
 /// Stores the values that the table uses, unless an inventory of the corpus already has them all.
-fn store_inventories(job: &mut Job<'_>, table: &Lexicon) -> Result<BTreeMap<Part, Known>> {
+fn store_inventories(job: &mut Job<'_>, table: &Lexicon) -> Result<BTreeMap<InventoryKey, Known>> {
     let mut known = BTreeMap::new();
     for used in table.inventories() {
         let part = (used.component, used.feature.clone());
@@ -211,8 +211,8 @@ fn own_inventory(stem: &str, used: &lexicon::Inventory) -> Inventory {
 fn import_entry(
     job: &mut Job<'_>,
     table: &Lexicon,
-    entry: &Entry,
-    inventories: &BTreeMap<Part, Known>,
+    entry: &LexiconEntry,
+    inventories: &BTreeMap<InventoryKey, Known>,
     earlier: &mut Earlier,
 ) -> Result<i64> {
     let connection = job.connection;
@@ -269,7 +269,7 @@ fn import_entry(
     Ok(token)
 }
 
-fn value_row(coding: &Coding, inventories: &BTreeMap<Part, Known>) -> TokenValueRow {
+fn value_row(coding: &Coding, inventories: &BTreeMap<InventoryKey, Known>) -> TokenValueRow {
     let known = inventories.get(&(coding.component, coding.feature.clone()));
     let value = coding.reading.value().map(|value| {
         let same = known.and_then(|known| known.values.get(value));
@@ -289,7 +289,7 @@ fn value_row(coding: &Coding, inventories: &BTreeMap<Part, Known>) -> TokenValue
 }
 
 /// Returns the cells of a row as in the table, so that nothing is lost.
-fn cells(job: &Job<'_>, table: &Lexicon, entry: &Entry) -> Value {
+fn cells(job: &Job<'_>, table: &Lexicon, entry: &LexiconEntry) -> Value {
     let cells: Map<String, Value> = table
         .columns
         .iter()

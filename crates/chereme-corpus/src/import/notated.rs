@@ -45,7 +45,7 @@ fn import(job: &mut Job<'_>, form: Form, progress: &mut Progress<'_>) -> Result<
     let file = job.keep(None, Some(&bytes))?;
     let inventories = job.inventories.clone();
     let words = Words::new(&inventories);
-    let mut place = Place {
+    let mut place = NotationFile {
         file,
         form,
         several: entries.len() > 1,
@@ -119,7 +119,7 @@ impl Earlier {
 }
 
 /// The file from which signs come.
-struct Place {
+struct NotationFile {
     file: i64,
     form: Form,
     several: bool,
@@ -128,7 +128,7 @@ struct Place {
     unnamed: Vec<(u64, String)>,
 }
 
-impl Place {
+impl NotationFile {
     /// Returns a note with the names given to signs without a gloss.
     fn unnamed_signs(&self) -> Option<ReportFinding> {
         const REMEDY: &str = "give each sign a gloss in the file, and import it again";
@@ -151,7 +151,7 @@ fn import_sign(
     sign: &Notated,
     line: u64,
     words: &Words<'_>,
-    place: &mut Place,
+    place: &mut NotationFile,
     report: &mut FileReport,
 ) -> Result<()> {
     let gloss = match sign.gloss.as_str() {

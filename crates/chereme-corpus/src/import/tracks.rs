@@ -120,7 +120,7 @@ pub(super) fn keep_beside(
     if anatomy.markers().is_empty() {
         return Ok(());
     }
-    let stored = movement::Track::of_row(job.connection, track)?;
+    let stored = movement::MotionTrack::of_row(job.connection, track)?;
     let frames = stored.frames();
     let head = stored.raw_clip(job.connection, 0..1)?;
     let mut beside = Beside::of(head.skeleton(), anatomy);

@@ -13,7 +13,6 @@ use chereme_sign::text::{fold, nearest};
 use rusqlite::Connection;
 
 use super::attributes;
-use super::beside::Beside;
 use super::component::ComponentTest;
 use super::curves;
 use super::docs::Docs;
@@ -22,11 +21,12 @@ use super::index::SearchIndex;
 use super::known::{KnownReadings, Signs};
 use super::plan::Plan;
 use super::probe::{Index, Probe, RowField, Text};
+use super::text_match;
 use super::texts::Glob;
+use super::time_relations::Beside;
 use super::vocabulary::Vocabulary;
-use super::whole;
 use crate::db::search::answers::{self, Named};
-use crate::db::search::terms::Mark;
+use crate::db::search::terms::TokenProperty;
 use crate::error::{Error, Result};
 
 /// The corpus and index against which a query is evaluated.
@@ -206,8 +206,8 @@ pub(crate) fn test(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
             ComponentTest::new(ask, field, comparison, range)?.plan(ask)
         }
         What::Property(property, comparison) => self::property(ask, *property, comparison),
-        What::Whole(field, comparison) => whole::plan(ask, *field, comparison),
-        What::Words(..) | What::Fuzzy { .. } => whole::words_plan(ask, test),
+        What::Whole(field, comparison) => text_match::plan(ask, *field, comparison),
+        What::Words(..) | What::Fuzzy { .. } => text_match::words_plan(ask, test),
         What::Tier(..) => Ok(Plan::Beside(Box::new(Beside::new(ask, None, test)?))),
         What::Time(field, times) => Ok(Plan::Index(self::times(*field, *times))),
         What::Attribute(name, wanted) => attributes::plan(ask, test, name, wanted),
@@ -233,7 +233,7 @@ fn property(ask: &Ask<'_>, property: Property, comparison: &Comparison) -> Asked
             } else {
                 (Glob::whole(pattern), pattern.to_string())
             };
-            let wanted = Wish {
+            let wanted = RequestedName {
                 glob,
                 exactly,
                 text: pattern.as_literal().map_or(text, str::to_owned),
@@ -256,7 +256,7 @@ fn property(ask: &Ask<'_>, property: Property, comparison: &Comparison) -> Asked
 }
 
 /// A requested name.
-struct Wish<'a> {
+struct RequestedName<'a> {
     glob: Glob,
     exactly: bool,
     text: String,
@@ -264,7 +264,7 @@ struct Wish<'a> {
     value: &'a Value,
 }
 
-impl Wish<'_> {
+impl RequestedName<'_> {
     fn is(&self, name: &str) -> bool {
         if self.exactly {
             self.glob.matches(name)
@@ -301,12 +301,12 @@ fn quoted(name: &str) -> String {
     }
 }
 
-fn mark_of(property: Property) -> Option<Mark> {
+fn mark_of(property: Property) -> Option<TokenProperty> {
     match property {
-        Property::Origin => Some(Mark::Origin),
-        Property::Hand => Some(Mark::Hand),
-        Property::Tier => Some(Mark::Tier),
-        Property::Inventory => Some(Mark::Inventory),
+        Property::Origin => Some(TokenProperty::Origin),
+        Property::Hand => Some(TokenProperty::Hand),
+        Property::Tier => Some(TokenProperty::Tier),
+        Property::Inventory => Some(TokenProperty::Inventory),
         _ => None,
     }
 }
@@ -325,7 +325,7 @@ fn has(ask: &Ask<'_>, property: Property) -> Asked<Plan> {
     Ok(Plan::Index(Probe::Has(field)))
 }
 
-fn named(ask: &Ask<'_>, property: Property, wish: &Wish<'_>) -> Asked<Plan> {
+fn named(ask: &Ask<'_>, property: Property, wish: &RequestedName<'_>) -> Asked<Plan> {
     if let Some(mark) = mark_of(property) {
         return marked(ask, property, mark, wish);
     }
@@ -350,7 +350,12 @@ fn named(ask: &Ask<'_>, property: Property, wish: &Wish<'_>) -> Asked<Plan> {
     Ok(Plan::Index(Probe::Rows(field, found)))
 }
 
-fn marked(ask: &Ask<'_>, property: Property, mark: Mark, wish: &Wish<'_>) -> Asked<Plan> {
+fn marked(
+    ask: &Ask<'_>,
+    property: Property,
+    mark: TokenProperty,
+    wish: &RequestedName<'_>,
+) -> Asked<Plan> {
     let prefix = mark.prefix();
     let terms = ask.now.terms(Text::Reading, &prefix, &|_| true)?;
     let name = |term: &String| term[prefix.len()..].to_owned();
@@ -367,7 +372,7 @@ fn marked(ask: &Ask<'_>, property: Property, mark: Mark, wish: &Wish<'_>) -> Ask
     Ok(Plan::Index(Probe::readings(found)))
 }
 
-fn token(wish: &Wish<'_>) -> Asked<Plan> {
+fn token(wish: &RequestedName<'_>) -> Asked<Plan> {
     match wish.text.parse::<i64>() {
         Ok(number) if number >= 0 => Ok(Plan::Index(Probe::Rows(RowField::Token, vec![number]))),
         _ => Err(QueryError {

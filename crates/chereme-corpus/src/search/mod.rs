@@ -7,27 +7,27 @@
 mod alone;
 mod answer;
 mod attributes;
-mod beside;
 mod compile;
 mod component;
 mod curves;
 mod docs;
+mod everyday;
 mod facets;
 mod finding;
 mod findings;
 pub(crate) mod index;
 mod known;
 mod like;
-mod meant;
 mod plan;
 mod probe;
 mod steps;
 mod tally;
 #[cfg(test)]
 mod tests;
+mod text_match;
 mod texts;
+mod time_relations;
 mod vocabulary;
-mod whole;
 
 use std::cell::RefCell;
 
@@ -37,17 +37,17 @@ use rusqlite::Connection;
 use crate::Corpus;
 use crate::db::search as rows;
 use crate::error::{Error, Result, WrongQuery};
-use crate::kept;
 use crate::progress::{Progress, Step, Unit, unheard};
+use crate::saved_search;
 
 use answer::Ranks;
 pub use answer::{Answer, Hit, Order};
 use compile::{Ask, Asked, Failure};
+pub use everyday::{guessed, meant};
 pub use facets::FACET_VALUES;
 pub use finding::{Finding, FindingKind};
 use index::SearchIndex;
 use like::Scores;
-pub use meant::{guessed, meant};
 pub use tally::{NO_VALUE, Tally, TallyRow};
 
 /// The wanted part of an answer.
@@ -114,7 +114,7 @@ impl Corpus {
         ask: &mut dyn FnMut(&Ask<'_>, &Query) -> Asked<T>,
     ) -> Result<T> {
         const ATTEMPTS: usize = 8;
-        let parsed = kept::parsed(self.store.read(), query)?;
+        let parsed = saved_search::parsed(self.store.read(), query)?;
         let hear = RefCell::new(|done| {
             progress.tell(Step {
                 task: "",
@@ -275,6 +275,6 @@ fn ranked_texts(ask: &Ask<'_>, root: &Expr) -> Asked<Vec<Vec<Option<plan::Plan>>
     });
     tests
         .filter(ranked)
-        .map(|test| whole::places(ask, test))
+        .map(|test| text_match::places(ask, test))
         .collect()
 }

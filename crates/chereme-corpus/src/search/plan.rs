@@ -2,11 +2,11 @@
 
 use chereme_sign::query::Comparison;
 
-use super::beside::Beside;
 use super::compile::{Ask, Asked};
 use super::docs::{self, Docs};
 use super::probe::{Doc, Probe};
-use super::whole;
+use super::text_match;
+use super::time_relations::Beside;
 
 /// The way in which a query is evaluated.
 pub(crate) enum Plan {
@@ -156,7 +156,7 @@ pub(crate) fn evaluate(ask: &Ask<'_>, plan: &Plan, within: Option<&[Doc]>) -> As
                 Some(probe) => inside(ask.run(probe)?),
                 None => candidates()?,
             };
-            whole::filter(ask, text, candidates)
+            text_match::filter(ask, text, candidates)
         }
     }
 }

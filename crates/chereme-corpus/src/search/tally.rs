@@ -12,7 +12,7 @@ use super::probe::{Doc, Probe, RowField, Text};
 use super::{compile, plan, wrong};
 use crate::Corpus;
 use crate::db::search::answers::{self, Named};
-use crate::db::search::terms::{Mark, hands_of, phase_counts};
+use crate::db::search::terms::{TokenProperty, hands_of, phase_counts};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
@@ -175,10 +175,10 @@ fn groups(ask: &Ask<'_>, found: &[Doc], subject: &Subject) -> Asked<Vec<(String,
             Property::Signer => of_rows(ask, found, RowField::Signer, Named::Signer)?,
             Property::Recording => of_rows(ask, found, RowField::Recording, Named::Recording)?,
             Property::Sign => of_rows(ask, found, RowField::Sign, Named::Sign)?,
-            Property::Origin => of_mark(ask, found, Mark::Origin)?,
-            Property::Hand => of_mark(ask, found, Mark::Hand)?,
-            Property::Tier => of_mark(ask, found, Mark::Tier)?,
-            Property::Inventory => of_mark(ask, found, Mark::Inventory)?,
+            Property::Origin => of_mark(ask, found, TokenProperty::Origin)?,
+            Property::Hand => of_mark(ask, found, TokenProperty::Hand)?,
+            Property::Tier => of_mark(ask, found, TokenProperty::Tier)?,
+            Property::Inventory => of_mark(ask, found, TokenProperty::Inventory)?,
             _ => return Err(Failure::Other(uncounted(property.name()))),
         },
     };
@@ -214,7 +214,7 @@ fn of_component(ask: &Ask<'_>, found: &[Doc], field: &Field) -> Asked<Vec<(Strin
     Ok(groups)
 }
 
-fn of_mark(ask: &Ask<'_>, found: &[Doc], mark: Mark) -> Asked<Vec<(String, Docs)>> {
+fn of_mark(ask: &Ask<'_>, found: &[Doc], mark: TokenProperty) -> Asked<Vec<(String, Docs)>> {
     let prefix = mark.prefix();
     let mut groups = Vec::new();
     for term in ask.now.terms(Text::Reading, &prefix, &|_| true)? {

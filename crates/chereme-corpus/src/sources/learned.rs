@@ -15,7 +15,7 @@ use crate::db::columns::Origin;
 use crate::db::{recordings, tiers};
 use crate::error::Result;
 use crate::inventories::StoredInventory;
-use crate::movement::{BLOCK_FRAMES, ChannelGroup, Track};
+use crate::movement::{BLOCK_FRAMES, ChannelGroup, MotionTrack};
 
 /// The number of frames in one piece, and the largest number of pieces read from a corpus, each about half a minute of
 /// movement; a hundred thousand frames take a second.
@@ -40,7 +40,7 @@ pub(super) fn profile(connection: &Connection) -> Result<Option<LearnedProfile>>
         (Mover::Fingers, CourseLearner::default(), Vec::new()),
     ];
     for (recording, first) in pieces(connection)? {
-        let track = Track::of(connection, recording)?;
+        let track = MotionTrack::of(connection, recording)?;
         let limbs = [
             ChannelGroup::RightHand,
             ChannelGroup::LeftHand,

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use chereme_compose::notation::{self as animator, Settings};
-use chereme_compose::{About, ENGINE, Held, Made, Material, SourceError, Sources};
+use chereme_compose::{About, ENGINE, Generated, HeldValue, Material, SourceError, Sources};
 use chereme_formats::bvh::convert::{self, ClipBuilder};
 use chereme_formats::bvh::raw::{Block, Reader};
 use chereme_motion::Clip;
@@ -98,9 +98,9 @@ impl CorpusSources<'_> {
     }
 }
 
-fn material(made: Made, address: String, hash: String, gloss: String) -> Material {
+fn material(made: Generated, address: String, hash: String, gloss: String) -> Material {
     let held = made.notes.into_iter().filter_map(|note| match note.about {
-        About::Component(component, feature) => Some(Held {
+        About::Component(component, feature) => Some(HeldValue {
             hand: note.hand,
             component,
             feature,

@@ -139,7 +139,7 @@ fn skeleton(connection: &Connection, to: Option<&Name>) -> Result<(Arc<Skeleton>
             .at(&row.name)
             .advise("name a recording of movement, or leave --to out for the program's own body")
     })?;
-    let track = movement::Track::of(connection, row.id)?;
+    let track = movement::MotionTrack::of(connection, row.id)?;
     let clip = track.clip(connection, 0..1, &movement::ChannelGroup::ALL)?;
     Ok((clip.skeleton().clone(), track.anatomy(connection)?))
 }

@@ -27,7 +27,7 @@ use crate::movement::{self, BLOCK_FRAMES};
 pub(crate) fn track(connection: &Connection, row: &TrackRow, span: Option<Span>) -> Result<Track> {
     Ok(match row.kind {
         TrackKind::Skeleton => {
-            let track = movement::Track::of_row(connection, row.id)?;
+            let track = movement::MotionTrack::of_row(connection, row.id)?;
             let frames = span.map_or(0..track.frames(), |span| track.frames_in(span));
             let roles = track
                 .row

@@ -19,7 +19,7 @@ use crate::address::{self, Address, Stretch};
 use crate::db::columns::{AnnotationOrigin, Origin};
 use crate::db::{recipes, tiers};
 use crate::error::Result;
-use crate::movement::Track;
+use crate::movement::MotionTrack;
 use crate::progress::{Progress, Step, Unit};
 use crate::recombine::{SOURCE, engine};
 use crate::sources::notation::{OWN_BODY, own_body};
@@ -174,7 +174,7 @@ impl Document {
 /// the stretch does not record them.
 pub(super) fn signed(
     connection: &Connection,
-    track: &Track,
+    track: &MotionTrack,
     stretch: &Stretch,
 ) -> Result<Option<Range<usize>>> {
     if stretch.recording.origin != Origin::Made {

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use chereme_motion::Side;
 use glam::Vec3;
 
-use super::form::{Solid, grown, joined, on_skin, slope, smooth_step};
+use super::solids::{Solid, grown, joined, on_skin, slope, smooth_step};
 use super::trunk::arm_direction;
 
 /// Half of the distance between the shoulder joints.

@@ -199,7 +199,7 @@ fn ear(mesh: &mut Mesh, sign: f32, palette: &Palette) {
     return mesh.append(&whole);
 
     fn smooth(v: f32) -> f32 {
-        super::form::smooth_step(v)
+        super::solids::smooth_step(v)
     }
 }
 

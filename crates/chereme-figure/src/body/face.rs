@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use glam::{DVec2, Vec2, Vec3};
 
 use super::delaunay;
-use super::form::{Solid, crossing, joined, smooth_step};
+use super::solids::{Solid, crossing, joined, smooth_step};
 
 /// The number of vertices in each loop of the mouth.
 pub(super) const MOUTH: usize = 24;
@@ -24,7 +24,7 @@ const MIDDLE: Vec3 = Vec3::new(0.0, -0.05, -0.03);
 
 /// The part of the face that a vertex belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Place {
+pub(super) enum FacePart {
     /// The skin.
     Skin,
     /// A loop of the mouth, counted from its inner edge outwards, and the index in the loop.
@@ -41,7 +41,7 @@ pub(super) enum Place {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Knot {
     pub(super) at: Vec3,
-    pub(super) place: Place,
+    pub(super) place: FacePart,
     /// The share of light that reaches it.
     pub(super) open: f32,
 }
@@ -106,19 +106,22 @@ impl Canon {
     }
 
     fn lay_out(&mut self, field: &dyn Fn(Vec3) -> f32) {
-        let mut places: Vec<(Vec3, Place)> = Vec::new();
+        let mut places: Vec<(Vec3, FacePart)> = Vec::new();
         // Built with open lips, so that no two vertices coincide.
         for ring in 0..4 {
             for k in 0..MOUTH {
                 let [x, y] = lip(ring, k, 0.7);
-                places.push((Vec3::new(x, y, self.front(x, y)), Place::Mouth(ring, k)));
+                places.push((Vec3::new(x, y, self.front(x, y)), FacePart::Mouth(ring, k)));
             }
         }
         for side in 0..2 {
             for ring in 0..4 {
                 for k in 0..EYE {
                     let [x, y] = lid(side, ring, k);
-                    places.push((Vec3::new(x, y, self.front(x, y)), Place::Eye(side, ring, k)));
+                    places.push((
+                        Vec3::new(x, y, self.front(x, y)),
+                        FacePart::Eye(side, ring, k),
+                    ));
                 }
             }
         }
@@ -129,14 +132,14 @@ impl Canon {
             let way = Vec3::new(around.sin(), hairline(around), around.cos());
             let flat = Vec3::new(around.sin(), 0.0, around.cos());
             let at = level(field, flat, way.y);
-            places.push((at, Place::Skin));
+            places.push((at, FacePart::Skin));
         }
         for k in 0..32 {
             let (row, column) = (k / 4, k % 4);
             let y = 0.0 - row as f32 * 0.029;
             let wide = 0.020 + 0.050 * smooth_step(row as f32 / 6.0);
             let x = (column as f32 / 1.5 - 1.0) * wide;
-            places.push((Vec3::new(x, y, self.front(x, y)), Place::Skin));
+            places.push((Vec3::new(x, y, self.front(x, y)), FacePart::Skin));
         }
         let fine = 0.115;
         let grid = |spacing: f32| {
@@ -170,7 +173,7 @@ impl Canon {
                 });
                 let inside = is_in_loop(&places, own, at);
                 if !near && !inside {
-                    places.push((at, Place::Skin));
+                    places.push((at, FacePart::Skin));
                 }
             }
         }
@@ -178,7 +181,7 @@ impl Canon {
         for k in 0..16 {
             let angle = TAU * k as f32 / 16.0;
             let at = Vec2::new(angle.cos(), angle.sin()) * 2.80;
-            places.push((thrown(field, direction(at)), Place::Skin));
+            places.push((thrown(field, direction(at)), FacePart::Skin));
         }
         let points: Vec<DVec2> = places.iter().map(|(at, _)| flat(*at)).collect();
         let mut triangles = delaunay::net(&points);
@@ -203,7 +206,7 @@ impl Canon {
             .knots
             .iter()
             .map(|knot| match knot.place {
-                Place::Mouth(ring, k) => {
+                FacePart::Mouth(ring, k) => {
                     let [x, y] = lip(ring, k, 0.0);
                     Vec3::new(x, y, self.front(x, y))
                 }
@@ -217,20 +220,20 @@ impl Canon {
 
     /// Closes the back of the head, the mouth and the eyes.
     fn close(&mut self, rim: usize, field: &dyn Fn(Vec3) -> f32) {
-        let back = self.add(thrown(field, Vec3::NEG_Z), Place::Skin);
+        let back = self.add(thrown(field, Vec3::NEG_Z), FacePart::Skin);
         for k in 0..16 {
             let (a, b) = ((rim + k) as u32, (rim + (k + 1) % 16) as u32);
             self.triangles.push([b, a, back]);
         }
-        let first = |place: Place, knots: &[Knot]| knots.iter().position(|it| it.place == place);
-        let mouth = first(Place::Mouth(0, 0), &self.knots).unwrap_or(0) as u32;
+        let first = |place: FacePart, knots: &[Knot]| knots.iter().position(|it| it.place == place);
+        let mouth = first(FacePart::Mouth(0, 0), &self.knots).unwrap_or(0) as u32;
         let bowl: Vec<u32> = (0..MOUTH)
             .map(|k| {
                 let at = self.knots[mouth as usize + k].at;
-                self.add(at - Vec3::Z * 0.07, Place::Bowl(k))
+                self.add(at - Vec3::Z * 0.07, FacePart::Bowl(k))
             })
             .collect();
-        let pole = self.add(Vec3::new(0.0, LIPS, 0.16), Place::Bowl(MOUTH));
+        let pole = self.add(Vec3::new(0.0, LIPS, 0.16), FacePart::Bowl(MOUTH));
         for k in 0..MOUTH as u32 {
             let next = (k + 1) % MOUTH as u32;
             let (a, b) = (mouth + k, mouth + next);
@@ -239,10 +242,10 @@ impl Canon {
                 .extend([[a, b, d], [a, d, c], [c, d, pole]].map(|[p, q, r]| [p, r, q]));
         }
         for side in 0..2 {
-            let edge = first(Place::Eye(side, 0, 0), &self.knots).unwrap_or(0) as u32;
+            let edge = first(FacePart::Eye(side, 0, 0), &self.knots).unwrap_or(0) as u32;
             let sign = if side == 0 { -1.0 } else { 1.0 };
             let centre = BALL.0 * Vec3::new(sign, 1.0, 1.0);
-            let pole = self.add(centre - Vec3::Z * 0.10, Place::Socket(side, EYE));
+            let pole = self.add(centre - Vec3::Z * 0.10, FacePart::Socket(side, EYE));
             for k in 0..EYE as u32 {
                 let next = (k + 1) % EYE as u32;
                 self.triangles.push([edge + k, pole, edge + next]);
@@ -251,7 +254,7 @@ impl Canon {
         orient(&mut self.triangles, &self.knots);
     }
 
-    fn add(&mut self, at: Vec3, place: Place) -> u32 {
+    fn add(&mut self, at: Vec3, place: FacePart) -> u32 {
         self.knots.push(Knot {
             at,
             place,
@@ -264,7 +267,7 @@ impl Canon {
         let above: Vec<bool> = self
             .knots
             .iter()
-            .map(|knot| knot.place == Place::Skin && scalp(knot.at) > -0.004)
+            .map(|knot| knot.place == FacePart::Skin && scalp(knot.at) > -0.004)
             .collect();
         let scalp = self
             .triangles
@@ -275,7 +278,7 @@ impl Canon {
 
     fn shade(&mut self, field: &dyn Fn(Vec3) -> f32) {
         for knot in &mut self.knots {
-            let normal = super::form::slope(field, knot.at, 0.006);
+            let normal = super::solids::slope(field, knot.at, 0.006);
             let mut dark = 0.0;
             for step in 1..=5 {
                 let far = step as f32 * 0.03;
@@ -367,8 +370,8 @@ fn from_front(field: &dyn Fn(Vec3) -> f32, x: f32, y: f32) -> f32 {
 }
 
 /// Returns whether a place lies inside an opening or its loops.
-fn is_in_loop(places: &[(Vec3, Place)], at: DVec2, place: Vec3) -> bool {
-    let within = |wanted: &dyn Fn(Place) -> bool| {
+fn is_in_loop(places: &[(Vec3, FacePart)], at: DVec2, place: Vec3) -> bool {
+    let within = |wanted: &dyn Fn(FacePart) -> bool| {
         let corners: Vec<DVec2> = places
             .iter()
             .filter(|(_, place)| wanted(*place))
@@ -385,15 +388,15 @@ fn is_in_loop(places: &[(Vec3, Place)], at: DVec2, place: Vec3) -> bool {
         inside
     };
     place.z > 0.0
-        && (within(&|it| matches!(it, Place::Mouth(3, _)))
-            || within(&|it| matches!(it, Place::Eye(0, 3, _)))
-            || within(&|it| matches!(it, Place::Eye(1, 3, _))))
+        && (within(&|it| matches!(it, FacePart::Mouth(3, _)))
+            || within(&|it| matches!(it, FacePart::Eye(0, 3, _)))
+            || within(&|it| matches!(it, FacePart::Eye(1, 3, _))))
 }
 
-fn is_opening(places: [Place; 3]) -> bool {
-    places.iter().all(|it| matches!(it, Place::Mouth(0, _)))
-        || places.iter().all(|it| matches!(it, Place::Eye(0, 0, _)))
-        || places.iter().all(|it| matches!(it, Place::Eye(1, 0, _)))
+fn is_opening(places: [FacePart; 3]) -> bool {
+    places.iter().all(|it| matches!(it, FacePart::Mouth(0, _)))
+        || places.iter().all(|it| matches!(it, FacePart::Eye(0, 0, _)))
+        || places.iter().all(|it| matches!(it, FacePart::Eye(1, 0, _)))
 }
 
 /// Returns a vertex of the mouth's loops with the lips open by a share.

@@ -5,8 +5,8 @@ use std::f32::consts::{PI, TAU};
 use chereme_motion::Face;
 use glam::Vec3;
 
-use super::face::{BALL, Canon, EYE, LIPS, MOUTH, Place, lid};
-use super::form::smooth_step;
+use super::face::{BALL, Canon, EYE, FacePart, LIPS, MOUTH, lid};
+use super::solids::smooth_step;
 
 /// A [`Face`] in this module's numbers.
 #[derive(Debug, Clone)]
@@ -165,7 +165,7 @@ impl Features {
             Vec3::new(own.x, own.y, at.z + own.z + round + jaw)
         };
         for (index, knot) in canon.knots.iter().enumerate() {
-            if let Place::Mouth(ring @ 0..=2, k) = knot.place {
+            if let FacePart::Mouth(ring @ 0..=2, k) = knot.place {
                 let (own, still) = (self.lip(ring, k), rest.lip(ring, k));
                 places[index] = drawn(own, still, knot.at);
                 if ring == 2 {
@@ -178,13 +178,13 @@ impl Features {
         for (index, knot) in canon.knots.iter().enumerate() {
             let at = knot.at;
             match knot.place {
-                Place::Skin | Place::Mouth(..) => {
-                    if !matches!(knot.place, Place::Mouth(0..=2, _)) {
+                FacePart::Skin | FacePart::Mouth(..) => {
+                    if !matches!(knot.place, FacePart::Mouth(0..=2, _)) {
                         places[index] = at + self.jawed(at) + pulled(&rim, at) + self.landmarks(at);
                     }
                 }
-                Place::Eye(side, ring, k) => places[index] = self.lidded(side, ring, k, at),
-                Place::Bowl(k) => {
+                FacePart::Eye(side, ring, k) => places[index] = self.lidded(side, ring, k, at),
+                FacePart::Bowl(k) => {
                     places[index] = if k < MOUTH {
                         let edge = self.lip(0, k);
                         Vec3::new(
@@ -196,7 +196,7 @@ impl Features {
                         at + Vec3::Y * (-0.5 * self.gap()[1])
                     };
                 }
-                Place::Socket(..) => {}
+                FacePart::Socket(..) => {}
             }
         }
         places

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use chereme_motion::{FingerAngles, HandAngles, ThumbAngles};
 use glam::{Mat3, Quat, Vec3};
 
-use super::form::{Solid, grown, joined, on_skin, thrown};
+use super::solids::{Solid, grown, joined, on_skin, thrown};
 
 /// The number of bones of the canonical hand: the palm, and three of each digit.
 pub(super) const BONES: usize = 16;

@@ -4,10 +4,10 @@ use chereme_motion::Face;
 use glam::{Mat3, Quat, Vec3};
 
 use super::extras;
-use super::face::{Canon, EYE, MOUTH, Place, scalp};
+use super::face::{Canon, EYE, FacePart, MOUTH, scalp};
 use super::features::Features;
-use super::form::smooth_step;
 use super::group;
+use super::solids::smooth_step;
 use crate::mesh::{Mesh, Vertex, smooth};
 use crate::palette::{Colour, Hair, Palette};
 
@@ -42,7 +42,7 @@ impl Head {
                     normal: Vec3::Z,
                     colour: colour(knot.place, knot.at, &features, palette).scaled(
                         match knot.place {
-                            Place::Skin | Place::Eye(..) => knot.open,
+                            FacePart::Skin | FacePart::Eye(..) => knot.open,
                             _ => 1.0,
                         },
                     ),
@@ -121,11 +121,11 @@ fn hair(mesh: &mut Mesh, canon: &Canon, palette: &Palette) {
     extras::cut(mesh, palette);
 }
 
-fn colour(place: Place, at: Vec3, features: &Features, palette: &Palette) -> Colour {
+fn colour(place: FacePart, at: Vec3, features: &Features, palette: &Palette) -> Colour {
     let lips = palette.mouth;
     let skin = palette.face;
     match place {
-        Place::Skin => {
+        FacePart::Skin => {
             // Blush in the cheeks, and stubble if no hair is drawn.
             let side = if at.x > 0.0 { 1.0 } else { -1.0 };
             let cheek = (at - Vec3::new(0.185 * side, -0.14, 0.25)).length();
@@ -142,20 +142,20 @@ fn colour(place: Place, at: Vec3, features: &Features, palette: &Palette) -> Col
             let under = if grown { palette.crown } else { skin };
             under.mixed(palette.mouth, warm).scaled(1.0 - fold + shade)
         }
-        Place::Mouth(0, k) => lips.scaled(if features.is_open() {
+        FacePart::Mouth(0, k) => lips.scaled(if features.is_open() {
             0.80
         } else {
             if k <= MOUTH / 2 { 0.62 } else { 0.75 }
         }),
-        Place::Mouth(1, k) => lips.scaled(if k <= MOUTH / 2 { 0.95 } else { 1.06 }),
-        Place::Mouth(2, _) => lips.mixed(skin, 0.45),
-        Place::Mouth(..) => skin,
-        Place::Eye(_, 0, k) if k <= EYE / 2 => palette.marks,
-        Place::Eye(_, 0, _) => skin.scaled(0.72),
-        Place::Eye(_, 1, _) => skin.scaled(0.93),
-        Place::Eye(_, 2, k) if k < EYE / 2 => skin.scaled(0.86),
-        Place::Eye(..) => skin.scaled(0.97),
-        Place::Bowl(_) => lips.scaled(0.36),
-        Place::Socket(..) => skin.scaled(0.4),
+        FacePart::Mouth(1, k) => lips.scaled(if k <= MOUTH / 2 { 0.95 } else { 1.06 }),
+        FacePart::Mouth(2, _) => lips.mixed(skin, 0.45),
+        FacePart::Mouth(..) => skin,
+        FacePart::Eye(_, 0, k) if k <= EYE / 2 => palette.marks,
+        FacePart::Eye(_, 0, _) => skin.scaled(0.72),
+        FacePart::Eye(_, 1, _) => skin.scaled(0.93),
+        FacePart::Eye(_, 2, k) if k < EYE / 2 => skin.scaled(0.86),
+        FacePart::Eye(..) => skin.scaled(0.97),
+        FacePart::Bowl(_) => lips.scaled(0.36),
+        FacePart::Socket(..) => skin.scaled(0.4),
     }
 }

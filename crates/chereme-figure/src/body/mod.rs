@@ -8,15 +8,15 @@ mod delaunay;
 mod extras;
 mod face;
 mod features;
-mod form;
 mod glove;
 mod hand;
 mod head;
-mod plain;
+mod rods;
 pub(crate) mod shape;
 mod skin;
+mod solids;
 mod trunk;
-mod weigh;
+mod weights;
 
 use std::ops::Range;
 

@@ -20,7 +20,7 @@ use glam::DVec3;
 use crate::finding::Finding;
 use crate::tally::Findings;
 use crate::timecode;
-use crate::tracks::{Content, Track, Tracks, axes_with_up, events, rate_of, unique};
+use crate::tracks::{Content, FileTrack, Tracks, axes_with_up, events, rate_of, unique};
 use raw::Document;
 
 pub use raw::Error;
@@ -62,17 +62,17 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     if let Some(markers) = reader.markers(&places, &mut findings) {
         tracks
             .tracks
-            .push(Track::new("markers", Content::Markers(markers)));
+            .push(FileTrack::new("markers", Content::Markers(markers)));
     }
     if let Some(curves) = reader.outputs(&outputs) {
         tracks
             .tracks
-            .push(Track::new("model outputs", Content::Curves(curves)));
+            .push(FileTrack::new("model outputs", Content::Curves(curves)));
     }
     if let Some(curves) = reader.analog(&mut findings) {
         tracks
             .tracks
-            .push(Track::new("analog", Content::Curves(curves)));
+            .push(FileTrack::new("analog", Content::Curves(curves)));
     }
     if tracks.tracks.is_empty() {
         return Err(Error::Empty);

@@ -97,11 +97,11 @@ fn both(bytes: &[u8]) -> (Markers, Curves) {
     let (tracks, _) = read(bytes).unwrap_or_else(|error| panic!("{error}"));
     match &tracks.tracks[..] {
         [
-            Track {
+            FileTrack {
                 content: Content::Markers(markers),
                 ..
             },
-            Track {
+            FileTrack {
                 content: Content::Curves(curves),
                 ..
             },
@@ -225,7 +225,7 @@ fn files_of_others_hold_the_known_values() {
         for (name, frames, points) in sizes {
             if stem == name {
                 let outputs = match tracks.tracks.get(1) {
-                    Some(Track {
+                    Some(FileTrack {
                         name,
                         content: Content::Curves(curves),
                         ..

@@ -1,7 +1,7 @@
 //! Applies differences to a document.
 
 use super::loose::{Loose, Pieces};
-use super::{Above, Difference, Said, TierChange};
+use super::{Above, ComparedAnnotation, Difference, TierChange};
 use crate::eaf::Transcript;
 use std::collections::BTreeMap;
 
@@ -70,11 +70,14 @@ fn change_tier(pieces: &mut Pieces, change: &TierChange) {
 }
 
 /// Returns annotations in an order in which each comes after those that it refers to.
-pub(super) fn in_order<'s>(all: impl Iterator<Item = &'s Said>) -> Vec<&'s Said> {
-    let mut all: Vec<&Said> = all.collect();
-    let ids: BTreeMap<&str, &Said> = all.iter().map(|it| (it.id.as_str(), *it)).collect();
-    let depth = |said: &Said| {
-        let above = |it: &&Said| match &it.above {
+pub(super) fn in_order<'s>(
+    all: impl Iterator<Item = &'s ComparedAnnotation>,
+) -> Vec<&'s ComparedAnnotation> {
+    let mut all: Vec<&ComparedAnnotation> = all.collect();
+    let ids: BTreeMap<&str, &ComparedAnnotation> =
+        all.iter().map(|it| (it.id.as_str(), *it)).collect();
+    let depth = |said: &ComparedAnnotation| {
+        let above = |it: &&ComparedAnnotation| match &it.above {
             Some(Above::New(id)) => ids.get(id.as_str()).copied(),
             _ => None,
         };
@@ -87,7 +90,7 @@ pub(super) fn in_order<'s>(all: impl Iterator<Item = &'s Said>) -> Vec<&'s Said>
 }
 
 /// Gives an annotation its text in the other document.
-pub(super) fn revalue(own: &mut Loose, said: &Said) {
+pub(super) fn revalue(own: &mut Loose, said: &ComparedAnnotation) {
     own.it.value.clone_from(&said.whole.value);
     own.it.entry.clone_from(&said.whole.entry);
     own.it.language.clone_from(&said.whole.language);
@@ -95,7 +98,12 @@ pub(super) fn revalue(own: &mut Loose, said: &Said) {
 }
 
 /// Moves an annotation to its time, tier and parent in the other document.
-fn place(pieces: &mut Pieces, id: &str, said: &Said, fresh: &BTreeMap<String, String>) {
+fn place(
+    pieces: &mut Pieces,
+    id: &str,
+    said: &ComparedAnnotation,
+    fresh: &BTreeMap<String, String>,
+) {
     let new = loose(pieces, said, fresh);
     if let Some(own) = pieces.all.get_mut(id) {
         own.it.span = new.it.span;
@@ -108,7 +116,11 @@ fn place(pieces: &mut Pieces, id: &str, said: &Said, fresh: &BTreeMap<String, St
 }
 
 /// Returns an annotation of the other document; its references name annotations of this document.
-pub(super) fn loose(pieces: &Pieces, said: &Said, fresh: &BTreeMap<String, String>) -> Loose {
+pub(super) fn loose(
+    pieces: &Pieces,
+    said: &ComparedAnnotation,
+    fresh: &BTreeMap<String, String>,
+) -> Loose {
     let name = |it: &Above| match it {
         Above::Known(id) => id.clone(),
         Above::New(id) => fresh.get(id).unwrap_or(id).clone(),

@@ -2,7 +2,7 @@
 
 use super::{TOLERANCE, get, is_symbolic, places};
 use crate::eaf::Transcript;
-use crate::eaf::convert::{Annotation, Place};
+use crate::eaf::convert::{Annotation, AnnotationAddress};
 use std::collections::{BTreeMap, HashMap};
 
 /// The annotations and tiers that two documents share.
@@ -11,13 +11,13 @@ pub(super) struct Matching {
     /// For each tier of the first document the tier of the second that it was matched with.
     pub(super) tiers: Vec<Option<usize>>,
     /// Annotations of the first document, each with its counterpart in the second.
-    pub(super) pairs: BTreeMap<Place, Place>,
+    pub(super) pairs: BTreeMap<AnnotationAddress, AnnotationAddress>,
     /// The same pairs in the other direction.
-    pub(super) back: BTreeMap<Place, Place>,
+    pub(super) back: BTreeMap<AnnotationAddress, AnnotationAddress>,
 }
 
 impl Matching {
-    fn pair(&mut self, a: Place, b: Place) {
+    fn pair(&mut self, a: AnnotationAddress, b: AnnotationAddress) {
         if !self.pairs.contains_key(&a) && !self.back.contains_key(&b) {
             self.pairs.insert(a, b);
             self.back.insert(b, a);
@@ -28,7 +28,7 @@ impl Matching {
 /// Matches tiers by name, else by their contents; annotations by id if both documents descend from one, else by time
 /// and value.
 pub(super) fn matched(a: &Transcript, b: &Transcript) -> Matching {
-    let ids: HashMap<&str, Place> = places(b)
+    let ids: HashMap<&str, AnnotationAddress> = places(b)
         .into_iter()
         .map(|place| (get(b, place).id.as_str(), place))
         .collect();
@@ -54,7 +54,12 @@ pub(super) fn matched(a: &Transcript, b: &Transcript) -> Matching {
 
 /// Matches annotations by id. If an annotation moved but an equal one is now at its old time on the same tier, it is
 /// matched with that one: two annotations that exchanged their ids have not moved.
-fn by_id(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>, matching: &mut Matching) {
+fn by_id(
+    a: &Transcript,
+    b: &Transcript,
+    ids: &HashMap<&str, AnnotationAddress>,
+    matching: &mut Matching,
+) {
     let mut moved = Vec::new();
     for place in places(a) {
         let own = get(a, place);
@@ -74,7 +79,7 @@ fn by_id(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>, matching: &
     if moved.is_empty() {
         return;
     }
-    let mut equals: BTreeMap<(usize, &str), Vec<Place>> = BTreeMap::new();
+    let mut equals: BTreeMap<(usize, &str), Vec<AnnotationAddress>> = BTreeMap::new();
     for place in places(b) {
         let key = (place.tier, get(b, place).value.as_str());
         equals.entry(key).or_default().push(place);
@@ -106,7 +111,7 @@ fn by_id(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>, matching: &
 
 /// Returns whether both documents descend from one, so that an id means the same annotation in both: they have the same
 /// URN, or nine in ten of the shared ids agree.
-fn descend(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>) -> bool {
+fn descend(a: &Transcript, b: &Transcript, ids: &HashMap<&str, AnnotationAddress>) -> bool {
     let urn = |it: &Transcript| {
         let found = it.properties.iter().find(|(name, _)| name == "URN");
         found
@@ -129,7 +134,11 @@ fn descend(a: &Transcript, b: &Transcript, ids: &HashMap<&str, Place>) -> bool {
     shared > 0 && 10 * agree >= 9 * shared
 }
 
-fn tiers(a: &Transcript, b: &Transcript, ids: Option<&HashMap<&str, Place>>) -> Vec<Option<usize>> {
+fn tiers(
+    a: &Transcript,
+    b: &Transcript,
+    ids: Option<&HashMap<&str, AnnotationAddress>>,
+) -> Vec<Option<usize>> {
     let by_name: HashMap<&str, usize> = b
         .tiers
         .iter()
@@ -175,9 +184,12 @@ fn tiers(a: &Transcript, b: &Transcript, ids: Option<&HashMap<&str, Place>>) -> 
 
 /// Matches the rest of two tiers by the share of time in common, at least half; equal values first.
 fn by_time(a: &Transcript, b: &Transcript, (tier, other): (usize, usize), matching: &mut Matching) {
-    let left = |it: &Transcript, tier: usize, known: &BTreeMap<Place, Place>| -> Vec<Place> {
+    let left = |it: &Transcript,
+                tier: usize,
+                known: &BTreeMap<AnnotationAddress, AnnotationAddress>|
+     -> Vec<AnnotationAddress> {
         (0..it.tiers[tier].annotations.len())
-            .map(|index| Place { tier, index })
+            .map(|index| AnnotationAddress { tier, index })
             .filter(|place| !known.contains_key(place))
             .collect()
     };
@@ -189,7 +201,7 @@ fn by_time(a: &Transcript, b: &Transcript, (tier, other): (usize, usize), matchi
         .map(|place| get(b, *place).span.micros())
         .max();
     let longest = longest.unwrap_or(0);
-    let mut candidates: Vec<(f64, bool, Place, Place)> = Vec::new();
+    let mut candidates: Vec<(f64, bool, AnnotationAddress, AnnotationAddress)> = Vec::new();
     for place in mine {
         let own = get(a, place);
         let from = own.span.start().micros().saturating_sub(longest);
@@ -210,7 +222,7 @@ fn by_time(a: &Transcript, b: &Transcript, (tier, other): (usize, usize), matchi
         }
     }
     candidates.sort_by(|x, y| {
-        let key = |it: &(f64, bool, Place, Place)| (it.1, it.2, it.3);
+        let key = |it: &(f64, bool, AnnotationAddress, AnnotationAddress)| (it.1, it.2, it.3);
         y.0.total_cmp(&x.0)
             .then_with(|| y.1.cmp(&x.1))
             .then_with(|| key(x).cmp(&key(y)))
@@ -227,16 +239,16 @@ fn by_place(
     (tier, other): (usize, usize),
     matching: &mut Matching,
 ) {
-    let mut below: HashMap<Place, Vec<Place>> = HashMap::new();
+    let mut below: HashMap<AnnotationAddress, Vec<AnnotationAddress>> = HashMap::new();
     for (index, it) in b.tiers[other].annotations.iter().enumerate() {
-        let place = Place { tier: other, index };
+        let place = AnnotationAddress { tier: other, index };
         if let Some(parent) = it.parent.filter(|_| !matching.back.contains_key(&place)) {
             below.entry(parent).or_default().push(place);
         }
     }
     for exact in [true, false] {
         for (index, it) in a.tiers[tier].annotations.iter().enumerate() {
-            let place = Place { tier, index };
+            let place = AnnotationAddress { tier, index };
             if matching.pairs.contains_key(&place) {
                 continue;
             }
@@ -244,7 +256,7 @@ fn by_place(
             let Some(siblings) = parent.and_then(|parent| below.get(parent)) else {
                 continue;
             };
-            let fits = |that: &&Place| {
+            let fits = |that: &&AnnotationAddress| {
                 let there = get(b, **that);
                 !matching.back.contains_key(*that)
                     && if exact {

@@ -2,7 +2,7 @@
 
 use super::bare;
 use crate::eaf::Transcript;
-use crate::eaf::convert::{Annotation, Place, Tier, Timing};
+use crate::eaf::convert::{Annotation, AnnotationAddress, Tier, Timing};
 use chereme_motion::Span;
 use chereme_sign::Stereotype;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -116,7 +116,7 @@ impl Pieces {
             }
             transcript.tiers.push(tier);
         }
-        let mut places: HashMap<String, Place> = HashMap::new();
+        let mut places: HashMap<String, AnnotationAddress> = HashMap::new();
         let mut seen = HashSet::new();
         for at in parents_first(&transcript) {
             let name = transcript.tiers[at].name.clone();
@@ -144,14 +144,14 @@ fn fill(
     transcript: &mut Transcript,
     at: usize,
     mut own: Vec<Loose>,
-    places: &mut HashMap<String, Place>,
+    places: &mut HashMap<String, AnnotationAddress>,
 ) {
     let stereotype = transcript.tiers[at].stereotype;
     let symbolic = stereotype.is_some_and(|it| !it.is_alignable());
     if !symbolic {
         own.sort_by_key(|it| it.it.span);
     }
-    let mut families: BTreeMap<Place, Vec<usize>> = BTreeMap::new();
+    let mut families: BTreeMap<AnnotationAddress, Vec<usize>> = BTreeMap::new();
     let mut kept: Vec<(Annotation, f64)> = Vec::new();
     for loose in own {
         let mut it = loose.it;
@@ -188,7 +188,7 @@ fn fill(
         }
     }
     for (index, (it, _)) in kept.into_iter().enumerate() {
-        places.insert(it.id.clone(), Place { tier: at, index });
+        places.insert(it.id.clone(), AnnotationAddress { tier: at, index });
         transcript.tiers[at].annotations.push(it);
     }
 }

@@ -3,9 +3,9 @@
 use super::apply::{in_order, loose, revalue};
 use super::identity::{Matching, alike, matched};
 use super::loose::Pieces;
-use super::{Above, Said, diff, get, is_symbolic, places};
+use super::{Above, ComparedAnnotation, diff, get, is_symbolic, places};
 use crate::eaf::Transcript;
-use crate::eaf::convert::{Annotation, Place};
+use crate::eaf::convert::{Annotation, AnnotationAddress};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -24,11 +24,11 @@ pub struct Conflict {
     /// The tier.
     pub tier: String,
     /// Its state before both changes; `None` if it did not exist.
-    pub base: Option<Said>,
+    pub base: Option<ComparedAnnotation>,
     /// My candidate, which the merged document keeps; `None` if my side removed it or never had it.
-    pub mine: Option<Said>,
+    pub mine: Option<ComparedAnnotation>,
     /// The other side's candidate; `None` if the other side removed it.
-    pub theirs: Option<Said>,
+    pub theirs: Option<ComparedAnnotation>,
 }
 
 /// Merges `theirs` into `mine`; `base` is their common state.
@@ -62,7 +62,7 @@ pub fn merge(base: &Transcript, mine: &Transcript, theirs: &Transcript) -> Merge
     }
     let changes = diff(base, theirs);
     work.tiers(&changes);
-    let mut touched: BTreeMap<String, [Option<Said>; 2]> = BTreeMap::new();
+    let mut touched: BTreeMap<String, [Option<ComparedAnnotation>; 2]> = BTreeMap::new();
     for moved in changes.moved {
         touched.entry(moved.id).or_default()[0] = Some(moved.said);
     }
@@ -114,8 +114,8 @@ pub fn merge_two(mine: &Transcript, theirs: &Transcript) -> Merged {
     let changes = diff(mine, theirs);
     let moved = changes.moved.into_iter().map(|it| (it.id, it.said));
     let revalued = changes.revalued.into_iter().map(|it| (it.id, it.said));
-    let differ: BTreeMap<String, Said> = moved.chain(revalued).collect();
-    let places: BTreeMap<&str, Place> = places(mine)
+    let differ: BTreeMap<String, ComparedAnnotation> = moved.chain(revalued).collect();
+    let places: BTreeMap<&str, AnnotationAddress> = places(mine)
         .into_iter()
         .map(|place| (get(mine, place).id.as_str(), place))
         .collect();
@@ -183,11 +183,11 @@ struct Work<'w> {
     /// The ids in `mine` of the annotations that come from the base.
     known: BTreeSet<String>,
     /// The annotations of the base by id.
-    places: BTreeMap<String, Place>,
+    places: BTreeMap<String, AnnotationAddress>,
     pieces: Pieces,
     conflicts: Vec<Conflict>,
     /// Annotations from the other side: the id, its candidate, and my state of it before, if any.
-    brought: Vec<(String, Said, Option<Said>)>,
+    brought: Vec<(String, ComparedAnnotation, Option<ComparedAnnotation>)>,
     /// The new ids of annotations that the other side added.
     fresh: BTreeMap<String, String>,
 }
@@ -243,7 +243,7 @@ impl Work<'_> {
     }
 
     /// Returns an annotation of theirs with the ids and tier names of mine; `None` if its parent or its tier is gone.
-    fn translated(&self, said: &Said) -> Option<Said> {
+    fn translated(&self, said: &ComparedAnnotation) -> Option<ComparedAnnotation> {
         let refer = |it: &Above| match it {
             Above::Known(id) => self.names.get(id).cloned().map(Above::Known),
             Above::New(id) => self.fresh.get(id).cloned().map(Above::Known),
@@ -266,7 +266,7 @@ impl Work<'_> {
         self.pieces.tiers.iter().any(|(tier, _)| tier.name == name)
     }
 
-    fn add(&mut self, said: &Said) {
+    fn add(&mut self, said: &ComparedAnnotation) {
         let Some(new) = self.translated(said) else {
             return self.conflict(None, None, Some(said.clone()));
         };
@@ -318,7 +318,12 @@ impl Work<'_> {
         }
     }
 
-    fn change(&mut self, id: &str, moved: Option<&Said>, revalued: Option<&Said>) {
+    fn change(
+        &mut self,
+        id: &str,
+        moved: Option<&ComparedAnnotation>,
+        revalued: Option<&ComparedAnnotation>,
+    ) {
         let Some(said) = moved.or(revalued) else {
             return;
         };
@@ -370,8 +375,8 @@ impl Work<'_> {
     fn move_one(
         &self,
         own: &mut super::loose::Loose,
-        (old, new): (&Annotation, &Said),
-        before: Option<&Said>,
+        (old, new): (&Annotation, &ComparedAnnotation),
+        before: Option<&ComparedAnnotation>,
     ) -> bool {
         let near = |a: i64, b: i64| a.abs_diff(b) <= super::TOLERANCE.unsigned_abs();
         let (theirs, mine) = (&new.whole, own.it.clone());
@@ -421,7 +426,7 @@ impl Work<'_> {
         fails
     }
 
-    fn remove(&mut self, said: &Said) {
+    fn remove(&mut self, said: &ComparedAnnotation) {
         let Some(own) = self.names.get(&said.id).cloned() else {
             return;
         };
@@ -556,7 +561,8 @@ impl Work<'_> {
                 Some(mine) => {
                     let more = vocabulary.entries.iter();
                     let more = more.filter(|entry| {
-                        let known = |it: &crate::eaf::convert::Entry| it.values == entry.values;
+                        let known =
+                            |it: &crate::eaf::convert::VocabularyEntry| it.values == entry.values;
                         !mine.entries.iter().any(known)
                             && !old.is_some_and(|old| old.entries.iter().any(known))
                     });
@@ -569,7 +575,12 @@ impl Work<'_> {
         }
     }
 
-    fn conflict(&mut self, base: Option<Said>, mine: Option<Said>, theirs: Option<Said>) {
+    fn conflict(
+        &mut self,
+        base: Option<ComparedAnnotation>,
+        mine: Option<ComparedAnnotation>,
+        theirs: Option<ComparedAnnotation>,
+    ) {
         let first = [&mine, &base, &theirs].into_iter().flatten().next();
         let tier = first.map(|it| it.tier.clone()).unwrap_or_default();
         self.conflicts.push(Conflict {
@@ -580,15 +591,15 @@ impl Work<'_> {
         });
     }
 
-    fn said_in_base(&self, id: &str) -> Option<Said> {
+    fn said_in_base(&self, id: &str) -> Option<ComparedAnnotation> {
         let place = self.places.get(id)?;
         Some(super::said((self.base, None), *place))
     }
 
     /// Returns the current state of an annotation in the merged document.
-    fn said_now(&self, id: &str) -> Option<Said> {
+    fn said_now(&self, id: &str) -> Option<ComparedAnnotation> {
         let loose = self.pieces.all.get(id)?;
-        Some(Said {
+        Some(ComparedAnnotation {
             tier: loose.tier.clone(),
             id: id.to_owned(),
             start_us: loose.it.span.start().micros(),

@@ -14,7 +14,7 @@ pub use apply::apply;
 pub use merge::{Conflict, Merged, merge, merge_two, with_candidates};
 
 use crate::eaf::Transcript;
-use crate::eaf::convert::{Annotation, Place, Tier};
+use crate::eaf::convert::{Annotation, AnnotationAddress, Tier};
 use chereme_sign::Stereotype;
 use identity::{Matching, matched};
 use serde::Serialize;
@@ -27,9 +27,9 @@ pub const TOLERANCE: i64 = 1000;
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Difference {
     /// Annotations of the second alone.
-    pub added: Vec<Said>,
+    pub added: Vec<ComparedAnnotation>,
     /// Annotations of the first alone.
-    pub removed: Vec<Said>,
+    pub removed: Vec<ComparedAnnotation>,
     /// Annotations at another time, on another tier, or at another place among their siblings.
     pub moved: Vec<Moved>,
     /// Annotations whose text or vocabulary entry changed.
@@ -45,7 +45,7 @@ pub struct Difference {
 
 /// An annotation in one of the documents.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Said {
+pub struct ComparedAnnotation {
     /// Its tier.
     pub tier: String,
     /// Its id.
@@ -92,7 +92,7 @@ pub struct Moved {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_tier: Option<String>,
     #[serde(skip)]
-    pub(crate) said: Said,
+    pub(crate) said: ComparedAnnotation,
 }
 
 /// An annotation whose text changed.
@@ -114,7 +114,7 @@ pub struct Revalued {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub entry: Option<[Option<String>; 2]>,
     #[serde(skip)]
-    pub(crate) said: Said,
+    pub(crate) said: ComparedAnnotation,
 }
 
 /// A change of a tier.
@@ -181,8 +181,8 @@ pub fn diff(a: &Transcript, b: &Transcript) -> Difference {
 }
 
 fn compare(
-    (a, old): (&Transcript, Place),
-    (b, new): (&Transcript, Place),
+    (a, old): (&Transcript, AnnotationAddress),
+    (b, new): (&Transcript, AnnotationAddress),
     matching: &Matching,
     difference: &mut Difference,
 ) {
@@ -226,29 +226,30 @@ fn compare(
 
 /// Returns whether an annotation still follows the same sibling as before; siblings of one document alone do not count.
 fn same_neighbour(
-    (a, old): (&Transcript, Place),
-    (b, new): (&Transcript, Place),
+    (a, old): (&Transcript, AnnotationAddress),
+    (b, new): (&Transcript, AnnotationAddress),
     matching: &Matching,
 ) -> bool {
-    let chain = |it: &Transcript, own: Place, known: &dyn Fn(Place) -> bool| {
-        let annotation = get(it, own);
-        let siblings = it.tiers[own.tier].annotations.iter().enumerate();
-        siblings
-            .filter(|(index, sibling)| {
-                let place = Place {
+    let chain =
+        |it: &Transcript, own: AnnotationAddress, known: &dyn Fn(AnnotationAddress) -> bool| {
+            let annotation = get(it, own);
+            let siblings = it.tiers[own.tier].annotations.iter().enumerate();
+            siblings
+                .filter(|(index, sibling)| {
+                    let place = AnnotationAddress {
+                        tier: own.tier,
+                        index: *index,
+                    };
+                    sibling.parent == annotation.parent
+                        && sibling.order < annotation.order
+                        && known(place)
+                })
+                .max_by_key(|(_, sibling)| sibling.order)
+                .map(|(index, _)| AnnotationAddress {
                     tier: own.tier,
-                    index: *index,
-                };
-                sibling.parent == annotation.parent
-                    && sibling.order < annotation.order
-                    && known(place)
-            })
-            .max_by_key(|(_, sibling)| sibling.order)
-            .map(|(index, _)| Place {
-                tier: own.tier,
-                index,
-            })
-    };
+                    index,
+                })
+        };
     let before = chain(a, old, &|place| matching.pairs.contains_key(&place));
     let after = chain(b, new, &|place| matching.back.contains_key(&place));
     before.and_then(|place| matching.pairs.get(&place)).copied() == after
@@ -362,10 +363,13 @@ fn sentences(
     into.extend(new.map(|name| format!("the {what} {name:?} was added")));
 }
 
-/// Returns an annotation as a [`Said`]; its references name annotations of the first document if that is given.
-fn said((it, of): (&Transcript, Option<(&Transcript, &Matching)>), place: Place) -> Said {
+/// Returns an annotation as a [`ComparedAnnotation`]; its references name annotations of the first document if that is given.
+fn said(
+    (it, of): (&Transcript, Option<(&Transcript, &Matching)>),
+    place: AnnotationAddress,
+) -> ComparedAnnotation {
     let whole = get(it, place);
-    let refer = |other: Place| match of {
+    let refer = |other: AnnotationAddress| match of {
         None => Above::Known(get(it, other).id.clone()),
         Some((a, matching)) => match matching.back.get(&other) {
             Some(known) => Above::Known(get(a, *known).id.clone()),
@@ -378,13 +382,13 @@ fn said((it, of): (&Transcript, Option<(&Transcript, &Matching)>), place: Place)
         let mut siblings = siblings.filter(|(_, sibling)| {
             sibling.parent == whole.parent && sibling.order + 1 == whole.order
         });
-        siblings.next().map(|(index, _)| Place {
+        siblings.next().map(|(index, _)| AnnotationAddress {
             tier: place.tier,
             index,
         })
     });
     let before = before.flatten();
-    Said {
+    ComparedAnnotation {
         tier: it.tiers[place.tier].name.clone(),
         id: whole.id.clone(),
         start_us: whole.span.start().micros(),
@@ -404,13 +408,15 @@ fn bare(tier: &Tier) -> Tier {
     }
 }
 
-fn places(it: &Transcript) -> Vec<Place> {
+fn places(it: &Transcript) -> Vec<AnnotationAddress> {
     let all = it.tiers.iter().enumerate();
-    all.flat_map(|(tier, own)| (0..own.annotations.len()).map(move |index| Place { tier, index }))
-        .collect()
+    all.flat_map(|(tier, own)| {
+        (0..own.annotations.len()).map(move |index| AnnotationAddress { tier, index })
+    })
+    .collect()
 }
 
-fn get(it: &Transcript, place: Place) -> &Annotation {
+fn get(it: &Transcript, place: AnnotationAddress) -> &Annotation {
     &it.tiers[place.tier].annotations[place.index]
 }
 

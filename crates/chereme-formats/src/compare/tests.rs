@@ -2,7 +2,7 @@
 
 use super::{Difference, Merged, apply, diff, merge, merge_two, with_candidates};
 use crate::eaf::Transcript;
-use crate::eaf::convert::{Annotation, Place, Tier, Timing};
+use crate::eaf::convert::{Annotation, AnnotationAddress, Tier, Timing};
 use chereme_motion::{Instant, Span};
 use chereme_sign::Stereotype;
 use proptest::prelude::*;
@@ -60,7 +60,7 @@ fn own(id: &str, start: i64, end: i64, value: &str) -> Annotation {
 
 fn child(it: &Transcript, tier: usize, (id, above, value): (&str, &str, &str)) -> Annotation {
     let mut all = super::places(it).into_iter();
-    let parent: Place = all
+    let parent: AnnotationAddress = all
         .find(|place| super::get(it, *place).id == above)
         .expect("parent");
     let siblings = it.tiers[tier].annotations.iter();
@@ -189,7 +189,7 @@ fn what_both_changed_is_a_conflict_with_both_candidates() {
         1,
     );
     let conflict = &merged.conflicts[0];
-    let value = |it: &Option<super::Said>| it.as_ref().map(|it| it.value.clone());
+    let value = |it: &Option<super::ComparedAnnotation>| it.as_ref().map(|it| it.value.clone());
     assert_eq!(value(&conflict.base).as_deref(), Some("A"));
     assert_eq!(value(&conflict.mine).as_deref(), Some("M"));
     assert_eq!(value(&conflict.theirs).as_deref(), Some("T"));

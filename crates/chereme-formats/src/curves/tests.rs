@@ -114,7 +114,7 @@ fn plain_tables_come_back_as_they_were() {
 fn scores_of_one_frame_are_read_from_their_text_form() {
     let text = "# proto-message: ClassificationList\nclassification {\n  index: 0\n  score: 2.9e-05\n  label: \"_neutral\"\n}\n\
                 classification {\n  index: 1\n  score: 0.79\n  label: \"browDownLeft\"\n}\n";
-    assert_eq!(Kind::of(text.as_bytes()), Some(Kind::MediaPipe));
+    assert_eq!(CurveFile::of(text.as_bytes()), Some(CurveFile::MediaPipe));
     let (curves, _, findings) = curves(text);
     assert_eq!((curves.frames(), curves.curves().len()), (1, 2));
     let down = curves.curve("browDownLeft").expect("a score");
@@ -206,7 +206,7 @@ fn packets_are_read_with_the_names_and_the_times_that_they_stand_for() {
         (101, [0.5, 0.2, 1.0]),
         (103, [0.75, 0.3, 0.5]),
     ]);
-    assert_eq!(Kind::of(&bytes), Some(Kind::Packets));
+    assert_eq!(CurveFile::of(&bytes), Some(CurveFile::Packets));
     let (tracks, _) = read(&bytes).expect("packets");
     let Content::Curves(curves) = &tracks.tracks[0].content else {
         panic!("curves");

@@ -1,7 +1,7 @@
 //! Converts a transcript to a raw document.
 
 use super::convert::annotation_number;
-use super::model::{Annotation, Media, Place, Tier, Timing, Transcript, Vocabulary};
+use super::model::{Annotation, AnnotationAddress, Media, Tier, Timing, Transcript, Vocabulary};
 use super::raw::{self, Anchor, At, Document, Text};
 use chereme_motion::Instant;
 use chereme_sign::Stereotype;
@@ -292,7 +292,7 @@ fn annotations<'a>(
 ) -> Vec<raw::Annotation<'a>> {
     let tier = &transcript.tiers[at];
     let subdivided = tier.stereotype == Some(Stereotype::SymbolicSubdivision);
-    let before: HashMap<(Option<Place>, u32), &str> = if subdivided {
+    let before: HashMap<(Option<AnnotationAddress>, u32), &str> = if subdivided {
         tier.annotations
             .iter()
             .map(|it| ((it.parent, it.order + 1), &*it.id))
@@ -300,7 +300,10 @@ fn annotations<'a>(
     } else {
         HashMap::new()
     };
-    let anchor = |index: usize, it: &Annotation| match slots.ends.get(&Place { tier: at, index }) {
+    let anchor = |index: usize, it: &Annotation| match slots
+        .ends
+        .get(&AnnotationAddress { tier: at, index })
+    {
         Some((start, end)) => Anchor::Slots {
             start: start.clone(),
             end: end.clone(),
@@ -330,7 +333,7 @@ fn annotations<'a>(
 
 /// The time slots of a transcript: the ends of each alignable annotation, and all in order.
 struct Slots<'a> {
-    ends: BTreeMap<Place, (Text<'a>, Text<'a>)>,
+    ends: BTreeMap<AnnotationAddress, (Text<'a>, Text<'a>)>,
     order: Vec<raw::TimeSlot<'a>>,
 }
 
@@ -343,7 +346,7 @@ struct Draft {
 impl Slots<'_> {
     fn new(transcript: &Transcript) -> Self {
         let mut drafts: Vec<Draft> = Vec::new();
-        let mut ends: BTreeMap<Place, (usize, usize)> = BTreeMap::new();
+        let mut ends: BTreeMap<AnnotationAddress, (usize, usize)> = BTreeMap::new();
         for tier in parents_first(transcript) {
             add_tier(transcript, tier, &mut drafts, &mut ends);
         }
@@ -398,7 +401,7 @@ fn add_tier(
     transcript: &Transcript,
     at: usize,
     drafts: &mut Vec<Draft>,
-    ends: &mut BTreeMap<Place, (usize, usize)>,
+    ends: &mut BTreeMap<AnnotationAddress, (usize, usize)>,
 ) {
     let tier = &transcript.tiers[at];
     let shared = tier.stereotype == Some(Stereotype::TimeSubdivision);
@@ -411,7 +414,7 @@ fn add_tier(
             )
         });
     }
-    let mut last: Option<(Option<Place>, usize)> = None;
+    let mut last: Option<(Option<AnnotationAddress>, usize)> = None;
     for index in sorted {
         let it = &tier.annotations[index];
         let (start_open, end_open) = match it.timing {
@@ -442,7 +445,7 @@ fn add_tier(
         };
         let start = start.unwrap_or_else(|| draft(it.span.start(), (!start_open).then_some(from)));
         let end = end.unwrap_or_else(|| draft(it.span.end(), (!end_open).then_some(to)));
-        ends.insert(Place { tier: at, index }, (start, end));
+        ends.insert(AnnotationAddress { tier: at, index }, (start, end));
         last = Some((it.parent, end));
     }
 }

@@ -2,7 +2,8 @@
 
 pub use super::back::to_raw;
 pub use super::model::{
-    Annotation, Entry, EntryValue, Media, Place, Tier, Timing, Transcript, Vocabulary,
+    Annotation, AnnotationAddress, EntryValue, Media, Tier, Timing, Transcript, Vocabulary,
+    VocabularyEntry,
 };
 
 use super::check::{Handle, Link, Resolved, resolve};
@@ -33,7 +34,7 @@ pub fn from_raw(document: &Document<'_>) -> (Transcript, Vec<Finding>) {
 /// annotation that was left out has none.
 pub(super) fn from_raw_placed(
     document: &Document<'_>,
-) -> (Transcript, Vec<Option<Place>>, Vec<Finding>) {
+) -> (Transcript, Vec<Option<AnnotationAddress>>, Vec<Finding>) {
     let (resolved, mut told) = resolve(document);
     let mut findings = Findings::default();
     let times = SlotTimes::new(document, &resolved, &mut findings);
@@ -91,8 +92,8 @@ pub fn vocabularies(document: &Document<'_>) -> Vec<Vocabulary> {
     document.vocabularies.iter().map(vocabulary).collect()
 }
 
-fn entry(entry: &raw::Entry<'_>) -> Entry {
-    Entry {
+fn entry(entry: &raw::Entry<'_>) -> VocabularyEntry {
+    VocabularyEntry {
         id: plain(entry.id.as_ref()),
         values: entry
             .values
@@ -250,7 +251,7 @@ struct Tiers<'d> {
     resolved: &'d Resolved,
     times: &'d SlotTimes,
     /// The place of each raw annotation in the result; `None` for one that was left out.
-    places: Vec<Option<Place>>,
+    places: Vec<Option<AnnotationAddress>>,
     tiers: Vec<Tier>,
 }
 
@@ -307,7 +308,7 @@ impl<'d> Tiers<'d> {
         }
     }
 
-    fn convert(mut self, findings: &mut Findings) -> (Vec<Tier>, Vec<Option<Place>>) {
+    fn convert(mut self, findings: &mut Findings) -> (Vec<Tier>, Vec<Option<AnnotationAddress>>) {
         for at in self.resolved.order.clone() {
             self.tier(at, findings);
         }
@@ -323,12 +324,14 @@ impl<'d> Tiers<'d> {
                 Link::Slots(Some(start), Some(end)) => {
                     self.slots(start as usize, end as usize, annotation, findings)
                 }
-                Link::Parent(Some(parent), _) => self.places[parent as usize].map(|place| Held {
-                    span: self.tiers[place.tier].annotations[place.index].span,
-                    timing: Timing::Parent,
-                    parent: Some(place),
-                    millis: None,
-                }),
+                Link::Parent(Some(parent), _) => {
+                    self.places[parent as usize].map(|place| TimedSpan {
+                        span: self.tiers[place.tier].annotations[place.index].span,
+                        timing: Timing::Parent,
+                        parent: Some(place),
+                        millis: None,
+                    })
+                }
                 _ => None,
             };
             let Some(held) = held else {
@@ -341,7 +344,7 @@ impl<'d> Tiers<'d> {
                 });
                 continue;
             };
-            self.places[handle as usize] = Some(Place {
+            self.places[handle as usize] = Some(AnnotationAddress {
                 tier: at,
                 index: self.tiers[at].annotations.len(),
             });
@@ -413,7 +416,7 @@ impl<'d> Tiers<'d> {
         end: usize,
         annotation: &raw::Annotation<'_>,
         findings: &mut Findings,
-    ) -> Option<Held> {
+    ) -> Option<TimedSpan> {
         let (from, to) = (self.times.times[start], self.times.times[end]);
         if to <= from {
             findings.add("annotations that end before they start", || {
@@ -434,7 +437,7 @@ impl<'d> Tiers<'d> {
             self.times.millis[end].is_none(),
         );
         let swapped = to < from;
-        Some(Held {
+        Some(TimedSpan {
             span: Span::between(from, to),
             timing: if start || end {
                 Timing::Proposed {
@@ -475,7 +478,7 @@ impl<'d> Tiers<'d> {
                 .max_by_key(|(it, index)| (shared(*it), std::cmp::Reverse(*index)));
             annotation.parent = best
                 .filter(|(it, _)| it.overlaps(span) || it.covers(span))
-                .map(|(_, index)| Place {
+                .map(|(_, index)| AnnotationAddress {
                     tier: above,
                     index: *index,
                 });
@@ -499,8 +502,8 @@ impl<'d> Tiers<'d> {
     fn order_siblings(&mut self, at: usize, findings: &mut Findings) {
         let first = self.resolved.first[at];
         let handles = first..self.resolved.first[at + 1];
-        let mut families: Vec<(Place, Vec<Handle>)> = Vec::new();
-        let mut known: HashMap<Place, usize> = HashMap::new();
+        let mut families: Vec<(AnnotationAddress, Vec<Handle>)> = Vec::new();
+        let mut known: HashMap<AnnotationAddress, usize> = HashMap::new();
         for handle in handles {
             let Some(place) = self.places[handle as usize] else {
                 continue;
@@ -657,10 +660,10 @@ pub(super) fn annotation_number(id: &str) -> Option<u64> {
         .filter(|number| *number < u64::MAX / 2)
 }
 
-struct Held {
+struct TimedSpan {
     span: Span,
     timing: Timing,
-    parent: Option<Place>,
+    parent: Option<AnnotationAddress>,
     millis: Option<[i64; 2]>,
 }
 

@@ -65,7 +65,7 @@ pub struct Tier {
 
 /// The address of an annotation in a [`Transcript`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-pub struct Place {
+pub struct AnnotationAddress {
     /// Index into the transcript's tiers.
     pub tier: usize,
     /// Index into the tier's annotations.
@@ -82,7 +82,7 @@ pub struct Annotation {
     /// The source of that time span.
     pub timing: Timing,
     /// The annotation above it.
-    pub parent: Option<Place>,
+    pub parent: Option<AnnotationAddress>,
     /// Its position among its siblings below a symbolic parent, from 0; 0 elsewhere.
     pub order: u32,
     /// Its text; empty if nothing was entered.
@@ -125,14 +125,14 @@ pub struct Vocabulary {
     /// Descriptions by language; the language is empty before format 2.8.
     pub descriptions: Vec<(String, String)>,
     /// The entries in order; empty for a vocabulary in another file.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<VocabularyEntry>,
     /// The address of an external vocabulary.
     pub external: Option<String>,
 }
 
 /// An entry of a [`Vocabulary`].
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
-pub struct Entry {
+pub struct VocabularyEntry {
     /// The id, unique in its vocabulary; empty in some files before format 2.8.
     pub id: String,
     /// The value in each language.
@@ -141,7 +141,7 @@ pub struct Entry {
     pub external_ref: Option<String>,
 }
 
-/// The value of an [`Entry`] in one language.
+/// The value of an [`VocabularyEntry`] in one language.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct EntryValue {
     /// The language id; empty before format 2.8.
@@ -155,7 +155,7 @@ pub struct EntryValue {
 impl Transcript {
     /// Returns the annotation at `place`, if there is one.
     #[must_use]
-    pub fn annotation(&self, place: Place) -> Option<&Annotation> {
+    pub fn annotation(&self, place: AnnotationAddress) -> Option<&Annotation> {
         self.tiers.get(place.tier)?.annotations.get(place.index)
     }
 

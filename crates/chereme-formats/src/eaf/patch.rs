@@ -12,7 +12,7 @@ use super::back::to_raw;
 use super::convert::from_raw_placed;
 use super::encoding::decode;
 use super::layout::{Edits, Layout};
-use super::model::{Annotation, Place, Timing, Transcript};
+use super::model::{Annotation, AnnotationAddress, Timing, Transcript};
 use super::raw::{self, Document};
 use super::style::Style;
 use chereme_sign::Stereotype;
@@ -45,7 +45,7 @@ pub fn patched(bytes: &[u8], after: &Transcript) -> Result<Option<Vec<u8>>, Erro
 
 fn change(
     document: &Document<'_>,
-    (before, places): (&Transcript, &[Option<Place>]),
+    (before, places): (&Transcript, &[Option<AnnotationAddress>]),
     after: &Transcript,
 ) -> Option<String> {
     let layout = Layout::of(document.source.0)?;
@@ -72,7 +72,7 @@ fn change(
 }
 
 /// The names of the two time slots of alignable annotations, by their place in the new transcript.
-type Refs = HashMap<Place, [String; 2]>;
+type Refs = HashMap<AnnotationAddress, [String; 2]>;
 
 /// A change of a file: its document, its present meaning, and the wanted meaning.
 struct Work<'w, 'd> {
@@ -82,30 +82,32 @@ struct Work<'w, 'd> {
     before: &'w Transcript,
     after: &'w Transcript,
     /// The place of each annotation of the document.
-    places: &'w [Option<Place>],
+    places: &'w [Option<AnnotationAddress>],
     /// The new tier of each old one.
     tiers: Vec<Option<usize>>,
     /// The old tier of each new one.
     from: Vec<Option<usize>>,
     /// The new annotations by their ids.
-    found: BTreeMap<&'w str, Place>,
+    found: BTreeMap<&'w str, AnnotationAddress>,
     edits: Edits,
 }
 
 impl<'w, 'd> Work<'w, 'd> {
     /// Returns the new place of an old annotation; `None` if it was removed or went to another tier.
-    fn kept(&self, old: Place) -> Option<Place> {
+    fn kept(&self, old: AnnotationAddress) -> Option<AnnotationAddress> {
         let it = self.before.annotation(old)?;
         let new = *self.found.get(it.id.as_str())?;
         (self.tiers[old.tier] == Some(new.tier)).then_some(new)
     }
 
-    fn wanted(&self, place: Place) -> &'w Annotation {
+    fn wanted(&self, place: AnnotationAddress) -> &'w Annotation {
         &self.after.tiers[place.tier].annotations[place.index]
     }
 
     /// Returns the annotations of the document with their elements and old places.
-    fn annotations_of_file(&self) -> Vec<(Option<Place>, usize, &'w raw::Annotation<'d>)> {
+    fn annotations_of_file(
+        &self,
+    ) -> Vec<(Option<AnnotationAddress>, usize, &'w raw::Annotation<'d>)> {
         let (document, layout) = (self.document, self.layout);
         let all = document.tiers.iter().flat_map(|it| &it.annotations);
         all.zip(self.places)
@@ -220,11 +222,11 @@ fn is_alignable(transcript: &Transcript, tier: usize) -> bool {
     stereotype.is_none_or(Stereotype::is_alignable)
 }
 
-fn ids(transcript: &Transcript) -> BTreeMap<&str, Place> {
+fn ids(transcript: &Transcript) -> BTreeMap<&str, AnnotationAddress> {
     let mut found = BTreeMap::new();
     for (tier, it) in transcript.tiers.iter().enumerate() {
         for (index, annotation) in it.annotations.iter().enumerate() {
-            found.insert(annotation.id.as_str(), Place { tier, index });
+            found.insert(annotation.id.as_str(), AnnotationAddress { tier, index });
         }
     }
     found

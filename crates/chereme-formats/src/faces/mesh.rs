@@ -66,14 +66,14 @@ const SPOTS: [Spot; 8] = [
 type Pair = [&'static [u16]; 2];
 
 /// The numbers of points in a kind of mesh.
-struct Kind {
+struct MeshPoints {
     pairs: [Pair; SPOTS.len()],
     nose: &'static [u16],
     upper_lip: &'static [u16],
     lower_lip: &'static [u16],
 }
 
-const MEDIAPIPE: Kind = Kind {
+const MEDIAPIPE: MeshPoints = MeshPoints {
     pairs: [
         [&[33], &[263]],
         [&[133], &[362]],
@@ -89,7 +89,7 @@ const MEDIAPIPE: Kind = Kind {
     lower_lip: &[14],
 };
 
-const OPENPOSE: Kind = Kind {
+const OPENPOSE: MeshPoints = MeshPoints {
     pairs: [
         [&[36], &[45]],
         [&[39], &[42]],
@@ -119,7 +119,7 @@ impl FaceMesh {
     /// of one.
     #[must_use]
     pub fn find<'a>(points: impl Iterator<Item = (&'a str, &'a str)> + Clone) -> Option<Self> {
-        let of = |wanted: &str, kind: &Kind| {
+        let of = |wanted: &str, kind: &MeshPoints| {
             let mut places: Vec<Option<usize>> = vec![None; 512];
             for (at, (group, name)) in points.clone().enumerate() {
                 if !group.to_ascii_lowercase().contains(wanted) {
@@ -136,7 +136,7 @@ impl FaceMesh {
         of("face_landmarks", &MEDIAPIPE).or_else(|| of("face_keypoints", &OPENPOSE))
     }
 
-    fn of(kind: &Kind, places: &[Option<usize>]) -> Option<Self> {
+    fn of(kind: &MeshPoints, places: &[Option<usize>]) -> Option<Self> {
         let found = |points: &[u16]| -> Vec<usize> {
             let known = points.iter().filter_map(|it| places[usize::from(*it)]);
             known.collect()

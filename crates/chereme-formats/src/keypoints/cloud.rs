@@ -18,7 +18,7 @@ const PLACES: usize = 30_000_000;
 
 /// The space of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum PointSpace {
     /// Pixels of the picture.
     Pixels,
     /// Shares of the picture's width and height.
@@ -117,7 +117,7 @@ type Columns = [Vec<Option<Number>>; 4];
 /// The points of one person.
 #[derive(Debug)]
 pub(super) struct Cloud {
-    kind: Kind,
+    kind: PointSpace,
     names: Vec<(String, String)>,
     known: BTreeMap<(String, String), usize>,
     columns: Vec<Columns>,
@@ -127,7 +127,7 @@ pub(super) struct Cloud {
 }
 
 impl Cloud {
-    pub(super) fn new(kind: Kind) -> Self {
+    pub(super) fn new(kind: PointSpace) -> Self {
         Self {
             kind,
             names: Vec::new(),
@@ -139,7 +139,7 @@ impl Cloud {
         }
     }
 
-    pub(super) fn kind(&self) -> Kind {
+    pub(super) fn kind(&self) -> PointSpace {
         self.kind
     }
 
@@ -248,13 +248,13 @@ impl Cloud {
     fn space(&self, size: Option<[f64; 2]>, findings: &mut Findings) -> Result<Space, Error> {
         let frame = |[width, height]: [f64; 2]| Frame { width, height };
         Ok(match self.kind {
-            Kind::World => Space::World(Convention {
+            PointSpace::World => Space::World(Convention {
                 metres_per_unit: 1.0,
                 axes: "-Y,+X"
                     .parse()
                     .map_err(|_| Error::Track("axes".to_owned()))?,
             }),
-            Kind::Pixels => Space::Image(frame(size.unwrap_or_else(|| {
+            PointSpace::Pixels => Space::Image(frame(size.unwrap_or_else(|| {
                 let found = self.largest.map(f64::ceil);
                 findings.add("pictures of unknown size", || {
                     Finding::note(
@@ -267,7 +267,7 @@ impl Cloud {
                 });
                 found
             }))),
-            Kind::Share => {
+            PointSpace::Share => {
                 findings.add("shares of the picture", || {
                     Finding::note(
                         None,

@@ -26,8 +26,8 @@ use serde_json::{Map, Value};
 
 use crate::finding::Finding;
 use crate::tally::Findings;
-use crate::tracks::{Content, Track, Tracks};
-use cloud::{Cloud, Kind, Point};
+use crate::tracks::{Content, FileTrack, Tracks};
+use cloud::{Cloud, Point, PointSpace};
 
 /// Frames a second if neither the file nor the caller has a rate.
 pub const USUAL_RATE: u32 = 25;
@@ -214,15 +214,15 @@ impl Reader {
             });
             let marks = film.marks.into_iter().map(|cloud| {
                 let name = match cloud.kind() {
-                    Kind::World => "world landmarks",
-                    Kind::Pixels | Kind::Share => "landmarks",
+                    PointSpace::World => "world landmarks",
+                    PointSpace::Pixels | PointSpace::Share => "landmarks",
                 };
                 (name.to_owned(), cloud)
             });
             for (name, cloud) in people.chain(marks).collect::<Vec<_>>() {
                 let markers = cloud.markers(Times::Even(rate), film.size, &mut self.findings)?;
                 let Some(markers) = markers else { continue };
-                tracks.tracks.push(Track::new(
+                tracks.tracks.push(FileTrack::new(
                     format!("{prefix}{name}"),
                     Content::Markers(markers),
                 ));
@@ -334,7 +334,7 @@ impl Film {
                     return Ok(());
                 }
                 None => {
-                    self.people.push(Cloud::new(Kind::Pixels));
+                    self.people.push(Cloud::new(PointSpace::Pixels));
                     free.push(self.people.len() - 1);
                     (0, self.people.len() - 1)
                 }
@@ -348,8 +348,10 @@ impl Film {
 
     /// Adds MediaPipe's landmarks of a frame.
     fn landmarks(&mut self, row: usize, frame: &Map<String, Value>) -> Result<(), Error> {
-        let mut found: [(Kind, Vec<Point>); 2] =
-            [(Kind::Share, Vec::new()), (Kind::World, Vec::new())];
+        let mut found: [(PointSpace, Vec<Point>); 2] = [
+            (PointSpace::Share, Vec::new()),
+            (PointSpace::World, Vec::new()),
+        ];
         for (key, value) in frame {
             let lower = key.to_ascii_lowercase();
             if !lower.ends_with("landmarks") {

@@ -16,7 +16,7 @@ fn frame(people: &[f64]) -> String {
     format!("{{\"version\":1.3,\"people\":[{}]}}", people.join(","))
 }
 
-fn points(track: &Track) -> &chereme_motion::Markers {
+fn points(track: &FileTrack) -> &chereme_motion::Markers {
     match &track.content {
         Content::Markers(markers) => markers,
         Content::Curves(_) => panic!("points"),

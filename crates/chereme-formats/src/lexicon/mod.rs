@@ -43,14 +43,14 @@ pub struct Lexicon {
     /// The columns in order, with their meanings.
     pub columns: Vec<Column>,
     /// The signs in the order of the table.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<LexiconEntry>,
     /// The character between cells: a tab, comma, semicolon or bar.
     pub delimiter: u8,
 }
 
 /// One sign of a lexicon.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Entry {
+pub struct LexiconEntry {
     /// The line of the table, counted from 1.
     pub line: u64,
     /// The gloss, blanks at its ends left out.
@@ -144,7 +144,7 @@ pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), 
         remedy: "call a column \"gloss\", or name it in a mapping: {\"columns\": {\"NAME\": \"gloss\"}}",
     })?;
     let mut lines: BTreeMap<String, u64> = BTreeMap::new();
-    let mut entries: Vec<Entry> = Vec::with_capacity(table.rows.len());
+    let mut entries: Vec<LexiconEntry> = Vec::with_capacity(table.rows.len());
     for row in table.rows {
         let (line, name) = (row.line, row.cells[gloss].trim());
         if name.is_empty() {
@@ -246,8 +246,8 @@ impl Lexicon {
     }
 }
 
-fn entry(row: Row, gloss: usize, columns: &[Column]) -> Entry {
-    let mut entry = Entry {
+fn entry(row: Row, gloss: usize, columns: &[Column]) -> LexiconEntry {
+    let mut entry = LexiconEntry {
         line: row.line,
         gloss: row.cells[gloss].trim().to_owned(),
         translations: Vec::new(),

@@ -11,7 +11,7 @@ const MANY: usize = 400_000;
 
 /// A box in a file that is read in parts.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct BoxPart {
     pub(super) kind: [u8; 4],
     /// The byte at which it begins.
     pub(super) at: u64,
@@ -21,7 +21,7 @@ pub(super) struct Place {
 }
 
 /// Returns the boxes at the top level of a file, and whether a broken header ended the list early.
-pub(super) fn places(input: &mut (impl Read + Seek)) -> Result<(Vec<Place>, bool), Error> {
+pub(super) fn places(input: &mut (impl Read + Seek)) -> Result<(Vec<BoxPart>, bool), Error> {
     let end = input.seek(SeekFrom::End(0))?;
     let mut places = Vec::new();
     let mut at = 0;
@@ -44,7 +44,7 @@ pub(super) fn places(input: &mut (impl Read + Seek)) -> Result<(Vec<Place>, bool
         if size < header {
             return Ok((places, true));
         }
-        places.push(Place {
+        places.push(BoxPart {
             kind,
             at,
             from: at + header,
@@ -59,7 +59,7 @@ pub(super) fn places(input: &mut (impl Read + Seek)) -> Result<(Vec<Place>, bool
 }
 
 /// Reads the content of a box.
-pub(super) fn content(input: &mut (impl Read + Seek), place: &Place) -> Result<Vec<u8>, Error> {
+pub(super) fn content(input: &mut (impl Read + Seek), place: &BoxPart) -> Result<Vec<u8>, Error> {
     let size = place.to - place.from;
     if size > LARGEST {
         return Err(Error::Limit {

@@ -12,7 +12,7 @@ pub use super::error::Error;
 
 /// A notated sign and the line of the file on which it starts.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Entry {
+pub struct SigmlSign {
     /// The sign.
     pub sign: Notated,
     /// Its line; ignored in comparisons.
@@ -26,7 +26,7 @@ pub struct Entry {
 ///
 /// # Errors
 /// [`Error::Root`] if the root is neither `<sigml>` nor a sign, nor an element that contains one.
-pub fn from_raw(root: &Element<'_>) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
+pub fn from_raw(root: &Element<'_>) -> Result<(Vec<SigmlSign>, Vec<Finding>), Error> {
     let mut findings = Findings::default();
     let mut entries = Vec::new();
     if root.name.eq_ignore_ascii_case("sigml") {
@@ -81,7 +81,7 @@ fn holds_signs(element: &Element<'_>) -> bool {
     })
 }
 
-fn read_signs(parent: &Element<'_>, findings: &mut Findings, entries: &mut Vec<Entry>) {
+fn read_signs(parent: &Element<'_>, findings: &mut Findings, entries: &mut Vec<SigmlSign>) {
     for child in &parent.children {
         if read_entry(child, findings, entries) {
             continue;
@@ -116,7 +116,11 @@ fn read_signs(parent: &Element<'_>, findings: &mut Findings, entries: &mut Vec<E
 }
 
 /// Reads an element if it is a sign; returns whether it is.
-fn read_entry(element: &Element<'_>, findings: &mut Findings, entries: &mut Vec<Entry>) -> bool {
+fn read_entry(
+    element: &Element<'_>,
+    findings: &mut Findings,
+    entries: &mut Vec<SigmlSign>,
+) -> bool {
     let gestural = matches!(&*element.name, "hamgestural_sign" | "hamgestural_segment");
     if !gestural && element.name != "hns_sign" {
         return false;
@@ -150,7 +154,7 @@ fn read_entry(element: &Element<'_>, findings: &mut Findings, entries: &mut Vec<
             Finding::warning(element.line.0, message)
         });
     }
-    entries.push(Entry {
+    entries.push(SigmlSign {
         sign,
         line: element.line,
     });

@@ -25,7 +25,7 @@ mod words;
 pub mod convert;
 pub mod raw;
 
-pub use convert::{Entry, from_raw, to_gestural, to_symbols};
+pub use convert::{SigmlSign, from_raw, to_gestural, to_symbols};
 pub use error::Error;
 
 use crate::finding::{Finding, Severity};
@@ -38,7 +38,7 @@ use chereme_sign::hamnosys::Notated;
 ///
 /// # Errors
 /// The same as those of [`raw::read`] and [`from_raw`].
-pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
+pub fn read(bytes: &[u8]) -> Result<(Vec<SigmlSign>, Vec<Finding>), Error> {
     let decoded = in_utf8(bytes);
     let (root, mut findings) = match &decoded {
         Some((text, _)) => raw::read(text.as_bytes())?,

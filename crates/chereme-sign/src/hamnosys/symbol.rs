@@ -90,7 +90,7 @@ impl Symbol {
             .find(|symbol| symbol.kind() == kind)
     }
 
-    fn row(self) -> &'static Row {
+    fn row(self) -> &'static SymbolRow {
         &TABLE[self.0 as usize]
     }
 }
@@ -334,14 +334,14 @@ impl Kind {
 }
 
 #[derive(Debug)]
-struct Row {
+struct SymbolRow {
     character: char,
     name: &'static str,
     kind: Kind,
 }
 
-const fn row(character: char, name: &'static str, kind: Kind) -> Row {
-    Row {
+const fn row(character: char, name: &'static str, kind: Kind) -> SymbolRow {
+    SymbolRow {
         character,
         name,
         kind,
@@ -395,7 +395,7 @@ const ALIASES: [(&str, &str); 19] = [
 
 /// The symbols by code point.
 #[rustfmt::skip]
-static TABLE: [Row; 209] = [
+static TABLE: [SymbolRow; 209] = [
     row(' ', "hamspace", K::Space),
     row('!', "hamexclaim", K::Punctuation),
     row(',', "hamcomma", K::Punctuation),

@@ -11,7 +11,7 @@ use std::fmt;
 
 /// A place in an inventory's file.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Place {
+pub struct FilePosition {
     /// The inventory's id, or `None` if it is not known yet.
     pub inventory: Option<String>,
     /// The value's id, or its number from 1 if it has no id.
@@ -20,7 +20,7 @@ pub struct Place {
     pub field: Option<String>,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePosition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.inventory {
             Some(id) => write!(f, "inventory {id:?}")?,
@@ -53,7 +53,7 @@ pub enum InventoryError {
     #[error("{place}: {message}")]
     Type {
         /// The place of the fault.
-        place: Place,
+        place: FilePosition,
         /// The fault, and the correct form.
         message: String,
     },
@@ -61,7 +61,7 @@ pub enum InventoryError {
     #[error("{place}: there is no field {name:?}{}", did_you_mean(nearest.as_deref()))]
     UnknownField {
         /// The place of the fault.
-        place: Place,
+        place: FilePosition,
         /// The field.
         name: String,
         /// The known field nearest to it.
@@ -71,7 +71,7 @@ pub enum InventoryError {
     #[error("{place}: the field {name:?} is missing")]
     MissingField {
         /// The place of the fault.
-        place: Place,
+        place: FilePosition,
         /// The field.
         name: &'static str,
     },
@@ -81,7 +81,7 @@ pub enum InventoryError {
     )]
     Duplicate {
         /// The later value.
-        place: Place,
+        place: FilePosition,
         /// The spelling.
         text: String,
         /// The value that had it first.
@@ -91,7 +91,7 @@ pub enum InventoryError {
     #[error("{place}: there is no value {id:?}{}", did_you_mean(nearest.as_deref()))]
     UnknownBroader {
         /// The place of the fault.
-        place: Place,
+        place: FilePosition,
         /// The id.
         id: String,
         /// The id nearest to it.
@@ -101,7 +101,7 @@ pub enum InventoryError {
     #[error("{place}: the value lies within itself; give it a broader one that is not part of it")]
     BroaderCycle {
         /// The place of the fault.
-        place: Place,
+        place: FilePosition,
     },
 }
 
@@ -186,7 +186,7 @@ impl Inventory {
     pub fn check(&self) -> Result<(), InventoryError> {
         let mut seen: BTreeMap<String, &str> = BTreeMap::new();
         for value in &self.values {
-            let place = |field: &str| Place {
+            let place = |field: &str| FilePosition {
                 inventory: Some(self.id.clone()),
                 value: Some(value.id.clone()),
                 field: Some(field.to_owned()),
@@ -245,9 +245,9 @@ fn read_inventory(value: Value) -> Result<Inventory, InventoryError> {
     let id = value.get("id").and_then(Value::as_str).map(str::to_owned);
     let mut object = Object::new(
         value,
-        Place {
+        FilePosition {
             inventory: id,
-            ..Place::default()
+            ..FilePosition::default()
         },
         INVENTORY,
     )?;
@@ -283,11 +283,11 @@ fn read_component(object: &mut Object) -> Result<Component, InventoryError> {
 
 fn read_value(
     value: Value,
-    place: &Place,
+    place: &FilePosition,
     number: usize,
 ) -> Result<InventoryValue, InventoryError> {
     let id = value.get("id").and_then(Value::as_str).map(str::to_owned);
-    let place = Place {
+    let place = FilePosition {
         value: id.or(Some(number.to_string())),
         ..place.clone()
     };
@@ -354,7 +354,7 @@ fn read_value(
     })
 }
 
-fn read_stroke(value: Value, place: &Place) -> Result<Stroke, InventoryError> {
+fn read_stroke(value: Value, place: &FilePosition) -> Result<Stroke, InventoryError> {
     let mut object = Object::new(value, place.clone(), &["direction", "size", "turn"])?;
     Ok(Stroke {
         direction: object.take("direction")?,
@@ -366,7 +366,7 @@ fn read_stroke(value: Value, place: &Place) -> Result<Stroke, InventoryError> {
     })
 }
 
-fn read_pose(value: Value, place: Place) -> Result<HandAngles, InventoryError> {
+fn read_pose(value: Value, place: FilePosition) -> Result<HandAngles, InventoryError> {
     let mut object = Object::new(value, place, POSE)?;
     let mut pose = HandAngles::default();
     let mut thumb = Object::new(object.need("thumb")?, object.at("thumb"), THUMB)?;
@@ -390,11 +390,11 @@ fn read_pose(value: Value, place: Place) -> Result<HandAngles, InventoryError> {
 /// A JSON object with known fields, and its place in the file.
 struct Object {
     map: Map<String, Value>,
-    place: Place,
+    place: FilePosition,
 }
 
 impl Object {
-    fn new(value: Value, place: Place, known: &[&str]) -> Result<Self, InventoryError> {
+    fn new(value: Value, place: FilePosition, known: &[&str]) -> Result<Self, InventoryError> {
         let Value::Object(map) = value else {
             let message = format!("{} where an object with fields must be", kind(&value));
             return Err(InventoryError::Type { place, message });
@@ -409,14 +409,14 @@ impl Object {
         }
     }
 
-    fn at(&self, field: &str) -> Place {
+    fn at(&self, field: &str) -> FilePosition {
         let inside = self
             .place
             .field
             .iter()
             .map(|outer| format!("{outer}.{field}"))
             .next();
-        Place {
+        FilePosition {
             field: Some(inside.unwrap_or_else(|| field.to_owned())),
             ..self.place.clone()
         }

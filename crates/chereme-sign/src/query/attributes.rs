@@ -3,7 +3,7 @@
 
 use super::QueryError;
 use super::compare::{comparison_of_attribute, operator_place};
-use super::lex::{Cursor, Place};
+use super::lex::{Cursor, WordContext};
 use super::tree::{At, Comparison, Test, What};
 use std::fmt::{self, Display, Formatter};
 use std::ops::{Bound, RangeBounds};
@@ -86,7 +86,7 @@ pub(super) fn in_parentheses(cursor: &mut Cursor<'_>, at: At) -> Result<Test, Qu
     let open = cursor.next(1);
     cursor.pos = open.end;
     cursor.skip_blanks();
-    let word = cursor.word(Place::Value)?;
+    let word = cursor.word(WordContext::Value)?;
     let name = word.pattern.as_literal().unwrap_or_default().trim();
     if name.is_empty() {
         return Err(QueryError::new(

@@ -1,6 +1,6 @@
 //! Reading comparisons: `right.configuration=U`, `gloss:BO*`, `duration<0.8s`, `tier("Gaze")=*`.
 
-use super::lex::{Cursor, Place};
+use super::lex::{Cursor, WordContext};
 use super::tree::{At, Comparison, Operator, Property, Test, TextField, Value, Wanted, What};
 use super::values::{filled_word, list, path, value};
 use super::words::{self, Simple};
@@ -11,7 +11,7 @@ use std::str::FromStr;
 
 /// Reads a comparison whose field is next; an operator is known to follow it.
 pub(super) fn test(cursor: &mut Cursor<'_>) -> Result<Test, QueryError> {
-    let subject_at = cursor.bare(Place::Term);
+    let subject_at = cursor.bare(WordContext::Term);
     let name = cursor.text(subject_at);
     let what = match words::simple_field(&name) {
         None if cue::is_field(&name) => cue::test(cursor, &name, subject_at)?,
@@ -53,7 +53,7 @@ pub(super) fn tier_test(cursor: &mut Cursor<'_>, at: At) -> Result<Test, QueryEr
     let open = cursor.next(1);
     cursor.pos = open.end;
     cursor.skip_blanks();
-    let name = cursor.word(Place::Value)?;
+    let name = cursor.word(WordContext::Value)?;
     if name.at.start == name.at.end || name.pattern.as_literal().is_some_and(str::is_empty) {
         return Err(QueryError::new(
             name.at,

@@ -1,6 +1,6 @@
 //! Completion of a query at a cursor.
 
-use super::lex::{Cursor, Place, is_quote};
+use super::lex::{Cursor, WordContext, is_quote};
 use super::tree::{At, Missing, Property, TextField, TimeField};
 use super::words::{self, Simple};
 use super::{MAX_CHARS, compare, values};
@@ -105,9 +105,9 @@ fn finish(chars: &[char], cursor: usize, expected: Expected, at: At) -> Completi
         let mut rest = Cursor::new(chars);
         rest.pos = cursor;
         rest.bare(if names_field {
-            Place::Term
+            WordContext::Term
         } else {
-            Place::Value
+            WordContext::Value
         })
         .end
     };
@@ -196,7 +196,7 @@ impl Scan<'_> {
     fn step(&mut self, expected: Expected) -> Result<Expected, Found> {
         match self.cursor.peek() {
             Some(c) if is_quote(c) => self
-                .word(&expected, Place::Term)
+                .word(&expected, WordContext::Term)
                 .map(|()| after_word(&expected)),
             Some(',') if expected == Expected::Term => {
                 self.cursor.pos += 1;
@@ -207,7 +207,7 @@ impl Scan<'_> {
                 Ok(Expected::Term)
             }
             _ if expected == Expected::Example || expected == Expected::Distance => {
-                let place = Place::Value;
+                let place = WordContext::Value;
                 self.word(&expected, place).map(|()| after_word(&expected))
             }
             _ => self.term(expected),
@@ -215,7 +215,7 @@ impl Scan<'_> {
     }
 
     /// Reads a word; returns as an error the result of the scan, if the cursor is at its end.
-    fn word(&mut self, expected: &Expected, place: Place) -> Result<(), Found> {
+    fn word(&mut self, expected: &Expected, place: WordContext) -> Result<(), Found> {
         let start = self.cursor.pos;
         let closed = self.cursor.word(place).is_ok();
         let quoted = self.cursor.pos > start + 1 && self.quote_at(start);
@@ -242,7 +242,7 @@ impl Scan<'_> {
     /// Reads a word and the operator, values or parenthesis that belong to it.
     fn term(&mut self, expected: Expected) -> Result<Expected, Found> {
         let start = self.cursor.pos;
-        self.word(&expected, Place::Term)?;
+        self.word(&expected, WordContext::Term)?;
         let at = self.cursor.at(start);
         let name = self.cursor.text(at);
         self.cursor.skip_blanks();
@@ -250,7 +250,7 @@ impl Scan<'_> {
             self.cursor.pos += operator.chars().count();
             if expected == Expected::Component {
                 // A weight: no value can be proposed.
-                self.word(&Expected::Unknown, Place::Value)?;
+                self.word(&Expected::Unknown, WordContext::Value)?;
             } else {
                 self.values(&self.subject(at), operator)?;
             }
@@ -292,10 +292,10 @@ impl Scan<'_> {
             }
             match (self.cursor.peek(), expected) {
                 (Some('['), Expected::Value(field)) => self.features(field)?,
-                _ => self.word(expected, Place::Value)?,
+                _ => self.word(expected, WordContext::Value)?,
             }
             if operator == "~" && self.cursor.eat('~') {
-                self.word(&Expected::Unknown, Place::Value)?;
+                self.word(&Expected::Unknown, WordContext::Value)?;
             }
             let mut ahead = self.cursor.clone();
             ahead.skip_blanks();
@@ -330,7 +330,7 @@ impl Scan<'_> {
         if self.ended() {
             return Err((Expected::TierName, self.cursor.at(start)));
         }
-        self.word(&Expected::TierName, Place::Value)?;
+        self.word(&Expected::TierName, WordContext::Value)?;
         let name = self.cursor.text(self.cursor.at(start));
         let name = name.trim_matches(is_quote).to_owned();
         self.cursor.skip_blanks();

@@ -1,6 +1,6 @@
 //! Conditions on curves of the face and head: `nonmanual.brows>0.5 for 0.3s`.
 
-use super::lex::{Cursor, Place};
+use super::lex::{Cursor, WordContext};
 use super::tree::{CurveTest, What};
 use super::{QueryError, attributes, times};
 
@@ -34,7 +34,7 @@ pub(super) fn test(cursor: &mut Cursor<'_>, word: &str) -> Result<CurveTest, Que
     };
     let mut ahead = cursor.clone();
     ahead.skip_blanks();
-    let word_at = ahead.bare(Place::Term);
+    let word_at = ahead.bare(WordContext::Term);
     let mut lasting = 0;
     if FOR.contains(&&*ahead.text(word_at)) {
         ahead.skip_blanks();

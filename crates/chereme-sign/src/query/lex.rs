@@ -5,7 +5,7 @@ use super::{Expression, Pattern, QueryError, words};
 
 /// The context of a bare word, which decides the characters that it may hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum WordContext {
     /// At the start of a term: an operator ends the word.
     Term,
     /// On the right of an operator: only `=` ends it, besides blanks, commas and quotes.
@@ -81,7 +81,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Steps over a bare word and returns its place; it may be empty.
-    pub(super) fn bare(&mut self, place: Place) -> At {
+    pub(super) fn bare(&mut self, place: WordContext) -> At {
         let start = self.pos;
         self.pos = bare_end(self.chars, start, place);
         self.at(start)
@@ -103,11 +103,11 @@ impl<'a> Cursor<'a> {
     ///
     /// # Errors
     /// Fails if a quote is not closed, or is closed in the middle of a word.
-    pub(super) fn word(&mut self, place: Place) -> Result<Word, QueryError> {
+    pub(super) fn word(&mut self, place: WordContext) -> Result<Word, QueryError> {
         if self.peek().is_some_and(is_quote) {
             return self.quoted();
         }
-        if self.peek() == Some('/') && place != Place::Term {
+        if self.peek() == Some('/') && place != WordContext::Term {
             return self.expression();
         }
         let at = self.bare(place);
@@ -240,12 +240,12 @@ impl<'a> Cursor<'a> {
 }
 
 /// Returns whether `text` can be written without quotes at this place.
-pub(super) fn is_bare(text: &str, place: Place) -> bool {
+pub(super) fn is_bare(text: &str, place: WordContext) -> bool {
     let chars: Vec<char> = text.chars().collect();
-    let starts_expression = |c: char| place != Place::Term && c == '/';
-    let opens = chars
-        .first()
-        .is_some_and(|c| place == Place::Term && *c == '(' || *c == '[' || starts_expression(*c));
+    let starts_expression = |c: char| place != WordContext::Term && c == '/';
+    let opens = chars.first().is_some_and(|c| {
+        place == WordContext::Term && *c == '(' || *c == '[' || starts_expression(*c)
+    });
     !chars.is_empty() && !opens && bare_end(&chars, 0, place) == chars.len()
 }
 
@@ -270,12 +270,12 @@ fn operator_at(chars: &[char], pos: usize) -> Option<&'static str> {
     OPERATORS.iter().find(starts).copied()
 }
 
-fn bare_end(chars: &[char], start: usize, place: Place) -> usize {
+fn bare_end(chars: &[char], start: usize, place: WordContext) -> usize {
     let mut pos = start;
     while let Some(&c) = chars.get(pos) {
         if c == '(' {
             let word: String = chars[start..pos.min(start + 20)].iter().collect();
-            if place == Place::Term && words::opens_group(&word) {
+            if place == WordContext::Term && words::opens_group(&word) {
                 break;
             }
             match group_end(chars, pos, place) {
@@ -292,7 +292,7 @@ fn bare_end(chars: &[char], start: usize, place: Place) -> usize {
 }
 
 /// Returns the end of a balanced group such as `(1)` that belongs to a word.
-fn group_end(chars: &[char], start: usize, place: Place) -> Option<usize> {
+fn group_end(chars: &[char], start: usize, place: WordContext) -> Option<usize> {
     let mut depth = 0_usize;
     for (pos, c) in chars.iter().enumerate().skip(start) {
         match c {
@@ -306,12 +306,12 @@ fn group_end(chars: &[char], start: usize, place: Place) -> Option<usize> {
     None
 }
 
-fn ends_word(chars: &[char], pos: usize, place: Place) -> bool {
+fn ends_word(chars: &[char], pos: usize, place: WordContext) -> bool {
     let c = chars[pos];
     let operator = match place {
-        Place::Term => operator_at(chars, pos).is_some(),
-        Place::Value => c == '=',
-        Place::Step => c == '=' || c == '>',
+        WordContext::Term => operator_at(chars, pos).is_some(),
+        WordContext::Value => c == '=',
+        WordContext::Step => c == '=' || c == '>',
     };
     c.is_whitespace() || is_quote(c) || operator
 }

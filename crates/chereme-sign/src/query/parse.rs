@@ -1,6 +1,6 @@
 //! Reading a query: terms, joints, relations and examples. The module `compare` reads comparisons.
 
-use super::lex::{Cursor, Place, Word, is_quote};
+use super::lex::{Cursor, Word, WordContext, is_quote};
 use super::tree::{
     At, Example, Expr, Like, Query, Related, Test, TextField, Wanted, Weighted, What,
 };
@@ -107,7 +107,7 @@ fn missing_term(cursor: &Cursor<'_>) -> QueryError {
 /// Returns the next joint, without stepping over it; `None` if the word names a field.
 pub(super) fn next_joint(cursor: &Cursor<'_>) -> Option<(Joint, At)> {
     let mut ahead = cursor.clone();
-    let at = ahead.bare(Place::Term);
+    let at = ahead.bare(WordContext::Term);
     // Only words of three characters or fewer can be joints.
     let joint = (at.end - at.start <= 3)
         .then(|| words::joint(&ahead.text(at)))
@@ -188,7 +188,7 @@ fn unclosed(at: At) -> QueryError {
 }
 
 fn quoted_text(cursor: &mut Cursor<'_>) -> Result<Expr, QueryError> {
-    let word = cursor.word(Place::Term)?;
+    let word = cursor.word(WordContext::Term)?;
     cursor.boundary()?;
     free_text(word)
 }
@@ -196,7 +196,7 @@ fn quoted_text(cursor: &mut Cursor<'_>) -> Result<Expr, QueryError> {
 /// Reads a term that begins with a word.
 fn worded(cursor: &mut Cursor<'_>) -> Result<Expr, QueryError> {
     let start = cursor.clone();
-    let word = cursor.word(Place::Term)?;
+    let word = cursor.word(WordContext::Term)?;
     let name = cursor.text(word.at);
     if let Some(saved) = name.strip_prefix('@')
         && !operator_follows(cursor)
@@ -248,7 +248,7 @@ fn worded(cursor: &mut Cursor<'_>) -> Result<Expr, QueryError> {
 fn saved_search(cursor: &mut Cursor<'_>, at: At, name: &str) -> Result<Expr, QueryError> {
     let (mut name, mut at) = (name.to_owned(), at);
     if name.is_empty() && cursor.peek().is_some_and(is_quote) {
-        let word = cursor.word(Place::Value)?;
+        let word = cursor.word(WordContext::Value)?;
         name = word.pattern.segments().join("*");
         at = at.to(word.at);
     }
@@ -264,7 +264,7 @@ fn saved_search(cursor: &mut Cursor<'_>, at: At, name: &str) -> Result<Expr, Que
 fn example_follows(cursor: &Cursor<'_>) -> bool {
     let mut ahead = cursor.clone();
     ahead.skip_blanks();
-    let at = ahead.bare(Place::Value);
+    let at = ahead.bare(WordContext::Value);
     let word = ahead.text(at);
     word.starts_with("token:") || word.starts_with("sign:")
 }
@@ -285,7 +285,7 @@ fn operator_follows(cursor: &Cursor<'_>) -> bool {
 fn comparison_follows(cursor: &Cursor<'_>) -> bool {
     let mut ahead = cursor.clone();
     ahead.skip_blanks();
-    let at = ahead.bare(Place::Term);
+    let at = ahead.bare(WordContext::Term);
     operator_follows(&ahead) || ahead.text(at) == words::TIER && opens(&ahead)
 }
 
@@ -309,11 +309,11 @@ fn within(cursor: &mut Cursor<'_>, at: At) -> Result<Relation, QueryError> {
     }
     let distance = times::time(cursor)?;
     cursor.skip_blanks();
-    let mut kind_at = cursor.bare(Place::Term);
+    let mut kind_at = cursor.bare(WordContext::Term);
     let mut kind = cursor.text(kind_at);
     if kind == "of" {
         cursor.skip_blanks();
-        kind_at = kind_at.to(cursor.bare(Place::Term));
+        kind_at = kind_at.to(cursor.bare(WordContext::Term));
         kind = cursor
             .text(kind_at)
             .split_whitespace()
@@ -341,13 +341,13 @@ fn related(cursor: &mut Cursor<'_>, at: At, relation: Relation) -> Result<Expr, 
         let name = cursor.text(at);
         let message = format!("`{name}` needs a comparison on its right");
         let remedy = format!("{REMEDY}; to search for the word, write it in quotes: \"{name}\"");
-        let found = cursor.bare(Place::Term);
+        let found = cursor.bare(WordContext::Term);
         let word = cursor.text(found);
         let searched = !word.is_empty() && !words::is_reserved(&word);
         let gloss = searched.then(|| format!("gloss={word}"));
         return Err(QueryError::new(found, message, remedy).suggest(gloss));
     }
-    let word = cursor.bare(Place::Term);
+    let word = cursor.bare(WordContext::Term);
     let other = if cursor.text(word) == words::TIER && opens(cursor) {
         compare::tier_test(cursor, word)?
     } else {
@@ -383,7 +383,7 @@ fn related(cursor: &mut Cursor<'_>, at: At, relation: Relation) -> Result<Expr, 
 fn like(cursor: &mut Cursor<'_>, at: At) -> Result<Expr, QueryError> {
     const REMEDY: &str = "write like token:41 or like CHAT, and then, if not all components count, on configuration, placement";
     cursor.skip_blanks();
-    let word = cursor.word(Place::Value)?;
+    let word = cursor.word(WordContext::Value)?;
     if word.at.start == word.at.end || cursor.text(word.at) == words::ON {
         let remedy = format!("{REMEDY}; to search for the word, write it in quotes: \"like\"");
         return Err(QueryError::new(word.at, "`like` needs an example", remedy));
@@ -399,7 +399,7 @@ fn like(cursor: &mut Cursor<'_>, at: At) -> Result<Expr, QueryError> {
     };
     let mut ahead = cursor.clone();
     ahead.skip_blanks();
-    let joint_at = ahead.bare(Place::Term);
+    let joint_at = ahead.bare(WordContext::Term);
     let joint = ahead.text(joint_at);
     let on = [words::ON, words::FRENCH_ON].contains(&&joint[..]);
     if on && !operator_follows(&ahead) {
@@ -422,12 +422,12 @@ fn like(cursor: &mut Cursor<'_>, at: At) -> Result<Expr, QueryError> {
 fn threshold(cursor: &mut Cursor<'_>) -> Result<Option<f64>, QueryError> {
     let mut ahead = cursor.clone();
     ahead.skip_blanks();
-    let word = ahead.bare(Place::Term);
+    let word = ahead.bare(WordContext::Term);
     if ahead.text(word) != words::ABOVE || operator_follows(&ahead) {
         return Ok(None);
     }
     ahead.skip_blanks();
-    let at = ahead.bare(Place::Value);
+    let at = ahead.bare(WordContext::Value);
     let text = ahead.text(at);
     let least = match text.strip_suffix('%') {
         Some(hundredths) => hundredths.parse::<f64>().map(|it| it / 100.0),
@@ -473,7 +473,7 @@ fn example(cursor: &mut Cursor<'_>, word: Word, remedy: &str) -> Result<(Example
     }
     let (mut name, mut at) = (name.to_owned(), word.at);
     if name.is_empty() && cursor.peek().is_some_and(is_quote) {
-        let rest = cursor.word(Place::Value)?;
+        let rest = cursor.word(WordContext::Value)?;
         at = at.to(rest.at);
         name = rest.pattern.as_literal().unwrap_or_default().to_owned();
     }
@@ -495,7 +495,7 @@ fn weighted_fields(cursor: &mut Cursor<'_>) -> Result<Vec<Weighted>, QueryError>
     let mut fields = Vec::new();
     loop {
         cursor.skip_blanks();
-        let at = cursor.bare(Place::Term);
+        let at = cursor.bare(WordContext::Term);
         if at.start == at.end {
             return Err(QueryError::new(
                 cursor.next(0),
@@ -524,7 +524,7 @@ fn weighted_fields(cursor: &mut Cursor<'_>) -> Result<Vec<Weighted>, QueryError>
 }
 
 fn weight(cursor: &mut Cursor<'_>) -> Result<f64, QueryError> {
-    let at = cursor.bare(Place::Value);
+    let at = cursor.bare(WordContext::Value);
     let text = cursor.text(at);
     match text.parse::<f64>() {
         Ok(weight) if weight > 0.0 && weight <= 1000.0 => Ok(weight),

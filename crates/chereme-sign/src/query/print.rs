@@ -1,6 +1,6 @@
 //! Canonical text of a query.
 
-use super::lex::{self, Place};
+use super::lex::{self, WordContext};
 use super::tree::{
     Comparison, Example, Expr, Feature, Like, Operator, Query, Related, Test, TextField, TimeTest,
     Value, Wanted, What,
@@ -40,7 +40,7 @@ impl Display for Expr {
 impl Display for Saved {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_char('@')?;
-        let bare = lex::is_bare(&self.name, Place::Term);
+        let bare = lex::is_bare(&self.name, WordContext::Term);
         if bare && !self.name.contains(['*', '\\']) {
             f.write_str(&self.name)
         } else {
@@ -190,7 +190,7 @@ pub(super) fn write_value(f: &mut impl Write, pattern: &Pattern) -> fmt::Result 
 fn write_term(f: &mut impl Write, pattern: &Pattern) -> fmt::Result {
     match bare(pattern) {
         Some(text)
-            if lex::is_bare(&text, Place::Term)
+            if lex::is_bare(&text, WordContext::Term)
                 && !text.starts_with('@')
                 && !words::is_reserved(&text)
                 && words::near_relation(&text).is_none() =>
@@ -210,7 +210,7 @@ fn write_quotable(
         return write_expression(f, expression.source());
     }
     match bare(pattern) {
-        Some(text) if lex::is_bare(&text, Place::Value) && plain(&text) => f.write_str(&text),
+        Some(text) if lex::is_bare(&text, WordContext::Value) && plain(&text) => f.write_str(&text),
         _ => write_quoted(f, pattern),
     }
 }

@@ -1,6 +1,6 @@
 //! Reading the values on the right of an operator.
 
-use super::lex::{Cursor, Place, Word};
+use super::lex::{Cursor, Word, WordContext};
 use super::tree::{At, Feature, Value, Wanted};
 use super::{QueryError, lex, parse, words};
 
@@ -35,7 +35,7 @@ fn missing_value(cursor: &Cursor<'_>) -> QueryError {
         ),
         Some('=') => (1, "a value with = in it is written in quotes"),
         _ if parse::next_joint(cursor).is_some() => (
-            cursor.clone().bare(Place::Term).range().len(),
+            cursor.clone().bare(WordContext::Term).range().len(),
             "a value that is a joint is written in quotes",
         ),
         _ => (0, "write a value, * for any, or unset, n/a or unclear"),
@@ -45,10 +45,10 @@ fn missing_value(cursor: &Cursor<'_>) -> QueryError {
 
 /// Reads a bare or quoted word that is not empty.
 pub(super) fn filled_word(cursor: &mut Cursor<'_>) -> Result<Word, QueryError> {
-    filled(cursor, Place::Value)
+    filled(cursor, WordContext::Value)
 }
 
-fn filled(cursor: &mut Cursor<'_>, place: Place) -> Result<Word, QueryError> {
+fn filled(cursor: &mut Cursor<'_>, place: WordContext) -> Result<Word, QueryError> {
     let word = cursor.word(place)?;
     if word.at.start == word.at.end {
         return Err(missing_value(cursor));
@@ -71,7 +71,7 @@ const MOST_STEPS: usize = 6;
 pub(super) fn path(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
     const REMEDY: &str =
         "write for example placement=head > chest, placement=head > * or * > chest";
-    let first = one(cursor, Place::Step)?;
+    let first = one(cursor, WordContext::Step)?;
     let start = first.at.start;
     let mut steps = vec![first];
     loop {
@@ -82,7 +82,7 @@ pub(super) fn path(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
         }
         ahead.skip_blanks();
         *cursor = ahead;
-        steps.push(one(cursor, Place::Step)?);
+        steps.push(one(cursor, WordContext::Step)?);
     }
     if steps.len() > MOST_STEPS {
         let message = format!("more than {MOST_STEPS} values follow each other here");
@@ -105,10 +105,10 @@ pub(super) fn path(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
 
 /// Reads one value of a field.
 pub(super) fn value(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
-    one(cursor, Place::Value)
+    one(cursor, WordContext::Value)
 }
 
-fn one(cursor: &mut Cursor<'_>, place: Place) -> Result<Value, QueryError> {
+fn one(cursor: &mut Cursor<'_>, place: WordContext) -> Result<Value, QueryError> {
     if cursor.peek() == Some('[') {
         return features(cursor);
     }

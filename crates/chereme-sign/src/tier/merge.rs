@@ -1,12 +1,12 @@
 //! Cuts an annotation in two, and merges two into one.
 
 use super::error::EditError;
-use super::plan::{Done, Plan, hull};
+use super::plan::{Done, EditPlan, hull};
 use super::{Annotation, AnnotationId, Seam, Stereotype, Tier, share};
 use crate::component::Reading;
 use chereme_motion::{Instant, Span};
 
-impl Plan<'_> {
+impl EditPlan<'_> {
     pub(super) fn split(&mut self, id: AnnotationId, at: Instant) -> Done {
         let (old, _) = self.aligned(id)?;
         if !(old.span.start() < at && at < old.span.end()) {

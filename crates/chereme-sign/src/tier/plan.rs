@@ -66,7 +66,7 @@ pub fn plan(
     if let Some(violation) = check_tiers(set).into_iter().next() {
         return Err(violation.into());
     }
-    let mut plan = Plan {
+    let mut plan = EditPlan {
         set,
         fresh,
         puts: Vec::new(),
@@ -101,7 +101,7 @@ pub fn plan(
     Ok(plan.edits())
 }
 
-pub(super) struct Plan<'a> {
+pub(super) struct EditPlan<'a> {
     pub(super) set: &'a TierSet,
     pub(super) fresh: &'a mut dyn FnMut() -> AnnotationId,
     pub(super) puts: Vec<Annotation>,
@@ -111,7 +111,7 @@ pub(super) struct Plan<'a> {
 
 pub(super) type Done = Result<(), EditError>;
 
-impl<'a> Plan<'a> {
+impl<'a> EditPlan<'a> {
     fn edits(self) -> Vec<Edit> {
         let unchanged = |new: &Annotation| self.set.annotation(new.id) == Some(new);
         let puts = self

@@ -17,7 +17,7 @@ use chereme_corpus::MediaTrackRow;
 use chereme_motion::Instant;
 use eframe::egui::{Context, Id, Rect, Ui};
 
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::model::Snapshot;
 use screen::Screen;
 
@@ -90,7 +90,7 @@ impl Films {
     }
 
     /// Shows the films next to each other.
-    pub(crate) fn show(&self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, rect: Rect) {
+    pub(crate) fn show(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, rect: Rect) {
         ui::show(&mut self.screens.borrow_mut(), ui, seen, out, rect);
     }
 

@@ -23,7 +23,7 @@ const STACK: usize = 16 << 20;
 
 /// A request for a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Wish {
+pub(super) struct FilmRequest {
     pub(super) frame: usize,
     /// The largest size of the picture, in pixels.
     pub(super) within: [usize; 2],
@@ -65,7 +65,7 @@ pub(super) struct News {
 
 #[derive(Default)]
 struct Wished {
-    next: Option<Wish>,
+    next: Option<FilmRequest>,
     over: bool,
 }
 
@@ -106,7 +106,7 @@ impl Projector {
     }
 
     /// Requests a picture; an earlier request that has not been started is dropped.
-    pub(super) fn wish(&self, wish: Wish) {
+    pub(super) fn wish(&self, wish: FilmRequest) {
         held(&self.shared.wish).next = Some(wish);
         self.shared.wished.notify_one();
     }
@@ -147,11 +147,11 @@ fn open(shared: &Shared, track: MediaTrackRow, corpus: &Path) -> Option<Film> {
 
 /// Recently decoded pictures of a film.
 #[derive(Default)]
-struct Album(VecDeque<(Wish, Arc<ColorImage>)>);
+struct Album(VecDeque<(FilmRequest, Arc<ColorImage>)>);
 
 impl Album {
-    fn find(&self, wish: Wish) -> Option<Arc<ColorImage>> {
-        let same = |it: &Wish| it.frame == wish.frame && it.within == wish.within;
+    fn find(&self, wish: FilmRequest) -> Option<Arc<ColorImage>> {
+        let same = |it: &FilmRequest| it.frame == wish.frame && it.within == wish.within;
         let found = self.0.iter().find(|(it, _)| same(it));
         found.map(|(_, image)| image.clone())
     }
@@ -160,7 +160,7 @@ impl Album {
     fn picture(
         &mut self,
         film: &mut Film,
-        wish: Wish,
+        wish: FilmRequest,
         stop: &dyn Fn() -> bool,
     ) -> chereme_corpus::Result<Option<Arc<ColorImage>>> {
         if let Some(image) = self.find(wish) {
@@ -191,7 +191,7 @@ fn project(shared: &Shared, mut film: Film, wake: &dyn Fn()) {
     while let Some(wish) = shared.next() {
         let overtaken = || {
             let wished = held(&shared.wish);
-            let other = |next: &Wish| !(wish.frame..wish.frame + NEAR).contains(&next.frame);
+            let other = |next: &FilmRequest| !(wish.frame..wish.frame + NEAR).contains(&next.frame);
             wished.over || wished.next.as_ref().is_some_and(other)
         };
         let mut publish = |frame: usize, image: Arc<ColorImage>| {
@@ -210,7 +210,7 @@ fn project(shared: &Shared, mut film: Film, wake: &dyn Fn()) {
         let on_the_way = (begin..=wish.frame).contains(&last);
         let from = if on_the_way { last } else { begin };
         if wish.frame - from > FAR && album.find(wish).is_none() {
-            let quick = Wish {
+            let quick = FilmRequest {
                 frame: begin,
                 ..wish
             };
@@ -233,7 +233,7 @@ fn project(shared: &Shared, mut film: Film, wake: &dyn Fn()) {
         if wish.playing {
             let busy = || held(&shared.wish).next.is_some() || held(&shared.wish).over;
             for frame in (wish.frame + 1..times.frames()).take(AHEAD) {
-                let ahead = Wish { frame, ..wish };
+                let ahead = FilmRequest { frame, ..wish };
                 if busy() || !matches!(album.picture(&mut film, ahead, &busy), Ok(Some(_))) {
                     break;
                 }
@@ -244,7 +244,7 @@ fn project(shared: &Shared, mut film: Film, wake: &dyn Fn()) {
 }
 
 impl Shared {
-    fn next(&self) -> Option<Wish> {
+    fn next(&self) -> Option<FilmRequest> {
         let mut wish = held(&self.wish);
         loop {
             if wish.over {

@@ -7,7 +7,7 @@ use chereme_corpus::{FilmTimes, MediaTrackRow};
 use chereme_motion::Instant;
 use eframe::egui::{Context, TextureHandle, TextureOptions};
 
-use super::projector::{Known, News, Projector, Wish};
+use super::projector::{FilmRequest, Known, News, Projector};
 
 /// A film with its current picture.
 pub(super) struct Screen {
@@ -17,7 +17,7 @@ pub(super) struct Screen {
     pub(super) texture: Option<TextureHandle>,
     /// The serial number of the picture in the texture.
     held: u64,
-    wished: Option<Wish>,
+    wished: Option<FilmRequest>,
     /// The frame that stays while the recording moves, so that the film can be aligned with the recording.
     pub(super) loose: Option<usize>,
     /// The start of the film while the user drags it, in microseconds on the recording's clock.
@@ -113,7 +113,7 @@ impl Screen {
                 }
             }
         }
-        let wish = frame.map(|frame| Wish {
+        let wish = frame.map(|frame| FilmRequest {
             frame,
             within,
             playing,

@@ -9,9 +9,9 @@ use eframe::egui::{
 
 use super::projector::Known;
 use super::screen::Screen;
-use crate::choose::Choose;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
+use crate::file_dialogs::Choose;
 use crate::panes::inspector::Thing;
 use crate::words::{fill, film as words};
 use crate::work::Work;
@@ -27,7 +27,7 @@ const MOST: [usize; 2] = [1280, 1280];
 pub(super) fn show(
     screens: &mut [Screen],
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     rect: Rect,
 ) {
@@ -60,7 +60,7 @@ fn columns(count: usize, room: egui::Vec2) -> usize {
     best.unwrap_or(1)
 }
 
-fn one(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, cell: Rect) {
+fn one(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, cell: Rect) {
     let player = &seen.shown.player;
     let at = player.playhead();
     let line = Rect::from_min_max(pos2(cell.left(), cell.bottom() - LINE), cell.max);
@@ -116,7 +116,7 @@ fn one(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, cell
 }
 
 /// Shows the picture, or the reason for its absence.
-fn picture(screen: &Screen, ui: &Ui, seen: &Seen<'_>, room: Rect, frame: usize) {
+fn picture(screen: &Screen, ui: &Ui, seen: &PaneInput<'_>, room: Rect, frame: usize) {
     if let Some(texture) = &screen.texture {
         let size = texture.size_vec2();
         let share = (room.width() / size.x).min(room.height() / size.y);
@@ -154,7 +154,7 @@ fn told(ui: &Ui, room: Rect, text: &str) {
 }
 
 /// Offers remedies for a film that cannot be found.
-fn missing(screen: &Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+fn missing(screen: &Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     if ui.small_button(seen.say(words::FIND)).clicked() {
         let (recording, track) = (screen.track.recording_id, screen.track.id);
         out.send(Command::Choose(Choose::Media(recording, Some(track))));
@@ -168,7 +168,7 @@ fn missing(screen: &Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
 
 /// Shows the controls of the film: step by frames, hold a frame, align the held frame with the playhead, and the film's
 /// start.
-fn controls(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, at: Instant) {
+fn controls(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, at: Instant) {
     let Some(times) = screen.times().cloned() else {
         return;
     };
@@ -225,7 +225,7 @@ fn controls(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox,
 
 /// Shows the start of the film on the recording's clock, to be dragged or typed; the corpus is changed once, on
 /// release.
-fn offset(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+fn offset(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let mut seconds = screen.offset() as f64 / 1e6;
     let field = DragValue::new(&mut seconds)
         .speed(0.005)

@@ -5,7 +5,7 @@ use crate::words::{Language, Text, gestures as words};
 
 /// A key that is held during the gesture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Held {
+pub(crate) enum HeldKey {
     Ctrl,
     Shift,
     Alt,
@@ -28,7 +28,7 @@ pub(crate) enum Act {
 pub(crate) struct Gesture {
     /// The group of keys in the help that lists the gesture.
     pub(crate) menu: Menu,
-    pub(crate) held: Option<Held>,
+    pub(crate) held: Option<HeldKey>,
     pub(crate) act: Act,
     /// The object of the gesture.
     pub(crate) on: Text,
@@ -48,7 +48,7 @@ macro_rules! gestures {
             },)*
         ];
     };
-    (@ $held:ident) => { Some(Held::$held) };
+    (@ $held:ident) => { Some(HeldKey::$held) };
     (@) => { None };
 }
 
@@ -102,9 +102,9 @@ impl Gesture {
             Act::Wheel => words::WHEEL,
         };
         let held = match self.held {
-            Some(Held::Ctrl) => "Ctrl+",
-            Some(Held::Shift) => "Shift+",
-            Some(Held::Alt) => "Alt+",
+            Some(HeldKey::Ctrl) => "Ctrl+",
+            Some(HeldKey::Shift) => "Shift+",
+            Some(HeldKey::Alt) => "Alt+",
             None => "",
         };
         format!("{held}{} · {}", act.of(language), self.on.of(language))

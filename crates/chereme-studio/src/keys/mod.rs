@@ -45,7 +45,7 @@ pub(crate) type Rebound = BTreeMap<String, Vec<Chord>>;
 
 /// The state of the window when a key is pressed.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct KeyContext {
     /// Whether a corpus is open.
     pub(crate) corpus: bool,
     /// The pane that was used last.
@@ -115,7 +115,7 @@ impl Keys {
     }
 
     /// Returns the action of `chord` in the state `place`: an action of the pane takes precedence.
-    pub(crate) fn action(&self, chord: Chord, place: Place) -> Option<Action> {
+    pub(crate) fn action(&self, chord: Chord, place: KeyContext) -> Option<Action> {
         let taken = (place.typing && chord.is_for_text())
             || (place.menu && !chord.ctrl && !chord.alt)
             || (place.focused && chord.is_for_widgets())
@@ -145,7 +145,7 @@ impl Keys {
     pub(crate) fn take(
         &self,
         input: &mut InputState,
-        place: Place,
+        place: KeyContext,
     ) -> Option<(Action, Option<String>)> {
         // egui reports these keys as copy, cut and paste events.
         let clipboard = |key| self.action(Chord::new(key, Modifiers::COMMAND), place);
@@ -180,7 +180,7 @@ impl Keys {
 mod tests {
     use super::*;
 
-    const AT: Place = Place {
+    const AT: KeyContext = KeyContext {
         corpus: true,
         pane: None,
         typing: false,
@@ -232,12 +232,12 @@ mod tests {
 
     #[test]
     fn keys_typed_over_an_open_menu_reach_nothing_below_it() {
-        let menu = Place { menu: true, ..AT };
+        let menu = KeyContext { menu: true, ..AT };
         for (keymap, _) in Keymap::ALL {
             let keys = Keys::new(keymap, &Rebound::new());
             for row in ACTIONS {
                 let place = match row.context {
-                    Context::Pane(pane) => Place {
+                    Context::Pane(pane) => KeyContext {
                         pane: Some(pane),
                         ..menu
                     },
@@ -256,7 +256,7 @@ mod tests {
     #[test]
     fn typing_keeps_its_keys() {
         let keys = Keys::new(Keymap::Editor, &Rebound::new());
-        let typing = Place { typing: true, ..AT };
+        let typing = KeyContext { typing: true, ..AT };
         assert_eq!(keys.action(chord("L"), AT), Some(Action::ShuttleForward));
         assert_eq!(keys.action(chord("L"), typing), None);
         assert_eq!(keys.action(chord("Ctrl+Z"), typing), None);
@@ -267,7 +267,7 @@ mod tests {
         assert_eq!(
             keys.action(
                 chord("Space"),
-                Place {
+                KeyContext {
                     focused: true,
                     ..AT
                 }
@@ -277,7 +277,7 @@ mod tests {
         assert_eq!(
             keys.action(
                 chord("L"),
-                Place {
+                KeyContext {
                     corpus: false,
                     ..AT
                 }

@@ -1,7 +1,7 @@
 //! The window's data about the corpus: an immutable snapshot, and the movement on the stage.
 
+pub(crate) mod generated;
 pub(crate) mod handle;
-pub(crate) mod made;
 pub(crate) mod reel;
 
 use std::collections::HashMap;

@@ -7,7 +7,7 @@ use eframe::egui::{Align2, Button, Context, Id, ProgressBar, RichText, ScrollAre
 
 use super::remedy;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::complete::Line;
 use crate::panes::import::Paths;
 use crate::panes::recombine::selected_token;
@@ -132,7 +132,7 @@ impl Export {
     }
 
     /// Returns what can be exported now, the selection first.
-    fn choices(&self, seen: &Seen<'_>) -> Vec<What> {
+    fn choices(&self, seen: &PaneInput<'_>) -> Vec<What> {
         let mut all = Vec::new();
         let selected = seen.shown.annotation().is_some() || seen.shown.span.is_some();
         if let Some((token, gloss)) = selected_token(seen).filter(|_| selected) {
@@ -164,7 +164,7 @@ impl Export {
     pub(crate) fn ui(
         &mut self,
         ctx: &Context,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         settings: &Settings,
         corpus: &Path,
         out: &mut Outbox,
@@ -190,7 +190,7 @@ impl Export {
     fn form(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         (settings, corpus): (&Settings, &Path),
         out: &mut Outbox,
     ) {
@@ -279,7 +279,7 @@ impl Export {
     fn buttons(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         settings: &Settings,
         what: &What,
         out: &mut Outbox,
@@ -349,7 +349,7 @@ pub(crate) fn written_text(report: &ExportReport) -> Text {
     }
 }
 
-fn what_text(seen: &Seen<'_>, what: &What) -> String {
+fn what_text(seen: &PaneInput<'_>, what: &What) -> String {
     match what {
         What::Token(_, gloss) => fill(seen.say(words::TOKEN), &[("name", gloss)]),
         What::Tier(_, name) => fill(seen.say(words::TIER), &[("name", name)]),

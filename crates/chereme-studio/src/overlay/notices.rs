@@ -24,7 +24,7 @@ const MOST: usize = 4;
 
 /// The kind of a notice: each has a colour, and a shape that can be recognised without colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum NoticeKind {
     /// Something was done.
     Done,
     /// A warning: an impossible action, or a change by others.
@@ -33,7 +33,7 @@ pub(crate) enum Kind {
     Error,
 }
 
-impl Kind {
+impl NoticeKind {
     fn colour(self, colours: &Colours) -> Color32 {
         match self {
             Self::Done => colours.good,
@@ -55,7 +55,7 @@ impl Kind {
 #[derive(Debug, Clone)]
 pub(crate) struct Notice {
     id: u64,
-    pub(crate) kind: Kind,
+    pub(crate) kind: NoticeKind,
     /// Whether it appears in the status line only, as it reports the user's own action.
     quiet: bool,
     /// Commands that the notice offers as remedies, with their labels.
@@ -84,7 +84,7 @@ pub(crate) struct Notices {
 impl Notices {
     /// Reports something done; the notice disappears by itself.
     pub(crate) fn hint(&mut self, text: impl Into<String>) {
-        self.add(Kind::Done, text.into(), None, false);
+        self.add(NoticeKind::Done, text.into(), None, false);
     }
 
     /// Reports the user's own action, at the end of the status line only.
@@ -97,18 +97,18 @@ impl Notices {
 
     /// Shows a warning, such as why something cannot be done; it disappears by itself.
     pub(crate) fn warn(&mut self, text: impl Into<String>) {
-        self.add(Kind::Warning, text.into(), None, false);
+        self.add(NoticeKind::Warning, text.into(), None, false);
     }
 
     /// Shows a notice that stays.
     pub(crate) fn say(&mut self, text: &str, remedy: Option<&str>) {
         let remedy = remedy.map(str::to_owned);
-        self.add(Kind::Warning, text.to_owned(), remedy, true);
+        self.add(NoticeKind::Warning, text.to_owned(), remedy, true);
     }
 
     /// Shows a failure that stays, with commands that can help at once.
     pub(crate) fn offer(&mut self, text: String, remedy: &str, offers: Vec<(Text, Command)>) {
-        self.add(Kind::Error, text, Some(remedy.to_owned()), true);
+        self.add(NoticeKind::Error, text, Some(remedy.to_owned()), true);
         if let Some(notice) = self.all.last_mut() {
             notice.offers = offers;
         }
@@ -128,7 +128,7 @@ impl Notices {
         let told = trouble::told(error, task, language);
         self.all
             .retain(|notice| notice.detail != told.detail || told.detail.is_none());
-        self.add(Kind::Error, told.text, told.remedy, true);
+        self.add(NoticeKind::Error, told.text, told.remedy, true);
         if let Some(notice) = self.all.last_mut() {
             notice.detail = told.detail;
             notice.passes = matches!(error.cause(), Some(Cause::Full | Cause::Busy));
@@ -138,7 +138,7 @@ impl Notices {
     /// Reports that the settings could not be written.
     pub(crate) fn unsaved(&mut self, error: &dyn Display, language: Language) {
         self.add(
-            Kind::Error,
+            NoticeKind::Error,
             words::SETTINGS_UNSAVED.of(language).to_owned(),
             Some(error.to_string()),
             true,
@@ -210,7 +210,7 @@ impl Notices {
         };
         self.say(&fill(text.of(language), &[("n", &n)]), None);
         if let (false, Some(notice)) = (report.ok, self.all.last_mut()) {
-            notice.kind = Kind::Error;
+            notice.kind = NoticeKind::Error;
         }
         let faults = report.faults.iter();
         let faults = faults.map(|it| format!("{}: {} ({})", it.place, it.message, it.remedy));
@@ -224,7 +224,7 @@ impl Notices {
         self.all.retain(|notice| notice.id != id);
     }
 
-    fn add(&mut self, kind: Kind, text: String, remedy: Option<String>, stays: bool) {
+    fn add(&mut self, kind: NoticeKind, text: String, remedy: Option<String>, stays: bool) {
         self.all.retain(|notice| {
             // A hint replaces the hint before it; a notice that must be dismissed stays.
             notice.text != text && (stays || notice.stays || notice.since.is_none())
@@ -336,7 +336,7 @@ const WIDEST: f32 = 420.0;
 const MARK: f32 = 14.0;
 
 /// Paints the mark of a notice's kind: a tick in a disc, an exclamation mark in a triangle, or a cross in a square.
-fn mark(ui: &mut Ui, kind: Kind, language: Language) {
+fn mark(ui: &mut Ui, kind: NoticeKind, language: Language) {
     let colours = Colours::of(theme::is_dark(ui.ctx()));
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(MARK), Sense::hover());
     let name = kind.name().of(language);
@@ -346,18 +346,18 @@ fn mark(ui: &mut Ui, kind: Kind, language: Language) {
     let painter = ui.painter();
     let at = |x: f32, y: f32| centre + vec2(x, y);
     match kind {
-        Kind::Done => {
+        NoticeKind::Done => {
             painter.circle_filled(centre, 6.5, colour);
             painter.line_segment([at(-3.0, 0.2), at(-0.8, 2.6)], ink);
             painter.line_segment([at(-0.8, 2.6), at(3.2, -2.4)], ink);
         }
-        Kind::Warning => {
+        NoticeKind::Warning => {
             let points = vec![at(0.0, -6.5), at(7.0, 6.0), at(-7.0, 6.0)];
             painter.add(Shape::convex_polygon(points, colour, Stroke::NONE));
             painter.line_segment([at(0.0, -2.6), at(0.0, 1.8)], ink);
             painter.line_segment([at(0.0, 3.2), at(0.0, 4.8)], ink);
         }
-        Kind::Error => {
+        NoticeKind::Error => {
             painter.rect_filled(rect.shrink(0.5), 2.0, colour);
             painter.line_segment([at(-3.0, -3.0), at(3.0, 3.0)], ink);
             painter.line_segment([at(-3.0, 3.0), at(3.0, -3.0)], ink);
@@ -483,15 +483,22 @@ mod tests {
         ] {
             notices.of(&outcome, Language::English);
             let last = notices.all.last().expect("a notice");
-            assert_eq!((last.text.as_str(), last.kind), (want, Kind::Done));
+            assert_eq!((last.text.as_str(), last.kind), (want, NoticeKind::Done));
         }
         notices.warn("no");
-        assert_eq!(notices.all.last().map(|it| it.kind), Some(Kind::Warning));
+        assert_eq!(
+            notices.all.last().map(|it| it.kind),
+            Some(NoticeKind::Warning)
+        );
         notices.trouble(&Error::wrong("no"), None, Language::English);
-        assert_eq!(notices.all.last().map(|it| it.kind), Some(Kind::Error));
+        assert_eq!(
+            notices.all.last().map(|it| it.kind),
+            Some(NoticeKind::Error)
+        );
         for dark in [false, true] {
             let colours = Colours::of(dark);
-            let all = [Kind::Done, Kind::Warning, Kind::Error].map(|it| it.colour(colours));
+            let all = [NoticeKind::Done, NoticeKind::Warning, NoticeKind::Error]
+                .map(|it| it.colour(colours));
             assert!(all[0] != all[1] && all[1] != all[2] && all[0] != all[2]);
         }
         notices.offer(

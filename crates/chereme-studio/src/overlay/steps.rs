@@ -10,8 +10,8 @@ use eframe::egui::{
 
 use crate::action::Action;
 use crate::keys::Keys;
-use crate::little::{self, Figures, Focus};
-use crate::model::made::Made;
+use crate::miniatures::{self, Figures, Focus};
+use crate::model::generated::GeneratedClip;
 use crate::start::wall;
 use crate::theme::{self, Colours};
 use crate::words::{Language, Text, steps as words};
@@ -104,11 +104,11 @@ impl Loop {
         ui: &Ui,
         little: &Figures,
         language: Language,
-        sign: Option<&Arc<Made>>,
+        sign: Option<&Arc<GeneratedClip>>,
         rect: Rect,
     ) {
         let colours = Colours::of(theme::is_dark(ui.ctx()));
-        let clock = little::clock(ui);
+        let clock = miniatures::clock(ui);
         let share = (clock / LASTS).rem_euclid(1.0) as f32;
         let painter = ui.painter().with_clip_rect(rect);
         painter.rect_filled(rect, 6.0, ui.visuals().extreme_bg_color);

@@ -10,7 +10,7 @@ use crate::words::{Language, Text, fill, trouble as words};
 
 /// The report of a failure.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Told {
+pub(crate) struct FailureReport {
     pub(crate) text: String,
     pub(crate) remedy: Option<String>,
     /// The original message of the corpus, if the sentence does not contain all of it.
@@ -18,7 +18,7 @@ pub(crate) struct Told {
 }
 
 /// Returns the report of a failure of `task`, which is a noun such as `Import`.
-pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Told {
+pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> FailureReport {
     let helps = |remedy: &str| {
         let text = crate::words::shell::REMEDY.of(language);
         fill(text, &[("remedy", &remedy)])
@@ -26,7 +26,7 @@ pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Tol
     let of_corpus = || remedy::here(&error.remedy()?, language);
     if language == Language::English {
         let own = remedy_here(error).map(|it| it.of(language).to_owned());
-        return Told {
+        return FailureReport {
             text: error.to_string(),
             remedy: own.or_else(of_corpus).map(|it| helps(&it)),
             detail: None,
@@ -42,7 +42,7 @@ pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Tol
     let translated = message(&error.to_string(), language).is_some_and(|it| it == text);
     let whole = matches!(error, Error::File { .. }) && remedy.is_some() || translated;
     let remedy = remedy.map(|it| it.of(language).to_owned());
-    Told {
+    FailureReport {
         text,
         remedy: remedy.or(own.filter(|_| translated)).map(|it| helps(&it)),
         detail: (!whole).then_some(said),

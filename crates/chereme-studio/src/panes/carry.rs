@@ -9,8 +9,8 @@ use super::inspector::Thing;
 use super::{Carried, PaneKind};
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
-use crate::little::{self, Cell, Motion};
+use crate::context::{Outbox, PaneInput};
+use crate::miniatures::{self, Cell, Motion};
 use crate::words::{library as words, search};
 
 /// Side of the figure under the pointer, in points.
@@ -45,7 +45,7 @@ pub(crate) fn is_carrying(ctx: &Context) -> bool {
 }
 
 /// Returns the sign that is dropped over `rect`, if no widget there took it; marks the area meanwhile.
-pub(crate) fn let_go(ui: &Ui, seen: &Seen<'_>, rect: Rect) -> Option<Carried> {
+pub(crate) fn let_go(ui: &Ui, seen: &PaneInput<'_>, rect: Rect) -> Option<Carried> {
     let ctx = ui.ctx();
     let over = ctx.pointer_latest_pos().is_some_and(|at| rect.contains(at));
     if !over || !is_carrying(ctx) {
@@ -61,7 +61,7 @@ pub(crate) fn let_go(ui: &Ui, seen: &Seen<'_>, rect: Rect) -> Option<Carried> {
 }
 
 /// Draws the dragged sign under the pointer, above the panes.
-pub(crate) fn show(ctx: &Context, seen: &Seen<'_>, out: &mut Outbox) {
+pub(crate) fn show(ctx: &Context, seen: &PaneInput<'_>, out: &mut Outbox) {
     if !is_carrying(ctx) {
         return;
     }
@@ -81,7 +81,7 @@ pub(crate) fn show(ctx: &Context, seen: &Seen<'_>, out: &mut Outbox) {
             if let Some(motion) = picture.motion {
                 let (rect, _): (Rect, _) =
                     ui.allocate_exact_size(Vec2::splat(FIGURE), eframe::egui::Sense::hover());
-                let cell = Cell::new(motion, rect.size()).playing(little::clock(ui));
+                let cell = Cell::new(motion, rect.size()).playing(miniatures::clock(ui));
                 seen.little.paint(ui, seen, out, &cell, rect);
             }
             ui.label(picture.gloss);
@@ -116,7 +116,7 @@ impl Sprung {
 /// again.
 pub(crate) fn menu(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     (token, gloss, recording): (i64, &str, Option<i64>),
     out: &mut Outbox,
 ) {

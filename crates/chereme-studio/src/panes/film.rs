@@ -4,11 +4,11 @@ use eframe::egui::{Button, Rect, Sense, Ui, vec2};
 
 use super::{Acted, Pane};
 use crate::action::Action;
-use crate::choose::Choose;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
+use crate::file_dialogs::Choose;
 use crate::film::Films;
-use crate::little;
+use crate::miniatures;
 use crate::words::film as words;
 
 /// The pane.
@@ -16,7 +16,7 @@ use crate::words::film as words;
 pub(crate) struct FilmPane;
 
 impl Pane for FilmPane {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         Films::pane_is_seen(ui.ctx());
         let (whole, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
         if seen.films.are_there() {
@@ -26,7 +26,7 @@ impl Pane for FilmPane {
         }
     }
 
-    fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {
+    fn act(&mut self, action: Action, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
         let frames = match action {
             Action::FilmBack => -1,
             Action::FilmForward => 1,
@@ -43,9 +43,9 @@ impl Pane for FilmPane {
 }
 
 /// Shows that there is no film, and offers to link one.
-fn none(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, whole: Rect) {
+fn none(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, whole: Rect) {
     let above = whole.with_max_y(whole.bottom() - 44.0);
-    little::empty(ui, above, seen.say(words::NO_FILM));
+    miniatures::empty(ui, above, seen.say(words::NO_FILM));
     let Some(recording) = seen.shown.recording else {
         return;
     };

@@ -3,7 +3,6 @@
 //! To add one: a variant of [`PaneKind`] with its title, a field of [`Panes`] with its arms, a place in
 //! [`layout::of`](crate::layout::of), and an action that shows it.
 
-pub(crate) mod bare;
 pub(crate) mod carry;
 pub(crate) mod combo;
 pub(crate) mod complete;
@@ -20,6 +19,7 @@ pub(crate) mod recombine;
 pub(crate) mod search;
 pub(crate) mod stage;
 pub(crate) mod timeline;
+pub(crate) mod without_movement;
 
 use eframe::egui::{
     Align2, Color32, Id, Response, RichText, Role, Sense, StrokeKind, TextStyle, TextWrapMode, Ui,
@@ -28,7 +28,7 @@ use eframe::egui::{
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::{self, Text};
 use crate::work::{Ended, WorkId};
 
@@ -105,10 +105,10 @@ pub(crate) enum Acted {
 /// The interface of every pane.
 pub(crate) trait Pane {
     /// Draws the pane, and sends requests for the user's input in it.
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox);
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox);
 
     /// Carries out an action of this pane.
-    fn act(&mut self, _action: Action, _seen: &Seen<'_>, _out: &mut Outbox) -> Acted {
+    fn act(&mut self, _action: Action, _seen: &PaneInput<'_>, _out: &mut Outbox) -> Acted {
         Acted::No
     }
 

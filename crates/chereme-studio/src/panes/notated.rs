@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use chereme_corpus::Error;
 
-use super::bare::Bare;
+use super::without_movement::Bare;
 use crate::command::Command;
 use crate::context::Outbox;
-use crate::model::made::Made;
+use crate::model::generated::GeneratedClip;
 use crate::work::{Ended, Outcome, Work, WorkId};
 
 /// How many animated signs are kept.
@@ -20,7 +20,7 @@ pub(crate) struct Notated {
     /// The animation in progress: its work, its token, and its gloss.
     making: Option<(WorkId, i64, String)>,
     /// By token: the animated sign, or the reason why the animation failed.
-    made: BTreeMap<i64, Result<Arc<Made>, String>>,
+    made: BTreeMap<i64, Result<Arc<GeneratedClip>, String>>,
     /// The tokens in the order of their animation.
     order: VecDeque<i64>,
     /// The token and gloss to show on the stage as soon as it is animated.
@@ -31,7 +31,12 @@ pub(crate) struct Notated {
 
 impl Notated {
     /// Returns the movement of a token; if it is missing, requests it, one token at a time.
-    pub(crate) fn get(&mut self, token: i64, gloss: &str, out: &mut Outbox) -> Option<Arc<Made>> {
+    pub(crate) fn get(
+        &mut self,
+        token: i64,
+        gloss: &str,
+        out: &mut Outbox,
+    ) -> Option<Arc<GeneratedClip>> {
         if let Some(made) = self.made.get(&token) {
             return made.as_ref().ok().cloned();
         }
@@ -59,7 +64,7 @@ impl Notated {
     }
 
     /// Returns the movement to show on the stage, once; requests it if another animation was in progress.
-    fn wanted(&mut self, out: &mut Outbox) -> Option<Arc<Made>> {
+    fn wanted(&mut self, out: &mut Outbox) -> Option<Arc<GeneratedClip>> {
         let (token, gloss) = self.wanted.clone()?;
         let known = self.made.contains_key(&token);
         let made = self.get(token, &gloss, out);
@@ -92,9 +97,9 @@ impl Notated {
             return;
         };
         let made = match ended {
-            Ok(Outcome::Previewed(made)) => Ok(Arc::new(Made {
+            Ok(Outcome::Previewed(made)) => Ok(Arc::new(GeneratedClip {
                 name: gloss,
-                ..Made::notated(made, token)
+                ..GeneratedClip::notated(made, token)
             })),
             Err(Error::Stopped) | Ok(_) => Err(String::new()),
             Err(error) => Err(error.to_string()),

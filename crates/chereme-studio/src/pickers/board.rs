@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use super::hamnosys::{drawings, paint, short, told};
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::words::{Language, hamnosys as words};
 
 /// The side of a symbol's cell, and the height of the symbol in it, in points.
@@ -15,7 +15,7 @@ const CELL: f32 = 36.0;
 const EM: f32 = 24.0;
 
 /// Draws the button that opens the board; returns whether a symbol was added to `text` or removed from it.
-pub(crate) fn button(ui: &mut Ui, seen: &Seen<'_>, text: &mut String) -> bool {
+pub(crate) fn button(ui: &mut Ui, seen: &PaneInput<'_>, text: &mut String) -> bool {
     let response = ui.button(seen.say(words::BOARD));
     let screen = ui.ctx().content_rect().size();
     let filter = response.id.with("filter");
@@ -30,7 +30,7 @@ pub(crate) fn button(ui: &mut Ui, seen: &Seen<'_>, text: &mut String) -> bool {
     shown.is_some_and(|it| it.inner)
 }
 
-fn board(ui: &mut Ui, seen: &Seen<'_>, id: Id, fresh: bool, text: &mut String) -> bool {
+fn board(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, fresh: bool, text: &mut String) -> bool {
     let mut typed: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
     let hint = seen.say(words::FIND);
     let mut changed = false;
@@ -90,7 +90,7 @@ fn board(ui: &mut Ui, seen: &Seen<'_>, id: Id, fresh: bool, text: &mut String) -
     changed
 }
 
-fn cell(ui: &mut Ui, seen: &Seen<'_>, symbol: Symbol) -> bool {
+fn cell(ui: &mut Ui, seen: &PaneInput<'_>, symbol: Symbol) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(CELL, CELL), Sense::click());
     let meaning = words::meaning(short(symbol), seen.language).unwrap_or_default();
     response.widget_info(|| {

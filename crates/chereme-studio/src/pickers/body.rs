@@ -12,7 +12,7 @@ use super::areas::{self, Wanted};
 use super::cells::{Cell, Cells, State};
 use super::places::{self, Panel, is_part};
 use super::{Picker, gallery, paint};
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::words::{Text, pickers as words};
 
 /// The side of the focusable point in the middle of an area, for keyboard and screen readers, in points.
@@ -92,7 +92,7 @@ fn follow(picker: &mut Picker, cells: &Cells<'_>) {
     }
 }
 
-fn tabs(ui: &mut Ui, picker: &mut Picker, seen: &Seen<'_>) {
+fn tabs(ui: &mut Ui, picker: &mut Picker, seen: &PaneInput<'_>) {
     ui.horizontal(|ui| {
         for (tab, name) in Tab::ALL {
             let on = picker.tab == tab;
@@ -346,7 +346,7 @@ fn depth_of(value: &InventoryValue) -> usize {
 }
 
 /// Paints a small picture of a place's position; returns whether the place has one.
-pub(super) fn icon(ui: &Ui, rect: Rect, seen: &Seen<'_>, value: &InventoryValue) -> bool {
+pub(super) fn icon(ui: &Ui, rect: Rect, seen: &PaneInput<'_>, value: &InventoryValue) -> bool {
     let Some(landmark) = &value.landmark else {
         return false;
     };

@@ -4,9 +4,9 @@ use chereme_sign::Inventory;
 use chereme_sign::inventory::InventoryValue;
 use eframe::egui::{EventFilter, Id, Rect, Response, Role, Sense, Ui, WidgetInfo};
 
-use super::data::{self, Kind, walk};
+use super::data::{self, PickerForm, walk};
 use super::keys::Pressed;
-use super::{Picker, Seen};
+use super::{PaneInput, Picker};
 use crate::words::{fill, pickers as words};
 
 /// A value and its rectangle.
@@ -31,7 +31,7 @@ pub(super) struct State {
 
 /// The input that all cells of a picker share.
 pub(super) struct Cells<'a> {
-    pub(super) seen: &'a Seen<'a>,
+    pub(super) seen: &'a PaneInput<'a>,
     pub(super) inventory: &'a Inventory,
     pub(super) chosen: Option<&'a str>,
     pub(super) pressed: Pressed,
@@ -133,7 +133,10 @@ impl Cells<'_> {
         let chosen = self.chosen == Some(id);
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
         // Hands and places show their names at a separate place, so that they cover no neighbour.
-        if matches!(data::kind(self.inventory), Kind::Hands | Kind::Body) {
+        if matches!(
+            data::kind(self.inventory),
+            PickerForm::Hands | PickerForm::Body
+        ) {
             return response;
         }
         let tip = fill(self.seen.say(words::TIP), &[("value", &label)]);

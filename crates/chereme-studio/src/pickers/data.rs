@@ -13,7 +13,7 @@ use crate::words::Language;
 
 /// The form in which the values of an inventory are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum PickerForm {
     /// Pictures of hands.
     Hands,
     /// Places on a body.
@@ -27,17 +27,17 @@ pub(crate) enum Kind {
 }
 
 /// Returns the form in which the values of an inventory are shown.
-pub(crate) fn kind(inventory: &Inventory) -> Kind {
+pub(crate) fn kind(inventory: &Inventory) -> PickerForm {
     let any = |test: fn(&InventoryValue) -> bool| inventory.values.iter().any(test);
     let directed = |value: &InventoryValue| value.direction.is_some() || value.roll.is_some();
     match inventory.component {
         Component::Configuration if inventory.values.iter().any(|it| hand(it).is_some()) => {
-            Kind::Hands
+            PickerForm::Hands
         }
-        Component::Placement if any(|value| value.landmark.is_some()) => Kind::Body,
-        Component::Movement | Component::Orientation if any(directed) => Kind::Rose,
-        Component::Movement if inventory.feature.is_none() => Kind::Glyphs,
-        _ => Kind::Names,
+        Component::Placement if any(|value| value.landmark.is_some()) => PickerForm::Body,
+        Component::Movement | Component::Orientation if any(directed) => PickerForm::Rose,
+        Component::Movement if inventory.feature.is_none() => PickerForm::Glyphs,
+        _ => PickerForm::Names,
     }
 }
 
@@ -119,35 +119,35 @@ pub(crate) fn has_numbers(inventory: &Inventory) -> bool {
 }
 
 /// Returns the least size of a cell, in points.
-pub(crate) fn cell(kind: Kind) -> Vec2 {
+pub(crate) fn cell(kind: PickerForm) -> Vec2 {
     match kind {
-        Kind::Hands => vec2(84.0, 98.0),
-        Kind::Glyphs => vec2(84.0, 72.0),
+        PickerForm::Hands => vec2(84.0, 98.0),
+        PickerForm::Glyphs => vec2(84.0, 72.0),
         _ => vec2(150.0, 30.0),
     }
 }
 
 /// Returns the preferred width of a picker, in points.
-pub(crate) fn width(kind: Kind) -> f32 {
+pub(crate) fn width(kind: PickerForm) -> f32 {
     match kind {
-        Kind::Body => 780.0,
-        Kind::Hands => 660.0,
-        Kind::Rose | Kind::Glyphs => 460.0,
-        Kind::Names => 340.0,
+        PickerForm::Body => 780.0,
+        PickerForm::Hands => 660.0,
+        PickerForm::Rose | PickerForm::Glyphs => 460.0,
+        PickerForm::Names => 340.0,
     }
 }
 
 /// Returns the preferred height of a picker, in points.
-pub(crate) fn height(kind: Kind) -> f32 {
+pub(crate) fn height(kind: PickerForm) -> f32 {
     match kind {
-        Kind::Body => 560.0,
+        PickerForm::Body => 560.0,
         _ => 440.0,
     }
 }
 
 /// A direction for walking through cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Way {
+pub(crate) enum StepDirection {
     Left,
     Right,
     Up,
@@ -156,21 +156,21 @@ pub(crate) enum Way {
 
 /// Returns the next cell from `at` in a direction: the nearest of those that lie more in that direction than to its
 /// side. Without such a cell, left and right continue in the order of the cells.
-pub(crate) fn walk(rects: &[Rect], at: usize, way: Way) -> usize {
+pub(crate) fn walk(rects: &[Rect], at: usize, way: StepDirection) -> usize {
     let Some(here) = rects.get(at).map(Rect::center) else {
         return 0;
     };
     let away = |rect: &Rect| {
         let to = rect.center() - here;
         let (ahead, aside) = match way {
-            Way::Left => (-to.x, to.y.abs()),
-            Way::Right => (to.x, to.y.abs()),
-            Way::Up => (-to.y, to.x.abs()),
-            Way::Down => (to.y, to.x.abs()),
+            StepDirection::Left => (-to.x, to.y.abs()),
+            StepDirection::Right => (to.x, to.y.abs()),
+            StepDirection::Up => (-to.y, to.x.abs()),
+            StepDirection::Down => (to.y, to.x.abs()),
         };
         let most = match way {
-            Way::Left | Way::Right => 0.9,
-            Way::Up | Way::Down => 1.5,
+            StepDirection::Left | StepDirection::Right => 0.9,
+            StepDirection::Up | StepDirection::Down => 1.5,
         };
         (ahead > 1.0 && aside <= ahead * most).then_some(ahead + 2.0 * aside)
     };
@@ -181,8 +181,8 @@ pub(crate) fn walk(rects: &[Rect], at: usize, way: Way) -> usize {
         .min_by(|a, b| a.0.total_cmp(&b.0));
     match (nearest, way) {
         (Some((_, index)), _) => index,
-        (None, Way::Right) => (at + 1).min(rects.len() - 1),
-        (None, Way::Left) => at.saturating_sub(1),
+        (None, StepDirection::Right) => (at + 1).min(rects.len() - 1),
+        (None, StepDirection::Left) => at.saturating_sub(1),
         _ => at,
     }
 }
@@ -237,25 +237,25 @@ mod tests {
 
     #[test]
     fn every_inventory_of_the_house_is_shown_as_what_it_is() {
-        let kinds: Vec<(String, Kind)> = builtin()
+        let kinds: Vec<(String, PickerForm)> = builtin()
             .iter()
             .map(|it| (it.id.clone(), kind(it)))
-            .filter(|(_, kind)| *kind != Kind::Names)
+            .filter(|(_, kind)| *kind != PickerForm::Names)
             .collect();
-        let kinds: Vec<(&str, Kind)> = kinds
+        let kinds: Vec<(&str, PickerForm)> = kinds
             .iter()
             .map(|(id, kind)| (id.as_str(), *kind))
             .collect();
         assert_eq!(
             kinds,
             [
-                ("configurations", Kind::Hands),
-                ("lsf-alphabet", Kind::Hands),
-                ("placements", Kind::Body),
-                ("movements", Kind::Glyphs),
-                ("directions", Kind::Rose),
-                ("palm", Kind::Rose),
-                ("fingers", Kind::Rose),
+                ("configurations", PickerForm::Hands),
+                ("lsf-alphabet", PickerForm::Hands),
+                ("placements", PickerForm::Body),
+                ("movements", PickerForm::Glyphs),
+                ("directions", PickerForm::Rose),
+                ("palm", PickerForm::Rose),
+                ("fingers", PickerForm::Rose),
             ]
         );
         let configurations = builtin_by_id("configurations").expect("of the house");
@@ -287,14 +287,14 @@ mod tests {
             Rect::from_min_size(at, vec2(9.0, 9.0))
         };
         let rects: Vec<Rect> = (0..5).map(cell).collect();
-        assert_eq!(walk(&rects, 0, Way::Right), 1);
-        assert_eq!(walk(&rects, 2, Way::Right), 3);
-        assert_eq!(walk(&rects, 3, Way::Left), 2);
-        assert_eq!(walk(&rects, 1, Way::Down), 4);
-        assert_eq!(walk(&rects, 4, Way::Up), 1);
-        assert_eq!(walk(&rects, 4, Way::Down), 4);
-        assert_eq!(walk(&rects, 4, Way::Right), 4);
-        assert_eq!(walk(&rects, 0, Way::Left), 0);
-        assert_eq!(walk(&[], 3, Way::Left), 0);
+        assert_eq!(walk(&rects, 0, StepDirection::Right), 1);
+        assert_eq!(walk(&rects, 2, StepDirection::Right), 3);
+        assert_eq!(walk(&rects, 3, StepDirection::Left), 2);
+        assert_eq!(walk(&rects, 1, StepDirection::Down), 4);
+        assert_eq!(walk(&rects, 4, StepDirection::Up), 1);
+        assert_eq!(walk(&rects, 4, StepDirection::Down), 4);
+        assert_eq!(walk(&rects, 4, StepDirection::Right), 4);
+        assert_eq!(walk(&rects, 0, StepDirection::Left), 0);
+        assert_eq!(walk(&[], 3, StepDirection::Left), 0);
     }
 }

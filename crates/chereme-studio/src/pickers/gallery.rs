@@ -9,7 +9,7 @@ use eframe::egui::{ColorImage, Context, Id, TextureHandle, TextureId, TextureOpt
 /// Draws a picture; returns `None` if it cannot be drawn.
 type Drawing = Box<dyn FnOnce() -> Option<ColorImage> + Send>;
 
-struct Wish {
+struct PictureRequest {
     key: u64,
     draw: Drawing,
     /// The context to repaint when the picture is drawn.
@@ -18,7 +18,7 @@ struct Wish {
 
 /// The pictures of a window.
 struct Gallery {
-    wishes: Sender<Wish>,
+    wishes: Sender<PictureRequest>,
     drawn: Receiver<(u64, Option<ColorImage>)>,
     /// The requested pictures; `None` until drawn.
     textures: BTreeMap<u64, Option<TextureHandle>>,
@@ -26,11 +26,11 @@ struct Gallery {
 
 impl Gallery {
     fn new() -> Self {
-        let (wishes, orders) = channel::<Wish>();
+        let (wishes, orders) = channel::<PictureRequest>();
         let (tell, drawn) = channel();
         // The thread ends with the window, which holds the sender.
         std::thread::spawn(move || {
-            while let Ok(Wish { key, draw, ctx }) = orders.recv() {
+            while let Ok(PictureRequest { key, draw, ctx }) = orders.recv() {
                 if tell.send((key, draw())).is_err() {
                     return;
                 }
@@ -71,7 +71,7 @@ pub(super) fn picture(
         return texture.as_ref().map(TextureHandle::id);
     }
     gallery.textures.insert(key, None);
-    let wish = Wish {
+    let wish = PictureRequest {
         key,
         draw: Box::new(draw),
         ctx: ctx.clone(),

@@ -9,7 +9,7 @@ use eframe::egui::{
     Event, Pos2, Rect, Response, Role, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2,
 };
 
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::words::{fill, hamnosys as words};
 
 /// Usual height of a drawn symbol, in points.
@@ -50,14 +50,14 @@ fn laid(symbols: &[Symbol], em: f32, width: f32) -> Laid {
 }
 
 /// Shows text that is a notation, in symbols or in their names, as a drawing; returns `None` for other text.
-pub(crate) fn of_text(ui: &mut Ui, seen: &Seen<'_>, text: &str, em: f32) -> Option<Response> {
+pub(crate) fn of_text(ui: &mut Ui, seen: &PaneInput<'_>, text: &str, em: f32) -> Option<Response> {
     let names = to_names(text).ok()?;
     let symbols: Vec<Symbol> = names.into_iter().filter_map(Symbol::from_name).collect();
     (!symbols.is_empty()).then(|| strip(ui, seen, &symbols, em))
 }
 
 /// Shows symbols of `em` points. Hovering explains a symbol; a click takes the focus, and Copy copies all of them.
-pub(crate) fn strip(ui: &mut Ui, seen: &Seen<'_>, symbols: &[Symbol], em: f32) -> Response {
+pub(crate) fn strip(ui: &mut Ui, seen: &PaneInput<'_>, symbols: &[Symbol], em: f32) -> Response {
     let laid = laid(symbols, em, ui.available_width().max(em));
     let (rect, response) = ui.allocate_exact_size(laid.size, Sense::click());
     response.widget_info(|| {
@@ -114,7 +114,7 @@ pub(crate) fn strip(ui: &mut Ui, seen: &Seen<'_>, symbols: &[Symbol], em: f32) -
 }
 
 /// Explains a symbol: a large drawing, its name, and its meaning.
-pub(super) fn told(ui: &mut Ui, seen: &Seen<'_>, symbol: Symbol) {
+pub(super) fn told(ui: &mut Ui, seen: &PaneInput<'_>, symbol: Symbol) {
     const LARGE: f32 = 48.0;
     ui.horizontal(|ui| {
         let wide = drawings().get(&symbol).map_or(0.0, |it| it.width * LARGE);

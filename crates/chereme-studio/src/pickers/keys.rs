@@ -2,12 +2,12 @@
 
 use eframe::egui::{Event, Key, Modifiers, Ui};
 
-use super::data::Way;
+use super::data::StepDirection;
 
 /// The keys pressed in a picker in this frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Pressed {
-    pub(super) way: Option<Way>,
+    pub(super) way: Option<StepDirection>,
     pub(super) enter: bool,
     /// The index of the cell picked by a digit key.
     pub(super) digit: Option<usize>,
@@ -30,10 +30,10 @@ pub(super) fn take(ui: &Ui, digits: bool) -> Pressed {
     ui.input_mut(|input| {
         let mut pressed = |key| input.consume_key(Modifiers::NONE, key);
         let way = [
-            (Key::ArrowLeft, Way::Left),
-            (Key::ArrowRight, Way::Right),
-            (Key::ArrowUp, Way::Up),
-            (Key::ArrowDown, Way::Down),
+            (Key::ArrowLeft, StepDirection::Left),
+            (Key::ArrowRight, StepDirection::Right),
+            (Key::ArrowUp, StepDirection::Up),
+            (Key::ArrowDown, StepDirection::Down),
         ]
         .into_iter()
         .find(|(key, _)| pressed(*key))

@@ -32,12 +32,12 @@ use eframe::egui::{
 };
 
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::inspector::Thing;
 use crate::script::edit;
 use crate::words::{fill, pickers as words};
 use cells::{Cell, Cells};
-use data::Kind;
+use data::PickerForm;
 use keys::Pressed;
 
 /// A pane narrower than this, in points, has no room for an embedded picker.
@@ -69,14 +69,14 @@ pub(crate) struct Picker {
 
 impl Picker {
     /// Shows a value in the inspector if its details were requested with Ctrl and a click, or the other mouse button.
-    pub(crate) fn inspect(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+    pub(crate) fn inspect(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) {
         if let Some(thing) = self.asked(seen) {
             out.send(Command::Inspect(thing));
         }
     }
 
     /// Returns that value, and clears the request.
-    pub(crate) fn asked(&mut self, seen: &Seen<'_>) -> Option<Thing> {
+    pub(crate) fn asked(&mut self, seen: &PaneInput<'_>) -> Option<Thing> {
         let (inventory, value) = self.asked.take()?;
         let mut all = seen.snapshot.overview.inventories.iter();
         let stored = all.find(|it| it.inventory.id == inventory)?;
@@ -108,7 +108,7 @@ impl Picker {
 pub(crate) fn pick(
     ui: &mut Ui,
     picker: &mut Picker,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     inventory: &Inventory,
     chosen: Option<&str>,
 ) -> Option<String> {
@@ -129,9 +129,9 @@ pub(crate) fn pick(
             pressed,
         };
         let picked = match data::kind(inventory) {
-            Kind::Body => body::show(ui, picker, &cells, &shown),
-            Kind::Rose => rose::show(ui, picker, &cells, &shown),
-            Kind::Hands => hands(ui, picker, &cells, &shown),
+            PickerForm::Body => body::show(ui, picker, &cells, &shown),
+            PickerForm::Rose => rose::show(ui, picker, &cells, &shown),
+            PickerForm::Hands => hands(ui, picker, &cells, &shown),
             kind => grid(ui, picker, &cells, &shown, kind),
         };
         let at = picker.at.as_deref().and_then(|id| inventory.get(id));
@@ -150,7 +150,7 @@ pub(crate) fn pick(
 pub(crate) fn button(
     ui: &mut Ui,
     picker: &mut Picker,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     inventory: &Inventory,
     chosen: Option<&str>,
     name: &str,
@@ -165,7 +165,7 @@ pub(crate) fn below(
     ui: &mut Ui,
     response: &Response,
     picker: &mut Picker,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     (inventory, chosen, name): (&Inventory, Option<&str>, &str),
 ) -> Option<String> {
     if response.clicked() {
@@ -208,7 +208,7 @@ pub(crate) fn below(
 pub(crate) fn picture(
     ui: &Ui,
     rect: Rect,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     inventory: &Inventory,
     value: &str,
 ) -> bool {
@@ -217,7 +217,12 @@ pub(crate) fn picture(
         .is_some_and(|value| paint::value(ui, rect, seen, inventory, value))
 }
 
-fn filter(ui: &mut Ui, picker: &mut Picker, seen: &Seen<'_>, inventory: &Inventory) -> Pressed {
+fn filter(
+    ui: &mut Ui,
+    picker: &mut Picker,
+    seen: &PaneInput<'_>,
+    inventory: &Inventory,
+) -> Pressed {
     let id = ui.scope_id().with("filter");
     let focused = ui.memory(|memory| memory.has_focus(id));
     let here = focused || cells::focused(ui, picker);
@@ -258,14 +263,14 @@ const BESIDE: f32 = 250.0;
 fn hands(ui: &mut Ui, picker: &mut Picker, cells: &Cells<'_>, shown: &[usize]) -> Option<String> {
     let room = ui.available_width();
     if room < WORN + BESIDE {
-        return grid(ui, picker, cells, shown, Kind::Hands);
+        return grid(ui, picker, cells, shown, PickerForm::Hands);
     }
     let high = ui.available_height();
     ui.horizontal_top(|ui| {
         let picked = ui
             .allocate_ui(vec2(room - WORN - 8.0, high), |ui| {
                 ui.set_width(room - WORN - 8.0);
-                grid(ui, picker, cells, shown, Kind::Hands)
+                grid(ui, picker, cells, shown, PickerForm::Hands)
             })
             .inner;
         let (rect, _) = ui.allocate_exact_size(vec2(WORN, WORN + 64.0), Sense::hover());
@@ -295,7 +300,7 @@ fn grid(
     picker: &mut Picker,
     cells: &Cells<'_>,
     shown: &[usize],
-    kind: Kind,
+    kind: PickerForm,
 ) -> Option<String> {
     let size = data::cell(kind);
     let gap = 4.0;
@@ -340,7 +345,7 @@ fn grid(
 /// Draws the button of a value.
 fn face(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     inventory: &Inventory,
     chosen: Option<&str>,
     name: &str,

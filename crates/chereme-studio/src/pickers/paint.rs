@@ -13,9 +13,9 @@ use eframe::egui::{
 };
 
 use super::cells::{Cells, State};
-use super::data::{self, Kind};
+use super::data::{self, PickerForm};
 use super::{body, gallery, glyph, rose};
-use crate::context::Seen;
+use crate::context::PaneInput;
 
 /// Width and height of a hand's picture, in pixels.
 const HAND: usize = 144;
@@ -23,11 +23,11 @@ const HAND: usize = 144;
 /// Returns whether a value has a picture.
 pub(super) fn has(inventory: &Inventory, value: &InventoryValue) -> bool {
     match data::kind(inventory) {
-        Kind::Hands => data::hand(value).is_some(),
-        Kind::Body => value.landmark.is_some(),
-        Kind::Rose => value.direction.is_some() || value.roll.is_some(),
-        Kind::Glyphs => glyph::of(&value.id).is_some(),
-        Kind::Names => false,
+        PickerForm::Hands => data::hand(value).is_some(),
+        PickerForm::Body => value.landmark.is_some(),
+        PickerForm::Rose => value.direction.is_some() || value.roll.is_some(),
+        PickerForm::Glyphs => glyph::of(&value.id).is_some(),
+        PickerForm::Names => false,
     }
 }
 
@@ -35,20 +35,20 @@ pub(super) fn has(inventory: &Inventory, value: &InventoryValue) -> bool {
 pub(super) fn value(
     ui: &Ui,
     rect: Rect,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     inventory: &Inventory,
     value: &InventoryValue,
 ) -> bool {
     let colour = ui.visuals().text_color();
     match data::kind(inventory) {
-        Kind::Hands => data::hand(value).is_some_and(|angles| {
+        PickerForm::Hands => data::hand(value).is_some_and(|angles| {
             hand(ui, rect, seen.dark, &angles);
             true
         }),
-        Kind::Body => body::icon(ui, rect, seen, value),
-        Kind::Rose => rose::arrow(ui.painter(), rect, value, colour),
-        Kind::Glyphs => glyph::paint(ui.painter(), rect, &value.id, colour),
-        Kind::Names => false,
+        PickerForm::Body => body::icon(ui, rect, seen, value),
+        PickerForm::Rose => rose::arrow(ui.painter(), rect, value, colour),
+        PickerForm::Glyphs => glyph::paint(ui.painter(), rect, &value.id, colour),
+        PickerForm::Names => false,
     }
 }
 

@@ -15,8 +15,8 @@ use chereme_motion::Span;
 
 use crate::action::Action;
 use crate::app::Studio;
-use crate::choose::Choose;
 use crate::command::Command;
+use crate::file_dialogs::Choose;
 use crate::panes::list_row;
 use crate::script::edit;
 use crate::words::{Language, Text, fill, shell as words};

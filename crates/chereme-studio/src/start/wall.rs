@@ -9,8 +9,8 @@ use eframe::egui::{
     Vec2, WidgetInfo, vec2,
 };
 
-use crate::little::{self, Figures, Focus};
-use crate::model::made::Made;
+use crate::miniatures::{self, Figures, Focus};
+use crate::model::generated::GeneratedClip;
 use crate::theme::{self, Colours};
 use crate::words::{Language, fill, shell as words};
 
@@ -21,10 +21,10 @@ const GAP: f32 = 10.0;
 const FOOT: f32 = 22.0;
 
 /// The signs that have been read so far, in order; a thread reads them once.
-static SIGNS: OnceLock<Mutex<Vec<Arc<Made>>>> = OnceLock::new();
+static SIGNS: OnceLock<Mutex<Vec<Arc<GeneratedClip>>>> = OnceLock::new();
 
 /// Returns the signs of the starter corpus that have been read so far; the first call starts the reading.
-pub(crate) fn signs(ctx: &Context) -> Vec<Arc<Made>> {
+pub(crate) fn signs(ctx: &Context) -> Vec<Arc<GeneratedClip>> {
     let mut fresh = false;
     let signs = SIGNS.get_or_init(|| {
         fresh = true;
@@ -45,8 +45,8 @@ pub(crate) fn signs(ctx: &Context) -> Vec<Arc<Made>> {
     signs.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
-fn made(sign: StarterSign) -> Made {
-    Made {
+fn made(sign: StarterSign) -> GeneratedClip {
+    GeneratedClip {
         name: sign.gloss,
         token: None,
         clip: sign.clip,
@@ -105,7 +105,7 @@ fn cell(
     ui: &mut Ui,
     little: &Figures,
     language: Language,
-    (at, made): (usize, &Arc<Made>),
+    (at, made): (usize, &Arc<GeneratedClip>),
     rect: Rect,
 ) -> Response {
     let whole = rect.with_max_y(rect.bottom() + FOOT);
@@ -113,7 +113,7 @@ fn cell(
     let response = ui.interact(whole, id, Sense::click());
     let name = fill(words::START_SIGN.of(language), &[("gloss", &made.name)]);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
-    let clock = little::clock(ui);
+    let clock = miniatures::clock(ui);
     little.paint_made(ui, language, (made, clock), rect, Focus::Signing);
     let colours = Colours::of(theme::is_dark(ui.ctx()));
     let lit = response.hovered() || response.has_focus();

@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use chereme_corpus::{Corpus, Error, Place, Progress, Step};
+use chereme_corpus::{Corpus, Error, FileIdentity, Progress, Step};
 
 use super::carry::carry;
 use super::{Ended, Far, Lane, Work, WorkId};
@@ -65,7 +65,7 @@ struct Order {
     stop: Arc<AtomicBool>,
 }
 
-enum Wish {
+enum SnapshotRequest {
     /// Read again, after work of this window.
     Again,
     /// Include the tiers of this recording in the snapshots.
@@ -78,7 +78,7 @@ enum Wish {
 pub(crate) struct Desk {
     pub(crate) path: PathBuf,
     lanes: BTreeMap<Lane, Sender<Box<Order>>>,
-    reader: Option<Sender<Wish>>,
+    reader: Option<Sender<SnapshotRequest>>,
     news: Receiver<News>,
     pub(crate) running: BTreeMap<WorkId, Running>,
     threads: Vec<JoinHandle<()>>,
@@ -93,7 +93,7 @@ impl Desk {
             author: author.to_owned(),
             tell,
             wake: wake.clone(),
-            place: Place::of(path),
+            place: FileIdentity::of(path),
             edits: Arc::default(),
         };
         let (reader, wishes) = channel();
@@ -147,7 +147,7 @@ impl Desk {
     pub(crate) fn watch(&self, recording: Option<i64>) {
         if let Some(reader) = &self.reader {
             // A reader thread that has ended has reported the reason.
-            let _ = reader.send(Wish::Recording(recording));
+            let _ = reader.send(SnapshotRequest::Recording(recording));
         }
     }
 
@@ -155,7 +155,7 @@ impl Desk {
     pub(crate) fn save_copy(&self, to: PathBuf) {
         if let Some(reader) = &self.reader {
             // A reader thread that has ended has reported the reason.
-            let _ = reader.send(Wish::Copy(to));
+            let _ = reader.send(SnapshotRequest::Copy(to));
         }
     }
 
@@ -202,7 +202,7 @@ struct Station {
     tell: Sender<News>,
     wake: Wake,
     /// The identity of the corpus file when it was opened.
-    place: Place,
+    place: FileIdentity,
     /// How often work of this window began or ended to change the corpus; odd while such work runs.
     edits: Arc<AtomicU64>,
 }
@@ -214,7 +214,7 @@ impl Station {
         (self.wake)();
     }
 
-    fn work(&self, orders: &Receiver<Box<Order>>, lane: Lane, reader: &Sender<Wish>) {
+    fn work(&self, orders: &Receiver<Box<Order>>, lane: Lane, reader: &Sender<SnapshotRequest>) {
         let mut corpus = None;
         while let Ok(order) = orders.recv() {
             let Order { id, work, stop } = *order;
@@ -227,7 +227,7 @@ impl Station {
             let ended = self.carry_out(&mut corpus, id, work, &stop);
             if edits {
                 self.edits.fetch_add(1, Ordering::SeqCst);
-                let _ = reader.send(Wish::Again);
+                let _ = reader.send(SnapshotRequest::Again);
             }
             self.say(News::Ended(id, ended, About { task, quiet }));
         }
@@ -265,7 +265,7 @@ impl Station {
         carry(corpus, work, &mut Progress::new(&mut hear))
     }
 
-    fn read(&self, wishes: &Receiver<Wish>) {
+    fn read(&self, wishes: &Receiver<SnapshotRequest>) {
         let corpus = match Corpus::open(&self.path, &self.author) {
             Ok(corpus) => corpus,
             Err(error) => return self.say(News::Unread(error)),
@@ -296,9 +296,9 @@ impl Station {
             let mut next = wishes.recv_timeout(LOOK);
             while let Ok(wish) = next {
                 match wish {
-                    Wish::Again => {}
-                    Wish::Recording(recording) => reading.recording = recording,
-                    Wish::Copy(to) => {
+                    SnapshotRequest::Again => {}
+                    SnapshotRequest::Recording(recording) => reading.recording = recording,
+                    SnapshotRequest::Copy(to) => {
                         let saved = reading.corpus.save_copy(&to).map(|()| to);
                         self.say(News::Copied(saved));
                     }

@@ -23,7 +23,7 @@ use chereme_motion::Span;
 use chereme_sign::Component;
 use eframe::egui::ColorImage;
 
-use crate::model::made::Made;
+use crate::model::generated::GeneratedClip;
 use crate::panes::inspector::Thing;
 use crate::words::{Text, shell};
 
@@ -273,7 +273,7 @@ pub(crate) enum Shared {
     /// Something stored in the corpus.
     Stored(Address),
     /// Generated movement that is not stored.
-    Made(Arc<Made>),
+    Made(Arc<GeneratedClip>),
 }
 
 /// A thread with its own connection to the corpus; the work of one lane is done in order.

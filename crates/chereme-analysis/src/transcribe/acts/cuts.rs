@@ -4,8 +4,8 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
-use super::super::scene::{Scene, Track};
-use super::super::way::Way;
+use super::super::path::PathForm;
+use super::super::scene::{HandTrajectory, Scene};
 use super::{GAP, Mover, Seeing, TURNED};
 use crate::strokes::{between_minima, smoothed};
 
@@ -48,7 +48,10 @@ const RISE: f64 = 0.4;
 const NEAR: f64 = 0.1;
 
 /// Returns the frames in which a hand signs, without its paths from and to rest.
-pub(in crate::transcribe) fn signing(scene: &Scene<'_>, track: &Track) -> RangeInclusive<usize> {
+pub(in crate::transcribe) fn signing(
+    scene: &Scene<'_>,
+    track: &HandTrajectory,
+) -> RangeInclusive<usize> {
     let last = track.palm.len() - 1;
     let nothing = Seeing {
         parts: &|_, _| Vec::new(),
@@ -203,7 +206,7 @@ pub(super) fn joined(
         let whole = (1..=round).rev().find(|&more| {
             let way = mover.fit(*first.start(), *left[more].end());
             match way.way {
-                Way::Circle {
+                PathForm::Circle {
                     turns,
                     long,
                     narrow,
@@ -219,7 +222,7 @@ pub(super) fn joined(
                         && turns / ((more + 1) as f64) < 1.2
                         && way.residual < most * long.length()
                 }
-                Way::Wave { .. } => more >= 2 && more <= on,
+                PathForm::Wave { .. } => more >= 2 && more <= on,
                 _ => false,
             }
         });
@@ -250,7 +253,7 @@ fn slows(
 }
 
 /// Returns the angle (rad) between the directions of two successive paths.
-fn turn(track: &Track, ways: [&RangeInclusive<usize>; 2]) -> f64 {
+fn turn(track: &HandTrajectory, ways: [&RangeInclusive<usize>; 2]) -> f64 {
     let [before, next] = ways.map(|way| track.palm[*way.end()] - track.palm[*way.start()]);
     before.angle_between(next)
 }

@@ -3,9 +3,9 @@
 use chereme_sign::hamnosys::Repeat;
 use glam::DVec3;
 
-use super::super::scene::{Scene, Track, scaled};
-use super::super::way::Way;
-use super::{Act, Kind};
+use super::super::path::PathForm;
+use super::super::scene::{HandTrajectory, Scene, scaled};
+use super::{Act, ActKind};
 
 /// Two changes are the same, or opposite, if they differ by less than this share of the bigger one.
 const ALIKE: f64 = 0.5;
@@ -15,10 +15,10 @@ const GROWS: f64 = 1.18;
 
 /// Returns the change that an act brings, as one vector: displacement, turn and finger angles, each in
 /// units of its usual size.
-fn change(scene: &Scene<'_>, track: &Track, act: &Act) -> Vec<f64> {
+fn change(scene: &Scene<'_>, track: &HandTrajectory, act: &Act) -> Vec<f64> {
     let (first, last) = (act.first(), act.last());
     let chord = match &act.kind {
-        Kind::Way(fitted) => fitted.way.chord() / (scene.language.move_normal * scene.arm),
+        ActKind::Way(fitted) => fitted.way.chord() / (scene.language.move_normal * scene.arm),
         _ => DVec3::ZERO,
     };
     // Opposite turns cancel only in one common frame: that of the body.
@@ -44,7 +44,7 @@ fn apart(a: &[f64], b: &[f64], sign: f64) -> f64 {
 }
 
 /// Folds repeated acts into one act each: consecutive circles, to and fro, the same again.
-pub(super) fn folded(scene: &Scene<'_>, track: &Track, acts: Vec<Act>) -> Vec<Act> {
+pub(super) fn folded(scene: &Scene<'_>, track: &HandTrajectory, acts: Vec<Act>) -> Vec<Act> {
     let changes: Vec<Vec<f64>> = acts.iter().map(|act| change(scene, track, act)).collect();
     let mut found: Vec<Act> = Vec::new();
     let mut n = 0;
@@ -119,8 +119,8 @@ fn repeat(times: usize, once: Repeat, several: Repeat) -> Option<Repeat> {
 
 fn turns(act: &Act) -> Option<f64> {
     match &act.kind {
-        Kind::Way(fitted) => match fitted.way {
-            Way::Circle { turns, .. } => Some(turns),
+        ActKind::Way(fitted) => match fitted.way {
+            PathForm::Circle { turns, .. } => Some(turns),
             _ => None,
         },
         _ => None,
@@ -134,8 +134,8 @@ fn is_round(act: &Act) -> bool {
 /// Returns how many consecutive circles about one axis begin the list.
 fn rounds(acts: &[Act]) -> usize {
     let axis = |act: &Act| match &act.kind {
-        Kind::Way(fitted) => match fitted.way {
-            Way::Circle { axis, .. } => Some(axis),
+        ActKind::Way(fitted) => match fitted.way {
+            PathForm::Circle { axis, .. } => Some(axis),
             _ => None,
         },
         _ => None,

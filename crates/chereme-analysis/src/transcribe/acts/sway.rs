@@ -3,7 +3,7 @@
 use chereme_sign::hamnosys::{Digit, Digits, WristMotion};
 use glam::DVec3;
 
-use super::super::scene::{Scene, Track, scaled};
+use super::super::scene::{HandTrajectory, Scene, scaled};
 
 /// Smallest range of a hand or finger that moves to and fro, in radians.
 const SWAY: f64 = 0.12;
@@ -47,7 +47,12 @@ pub(in crate::transcribe) fn wrist_name(motion: WristMotion) -> &'static str {
 
 /// Returns the movement of the hand to and fro about the wrist, measured from the middle of its range;
 /// `None` if there is no such movement.
-pub(super) fn wrist(scene: &Scene<'_>, track: &Track, first: usize, last: usize) -> Option<Sway> {
+pub(super) fn wrist(
+    scene: &Scene<'_>,
+    track: &HandTrajectory,
+    first: usize,
+    last: usize,
+) -> Option<Sway> {
     let start = track.turned[first].inverse();
     let turns: Vec<DVec3> = (first..=last)
         .map(|n| scaled(start * track.turned[n]))
@@ -106,7 +111,12 @@ pub(super) fn wrist(scene: &Scene<'_>, track: &Track, first: usize, last: usize)
 }
 
 /// Returns the fingers that play over the whole of a stretch, if any.
-pub(super) fn play(scene: &Scene<'_>, track: &Track, first: usize, last: usize) -> Option<Sway> {
+pub(super) fn play(
+    scene: &Scene<'_>,
+    track: &HandTrajectory,
+    first: usize,
+    last: usize,
+) -> Option<Sway> {
     let column = |digit: usize| -> Vec<f64> {
         let at = |n: usize| match digit {
             0 => track.angles[n].thumb.radial,

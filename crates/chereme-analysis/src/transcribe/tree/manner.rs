@@ -95,7 +95,7 @@ impl Writer<'_> {
     /// Infers the manner of an act that begins `idle` frames after the one before.
     pub(super) fn manner(
         &mut self,
-        track: &Track,
+        track: &HandTrajectory,
         act: &Act,
         into_contact: bool,
         idle: usize,
@@ -131,10 +131,15 @@ impl Writer<'_> {
 }
 
 /// Returns the tempo of an act; the residual is the logarithm of the ratio of times.
-fn tempo(scene: &Scene<'_>, track: &Track, act: &Act, into_contact: bool) -> Option<Found<Tempo>> {
+fn tempo(
+    scene: &Scene<'_>,
+    track: &HandTrajectory,
+    act: &Act,
+    into_contact: bool,
+) -> Option<Found<Tempo>> {
     let l = scene.language;
     let (first, last) = (*act.frames.start(), *act.frames.end());
-    if let Kind::Sway(sway) = &act.kind {
+    if let ActKind::Sway(sway) = &act.kind {
         let (time, whole) = (scene.seconds(last - first), swayed(l, sway));
         let tempi = [Tempo::Usual, Tempo::Fast, Tempo::Slow];
         return Some(nearest(&tempi, l, |_, factor| {
@@ -202,7 +207,7 @@ fn swayed(l: &BodyLanguage, sway: &Sway) -> f64 {
 }
 
 /// Returns the usual durations of an act and their lower bounds, in seconds, and whether it is a circle.
-fn usual(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<(Vec<(f64, f64)>, bool)> {
+fn usual(scene: &Scene<'_>, track: &HandTrajectory, act: &Act) -> Option<(Vec<(f64, f64)>, bool)> {
     let l = scene.language;
     let (first, last) = (*act.frames.start(), *act.frames.end());
     let turn = track.turn(first, last).length() / std::f64::consts::FRAC_PI_2;
@@ -219,13 +224,13 @@ fn usual(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<(Vec<(f64, f64)>
             .collect::<Vec<_>>()
     };
     let (mut all, round) = match &act.kind {
-        Kind::Way(fitted) => match fitted.way {
-            Way::Straight { .. } => (with_turn(l.time_straight), false),
-            Way::Arc { .. } | Way::Wave { .. } => (with_turn(l.time_arc), false),
-            Way::Circle { turns, .. } => (vec![(l.time_circle * turns.max(0.4), least)], true),
+        ActKind::Way(fitted) => match fitted.way {
+            PathForm::Straight { .. } => (with_turn(l.time_straight), false),
+            PathForm::Arc { .. } | PathForm::Wave { .. } => (with_turn(l.time_arc), false),
+            PathForm::Circle { turns, .. } => (vec![(l.time_circle * turns.max(0.4), least)], true),
         },
-        Kind::Change => (vec![(l.time_replace, 0.0), (l.time_replace, taken)], false),
-        Kind::Sway(_) => return None,
+        ActKind::Change => (vec![(l.time_replace, 0.0), (l.time_replace, taken)], false),
+        ActKind::Sway(_) => return None,
     };
     // A simultaneous movement of wrist or fingers takes its own time.
     all.extend(act.with.iter().map(|sway| (swayed(l, sway), least)));
@@ -234,10 +239,10 @@ fn usual(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<(Vec<(f64, f64)>
 
 /// Returns the course of an act by its path, or by its turn and finger angles if it stays in place; `None`
 /// if it is too short.
-fn ran(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<Ran> {
+fn ran(scene: &Scene<'_>, track: &HandTrajectory, act: &Act) -> Option<Ran> {
     let (first, last) = (*act.frames.start(), *act.frames.end());
     let step = |n: usize| match act.kind {
-        Kind::Change => track.turn(n, n + 1).length() + track.reshaped(n, n + 1),
+        ActKind::Change => track.turn(n, n + 1).length() + track.reshaped(n, n + 1),
         _ => track.palm[n].distance(track.palm[n + 1]),
     };
     let mut done = vec![0.0];

@@ -68,7 +68,12 @@ impl Writer<'_> {
     }
 
     /// Returns which of shape, direction and palm the other hand shares with the dominant one.
-    fn alike(&self, frame: usize, relation: &Relation, seen: &[Option<Seen>; 2]) -> [bool; 3] {
+    fn alike(
+        &self,
+        frame: usize,
+        relation: &Relation,
+        seen: &[Option<HandReading>; 2],
+    ) -> [bool; 3] {
         let RelationKind::Alike(symmetry) = relation.kind else {
             return [false; 3];
         };
@@ -213,11 +218,11 @@ pub(super) fn behind(relation: &Relation, first: Option<&Act>) -> Option<DVec3> 
     let RelationKind::Alike(symmetry) = relation.kind else {
         return None;
     };
-    let Kind::Way(fitted) = &first?.kind else {
+    let ActKind::Way(fitted) = &first?.kind else {
         return None;
     };
     match fitted.way {
-        Way::Circle { long, start, .. } if symmetry.out_of_phase => {
+        PathForm::Circle { long, start, .. } if symmetry.out_of_phase => {
             Some(start * (2.0 * long.length()) * signs(&symmetry))
         }
         _ => None,
@@ -225,8 +230,8 @@ pub(super) fn behind(relation: &Relation, first: Option<&Act>) -> Option<DVec3> 
 }
 
 /// Returns whether a hand is surely not turned like the mirror image of the other.
-fn otherwise(one: &Seen, other: &Seen, signs: DVec3) -> bool {
-    let told = |seen: &Seen| {
+fn otherwise(one: &HandReading, other: &HandReading, signs: DVec3) -> bool {
+    let told = |seen: &HandReading| {
         let along = aim::vector(&seen.extended.best);
         let palm = seen.palm.as_ref()?;
         let sure = seen.extended.residual.max(palm.residual) < SURE;
@@ -243,10 +248,10 @@ fn otherwise(one: &Seen, other: &Seen, signs: DVec3) -> bool {
 }
 
 fn each<T: Clone + PartialEq>(
-    seen: &[Option<Seen>; 2],
+    seen: &[Option<HandReading>; 2],
     acts: [bool; 2],
     alike: bool,
-    pick: impl Fn(&Seen) -> Option<T>,
+    pick: impl Fn(&HandReading) -> Option<T>,
 ) -> Each<T> {
     let [a, b] = [0, 1].map(|n| seen[n].as_ref().filter(|_| acts[n]).and_then(&pick));
     match (a, b) {

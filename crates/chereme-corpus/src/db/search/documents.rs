@@ -8,7 +8,7 @@ use chereme_sign::tier as sign_tier;
 use rusqlite::fallible_streaming_iterator::FallibleStreamingIterator;
 use rusqlite::{Connection, OptionalExtension, Row, Rows};
 
-use super::terms::{Mark, hand_codes, phase_code, reading_term, reading_text};
+use super::terms::{TokenProperty, hand_codes, phase_code, reading_term, reading_text};
 use crate::db::columns::{self, word, word_or_null};
 use crate::error::Result;
 
@@ -165,7 +165,7 @@ struct Reader<'c> {
     recordings: HashMap<i64, Rc<Around>>,
     tiers: HashMap<i64, Rc<str>>,
     inventories: HashMap<i64, Rc<str>>,
-    marks: HashMap<(Mark, String), Rc<str>>,
+    marks: HashMap<(TokenProperty, String), Rc<str>>,
     terms: HashMap<String, Rc<ReadingTerms>>,
     key: String,
 }
@@ -210,11 +210,11 @@ impl Hands {
 struct Around {
     signer: Option<i64>,
     left_handed: bool,
-    translations: Vec<Said>,
-    comments: Vec<Said>,
+    translations: Vec<TimedText>,
+    comments: Vec<TimedText>,
 }
 
-struct Said {
+struct TimedText {
     start: i64,
     end: i64,
     text: Rc<str>,
@@ -271,7 +271,9 @@ impl<'c> Reader<'c> {
         })?;
         for id in inventories {
             let name = self.inventory(id)?;
-            document.marks.push(self.mark(Mark::Inventory, &name));
+            document
+                .marks
+                .push(self.mark(TokenProperty::Inventory, &name));
         }
         if let Some(hand) = token.hand {
             coded = Hands::default();
@@ -280,28 +282,28 @@ impl<'c> Reader<'c> {
         let names = coded.names(left_handed);
         document.hand = names.last().copied();
         for name in names {
-            document.marks.push(self.mark(Mark::Hand, name));
+            document.marks.push(self.mark(TokenProperty::Hand, name));
         }
         Ok(document)
     }
 
     fn add_marks(&mut self, token: &TokenFields, document: &mut TokenDocument) -> Result<()> {
-        let mut marks = vec![self.mark(Mark::Origin, &token.origin)];
+        let mut marks = vec![self.mark(TokenProperty::Origin, &token.origin)];
         if let Some(tier) = token.tier {
             let name = self.tier(tier)?;
-            marks.push(self.mark(Mark::Tier, &name));
+            marks.push(self.mark(TokenProperty::Tier, &name));
         }
         if !document.translations.is_empty() {
-            marks.push(self.mark(Mark::Has, "translation"));
+            marks.push(self.mark(TokenProperty::Has, "translation"));
         }
         if !document.comments.is_empty() {
-            marks.push(self.mark(Mark::Has, "comment"));
+            marks.push(self.mark(TokenProperty::Has, "comment"));
         }
         document.marks = marks;
         Ok(())
     }
 
-    fn mark(&mut self, mark: Mark, value: &str) -> Rc<str> {
+    fn mark(&mut self, mark: TokenProperty, value: &str) -> Rc<str> {
         if self.marks.len() > MOST_TERMS {
             self.marks.clear();
         }
@@ -365,14 +367,14 @@ impl<'c> Reader<'c> {
         Ok(around)
     }
 
-    fn said(&self, recording: i64, role: &str) -> Result<Vec<Said>> {
+    fn said(&self, recording: i64, role: &str) -> Result<Vec<TimedText>> {
         let mut statement = self.connection.prepare_cached(
             "SELECT a.start_us, a.end_us, a.value FROM tier i JOIN annotation a ON a.tier_id = i.id
              WHERE i.recording_id = ?1 AND i.role = ?2 AND a.state = 'value' AND a.value <> ''
              ORDER BY a.start_us, i.position, a.id",
         )?;
         let said = statement.query_map((recording, role), |row| {
-            Ok(Said {
+            Ok(TimedText {
                 start: row.get(0)?,
                 end: row.get(1)?,
                 text: fold(row.get_ref(2)?.as_str().unwrap_or_default()).into(),
@@ -453,7 +455,7 @@ fn named(
 }
 
 /// Adds the texts that overlap a token in time; `said` is ordered by start.
-fn said_during(said: &[Said], (start, end): (i64, i64), texts: &mut Vec<Rc<str>>) {
+fn said_during(said: &[TimedText], (start, end): (i64, i64), texts: &mut Vec<Rc<str>>) {
     let until = said.partition_point(|said| said.start < end);
     let during = said[..until].iter().filter(|said| said.end > start);
     texts.extend(during.map(|said| said.text.clone()));

@@ -18,7 +18,7 @@ mod special {
 
 /// A property of a token that is not a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Mark {
+pub(crate) enum TokenProperty {
     Origin,
     Hand,
     Tier,
@@ -27,7 +27,7 @@ pub(crate) enum Mark {
     Has,
 }
 
-impl Mark {
+impl TokenProperty {
     fn name(self) -> &'static str {
         match self {
             Self::Origin => "@origin",

@@ -71,15 +71,15 @@ pub(super) type Table = Vec<Column>;
 
 /// A file under construction.
 pub(super) struct File<'o> {
-    held: Held,
+    held: PendingBytes,
     out: &'o mut dyn Write,
-    file: SerializedFileWriter<Held>,
+    file: SerializedFileWriter<PendingBytes>,
 }
 
 impl<'o> File<'o> {
     /// Begins a file with the columns of a table; `about` describes the columns in the metadata.
     pub(super) fn new(table: &Table, about: &str, out: &'o mut dyn Write) -> Result<Self> {
-        let held = Held::default();
+        let held = PendingBytes::default();
         let properties = properties(table, about)?;
         let file = SerializedFileWriter::new(held.clone(), schema(table)?, properties);
         Ok(Self {
@@ -188,9 +188,9 @@ fn properties(table: &Table, about: &str) -> Result<WriterPropertiesPtr> {
 
 /// The bytes of a file under construction that have not been written out yet.
 #[derive(Clone, Default)]
-struct Held(Arc<Mutex<Vec<u8>>>);
+struct PendingBytes(Arc<Mutex<Vec<u8>>>);
 
-impl Write for Held {
+impl Write for PendingBytes {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let held = self.0.lock();
         let mut held = held.map_err(|_| io::Error::other("the writer failed"))?;

@@ -22,7 +22,7 @@ use crate::db::recordings;
 use crate::db::signs;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
-use crate::movement::{ChannelGroup, Track};
+use crate::movement::{ChannelGroup, MotionTrack};
 use crate::progress::{Progress, Step, Unit};
 use file::{Cells, Column, File, Table};
 
@@ -354,7 +354,7 @@ fn movement(
     file: &mut File<'_>,
     progress: &mut Progress<'_>,
 ) -> Result<()> {
-    let track = Track::of(connection, stretch.recording.id)?;
+    let track = MotionTrack::of(connection, stretch.recording.id)?;
     let frames = match stretch.token {
         Some(_) => track.frames_in(stretch.span),
         None => 0..track.frames(),

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_formats::eaf::convert::{Annotation, Place, Transcript};
+use chereme_formats::eaf::convert::{Annotation, AnnotationAddress, Transcript};
 use chereme_formats::roles::TierGuess;
 use chereme_motion::Instant;
 use chereme_sign::Stereotype;
@@ -75,7 +75,7 @@ pub(super) fn is_edited(
 /// Returns the number of annotations that are the same in two files (id, time and value), and that of the file with
 /// more.
 pub(super) fn alike(a: &Transcript, b: &Transcript) -> (usize, usize) {
-    let said = |transcript: &'_ Transcript| -> BTreeMap<(String, String), Said> {
+    let said = |transcript: &'_ Transcript| -> BTreeMap<(String, String), ComparedParts> {
         let own = Base::of(transcript);
         own.said
     };
@@ -124,7 +124,7 @@ pub(super) fn annotations(
 
 /// The parts of an annotation that are compared.
 #[derive(Debug, Clone, PartialEq, Eq)]
-struct Said {
+struct ComparedParts {
     /// Start and end in milliseconds, as in files.
     time: [i64; 2],
     value: String,
@@ -132,7 +132,7 @@ struct Said {
     above: Option<String>,
 }
 
-impl Said {
+impl ComparedParts {
     fn in_file(transcript: &Transcript, annotation: &Annotation) -> Self {
         let above = annotation.parent.and_then(|place| {
             let tier = transcript.tiers.get(place.tier)?;
@@ -180,7 +180,7 @@ fn millis(row: &AnnotationRow) -> [i64; 2] {
 
 /// The annotations of the earlier file, by tier and id.
 struct Base {
-    said: BTreeMap<(String, String), Said>,
+    said: BTreeMap<(String, String), ComparedParts>,
 }
 
 impl Base {
@@ -188,7 +188,7 @@ impl Base {
         let all = transcript.tiers.iter().flat_map(|tier| {
             tier.annotations.iter().map(|it| {
                 let key = (tier.name.clone(), it.id.clone());
-                (key, Said::in_file(transcript, it))
+                (key, ComparedParts::in_file(transcript, it))
             })
         });
         Self {
@@ -212,7 +212,7 @@ struct Update<'s> {
     sides: &'s Sides<'s>,
     base: Option<Base>,
     /// The rows of annotations by their place in the file.
-    rows: BTreeMap<Place, i64>,
+    rows: BTreeMap<AnnotationAddress, i64>,
     /// The ids of rows in the file.
     names: BTreeMap<i64, String>,
     /// Annotations that the file no longer has, with the names of their tiers.
@@ -221,7 +221,7 @@ struct Update<'s> {
 }
 
 impl Update<'_> {
-    fn said_before(&self, tier: &str, id: &str) -> Option<&Said> {
+    fn said_before(&self, tier: &str, id: &str) -> Option<&ComparedParts> {
         let key = (tier.to_owned(), id.to_owned());
         self.base.as_ref()?.said.get(&key)
     }
@@ -230,7 +230,7 @@ impl Update<'_> {
     fn is_own(&self, tier: &str, row: &AnnotationRow) -> bool {
         let known = row.external_id.as_deref();
         match known.and_then(|id| self.said_before(tier, id)) {
-            Some(before) => Said::in_corpus(row, &self.names) != *before,
+            Some(before) => ComparedParts::in_corpus(row, &self.names) != *before,
             None => known.is_none() || self.base.is_some(),
         }
     }
@@ -275,7 +275,7 @@ impl Update<'_> {
             let parent = above.copied();
             let new = annotation_row(annotation, sides.tier_rows[tier], parent);
             let new = coded(new, &sides.guesses[tier]);
-            let theirs = Said::in_file(sides.transcript, annotation);
+            let theirs = ComparedParts::in_file(sides.transcript, annotation);
             let row = match old.take(annotation, &new) {
                 Some(before) => {
                     self.names.insert(before.id, annotation.id.clone());
@@ -290,7 +290,7 @@ impl Update<'_> {
             };
             if let Some(row) = row {
                 self.names.insert(row, annotation.id.clone());
-                self.rows.insert(Place { tier, index }, row);
+                self.rows.insert(AnnotationAddress { tier, index }, row);
             }
         }
         let spans: Vec<[i64; 2]> = it
@@ -315,7 +315,7 @@ impl Update<'_> {
         job: &Job<'_>,
         tier: &str,
         new: AnnotationRow,
-        theirs: &Said,
+        theirs: &ComparedParts,
         free: bool,
     ) -> Result<Option<i64>> {
         let name = new.external_id.clone().unwrap_or_default();
@@ -343,11 +343,11 @@ impl Update<'_> {
         job: &Job<'_>,
         tier: usize,
         before: AnnotationRow,
-        (new, theirs): (AnnotationRow, &Said),
+        (new, theirs): (AnnotationRow, &ComparedParts),
         free: bool,
     ) -> Result<i64> {
         let (id, tier) = (before.id, &self.sides.transcript.tiers[tier].name);
-        let mine = Said::in_corpus(&before, &self.names);
+        let mine = ComparedParts::in_corpus(&before, &self.names);
         let named = before.external_id.is_some();
         if mine == *theirs {
             self.done.changes.unchanged += 1;
@@ -362,7 +362,7 @@ impl Update<'_> {
         }
         let base = self.said_before(tier, new.external_id.as_deref().unwrap_or_default());
         let base = base.cloned();
-        let lost = Said::is_lost(&mine, base.as_ref(), theirs);
+        let lost = ComparedParts::is_lost(&mine, base.as_ref(), theirs);
         let mut take = [true; 3];
         if self.sides.merge {
             let base = base.as_ref();
@@ -393,8 +393,8 @@ impl Update<'_> {
         &mut self,
         job: &Job<'_>,
         tier: &str,
-        (before, mine): (AnnotationRow, Said),
-        (new, theirs): (AnnotationRow, &Said),
+        (before, mine): (AnnotationRow, ComparedParts),
+        (new, theirs): (AnnotationRow, &ComparedParts),
         [time, value, above]: [bool; 3],
     ) -> Result<()> {
         let moved = time && mine.time != theirs.time;
@@ -434,7 +434,7 @@ impl Update<'_> {
     fn remove(&mut self, job: &Job<'_>, tier: &str, row: &AnnotationRow) -> Result<()> {
         let before = row.external_id.as_deref();
         let before = before.and_then(|id| self.said_before(tier, id)).cloned();
-        let mine = Said::in_corpus(row, &self.names);
+        let mine = ComparedParts::in_corpus(row, &self.names);
         let own = match &before {
             Some(before) => mine != *before,
             None => row.external_id.is_none() || row.origin != AnnotationOrigin::File,
@@ -462,11 +462,17 @@ impl Update<'_> {
         Ok(())
     }
 
-    fn edit(&mut self, tier: &str, mine: Option<&Said>, theirs: Option<&Said>, outcome: Outcome) {
+    fn edit(
+        &mut self,
+        tier: &str,
+        mine: Option<&ComparedParts>,
+        theirs: Option<&ComparedParts>,
+        outcome: Outcome,
+    ) {
         self.done.edits.push(OwnEdit {
             tier: tier.to_owned(),
-            mine: mine.map(Said::saying),
-            theirs: theirs.map(Said::saying),
+            mine: mine.map(ComparedParts::saying),
+            theirs: theirs.map(ComparedParts::saying),
             outcome,
         });
     }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_formats::eaf::convert::{Entry, Tier, Transcript, Vocabulary};
+use chereme_formats::eaf::convert::{Tier, Transcript, Vocabulary, VocabularyEntry};
 use chereme_formats::roles::TierGuess;
 use chereme_sign::text::fold;
 use chereme_sign::{Component, Inventory, InventoryValue, TierRole, inventory};
@@ -77,7 +77,8 @@ pub(in crate::import) fn tier_inventory(
 }
 
 fn entry_ids(vocabulary: &Vocabulary) -> Vec<&str> {
-    let first = |entry: &Entry| -> Option<usize> { (!entry.values.is_empty()).then_some(0) };
+    let first =
+        |entry: &VocabularyEntry| -> Option<usize> { (!entry.values.is_empty()).then_some(0) };
     vocabulary
         .entries
         .iter()
@@ -93,7 +94,8 @@ fn of_vocabulary(
 ) -> (Inventory, Vec<String>) {
     let (mut dropped, mut values) = (Vec::new(), Vec::new());
     let (mut ids, mut seen) = (BTreeSet::new(), BTreeSet::new());
-    let first = |entry: &Entry| entry.values.first().map(|value| fold(value.value.trim()));
+    let first =
+        |entry: &VocabularyEntry| entry.values.first().map(|value| fold(value.value.trim()));
     let folded: BTreeSet<String> = vocabulary.entries.iter().filter_map(first).collect();
     for entry in &vocabulary.entries {
         let Some(id) = entry

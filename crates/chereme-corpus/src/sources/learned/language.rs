@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use chereme_analysis::measure::{Kind, Measured, measure};
+use chereme_analysis::measure::{Measured, MeasuredKind, measure};
 use chereme_compose::{Language, LanguageValue};
 use chereme_motion::{Anatomy, Instant, Side, Span};
 use chereme_sign::Component;
@@ -21,7 +21,7 @@ use crate::db::recordings;
 use crate::db::spans::{self, LexiconMovement, MovementSpan};
 use crate::error::Result;
 use crate::inventories::StoredInventory;
-use crate::movement::{ChannelGroup, Track};
+use crate::movement::{ChannelGroup, MotionTrack};
 
 /// The fewest movements for a measured number; with fewer the usual number stays.
 const FEWEST: usize = 8;
@@ -45,7 +45,7 @@ pub(crate) struct Samples(BTreeMap<&'static str, Vec<(Option<String>, f64)>>);
 
 /// A movement whose kind someone has annotated.
 #[derive(Debug, Clone, PartialEq)]
-struct Told {
+struct MeasuredMovement {
     recording: i64,
     span: Span,
     hand: Option<Hands>,
@@ -83,7 +83,12 @@ impl Samples {
         Ok(samples)
     }
 
-    fn take(&mut self, connection: &Connection, body: &Body, told: &Told) -> Result<()> {
+    fn take(
+        &mut self,
+        connection: &Connection,
+        body: &Body,
+        told: &MeasuredMovement,
+    ) -> Result<()> {
         let Some((track, anatomy)) = &body.track else {
             return Ok(());
         };
@@ -97,17 +102,17 @@ impl Samples {
                 self.add(name, body, told.span.seconds());
                 return Ok(());
             }
-            "straight" | "arc" => Kind::Stroke,
-            "circle" => Kind::Round,
-            "zigzag" | "wavy" => Kind::Wave,
-            "opening" | "closing" | "bending" => Kind::Shape,
-            "preparation" => Kind::Transition,
+            "straight" | "arc" => MeasuredKind::Stroke,
+            "circle" => MeasuredKind::Round,
+            "zigzag" | "wavy" => MeasuredKind::Wave,
+            "opening" | "closing" | "bending" => MeasuredKind::Shape,
+            "preparation" => MeasuredKind::Transition,
             _ => return Ok(()),
         };
         let side = body.side(told.hand);
         let groups = match (side, kind) {
-            (Side::Right, Kind::Shape) => [ChannelGroup::RightHand, ChannelGroup::RightArm],
-            (Side::Left, Kind::Shape) => [ChannelGroup::LeftHand, ChannelGroup::LeftArm],
+            (Side::Right, MeasuredKind::Shape) => [ChannelGroup::RightHand, ChannelGroup::RightArm],
+            (Side::Left, MeasuredKind::Shape) => [ChannelGroup::LeftHand, ChannelGroup::LeftArm],
             (Side::Right, _) => [ChannelGroup::RightArm; 2],
             (Side::Left, _) => [ChannelGroup::LeftArm; 2],
         };
@@ -134,7 +139,7 @@ impl Samples {
         Ok(())
     }
 
-    fn measured(&mut self, body: &Body, told: &Told, found: &Measured, arm: f64) {
+    fn measured(&mut self, body: &Body, told: &MeasuredMovement, found: &Measured, arm: f64) {
         let sized = |names: [&'static str; 3]| match told.size.as_deref() {
             Some("small") => names[0],
             Some("large") => names[2],
@@ -249,7 +254,7 @@ fn rising(values: &mut BTreeMap<String, LanguageValue>, names: &[&str; 3]) {
 }
 
 /// Returns the movements annotated on component tiers: their kinds with size and manner, and phases.
-fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told> {
+fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<MeasuredMovement> {
     let id = |span: &MovementSpan| -> String {
         let own = inventories
             .iter()
@@ -294,7 +299,7 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told
             near.find(|it| it.end_us.min(span.end_us) - it.start_us.max(span.start_us) > half)
                 .map(&id)
         };
-        told.push(Told {
+        told.push(MeasuredMovement {
             recording: span.recording_id,
             span: between(span.start_us, span.end_us),
             hand: span.hand,
@@ -309,7 +314,7 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told
 
 /// Returns the movements that lexicon entries state for captured tokens without an annotation of movement: only tokens
 /// with one movement of one size, performed once, on which all entries of the sign agree.
-fn in_lexicon(rows: &[LexiconMovement]) -> Vec<Told> {
+fn in_lexicon(rows: &[LexiconMovement]) -> Vec<MeasuredMovement> {
     let mut told = Vec::new();
     for token in rows.chunk_by(|a, b| a.token == b.token) {
         let said = |feature: Option<&str>| -> Vec<&str> {
@@ -327,7 +332,7 @@ fn in_lexicon(rows: &[LexiconMovement]) -> Vec<Told> {
         if let ([kind @ ("straight" | "arc")], [] | [_], true, true) =
             (kinds.as_slice(), sizes.as_slice(), alone, once)
         {
-            told.push(Told {
+            told.push(MeasuredMovement {
                 recording: token[0].recording_id,
                 span: between(token[0].start_us, token[0].end_us),
                 hand: Some(Hands::One(HandRef::Dominant)),
@@ -348,7 +353,7 @@ fn between(start: i64, end: i64) -> Span {
 /// The body and the signer of a recording.
 struct Body {
     recording: i64,
-    track: Option<(Track, Anatomy)>,
+    track: Option<(MotionTrack, Anatomy)>,
     signer: Option<String>,
     handedness: Handedness,
 }
@@ -365,7 +370,7 @@ impl Body {
             .is_some_and(|it| it.handedness.as_deref() == Some("left"));
         let track = match recordings::body_track(connection, recording)? {
             Some(_) => {
-                let track = Track::of(connection, recording)?;
+                let track = MotionTrack::of(connection, recording)?;
                 let anatomy = track.anatomy(connection)?;
                 Some((track, anatomy))
             }

@@ -42,7 +42,7 @@ pub(super) enum Oddity {
 }
 
 #[derive(Clone, Debug)]
-struct Seen {
+struct OddityCount {
     line: u64,
     count: u64,
     detail: String,
@@ -50,12 +50,12 @@ struct Seen {
 
 /// The oddities noticed so far: at most one entry per kind, whatever the file's size.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Oddities(BTreeMap<Oddity, Seen>);
+pub(super) struct Oddities(BTreeMap<Oddity, OddityCount>);
 
 impl Oddities {
     /// Records one occurrence; the line and detail of the first are kept.
     pub(super) fn note(&mut self, kind: Oddity, line: u64, detail: impl Into<String>) {
-        let new = || Seen {
+        let new = || OddityCount {
             line,
             count: 0,
             detail: detail.into(),
@@ -80,11 +80,11 @@ impl Oddities {
 
 fn finding(
     kind: Oddity,
-    Seen {
+    OddityCount {
         line,
         count,
         detail,
-    }: &Seen,
+    }: &OddityCount,
 ) -> Finding {
     let (severity, what, remedy) = words(kind);
     let mut message = what.replace("{}", detail);

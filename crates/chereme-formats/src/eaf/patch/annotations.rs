@@ -1,7 +1,7 @@
 //! Annotations and tiers that were changed, removed and added.
 
 use super::{Refs, Work, is_alignable};
-use crate::eaf::model::{Place, Transcript};
+use crate::eaf::model::{AnnotationAddress, Transcript};
 use crate::eaf::output::written;
 use crate::eaf::raw::{self, Anchor, At, Document};
 use crate::eaf::write;
@@ -12,7 +12,7 @@ impl<'w> Work<'w, '_> {
     /// Changes and removes annotations of the file, and adds new ones to its tiers.
     pub(super) fn annotations(&mut self, refs: &Refs) -> Option<()> {
         let (previous, next) = (before_each(self.before), before_each(self.after));
-        let mut elements: HashMap<Place, usize> = HashMap::new();
+        let mut elements: HashMap<AnnotationAddress, usize> = HashMap::new();
         for (place, element, raw) in self.annotations_of_file() {
             let Some(old) = place else { continue };
             let around = self.layout.elements[element].parent?;
@@ -38,7 +38,7 @@ impl<'w> Work<'w, '_> {
             let mut added: BTreeMap<Option<usize>, Vec<String>> = BTreeMap::new();
             let mut last = None;
             for index in 0..self.after.tiers[tier].annotations.len() {
-                let place = Place { tier, index };
+                let place = AnnotationAddress { tier, index };
                 if let Some(element) = elements.get(&place) {
                     last = Some(*element);
                     continue;
@@ -58,7 +58,7 @@ impl<'w> Work<'w, '_> {
         &mut self,
         element: usize,
         raw: &raw::Annotation<'_>,
-        (old, new): (Place, Place),
+        (old, new): (AnnotationAddress, AnnotationAddress),
         refs: Option<&[String; 2]>,
         (previous, next): (Option<&str>, Option<&str>),
     ) -> Option<()> {
@@ -89,7 +89,7 @@ impl<'w> Work<'w, '_> {
                 }
             }
             (Anchor::Parent { .. }, None) => {
-                let above = |transcript: &'w Transcript, place: Place| {
+                let above = |transcript: &'w Transcript, place: AnnotationAddress| {
                     let parent = transcript.annotation(place)?.parent?;
                     Some(transcript.annotation(parent)?.id.as_str())
                 };
@@ -109,9 +109,9 @@ impl<'w> Work<'w, '_> {
     /// Returns the lines of a new annotation.
     fn block(
         &self,
-        place: Place,
+        place: AnnotationAddress,
         refs: &Refs,
-        previous: &HashMap<Place, &str>,
+        previous: &HashMap<AnnotationAddress, &str>,
         indent: &str,
     ) -> Option<String> {
         let it = self.wanted(place);
@@ -180,7 +180,7 @@ impl<'w> Work<'w, '_> {
             })?;
             let mut blocks = String::new();
             for index in 0..self.after.tiers[at].annotations.len() {
-                let place = Place { tier: at, index };
+                let place = AnnotationAddress { tier: at, index };
                 let block = self.block(place, refs, &previous, &inner)?;
                 blocks.push_str(&format!("{}{inner}{block}", self.style.newline));
             }
@@ -212,7 +212,7 @@ fn bare<'t>(tier: &raw::Tier<'t>) -> raw::Tier<'t> {
 }
 
 /// Returns for each annotation of a chain below a symbolic parent the id of the one before it.
-fn before_each(transcript: &Transcript) -> HashMap<Place, &str> {
+fn before_each(transcript: &Transcript) -> HashMap<AnnotationAddress, &str> {
     let mut found = HashMap::new();
     for (tier, it) in transcript.tiers.iter().enumerate() {
         if it.stereotype != Some(Stereotype::SymbolicSubdivision) {
@@ -224,7 +224,7 @@ fn before_each(transcript: &Transcript) -> HashMap<Place, &str> {
             let (before, own) = (&it.annotations[pair[0]], &it.annotations[pair[1]]);
             if before.parent == own.parent {
                 let index = pair[1];
-                found.insert(Place { tier, index }, before.id.as_str());
+                found.insert(AnnotationAddress { tier, index }, before.id.as_str());
             }
         }
     }

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
 /// An element in two spellings: ELAN's, which is used for comparison, and the file's.
-struct Part {
+struct TwoSpellings {
     plain: String,
     written: String,
 }
@@ -142,10 +142,10 @@ impl Work<'_, '_> {
         indent: &str,
         all: impl Iterator<Item = &'p T>,
         write: impl Fn(&T, &mut Writer<'_>) -> io::Result<()>,
-    ) -> Option<Vec<Part>> {
+    ) -> Option<Vec<TwoSpellings>> {
         let elan = Style::elan();
         all.map(|it| {
-            Some(Part {
+            Some(TwoSpellings {
                 plain: written(&elan, "", |xml| write(it, xml))?,
                 written: written(self.style, indent, |xml| write(it, xml))?,
             })
@@ -158,7 +158,7 @@ impl Work<'_, '_> {
         &mut self,
         container: usize,
         (name, key): (&str, &str),
-        (old, new): (Vec<Part>, Vec<Part>),
+        (old, new): (Vec<TwoSpellings>, Vec<TwoSpellings>),
         places: &[&str],
     ) -> Option<()> {
         if old
@@ -168,10 +168,10 @@ impl Work<'_, '_> {
         {
             return Some(());
         }
-        let keyed = |parts: Vec<Part>| -> Option<BTreeMap<String, Part>> {
+        let keyed = |parts: Vec<TwoSpellings>| -> Option<BTreeMap<String, TwoSpellings>> {
             let count = parts.len();
             let all = parts.into_iter().map(|it| (key_of(&it.plain, key), it));
-            let all: BTreeMap<String, Part> = all.collect();
+            let all: BTreeMap<String, TwoSpellings> = all.collect();
             (all.len() == count).then_some(all)
         };
         let order: Vec<String> = new.iter().map(|it| key_of(&it.plain, key)).collect();
@@ -211,7 +211,7 @@ impl Work<'_, '_> {
     }
 
     /// Changes an element: attribute by attribute and its text; vocabularies entry by entry.
-    fn morph(&mut self, element: usize, old: &Part, new: &Part) -> Option<()> {
+    fn morph(&mut self, element: usize, old: &TwoSpellings, new: &TwoSpellings) -> Option<()> {
         let (before, after) = (Layout::of(&old.plain)?, Layout::of(&new.plain)?);
         self.attributes_between(element, &before, &after);
         let inner = |layout: &Layout<'_>| layout.text[layout.elements[0].inner.clone()].to_owned();
@@ -236,7 +236,7 @@ impl Work<'_, '_> {
         if others(&before) != others(&after) {
             return None;
         }
-        let entries = |layout: &Layout<'_>| -> Vec<Part> {
+        let entries = |layout: &Layout<'_>| -> Vec<TwoSpellings> {
             let indent = self.indent_in(element);
             let children = layout.children(0, "CV_ENTRY_ML");
             let text = |it: usize| layout.text[layout.elements[it].span.clone()].to_owned();
@@ -246,7 +246,7 @@ impl Work<'_, '_> {
                     .map(|line| line.strip_prefix("    ").unwrap_or(line));
                 let newline = format!("{}{indent}", self.style.newline);
                 let written = lines.collect::<Vec<_>>().join(&newline);
-                Part { plain, written }
+                TwoSpellings { plain, written }
             };
             children.map(text).map(part).collect()
         };

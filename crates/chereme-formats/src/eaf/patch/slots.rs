@@ -1,7 +1,7 @@
 //! Time slots: those of moved ends, those that nothing uses any more, and those of new annotations.
 
 use super::{Refs, Work, ends, is_alignable};
-use crate::eaf::model::Place;
+use crate::eaf::model::AnnotationAddress;
 use crate::eaf::output::written;
 use crate::eaf::raw::{Anchor, TimeSlot};
 use crate::eaf::write;
@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, HashMap};
 /// One end of an annotation at a slot.
 struct User {
     /// Its new place; `None` if it was left out on reading.
-    place: Option<Place>,
+    place: Option<AnnotationAddress>,
     side: usize,
     /// Its new time, if it moved.
     moved: Option<Option<i64>>,
@@ -109,7 +109,11 @@ impl Work<'_, '_> {
     }
 
     /// Returns the new times of the ends of an annotation that moved.
-    fn moved(&self, old: Option<Place>, new: Option<Place>) -> [Option<Option<i64>>; 2] {
+    fn moved(
+        &self,
+        old: Option<AnnotationAddress>,
+        new: Option<AnnotationAddress>,
+    ) -> [Option<Option<i64>>; 2] {
         let Some((old, new)) = old.and_then(|old| self.before.annotation(old)).zip(new) else {
             return [None; 2];
         };
@@ -117,7 +121,7 @@ impl Work<'_, '_> {
         [0, 1].map(|side| (before[side] != after[side]).then_some(after[side]))
     }
 
-    fn divides(&self, place: Option<Place>) -> bool {
+    fn divides(&self, place: Option<AnnotationAddress>) -> bool {
         place.is_some_and(|place| {
             self.after.tiers[place.tier].stereotype == Some(Stereotype::TimeSubdivision)
         })
@@ -180,11 +184,11 @@ impl Work<'_, '_> {
                 continue;
             }
             let all = &self.after.tiers[tier].annotations;
-            let divides = self.divides(Some(Place { tier, index: 0 }));
-            let mut known: HashMap<(Option<Place>, i64), String> = HashMap::new();
-            let mut added: Vec<Place> = Vec::new();
+            let divides = self.divides(Some(AnnotationAddress { tier, index: 0 }));
+            let mut known: HashMap<(Option<AnnotationAddress>, i64), String> = HashMap::new();
+            let mut added: Vec<AnnotationAddress> = Vec::new();
             for (index, it) in all.iter().enumerate() {
-                let place = Place { tier, index };
+                let place = AnnotationAddress { tier, index };
                 match refs.get(&place) {
                     None => added.push(place),
                     Some(names) if divides => {

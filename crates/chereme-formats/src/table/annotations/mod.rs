@@ -35,7 +35,7 @@ pub enum Action {
 
 /// One change.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Row {
+pub struct ChangeRow {
     /// The line of the table, counted from 1.
     pub line: u64,
     /// The recording's name or address; `None` if the table has no such column or cell.
@@ -72,7 +72,7 @@ pub struct Fault {
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Annotations {
     /// The changes in the order of the table.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ChangeRow>,
     /// The problems of the other rows.
     pub faults: Vec<Fault>,
 }
@@ -131,7 +131,7 @@ pub fn read(
         });
     }
     let mut annotations = Annotations::default();
-    let mut take = |read: Result<Row, Fault>| match read {
+    let mut take = |read: Result<ChangeRow, Fault>| match read {
         Ok(row) => annotations.rows.push(row),
         Err(fault) => annotations.faults.push(fault),
     };
@@ -156,7 +156,7 @@ fn row(
     columns: &Columns,
     unit: Option<TimeUnit>,
     tier: Option<(usize, &str)>,
-) -> Result<Row, Fault> {
+) -> Result<ChangeRow, Fault> {
     let cell_at = |column: Option<usize>| {
         let text = column.and_then(|column| raw.cells.get(column));
         text.map(|cell| cell.trim()).filter(|text| !text.is_empty())
@@ -191,7 +191,7 @@ fn row(
             _ => None,
         };
     }
-    let row = Row {
+    let row = ChangeRow {
         line: raw.line,
         recording: owned(0),
         tier: tier.map(|(_, name)| name.to_owned()).or_else(|| owned(1)),

@@ -11,8 +11,8 @@
 
 mod hands;
 mod marks;
+mod movements;
 mod places;
-mod ways;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -138,7 +138,7 @@ pub fn drawing(symbol: Symbol) -> Drawing {
             Class::HandPart | Class::Digit | Class::FingerPart => hands::part(kind),
             Class::Location | Class::LocationMark => places::place(kind),
             Class::ExtendedFinger | Class::Palm | Class::Movement | Class::MovementMark => {
-                ways::way(kind)
+                movements::way(kind)
             }
             _ => marks::mark(kind),
         },

@@ -16,8 +16,8 @@ use eframe::egui::{
 use super::Pane;
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
-use crate::model::made::Made;
+use crate::context::{Outbox, PaneInput};
+use crate::model::generated::GeneratedClip;
 use crate::script::edit;
 use crate::words::{Text, cue as words, fill};
 use crate::work::{Ended, Outcome, Work, WorkId};
@@ -43,7 +43,7 @@ pub(crate) struct CuePane {
     of: String,
     made: Option<Arc<Recombination>>,
     /// The movement as it was given to the stage.
-    given: Option<Arc<Made>>,
+    given: Option<Arc<GeneratedClip>>,
     wrong: Option<String>,
     /// The index of the word whose phones are being changed, and the typed phones.
     editing: Option<(usize, String)>,
@@ -96,7 +96,7 @@ impl CuePane {
         self.making = Some(out.work(Work::Preview(recipe)));
     }
 
-    fn settings(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+    fn settings(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         ui.horizontal_wrapped(|ui| {
             let label = ui.label(seen.say(words::CODE));
             let french = seen.language == crate::words::Language::French;
@@ -134,7 +134,7 @@ impl CuePane {
         });
     }
 
-    fn typed(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+    fn typed(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let hint = if self.choices.spells() {
             words::TEXT_HINT
         } else {
@@ -155,7 +155,7 @@ impl CuePane {
     }
 
     /// Shows the words with their phones; a click lets the user change the phones of one.
-    fn words_of(&mut self, ui: &mut Ui, seen: &Seen<'_>, reading: &Reading) {
+    fn words_of(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, reading: &Reading) {
         ui.label(RichText::new(seen.say(words::WORDS)).small());
         let mut changed = None;
         ui.horizontal_wrapped(|ui| {
@@ -206,7 +206,7 @@ impl CuePane {
 
     /// Shows the keys, with a mark on the key at the playhead; a click on one with an uncertain vowel switches the
     /// vowel.
-    fn keys(&mut self, ui: &mut Ui, seen: &Seen<'_>, reading: &Reading) {
+    fn keys(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, reading: &Reading) {
         ui.label(RichText::new(seen.say(words::KEYS)).small());
         let now = self.current(seen);
         let mut toggled = None;
@@ -259,7 +259,7 @@ impl CuePane {
         keys.map(|note| (note.start_us, note.end_us))
     }
 
-    fn current(&self, seen: &Seen<'_>) -> Option<usize> {
+    fn current(&self, seen: &PaneInput<'_>) -> Option<usize> {
         let showing = seen.shown.made.as_ref()?;
         if !Arc::ptr_eq(&showing.made, self.given.as_ref()?) {
             return None;
@@ -275,7 +275,7 @@ impl CuePane {
         }
     }
 
-    fn cuer(&mut self, ui: &mut Ui, seen: &Seen<'_>, reading: &Reading, out: &mut Outbox) {
+    fn cuer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, reading: &Reading, out: &mut Outbox) {
         ui.horizontal_wrapped(|ui| {
             let ready = !reading.keys.is_empty();
             if ui
@@ -327,7 +327,7 @@ impl CuePane {
         }
     }
 
-    fn practise(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn practise(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let seed = (ui.input(|input| input.time) * 1e6) as u64;
         let mut begun = None;
         ui.label(seen.say(words::SET));
@@ -429,7 +429,7 @@ impl CuePane {
         self.exercise = Some(exercise);
     }
 
-    fn slips(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn slips(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         ui.weak(seen.say(words::SLIPS_HINT));
         let recording = seen.shown.recording;
         ui.horizontal(|ui| {
@@ -476,14 +476,14 @@ fn seek_id() -> eframe::egui::Id {
 }
 
 /// Shows a foldable part of the pane.
-fn part(ui: &mut Ui, seen: &Seen<'_>, title: Text, show: impl FnOnce(&mut Ui)) {
+fn part(ui: &mut Ui, seen: &PaneInput<'_>, title: Text, show: impl FnOnce(&mut Ui)) {
     CollapsingHeader::new(seen.say(title))
         .id_salt(title.en)
         .show(ui, show);
 }
 
 impl Pane for CuePane {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let now = ui.input(|input| input.time);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             self.typed(ui, seen);
@@ -521,7 +521,7 @@ impl Pane for CuePane {
             out.send(Command::Cue(Instant::from_micros(at)));
         }
         if let Some(made) = self.made.as_ref().filter(|_| self.given.is_none()) {
-            let made = Arc::new(Made::of(made));
+            let made = Arc::new(GeneratedClip::of(made));
             self.given = Some(Arc::clone(&made));
             out.send(Command::Made(Some(made)));
             if let Some(speed) = self.speed {

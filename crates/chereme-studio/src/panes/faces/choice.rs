@@ -10,8 +10,8 @@ use eframe::egui::{
 
 use super::{Faces, counted, data};
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
-use crate::little::{self, Cell, Focus, Motion};
+use crate::context::{Outbox, PaneInput};
+use crate::miniatures::{self, Cell, Focus, Motion};
 use crate::words::{Text, faces as words, fill};
 use crate::work::Work;
 
@@ -26,11 +26,11 @@ impl Faces {
     pub(super) fn candidates(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         choice: &Arc<Choice>,
         out: &mut Outbox,
     ) {
-        let moment = data::loop_moment(&choice.milestones, little::clock(ui));
+        let moment = data::loop_moment(&choice.milestones, miniatures::clock(ui));
         let sentence = self.sentence_name(choice);
         let own = fill(seen.say(words::OWN), &[("name", &sentence)]);
         let motion = self.recorded(choice.recording_id, &choice.milestones, choice, moment);
@@ -83,7 +83,7 @@ impl Faces {
     /// Returns the sentence with the face of a performance, and the time in it; requests the animation if necessary.
     fn on_sentence(
         &mut self,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         it: &Ranked,
         choice: &Choice,
         moment: f64,
@@ -111,7 +111,7 @@ impl Faces {
     fn figure(
         &self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         out: &mut Outbox,
         motion: Option<(Motion, f64)>,
         side: f32,
@@ -162,7 +162,7 @@ impl Faces {
     }
 
     /// Shows how many performances were compared and skipped.
-    pub(super) fn told(&self, ui: &mut Ui, seen: &Seen<'_>, choice: &Choice) {
+    pub(super) fn told(&self, ui: &mut Ui, seen: &PaneInput<'_>, choice: &Choice) {
         let skipped = choice.skipped.len() as u64;
         let lines = [
             counted(seen, words::COMPARED_COUNT, choice.compared),
@@ -178,7 +178,7 @@ impl Faces {
     }
 
     /// Shows the table of phases and channels for the chosen performance.
-    pub(super) fn reasons(&self, ui: &mut Ui, seen: &Seen<'_>, choice: &Choice) {
+    pub(super) fn reasons(&self, ui: &mut Ui, seen: &PaneInput<'_>, choice: &Choice) {
         let Some(chosen) = self.chosen(choice) else {
             return;
         };
@@ -215,7 +215,7 @@ impl Faces {
     pub(super) fn putting(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         choice: &Choice,
         out: &mut Outbox,
     ) {

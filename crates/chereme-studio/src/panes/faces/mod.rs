@@ -15,8 +15,8 @@ use eframe::egui::{Button, ComboBox, Role, ScrollArea, TextStyle, Ui, WidgetInfo
 use self::data::Compared;
 use super::Pane;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
-use crate::model::made::Made;
+use crate::context::{Outbox, PaneInput};
+use crate::model::generated::GeneratedClip;
 use crate::words::{Text, faces as words, fill};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
@@ -63,7 +63,7 @@ pub(crate) struct Faces {
     stored: Option<(String, i64)>,
     /// The recipes whose movement is being generated: the sentence with the face of a performance.
     carrying: BTreeMap<WorkId, String>,
-    made: BTreeMap<String, Option<Arc<Made>>>,
+    made: BTreeMap<String, Option<Arc<GeneratedClip>>>,
     measuring: Option<WorkId>,
     onsets: Option<Arc<Onsets>>,
     begun: bool,
@@ -71,7 +71,7 @@ pub(crate) struct Faces {
 
 impl Faces {
     /// Requests the expressions, or the ranking, if their inputs changed.
-    fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+    fn follow(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) {
         if !std::mem::replace(&mut self.begun, true) {
             (self.lengths, self.in_step) = (true, true);
         }
@@ -121,7 +121,7 @@ impl Faces {
     }
 
     /// Keeps function and sentence as long as they exist; otherwise chooses the displayed recording's, else the first.
-    fn settle(&mut self, seen: &Seen<'_>) {
+    fn settle(&mut self, seen: &PaneInput<'_>) {
         let there = |it: &FoundExpression| Some(&it.function) == self.function.as_ref();
         if !self.expressions().iter().any(there) {
             self.function = self.expressions().first().map(|it| it.function.clone());
@@ -142,7 +142,7 @@ impl Faces {
         self.sentence = found.map(|it| it.address.clone());
     }
 
-    fn tools(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+    fn tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let functions: Vec<Function> = {
             let all = self.found.iter().flat_map(|it| it.functions.keys());
             all.map(|name| Function::of(name)).collect()
@@ -190,7 +190,7 @@ impl Faces {
     }
 
     /// Shows the milestones of the sentence, and the button that writes them onto a tier.
-    fn milestones(&self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn milestones(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let sentence = self.sentence.as_deref();
         let found = self
             .sentences()
@@ -231,7 +231,7 @@ impl Faces {
         }
     }
 
-    fn proposing(&self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn proposing(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let recording = seen.shown.recording;
         let open = recording.is_some() && !seen.snapshot.is_read_only();
         let button = ui.add_enabled(open, Button::new(seen.say(words::PROPOSE)));
@@ -324,7 +324,7 @@ fn pick<T: PartialEq + Clone>(ui: &mut Ui, name: &str, value: &mut T, all: &[(T,
 }
 
 impl Pane for Faces {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.settle(seen);
         self.follow(seen, out);
         self.tools(ui, seen);
@@ -385,7 +385,7 @@ impl Pane for Faces {
             }
         } else if let Some(recipe) = self.carrying.remove(&id) {
             let made = match ended {
-                Ok(Outcome::Previewed(made)) => Some(Arc::new(Made::of(made))),
+                Ok(Outcome::Previewed(made)) => Some(Arc::new(GeneratedClip::of(made))),
                 _ => None,
             };
             self.made.insert(recipe, made);
@@ -394,6 +394,6 @@ impl Pane for Faces {
 }
 
 /// Returns a text with a count, or `None` if the count is 0.
-fn counted(seen: &Seen<'_>, text: Text, n: u64) -> Option<String> {
+fn counted(seen: &PaneInput<'_>, text: Text, n: u64) -> Option<String> {
     (n > 0).then(|| fill(seen.say(text), &[("n", &n)]))
 }

@@ -8,7 +8,7 @@ use eframe::egui::{
 
 use super::Faces;
 use super::data::Extent;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::{Text, faces as words, fill};
 use crate::work::Work;
 
@@ -19,7 +19,7 @@ const GAP: f32 = 16.0;
 
 impl Faces {
     /// Shows begin and end of every channel in the expressions of the function.
-    pub(super) fn timing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    pub(super) fn timing(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let header = CollapsingHeader::new(seen.say(words::ONSETS))
             .id_salt("onsets")
             .default_open(false);
@@ -45,7 +45,7 @@ impl Faces {
     }
 }
 
-fn table(ui: &mut Ui, seen: &Seen<'_>, onsets: &Onsets) {
+fn table(ui: &mut Ui, seen: &PaneInput<'_>, onsets: &Onsets) {
     let told = |it: &Quartiles| format!("{:+.3} ({:+.3} … {:+.3})", it.median, it.q1, it.q3);
     Grid::new("onset rows").striped(true).show(ui, |ui| {
         for text in [
@@ -73,7 +73,7 @@ fn table(ui: &mut Ui, seen: &Seen<'_>, onsets: &Onsets) {
 type Which = fn(&OnsetRow) -> Quartiles;
 
 /// Paints a box for each channel: the begin on the left and the end on the right.
-fn plot(ui: &mut Ui, seen: &Seen<'_>, onsets: &Onsets) {
+fn plot(ui: &mut Ui, seen: &PaneInput<'_>, onsets: &Onsets) {
     let height = ROW * (onsets.rows.len() as f32 + 2.0);
     let (rect, response) =
         ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());

@@ -5,7 +5,7 @@ use chereme_motion::{Instant, Span};
 use eframe::egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::merge as words;
 use crate::work::Work;
 
@@ -13,7 +13,7 @@ use crate::work::Work;
 const SHARE: f32 = 0.6;
 
 /// Shows the open conflicts, if there are any.
-pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+pub(super) fn show(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let all = &seen.snapshot.overview.conflicts;
     if all.is_empty() {
         return;
@@ -51,7 +51,7 @@ fn show_there(out: &mut Outbox, recording: i64, conflict: &CorpusConflict) {
     out.send(Command::Look);
 }
 
-fn row(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, conflict: &CorpusConflict) {
+fn row(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, conflict: &CorpusConflict) {
     let about = format!(
         "{}. {} · {} {}",
         conflict.number,

@@ -21,7 +21,7 @@ pub(crate) enum Standing {
 
 /// An operation as a row of the list.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Row {
+pub(crate) struct HistoryRow {
     pub(crate) id: i64,
     pub(crate) what: String,
     /// Time and author.
@@ -31,19 +31,23 @@ pub(crate) struct Row {
 
 /// Returns the operations other than undo and redo, the newest first. `operations` contains all of them, the newest
 /// first.
-pub(crate) fn rows(operations: &[OperationRow], language: Language, filter: &str) -> Vec<Row> {
+pub(crate) fn rows(
+    operations: &[OperationRow],
+    language: Language,
+    filter: &str,
+) -> Vec<HistoryRow> {
     let standings = standings(operations);
     let wanted = fold(filter.trim());
     let row = |it: &OperationRow| {
         let at = it.at.replace('T', " ");
-        Row {
+        HistoryRow {
             id: it.id,
             what: sentence(it, language),
             about: format!("{} · {}", at.trim_end_matches('Z'), it.author),
             standing: standings.get(&it.id).copied().unwrap_or(Standing::Gone),
         }
     };
-    let fits = |row: &Row| {
+    let fits = |row: &HistoryRow| {
         let text = fold(&format!("{} {}", row.what, row.about));
         wanted.split_whitespace().all(|word| text.contains(word))
     };

@@ -13,11 +13,11 @@ use eframe::egui::{
 
 use super::Pane;
 use crate::action::Action;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::script::edit;
 use crate::words::{Language, fill, history as words};
 use crate::work::Work;
-use data::{Row, Standing};
+use data::{HistoryRow, Standing};
 
 /// Several undos or redos, which wait to be confirmed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,12 +34,12 @@ pub(crate) struct History {
     filter: String,
     walk: Option<Walk>,
     /// The rows, and the inputs that they were computed from.
-    rows: Vec<Row>,
+    rows: Vec<HistoryRow>,
     of: Option<(Arc<Overview>, Language, String)>,
 }
 
 impl History {
-    fn follow(&mut self, seen: &Seen<'_>) {
+    fn follow(&mut self, seen: &PaneInput<'_>) {
         let same = self
             .of
             .as_ref()
@@ -63,7 +63,7 @@ impl History {
         self.of = Some((overview, seen.language, self.filter.clone()));
     }
 
-    fn buttons(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn buttons(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         ui.horizontal(|ui| {
             for action in [Action::Undo, Action::Redo] {
                 let button = ui.button(seen.say(action.row().name));
@@ -87,7 +87,7 @@ impl History {
     }
 
     /// Asks for confirmation of a walk of several steps.
-    fn confirmation(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn confirmation(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let Some(walk) = self.walk else { return };
         let text = if walk.back {
             words::WALK_BACK
@@ -107,7 +107,7 @@ impl History {
         });
     }
 
-    fn clicked(&mut self, row: &Row, out: &mut Outbox) {
+    fn clicked(&mut self, row: &HistoryRow, out: &mut Outbox) {
         let walk = match row.standing {
             Standing::Stands(0) | Standing::Gone => None,
             Standing::Stands(steps) => Some((true, steps)),
@@ -131,7 +131,7 @@ impl History {
     }
 
     /// Returns whether the waiting walk would undo or redo that operation.
-    fn is_on_the_way(&self, row: &Row) -> bool {
+    fn is_on_the_way(&self, row: &HistoryRow) -> bool {
         match (self.walk, row.standing) {
             (Some(walk), Standing::Stands(steps)) => walk.back && steps < walk.steps,
             (Some(walk), Standing::Undone(steps)) => !walk.back && steps <= walk.steps,
@@ -146,7 +146,7 @@ fn walk_now(walk: Walk, out: &mut Outbox) {
 }
 
 impl Pane for History {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.follow(seen);
         self.buttons(ui, seen, out);
         conflicts::show(ui, seen, out);
@@ -181,7 +181,7 @@ impl Pane for History {
 }
 
 impl History {
-    fn beginning(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn beginning(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let steps = data::standing(&seen.snapshot.overview.operations);
         let button = Button::new(seen.say(words::BEGINNING)).frame(false);
         if ui.add_enabled(steps > 0, button).clicked() {
@@ -191,7 +191,7 @@ impl History {
     }
 
     /// Shows an operation; returns whether it was clicked.
-    fn row(&self, ui: &mut Ui, seen: &Seen<'_>, height: f32, row: &Row) -> bool {
+    fn row(&self, ui: &mut Ui, seen: &PaneInput<'_>, height: f32, row: &HistoryRow) -> bool {
         let size = vec2(ui.available_width(), height);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
         let newest = row.standing == Standing::Stands(0);

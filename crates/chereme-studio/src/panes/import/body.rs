@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use eframe::egui::{Color32, CursorIcon, Pos2, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
 use super::people;
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::words::{fill, import as words};
 
 /// Vertical positions of parts on the middle line of a body with height 1, from the top of the head. The signer's left
@@ -33,7 +33,7 @@ const FINGERS: [&str; 5] = ["thumb", "index", "middle", "ring", "little"];
 
 /// A part on the map.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Mark {
+pub(super) struct MapPart {
     pub(super) part: String,
     /// Position in shares of the height, from the middle line and the top of the head.
     pub(super) at: Vec2,
@@ -43,19 +43,19 @@ pub(super) struct Mark {
 }
 
 /// Returns the parts of a body, each found or not; the joints of a finger are one mark.
-pub(super) fn marks(found: &BTreeMap<String, String>) -> Vec<Mark> {
+pub(super) fn marks(found: &BTreeMap<String, String>) -> Vec<MapPart> {
     let there = |part: &str| {
         found
             .keys()
             .any(|it| it == part || it.starts_with(&format!("{part} ")))
     };
-    let mark = |part: String, at: Vec2, large: bool| Mark {
+    let mark = |part: String, at: Vec2, large: bool| MapPart {
         found: there(&part),
         part,
         at,
         large,
     };
-    let mut all: Vec<Mark> = MIDDLE
+    let mut all: Vec<MapPart> = MIDDLE
         .iter()
         .map(|(part, y)| mark((*part).to_owned(), vec2(0.0, *y), true))
         .collect();
@@ -76,7 +76,7 @@ pub(super) fn marks(found: &BTreeMap<String, String>) -> Vec<Mark> {
 /// Shows the map. If `points`, returns the part that was clicked, so that its joint can be named.
 pub(super) fn show(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     found: &BTreeMap<String, String>,
     points: bool,
 ) -> Option<String> {
@@ -160,7 +160,7 @@ pub(super) fn show(
     clicked.then(|| mark.part.clone())
 }
 
-fn nearest(marks: &[Mark], far: impl Fn(&Mark) -> f32) -> Option<&Mark> {
+fn nearest(marks: &[MapPart], far: impl Fn(&MapPart) -> f32) -> Option<&MapPart> {
     let all = marks.iter().map(|mark| (far(mark), mark));
     all.filter(|(far, _)| *far < 12.0)
         .min_by(|a, b| a.0.total_cmp(&b.0))

@@ -5,10 +5,10 @@ use std::path::Path;
 use chereme_corpus::{FileReport, FileStatus};
 use eframe::egui::{Align, CollapsingHeader, ComboBox, Grid, Id, RichText, Role, Ui, WidgetInfo};
 
-use super::known::Said;
+use super::known::ImportCorrections;
 use super::{body, data, people};
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::overlay::remedy;
 use crate::panes::complete::{Line, complete, fitting};
 use crate::panes::timeline::tier_box;
@@ -16,9 +16,9 @@ use crate::words::{fill, import as words, shell};
 
 /// Shows the interpretation of a file.
 pub(super) fn show(
-    said: &mut Said,
+    said: &mut ImportCorrections,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     file: &FileReport,
     (open, dry): (bool, bool),
     out: &mut Outbox,
@@ -68,7 +68,13 @@ pub(super) fn show(
         });
 }
 
-fn understood(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport, dry: bool) {
+fn understood(
+    said: &mut ImportCorrections,
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    file: &FileReport,
+    dry: bool,
+) {
     let lines = data::movement(file, seen.language);
     let parts = data::parts(file);
     if !lines.is_empty() || parts.is_some() {
@@ -117,7 +123,7 @@ fn understood(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport, 
 }
 
 /// Shows the role of a tier, which can be changed.
-fn tier(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, guess: &data::Guess) {
+fn tier(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>, guess: &data::Guess) {
     let chosen = said.tiers.get(&guess.name).cloned();
     let now = chosen.clone().unwrap_or_else(|| guess.role.clone());
     let shown = if now.is_empty() {
@@ -154,7 +160,7 @@ fn pointed(file: &FileReport) -> Id {
 }
 
 /// Shows the joint of each part of the body, which can be changed; goes to the part that was clicked on the body.
-fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
+fn joints(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>, file: &FileReport) {
     let rows = data::joint_rows(file);
     if rows.is_empty() {
         return;
@@ -211,7 +217,7 @@ fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
 }
 
 /// Shows the findings about a file, with their lines and remedies.
-fn findings(ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
+fn findings(ui: &mut Ui, seen: &PaneInput<'_>, file: &FileReport) {
     for finding in &file.findings {
         let colour = match finding.severity {
             "note" => ui.visuals().weak_text_color(),

@@ -7,13 +7,13 @@ use chereme_motion::Axes;
 use eframe::egui::{CollapsingHeader, ComboBox, Grid, Id, Role, Ui, WidgetInfo};
 
 use super::{data, people};
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::panes::complete::{Line, complete, fitting};
 use crate::words::{Text, fill, import as words};
 
 /// The user's corrections.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Said {
+pub(super) struct ImportCorrections {
     signer: String,
     /// `right`, `left`, or `None`.
     hand: Option<&'static str>,
@@ -29,7 +29,7 @@ pub(super) struct Said {
     pub(super) joints: BTreeMap<String, String>,
 }
 
-impl Said {
+impl ImportCorrections {
     pub(super) fn options(&self, dry_run: bool) -> ImportOptions {
         let text = |text: &str| Some(text.trim().to_owned()).filter(|text| !text.is_empty());
         ImportOptions {
@@ -49,7 +49,7 @@ impl Said {
 }
 
 /// Shows the corrections that the user can make.
-pub(super) fn show(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
+pub(super) fn show(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>) {
     CollapsingHeader::new(seen.say(words::KNOWN_BETTER))
         .id_salt("known")
         .show(ui, |ui| {
@@ -117,7 +117,7 @@ pub(super) fn show(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
 
 /// Shows the joints that the user named, each with a button that forgets it, even if the files were refused because of
 /// them.
-fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
+fn joints(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>) {
     let mut forgotten = None;
     for (part, joint) in &said.joints {
         ui.horizontal(|ui| {
@@ -142,7 +142,7 @@ fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
 }
 
 /// Shows the axes that point up and to the signer's left, which can be changed.
-fn axes(ui: &mut Ui, seen: &Seen<'_>, value: &mut Option<Axes>) {
+fn axes(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut Option<Axes>) {
     ui.label(seen.say(words::AXES));
     let text = |axes: &Option<Axes>| match axes {
         None => seen.say(words::AS_UNDERSTOOD).to_owned(),
@@ -166,7 +166,7 @@ fn axes(ui: &mut Ui, seen: &Seen<'_>, value: &mut Option<Axes>) {
 
 fn list<T: PartialEq + Copy>(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     text: Text,
     value: &mut T,
     all: &[(T, Text)],
@@ -197,11 +197,14 @@ mod tests {
 
     #[test]
     fn what_becomes_of_own_edits_is_said_to_the_corpus() {
-        assert_eq!(Said::default().options(true).own_edits, OwnEdits::Ask);
+        assert_eq!(
+            ImportCorrections::default().options(true).own_edits,
+            OwnEdits::Ask
+        );
         for own_edits in [OwnEdits::Merge, OwnEdits::Theirs, OwnEdits::Mine] {
-            let said = Said {
+            let said = ImportCorrections {
                 own_edits,
-                ..Said::default()
+                ..ImportCorrections::default()
             };
             assert_eq!(said.options(false).own_edits, own_edits);
         }

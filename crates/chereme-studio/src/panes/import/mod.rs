@@ -15,13 +15,13 @@ use eframe::egui::{Align, Button, Id, Layout, ProgressBar, RichText, ScrollArea,
 
 use super::Pane;
 use super::complete::Line;
-use crate::choose::Choose;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
+use crate::file_dialogs::Choose;
 use crate::overlay::remedy;
 use crate::words::{fill, import as words, shell};
 use crate::work::{Ended, Outcome, Work, WorkId};
-use known::Said;
+use known::ImportCorrections;
 pub(crate) use paths::Paths;
 
 /// The pane.
@@ -31,9 +31,9 @@ pub(crate) struct Import {
     /// The dropped or chosen files, if there are several.
     dropped: Vec<PathBuf>,
     paths: Paths,
-    said: Said,
+    said: ImportCorrections,
     /// The corrections at the last examination of the files.
-    looked: Said,
+    looked: ImportCorrections,
     asked: Option<WorkId>,
     report: Option<ImportReport>,
     /// The outcome of a merge.
@@ -84,7 +84,7 @@ impl Import {
         self.asked = Some(out.work(Work::Import(self.files(), options)));
     }
 
-    fn choosing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn choosing(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let label = ui.label(RichText::new(seen.say(words::PATH)).small());
         let id = Id::unique("import path");
         let line = Line {
@@ -124,7 +124,7 @@ impl Import {
         }
     }
 
-    fn buttons(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn buttons(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let running = self.asked.and_then(|id| seen.running.get(&id));
         if let (Some(running), Some(id)) = (running, self.asked) {
             // At the other end from the buttons that are clicked before and after this one.
@@ -181,7 +181,7 @@ impl Import {
         });
     }
 
-    fn report(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn report(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let Some(report) = self.report.take() else {
             if self.wrong.is_none() && !seen.is_running(self.asked) {
                 ui.weak(seen.say(words::NOTHING));
@@ -211,7 +211,7 @@ impl Import {
 }
 
 impl Pane for Import {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.choosing(ui, seen, out);
         let other = self.other();
         if std::mem::take(&mut self.fresh) && other.is_none() {

@@ -8,7 +8,7 @@ use eframe::egui::{Button, ProgressBar, RichText, ScrollArea, Ui};
 
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::{fill, import as words, merge, shell};
 use crate::work::{Work, WorkId};
 
@@ -20,7 +20,7 @@ pub(super) fn is_corpus(path: &Path) -> bool {
 /// Shows the offer to merge a corpus, the progress, and the outcome; returns the work when it begins.
 pub(super) fn show(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     path: &Path,
     (running, report): (Option<WorkId>, Option<&MergeReport>),
@@ -54,7 +54,7 @@ pub(super) fn show(
     begun
 }
 
-fn outcome(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, report: &MergeReport) {
+fn outcome(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, report: &MergeReport) {
     let lines = lines(report, &|text| seen.say(text));
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for line in lines {

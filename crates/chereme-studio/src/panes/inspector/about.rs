@@ -11,9 +11,9 @@ use super::data;
 use super::edit::{choice, grid, line, notes, offered, said, title};
 use super::ui::{lines, link};
 use super::{Inspector, Thing};
-use crate::choose::Choose;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
+use crate::file_dialogs::Choose;
 use crate::panes::complete::fitting;
 use crate::panes::import::people;
 use crate::panes::library::data as library;
@@ -21,7 +21,12 @@ use crate::panes::timeline::data::time_text;
 use crate::words::{fill, inspector as words};
 use crate::work::Work;
 
-pub(super) fn recording(ui: &mut Ui, seen: &Seen<'_>, glance: &RecordingGlance, out: &mut Outbox) {
+pub(super) fn recording(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    glance: &RecordingGlance,
+    out: &mut Outbox,
+) {
     let row = &glance.row;
     let change = |out: &mut Outbox, change: RecordingChange| {
         out.work(Work::ChangeRecording(
@@ -98,7 +103,7 @@ pub(super) fn none_if_blank(text: String) -> Option<String> {
 
 pub(super) fn recording_more(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     it: &RecordingDetails,
     out: &mut Outbox,
 ) {
@@ -148,7 +153,7 @@ pub(super) fn recording_more(
 }
 
 /// Shows the tracks of numbers, if there are any besides the body's movement.
-fn tracks(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails) {
+fn tracks(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails) {
     let moving = it.tracks.iter().filter(|it| it.kind != TrackKind::Media);
     let lines: Vec<(&str, String)> = moving
         .map(|track| {
@@ -177,7 +182,7 @@ fn tracks(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails) {
 }
 
 /// Shows the media files of a recording: whether they exist, and how to link them.
-fn media(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails, out: &mut Outbox) {
+fn media(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails, out: &mut Outbox) {
     let change = |out: &mut Outbox, change: MediaChange| {
         out.work(Work::ChangeMedia(Name::Number(it.id), change));
     };
@@ -215,7 +220,7 @@ fn media(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails, out: &mut Outbox) 
     }
 }
 
-pub(super) fn signer(ui: &mut Ui, seen: &Seen<'_>, row: &SignerRow, out: &mut Outbox) {
+pub(super) fn signer(ui: &mut Ui, seen: &PaneInput<'_>, row: &SignerRow, out: &mut Outbox) {
     let change = |out: &mut Outbox, change: SignerChange| {
         out.work(Work::ChangeSigner(Name::Number(row.id), Box::new(change)));
     };
@@ -270,7 +275,7 @@ pub(super) fn signer(ui: &mut Ui, seen: &Seen<'_>, row: &SignerRow, out: &mut Ou
 pub(super) fn signer_more(
     it: &mut Inspector,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     signer: &SignerDetails,
 ) {
     lines(ui, seen, "measures", &data::measures(signer));
@@ -286,7 +291,7 @@ pub(super) fn signer_more(
 pub(super) fn sign(
     it: &mut Inspector,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     sign: &SignDetails,
     out: &mut Outbox,
 ) {
@@ -377,7 +382,7 @@ pub(super) fn sign(
 pub(super) fn value(
     it: &mut Inspector,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     (inventory, id): (i64, &str),
     uses: u64,
     out: &mut Outbox,

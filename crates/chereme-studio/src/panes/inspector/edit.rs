@@ -2,13 +2,13 @@
 
 use eframe::egui::{ComboBox, Grid, Id, Key, RichText, Role, Ui, WidgetInfo};
 
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::panes::complete::{Line, complete};
 use crate::script::edit;
 use crate::words::{Text, inspector as words};
 
 /// Shows a name and a value.
-pub(super) fn said(ui: &mut Ui, seen: &Seen<'_>, text: Text, value: &str) {
+pub(super) fn said(ui: &mut Ui, seen: &PaneInput<'_>, text: Text, value: &str) {
     let name = RichText::new(seen.say(text)).weak();
     ui.add(eframe::egui::Label::new(name).extend());
     ui.add(eframe::egui::Label::new(value).wrap());
@@ -27,7 +27,7 @@ pub(super) fn grid(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
 /// Shows an editable line; returns the new text if it changed.
 pub(super) fn line(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     id: Id,
     text: Text,
     value: &str,
@@ -39,7 +39,7 @@ pub(super) fn line(
 /// Shows an editable line with completion.
 pub(super) fn offered(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     id: Id,
     caption: Text,
     value: &str,
@@ -54,7 +54,7 @@ pub(super) fn offered(
 /// Shows the field of an editable line, named by a label beside it; returns the new text if it changed.
 pub(super) fn field(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     id: Id,
     label: Id,
     value: &str,
@@ -87,7 +87,7 @@ pub(super) fn field(
 }
 
 /// Shows an editable text of several lines; returns the new text if it changed.
-pub(super) fn notes(ui: &mut Ui, seen: &Seen<'_>, id: Id, value: &str) -> Option<String> {
+pub(super) fn notes(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, value: &str) -> Option<String> {
     let label = ui.weak(seen.say(words::NOTES)).id;
     let kept: Option<String> = ui.data(|data| data.get_temp(id));
     let mut text = kept.clone().unwrap_or_else(|| value.to_owned());
@@ -109,7 +109,7 @@ pub(super) fn notes(ui: &mut Ui, seen: &Seen<'_>, id: Id, value: &str) -> Option
 /// Shows a list to choose from; returns the choice, if it is new.
 pub(super) fn choice<T: PartialEq + Clone>(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     text: Text,
     now: &T,
     all: &[(T, String)],

@@ -14,7 +14,7 @@ use chereme_corpus::Details;
 use eframe::egui::{ScrollArea, Ui};
 
 use super::Pane;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::inspector as words;
 use crate::work::{Ended, Outcome, Work, WorkId};
 
@@ -50,7 +50,7 @@ impl Inspector {
         self.turned = Some(thing);
     }
 
-    fn follow(&mut self, seen: &Seen<'_>) {
+    fn follow(&mut self, seen: &PaneInput<'_>) {
         let shown = seen.shown;
         let selected = (shown.recording, shown.tier, shown.annotation());
         if selected != self.selected {
@@ -79,7 +79,7 @@ impl Inspector {
 }
 
 impl Pane for Inspector {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.follow(seen);
         if let Some(thing) = self.turned.clone() {
             if ui.button(seen.say(words::BACK)).clicked() {

@@ -6,7 +6,7 @@ use crate::words::{Text, inspector as words};
 
 /// A part of a notation, in the order of HamNoSys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Part {
+enum NotationPart {
     Hands,
     Handshape,
     Orientation,
@@ -14,7 +14,7 @@ enum Part {
     Movement,
 }
 
-impl Part {
+impl NotationPart {
     fn text(self) -> Text {
         match self {
             Self::Hands => words::BOTH_HANDS,
@@ -53,8 +53,8 @@ pub(super) fn parts(text: &str) -> Vec<(Text, Vec<Symbol>)> {
     let Ok(names) = to_names(text) else {
         return Vec::new();
     };
-    let mut parts: Vec<(Part, Vec<Symbol>)> = Vec::new();
-    let mut now = Part::Hands;
+    let mut parts: Vec<(NotationPart, Vec<Symbol>)> = Vec::new();
+    let mut now = NotationPart::Hands;
     let mut waiting: Vec<Symbol> = Vec::new();
     for symbol in names.into_iter().filter_map(Symbol::from_name) {
         let opens = symbol.name().ends_with("begin");
@@ -74,7 +74,7 @@ pub(super) fn parts(text: &str) -> Vec<(Text, Vec<Symbol>)> {
                 all.append(&mut waiting);
                 all.push(symbol);
             }
-            (None, None) if !opens => parts.push((Part::Hands, vec![symbol])),
+            (None, None) if !opens => parts.push((NotationPart::Hands, vec![symbol])),
             (None, _) => waiting.push(symbol),
         }
     }

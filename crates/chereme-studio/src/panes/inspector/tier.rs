@@ -5,13 +5,13 @@ use eframe::egui::{Id, Ui};
 
 use super::data;
 use super::edit::{choice, grid, line, said};
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::{fill, inspector as words};
 use crate::work::Work;
 
 pub(super) fn show(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     tier: &chereme_corpus::TierContents,
     out: &mut Outbox,
 ) {
@@ -104,7 +104,7 @@ pub(super) fn show(
     });
 }
 
-fn hands(seen: &Seen<'_>) -> Vec<(Option<Hands>, String)> {
+fn hands(seen: &PaneInput<'_>) -> Vec<(Option<Hands>, String)> {
     [
         (None, words::NOBODY),
         (Some("right"), words::RIGHT),
@@ -118,7 +118,7 @@ fn hands(seen: &Seen<'_>) -> Vec<(Option<Hands>, String)> {
 }
 
 /// Returns the inventories that a tier could take its values from.
-fn inventories(seen: &Seen<'_>, row: &TierRow) -> Vec<(Option<i64>, String)> {
+fn inventories(seen: &PaneInput<'_>, row: &TierRow) -> Vec<(Option<i64>, String)> {
     let fits = |it: &&StoredInventory| {
         let own = (it.inventory.component, it.inventory.feature.as_deref());
         row.role.component() == Some(own) || row.inventory_id == Some(it.id)

@@ -8,7 +8,7 @@ use super::edit::{field, grid, said};
 use super::ui::{link, set, span_text, values_like};
 use super::{Inspector, Thing, data, notation};
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::library::data::origin_text;
 use crate::panes::longest_word;
 use crate::panes::recombine::recipe_of;
@@ -20,7 +20,7 @@ use crate::work::Work;
 pub(super) fn show(
     it: &mut Inspector,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     token: &TokenDetails,
     out: &mut Outbox,
 ) {
@@ -103,7 +103,7 @@ pub(super) fn show(
 }
 
 /// Shows a notation part by part: drawn symbols with their names.
-pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
+pub(super) fn hamnosys(ui: &mut Ui, seen: &PaneInput<'_>, text: &str) {
     let parts = notation::parts(text);
     let title = RichText::new(seen.say(words::NOTATION));
     CollapsingHeader::new(title)
@@ -130,7 +130,7 @@ pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
 
 /// Returns the name of a field of a token; the name of the field comes before that of the hand, if a component has
 /// several fields.
-fn field_name(seen: &Seen<'_>, field: &str) -> String {
+fn field_name(seen: &PaneInput<'_>, field: &str) -> String {
     let (texts, rest) = data::field_words(field);
     let mut name: Vec<&str> = texts.iter().map(|text| seen.say(*text)).collect();
     let after = name.len().min(1);
@@ -143,7 +143,7 @@ fn field_name(seen: &Seen<'_>, field: &str) -> String {
 fn coding(
     it: &mut Inspector,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     token: &TokenDetails,
     out: &mut Outbox,
 ) {

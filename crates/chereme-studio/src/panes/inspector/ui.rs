@@ -11,14 +11,14 @@ use super::about::{self, recording, recording_more, signer, signer_more};
 use super::data::{self, Line};
 use super::edit::{grid, line, offered, said, title};
 use super::{Inspector, Thing};
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::model::Found;
 use crate::panes::complete::fitting;
 use crate::panes::timeline::data::{time_text, value_text};
 use crate::words::{Text, inspector as words, timeline};
 use crate::work::Work;
 
-pub(super) fn lines(ui: &mut Ui, seen: &Seen<'_>, id: &str, lines: &[Line]) {
+pub(super) fn lines(ui: &mut Ui, seen: &PaneInput<'_>, id: &str, lines: &[Line]) {
     grid(ui, id, |ui| {
         for (text, value) in lines {
             said(ui, seen, *text, value);
@@ -29,7 +29,7 @@ pub(super) fn lines(ui: &mut Ui, seen: &Seen<'_>, id: &str, lines: &[Line]) {
 /// Shows a foldable part.
 fn part(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     text: Text,
     open: bool,
     what: &str,
@@ -53,7 +53,7 @@ pub(super) fn link(inspector: &mut Inspector, ui: &mut Ui, text: &str, to: Thing
 }
 
 /// Shows the selection: the annotation, its token, the tier, the recording, the signer.
-pub(super) fn selected(it: &mut Inspector, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+pub(super) fn selected(it: &mut Inspector, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let Some(recording) = seen
         .shown
         .recording
@@ -121,7 +121,7 @@ pub(super) fn selected(it: &mut Inspector, ui: &mut Ui, seen: &Seen<'_>, out: &m
 pub(super) fn thing(
     it: &mut Inspector,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     thing: &Thing,
     out: &mut Outbox,
 ) {
@@ -157,7 +157,7 @@ pub(super) fn span_text(span: Span) -> String {
     format!("{} – {}", time_text(span.start()), time_text(span.end()))
 }
 
-fn missing<'a>(seen: &Seen<'a>, state: ValueState) -> &'static str {
+fn missing<'a>(seen: &PaneInput<'a>, state: ValueState) -> &'static str {
     match state {
         ValueState::NotApplicable => seen.say(timeline::NOT_APPLICABLE),
         ValueState::Unclear => seen.say(timeline::UNCLEAR),
@@ -179,7 +179,11 @@ pub(super) fn set(out: &mut Outbox, id: i64, times: [Option<Instant>; 2], value:
 }
 
 /// Returns the values of an inventory that match the typed text.
-pub(super) fn values_like(seen: &Seen<'_>, inventory: Option<i64>, typed: &str) -> Vec<String> {
+pub(super) fn values_like(
+    seen: &PaneInput<'_>,
+    inventory: Option<i64>,
+    typed: &str,
+) -> Vec<String> {
     let all = &seen.snapshot.overview.inventories;
     let found = all.iter().find(|it| Some(it.id) == inventory);
     found.map_or(Vec::new(), |it| {
@@ -187,7 +191,7 @@ pub(super) fn values_like(seen: &Seen<'_>, inventory: Option<i64>, typed: &str) 
     })
 }
 
-fn annotation(ui: &mut Ui, seen: &Seen<'_>, found: Found<'_>, out: &mut Outbox) {
+fn annotation(ui: &mut Ui, seen: &PaneInput<'_>, found: Found<'_>, out: &mut Outbox) {
     let (row, columns, at) = (&found.tier.row, &found.tier.annotations, found.at);
     let id = columns.ids[at];
     grid(ui, "annotation", |ui| {

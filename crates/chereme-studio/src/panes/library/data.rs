@@ -11,7 +11,7 @@ use crate::words::{Language, Text, library as words};
 
 /// A recording as a row of the list.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Row {
+pub(crate) struct LibraryRow {
     pub(crate) id: i64,
     pub(crate) name: String,
     /// Signer, origin and duration.
@@ -27,7 +27,7 @@ pub(crate) fn rows(
     filter: &str,
     origin: impl Fn(Source) -> String,
     kind: impl Fn(TrackKind) -> String,
-) -> Vec<Row> {
+) -> Vec<LibraryRow> {
     let wanted = fold(filter.trim());
     let fits = |it: &&RecordingGlance| {
         wanted.is_empty()
@@ -45,7 +45,7 @@ pub(crate) fn rows(
             Some(time_text(Instant::from_micros(it.row.duration_us))),
             others(it, &kind),
         ];
-        Row {
+        LibraryRow {
             id: it.row.id,
             name: it.row.name.clone(),
             about: parts.into_iter().flatten().collect::<Vec<_>>().join(" · "),

@@ -12,18 +12,18 @@ use eframe::egui::{
     Tooltip, Ui, Vec2, WidgetInfo, vec2,
 };
 
-use super::bare::{self, Bare};
 use super::inspector::Thing;
 use super::notated::Notated;
+use super::without_movement::{self, Bare};
 use super::{Carried, Pane};
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
-use crate::little::{self, Cell, Motion};
+use crate::context::{Outbox, PaneInput};
+use crate::miniatures::{self, Cell, Motion};
 use crate::script::edit;
 use crate::words::{Language, fill, library as words};
 use crate::work::{Ended, WorkId};
-use data::{Moves, Row, SignRow};
+use data::{LibraryRow, Moves, SignRow};
 
 /// Height of a row, in heights of a button.
 const ROW: f32 = 2.1;
@@ -58,14 +58,14 @@ pub(crate) struct Library {
 #[derive(Default)]
 struct Rows {
     of: Option<(usize, String, Language)>,
-    recordings: Vec<Row>,
+    recordings: Vec<LibraryRow>,
     signs: Vec<SignRow>,
     /// The first sign of each recording.
     first: BTreeMap<i64, Span>,
 }
 
 impl Rows {
-    fn update(&mut self, seen: &Seen<'_>, filter: &str) {
+    fn update(&mut self, seen: &PaneInput<'_>, filter: &str) {
         let overview = &seen.snapshot.overview;
         let now = (
             Arc::as_ptr(overview) as usize,
@@ -90,14 +90,14 @@ impl Library {
         carried(self.chosen.as_ref()?)
     }
 
-    fn listed(&self, seen: &Seen<'_>) -> List {
+    fn listed(&self, seen: &PaneInput<'_>) -> List {
         let none = seen.snapshot.overview.recordings.is_empty();
         let usual = if none { List::Signs } else { List::Recordings };
         self.list.unwrap_or(usual)
     }
 
     /// Draws the choice between a wall of pictures and a list, from the right.
-    fn layout_of_list(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn layout_of_list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         for (as_list, name) in [(true, words::LIST), (false, words::WALL)] {
             let on = seen.settings.library_list == as_list;
             if ui.selectable_label(on, seen.say(name)).clicked() && !on {
@@ -110,7 +110,7 @@ impl Library {
     }
 
     /// Draws the choice of the list, and the filter.
-    fn head(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) -> List {
+    fn head(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) -> List {
         let list = self.listed(seen);
         let overview = &seen.snapshot.overview;
         ui.horizontal_wrapped(|ui| {
@@ -188,7 +188,7 @@ impl Library {
     }
 
     /// Lists the possible actions for the chosen sign if it has no movement.
-    fn hint(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn hint(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let Some((row, token)) = self.chosen.as_ref().and_then(|row| Some((row, row.token?)))
         else {
             return;
@@ -199,7 +199,7 @@ impl Library {
             Moves::Not => Some(Bare::Coded),
         };
         if let Some(bare) = bare {
-            bare::show(ui, seen, out, (token, &row.gloss), &bare);
+            without_movement::show(ui, seen, out, (token, &row.gloss), &bare);
         }
     }
 
@@ -251,7 +251,7 @@ impl Library {
         }
     }
 
-    fn recordings(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn recordings(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let rows = std::mem::take(&mut self.rows.recordings);
         let height = ui.spacing().interact_size.y * ROW;
         self.keys(ui, rows.len());
@@ -276,7 +276,13 @@ impl Library {
     }
 
     /// Handles clicks on a recording.
-    fn on_recording(&self, seen: &Seen<'_>, out: &mut Outbox, row: &Row, response: &Response) {
+    fn on_recording(
+        &self,
+        seen: &PaneInput<'_>,
+        out: &mut Outbox,
+        row: &LibraryRow,
+        response: &Response,
+    ) {
         if response.clicked() {
             out.send(Command::Recording(row.id));
             out.send(Command::Look);
@@ -296,7 +302,7 @@ impl Library {
         });
     }
 
-    fn signs(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn signs(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let rows = std::mem::take(&mut self.rows.signs);
         let height = ui.spacing().interact_size.y * ROW;
         self.keys(ui, rows.len());
@@ -313,7 +319,7 @@ impl Library {
     fn sign(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         out: &mut Outbox,
         (at, row): (usize, &SignRow),
         height: f32,
@@ -339,7 +345,7 @@ impl Library {
     /// Handles clicks on a sign, and drags.
     fn on_sign(
         &mut self,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         out: &mut Outbox,
         (row, motion): (&SignRow, Option<Motion>),
         response: &Response,
@@ -376,7 +382,7 @@ fn recording_of(row: &SignRow) -> Option<i64> {
 }
 
 /// Opens the recipe of a recording that was made from one.
-fn open_recipe(seen: &Seen<'_>, recording: Option<i64>, out: &mut Outbox) {
+fn open_recipe(seen: &PaneInput<'_>, recording: Option<i64>, out: &mut Outbox) {
     if let Some((recipe, name)) = recording.and_then(|it| seen.snapshot.recipe_of(it)) {
         out.send(Command::Recipe(recipe, Some(name)));
     }
@@ -389,7 +395,7 @@ fn carried(row: &SignRow) -> Option<Carried> {
 
 fn figure(
     ui: &Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     motion: Motion,
     response: &Response,
@@ -398,7 +404,7 @@ fn figure(
     let at = response.rect.left_center() + vec2(4.0 + lead / 2.0, 0.0);
     let mut cell = Cell::new(motion.clone(), Vec2::splat(lead));
     if response.hovered() || response.has_focus() {
-        cell = cell.playing(little::clock(ui));
+        cell = cell.playing(miniatures::clock(ui));
     }
     let rect = Rect::from_center_size(at, cell.size);
     seen.little.paint(ui, seen, out, &cell, rect);
@@ -407,12 +413,12 @@ fn figure(
     beside.show(|ui| {
         let size = Vec2::splat(LARGE);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-        let large = Cell::new(motion, size).playing(little::clock(ui));
+        let large = Cell::new(motion, size).playing(miniatures::clock(ui));
         seen.little.paint(ui, seen, out, &large, rect);
     });
 }
 
-fn inspect(ui: &mut Ui, seen: &Seen<'_>, thing: Thing, out: &mut Outbox) {
+fn inspect(ui: &mut Ui, seen: &PaneInput<'_>, thing: Thing, out: &mut Outbox) {
     if ui.button(seen.say(words::INSPECT)).clicked() {
         out.send(Command::Inspect(thing));
         ui.close();
@@ -420,7 +426,7 @@ fn inspect(ui: &mut Ui, seen: &Seen<'_>, thing: Thing, out: &mut Outbox) {
 }
 
 impl Pane for Library {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.notated.follow(seen.snapshot.overview.generation);
         let overview = &seen.snapshot.overview;
         if overview.recordings.is_empty() && overview.signs.is_empty() {

@@ -11,8 +11,8 @@ use eframe::egui::{
 
 use super::data::Moves;
 use super::{Library, List, row_id};
-use crate::context::{Outbox, Seen};
-use crate::little::{self, Cell, Motion};
+use crate::context::{Outbox, PaneInput};
+use crate::miniatures::{self, Cell, Motion};
 use crate::panes::search::walked;
 
 /// The least width of a figure, the gap between two, and the height of the text below one, in points.
@@ -43,7 +43,7 @@ fn cells(room: f32) -> (usize, Vec2) {
 
 impl Library {
     /// Shows the wall of recordings or signs.
-    pub(super) fn wall(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, list: List) {
+    pub(super) fn wall(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, list: List) {
         let total = match list {
             List::Recordings => self.rows.recordings.len(),
             List::Signs => self.rows.signs.len(),
@@ -77,7 +77,7 @@ impl Library {
     fn cell(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         out: &mut Outbox,
         (list, at): (List, usize),
         rect: Rect,
@@ -153,7 +153,7 @@ impl Library {
 /// Draws the background, the text and the state of a figure; the picture is painted over it.
 fn frame(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     rect: Rect,
     (at, chosen): (usize, bool),
     (name, about): (&str, &str),
@@ -198,14 +198,14 @@ fn frame(
 }
 
 /// Shows movement in a loop.
-fn film(ui: &Ui, seen: &Seen<'_>, out: &mut Outbox, motion: Option<Motion>, rect: Rect) {
+fn film(ui: &Ui, seen: &PaneInput<'_>, out: &mut Outbox, motion: Option<Motion>, rect: Rect) {
     let rect = rect.shrink(1.5);
     match motion {
         Some(motion) => {
-            let cell = Cell::new(motion, rect.size()).playing(little::clock(ui));
+            let cell = Cell::new(motion, rect.size()).playing(miniatures::clock(ui));
             seen.little.paint(ui, seen, out, &cell, rect);
         }
-        None => little::still(ui, seen.language, rect),
+        None => miniatures::still(ui, seen.language, rect),
     }
 }
 

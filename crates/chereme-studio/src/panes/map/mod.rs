@@ -15,8 +15,8 @@ use eframe::egui::{
 
 use super::Pane;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
-use crate::little::{self, Cell, Motion};
+use crate::context::{Outbox, PaneInput};
+use crate::miniatures::{self, Cell, Motion};
 use crate::panes::inspector::Thing;
 use crate::words::{fill, inspector, map as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
@@ -77,7 +77,7 @@ impl Default for Map {
 
 impl Map {
     /// Requests the map again if the corpus or the components changed.
-    fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+    fn follow(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) {
         let of = Some((seen.snapshot.overview.generation, self.by));
         if self.of == of || seen.is_running(self.asked) {
             return;
@@ -93,7 +93,7 @@ impl Map {
         self.asked = Some(out.work(Work::Map(components)));
     }
 
-    fn tools(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+    fn tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         ui.horizontal_wrapped(|ui| {
             ui.label(seen.say(words::BY));
             for (at, (_, name)) in COMPONENTS.iter().enumerate() {
@@ -116,7 +116,7 @@ impl Map {
         });
     }
 
-    fn plane(&mut self, ui: &mut Ui, seen: &Seen<'_>, map: &SignMap, out: &mut Outbox) {
+    fn plane(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap, out: &mut Outbox) {
         let foot = ui.spacing().interact_size.y * 1.6;
         let size = vec2(
             ui.available_width(),
@@ -178,7 +178,7 @@ impl Map {
                 rooms.push(room);
                 let cell = Cell::new(Motion::Span(recording, span), room.size());
                 seen.little
-                    .paint(ui, seen, out, &cell.playing(little::clock(ui)), room);
+                    .paint(ui, seen, out, &cell.playing(miniatures::clock(ui)), room);
                 if marked {
                     painter.rect_stroke(room, 6.0, Stroke::new(2.0, colour), StrokeKind::Inside);
                 }
@@ -267,7 +267,7 @@ impl Map {
     }
 
     /// Shows the chosen sign and those most similar to it, as buttons.
-    fn foot(&mut self, ui: &mut Ui, seen: &Seen<'_>, map: &SignMap, out: &mut Outbox) {
+    fn foot(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap, out: &mut Outbox) {
         let Some(chosen) = self.chosen.filter(|&at| at < map.signs.len()) else {
             ui.weak(seen.say(words::HINT));
             return;
@@ -286,13 +286,13 @@ impl Map {
 }
 
 /// Returns the recording and the span of a citation form with movement.
-fn place(seen: &Seen<'_>, token: i64) -> Option<(i64, Span)> {
+fn place(seen: &PaneInput<'_>, token: i64) -> Option<(i64, Span)> {
     let signs = &seen.snapshot.overview.signs;
     signs.iter().find(|it| it.citation == Some(token))?.place
 }
 
 /// Shows a sign on the stage, or its coding in the inspector if it has no movement.
-fn open(seen: &Seen<'_>, token: i64, out: &mut Outbox) {
+fn open(seen: &PaneInput<'_>, token: i64, out: &mut Outbox) {
     match place(seen, token) {
         Some((recording, span)) => {
             out.send(Command::Made(None));
@@ -321,7 +321,7 @@ fn label(
 }
 
 impl Pane for Map {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.follow(seen, out);
         self.tools(ui, seen);
         if let Some(wrong) = &self.wrong {

@@ -10,7 +10,7 @@ use super::live::{Note, Trouble};
 use super::stack::{Card, Stack, What};
 use super::{catalogue, fields, settings};
 use crate::action::Action;
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::words::{fill, recombine as words, search, spoken};
 
 /// Residuals above this are reported as a warning, in metres.
@@ -33,7 +33,7 @@ enum Did {
 }
 
 /// A card with its results, for display.
-struct Shown<'a> {
+struct ShownCard<'a> {
     card: &'a Card,
     first: bool,
     counts: bool,
@@ -47,7 +47,7 @@ struct Shown<'a> {
 }
 
 /// Shows every card; returns whether any was changed.
-pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &Seen<'_>) -> bool {
+pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &PaneInput<'_>) -> bool {
     let mut did = Vec::new();
     let (focus, fresh) = (pane.focus.take(), pane.fresh.take());
     let mut places = Vec::new();
@@ -59,7 +59,7 @@ pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &Seen<'_>) -> bool {
     }
     let Recombine { stack, live, .. } = pane;
     for (at, card) in stack.cards().iter().enumerate() {
-        let shown = Shown {
+        let shown = ShownCard {
             card,
             first: at == 0,
             counts: stack.counts(at),
@@ -99,7 +99,13 @@ pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &Seen<'_>) -> bool {
     changed
 }
 
-fn frame(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &mut Vec<Did>) {
+fn frame(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    shown: &ShownCard<'_>,
+    stack: &Stack,
+    did: &mut Vec<Did>,
+) {
     let colours = seen.colours();
     let edge = match (shown.trouble.is_some(), shown.chosen) {
         (true, _) => Stroke::new(1.5, colours.trouble),
@@ -161,7 +167,13 @@ fn frame(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &m
 }
 
 /// Shows the line above a card: its name, its switch, and its actions.
-fn header(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &mut Vec<Did>) {
+fn header(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    shown: &ShownCard<'_>,
+    stack: &Stack,
+    did: &mut Vec<Did>,
+) {
     let card = shown.card;
     let title = seen.say(catalogue::title(&card.what));
     ui.horizontal(|ui| {
@@ -199,12 +211,18 @@ fn header(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &
 }
 
 /// Returns the tooltip of a button: its effect, and its key.
-fn tip(seen: &Seen<'_>, text: crate::words::Text, action: Action) -> String {
+fn tip(seen: &PaneInput<'_>, text: crate::words::Text, action: Action) -> String {
     format!("{} ({})", seen.say(text), seen.keys.text(action))
 }
 
 /// Shows the title, which selects a card and is the handle for dragging it.
-fn handle(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, title: &str, width: f32) -> Response {
+fn handle(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    shown: &ShownCard<'_>,
+    title: &str,
+    width: f32,
+) -> Response {
     let size = vec2(width, ui.spacing().interact_size.y);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     let label = fill(seen.say(words::CARD), &[("card", &title)]);
@@ -246,7 +264,7 @@ fn handle(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, title: &str, width: f
     response.on_hover_cursor(CursorIcon::Grab)
 }
 
-fn menu(ui: &mut Ui, seen: &Seen<'_>, id: u64, did: &mut Vec<Did>) {
+fn menu(ui: &mut Ui, seen: &PaneInput<'_>, id: u64, did: &mut Vec<Did>) {
     for action in [
         Action::CardUp,
         Action::CardDown,
@@ -264,7 +282,7 @@ fn menu(ui: &mut Ui, seen: &Seen<'_>, id: u64, did: &mut Vec<Did>) {
 
 /// Shows the results of a card: its effects, its residual, or why it is impossible; returns the corrected card if the
 /// user accepts a proposed correction.
-fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) -> Option<What> {
+fn told(ui: &mut Ui, seen: &PaneInput<'_>, shown: &ShownCard<'_>) -> Option<What> {
     if let Some(trouble) = shown.trouble {
         ui.label(
             RichText::new(&trouble.text)
@@ -308,7 +326,7 @@ fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) -> Option<What> {
 }
 
 /// Shows the dragged card at the pointer.
-fn carried(ui: &Ui, seen: &Seen<'_>, stack: &Stack, (id, at): (u64, eframe::egui::Pos2)) {
+fn carried(ui: &Ui, seen: &PaneInput<'_>, stack: &Stack, (id, at): (u64, eframe::egui::Pos2)) {
     let Some(place) = stack.position(id) else {
         return;
     };
@@ -333,7 +351,7 @@ fn carried(ui: &Ui, seen: &Seen<'_>, stack: &Stack, (id, at): (u64, eframe::egui
 /// Shows the place where a dragged card would go, and drops it there.
 fn drop_between(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     (stack, places): (&Stack, &[Rect]),
     did: &mut Vec<Did>,
 ) {

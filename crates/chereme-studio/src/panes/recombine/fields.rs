@@ -14,7 +14,7 @@ use eframe::egui::{
     WidgetInfo,
 };
 
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::panes::Carried;
 use crate::panes::complete::{Line, complete, fitting};
 use crate::panes::inspector::Thing;
@@ -42,7 +42,7 @@ pub(super) fn takes_focus(ui: &Ui) -> bool {
 }
 
 /// Shows a name before a field.
-pub(super) fn caption(ui: &mut Ui, seen: &Seen<'_>, text: Text) -> Response {
+pub(super) fn caption(ui: &mut Ui, seen: &PaneInput<'_>, text: Text) -> Response {
     ui.weak(seen.say(text))
 }
 
@@ -78,7 +78,7 @@ pub(super) fn hands_text(hands: Hands) -> Text {
 }
 
 /// Shows the choice of hands.
-pub(super) fn hands(ui: &mut Ui, seen: &Seen<'_>, value: &mut Hands, both: bool) -> bool {
+pub(super) fn hands(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut Hands, both: bool) -> bool {
     let all: Vec<(Hands, &str)> = Hands::ALL
         .into_iter()
         .filter(|it| both || *it != Hands::Both)
@@ -130,7 +130,7 @@ pub(super) fn count(
 /// Shows a length in centimetres or in shares of the arm.
 pub(super) fn length(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     name: &str,
     value: &mut Length,
     most: f64,
@@ -163,7 +163,7 @@ pub(super) fn tidy(number: f64) -> f64 {
 /// Shows a time; `None` leaves it to the operator.
 pub(super) fn time(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     text: Text,
     value: &mut Option<Seconds>,
     usual: f64,
@@ -190,7 +190,7 @@ pub(super) fn time(
 /// Shows a factor; `None` means one.
 pub(super) fn factor(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     text: Text,
     value: &mut Option<Factor>,
     usual: f64,
@@ -226,7 +226,7 @@ fn profile_text(profile: Option<Profile>) -> Text {
 }
 
 /// Shows a transition from one posture to the next.
-pub(super) fn transition(ui: &mut Ui, seen: &Seen<'_>, value: &mut Transition) -> bool {
+pub(super) fn transition(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut Transition) -> bool {
     ui.horizontal_wrapped(|ui| {
         caption(ui, seen, words::VIA);
         let all: Vec<(Option<Profile>, &str)> = [None]
@@ -254,7 +254,7 @@ pub(super) fn direction_text(direction: Direction) -> Text {
 /// Shows the signer's six directions as switches; opposite ones exclude each other.
 pub(super) fn directions(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     name: &str,
     value: &mut Vec<Direction>,
 ) -> bool {
@@ -281,7 +281,7 @@ pub(super) fn directions(
 }
 
 /// Shows a point as three lengths: to the left, up from the floor, forward.
-pub(super) fn point(ui: &mut Ui, seen: &Seen<'_>, value: &mut [Length; 3]) -> bool {
+pub(super) fn point(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut [Length; 3]) -> bool {
     let rows = [
         (words::TO_THE_LEFT, -80.0..=80.0),
         (words::ABOVE_FLOOR, 0.0..=220.0),
@@ -322,7 +322,13 @@ enum SpotKind {
 }
 
 /// Shows a place in the signing space.
-pub(super) fn spot(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, value: &mut Spot) -> bool {
+pub(super) fn spot(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    id: Id,
+    name: &str,
+    value: &mut Spot,
+) -> bool {
     let mut kind = match value {
         Spot::Me => SpotKind::Me,
         Spot::You => SpotKind::You,
@@ -357,7 +363,7 @@ pub(super) fn spot(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, value: &mut
 }
 
 /// Returns the name of a value of an inventory, if it differs from its id.
-fn called(value: &InventoryValue, seen: &Seen<'_>) -> Option<String> {
+fn called(value: &InventoryValue, seen: &PaneInput<'_>) -> Option<String> {
     let code = match seen.language {
         crate::words::Language::English => "en",
         crate::words::Language::French => "fr",
@@ -368,7 +374,7 @@ fn called(value: &InventoryValue, seen: &Seen<'_>) -> Option<String> {
 /// Shows a value from the inventories of a component: a text field with completion.
 pub(super) fn of_inventory(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     id: Id,
     component: Component,
     text: &mut String,
@@ -442,7 +448,7 @@ pub(super) fn asked(ui: &Ui) -> Option<Thing> {
 }
 
 /// Returns the id and the gloss of the token that is selected or under the playhead.
-pub(crate) fn selected_token(seen: &Seen<'_>) -> Option<(i64, String)> {
+pub(crate) fn selected_token(seen: &PaneInput<'_>) -> Option<(i64, String)> {
     let contents = seen.snapshot.contents(seen.shown.recording?)?;
     let by = |annotation: i64| {
         let own = contents.tokens.iter();
@@ -469,7 +475,7 @@ pub(crate) fn selected_token(seen: &Seen<'_>) -> Option<(i64, String)> {
 }
 
 /// Returns the first recipe and its gloss: the selection, or the notated sign on the stage.
-pub(super) fn selected_recipe(seen: &Seen<'_>) -> Option<(String, String)> {
+pub(super) fn selected_recipe(seen: &PaneInput<'_>) -> Option<(String, String)> {
     if let Some(showing) = &seen.shown.made
         && let Some(token) = showing.made.token
     {
@@ -513,7 +519,13 @@ fn quoted(name: &str) -> String {
 }
 
 /// Shows the choice of a sign by gloss: typed with completion, the selected token, or a result dropped on it.
-pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut String) -> bool {
+pub(super) fn sign(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    id: Id,
+    name: &str,
+    text: &mut String,
+) -> bool {
     let inner = ui.horizontal_wrapped(|ui| {
         let signs = &seen.snapshot.overview.signs;
         let candidates = |typed: &str| fitting(signs.iter().map(|it| it.gloss.as_str()), typed);
@@ -575,7 +587,13 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
 
 /// Shows a token by its gloss, as nobody remembers signs by numbers; a click lets the user type another sign. Returns
 /// whether it was clicked; `None` if the text is not a known token.
-fn token_chip(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut String) -> Option<bool> {
+fn token_chip(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    id: Id,
+    name: &str,
+    text: &mut String,
+) -> Option<bool> {
     let gloss = gloss_of(seen, text).filter(|_| text.starts_with("token:"))?;
     if ui.memory(|memory| memory.has_focus(id)) {
         return None;
@@ -595,7 +613,7 @@ fn token_chip(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut Strin
 
 /// Returns the gloss of a `token:…`: of the open recording, of a piece of the movement on the stage, or of a citation
 /// form.
-pub(super) fn gloss_of(seen: &Seen<'_>, text: &str) -> Option<String> {
+pub(super) fn gloss_of(seen: &PaneInput<'_>, text: &str) -> Option<String> {
     token_of(seen, text)
         .map(|token| token.gloss.clone())
         .or_else(|| Some(part_of(seen, text)?.gloss.clone()))
@@ -603,27 +621,27 @@ pub(super) fn gloss_of(seen: &Seen<'_>, text: &str) -> Option<String> {
         .filter(|gloss| !gloss.is_empty())
 }
 
-fn token_of<'a>(seen: &Seen<'a>, text: &str) -> Option<&'a TokenRow> {
+fn token_of<'a>(seen: &PaneInput<'a>, text: &str) -> Option<&'a TokenRow> {
     let id: i64 = text.strip_prefix("token:")?.parse().ok()?;
     let contents = seen.snapshot.contents(seen.shown.recording?)?;
     contents.tokens.iter().find(|token| token.id == id)
 }
 
 /// Returns the sign whose citation form a token is.
-fn sign_of<'a>(seen: &Seen<'a>, text: &str) -> Option<&'a SignGlance> {
+fn sign_of<'a>(seen: &PaneInput<'a>, text: &str) -> Option<&'a SignGlance> {
     let id: i64 = text.strip_prefix("token:")?.parse().ok()?;
     let mut signs = seen.snapshot.overview.signs.iter();
     signs.find(|it| it.citation == Some(id))
 }
 
-fn part_of<'a>(seen: &Seen<'a>, text: &str) -> Option<&'a MadePart> {
+fn part_of<'a>(seen: &PaneInput<'a>, text: &str) -> Option<&'a MadePart> {
     text.strip_prefix("token:")?;
     let made = &seen.shown.made.as_ref()?.made;
     made.parts.iter().find(|part| part.from == text)
 }
 
 /// Returns the time of a token in the open recording, or the duration of a piece of the movement on the stage.
-fn time_of(seen: &Seen<'_>, text: &str) -> Option<String> {
+fn time_of(seen: &PaneInput<'_>, text: &str) -> Option<String> {
     let seconds = |micros: i64| format!("{:.2}", micros as f64 / 1e6);
     if let Some((start, end)) = token_of(seen, text).and_then(|it| it.start_us.zip(it.end_us)) {
         return Some(format!("{}–{} s", seconds(start), seconds(end)));
@@ -633,7 +651,7 @@ fn time_of(seen: &Seen<'_>, text: &str) -> Option<String> {
 }
 
 /// Shows the choice of the signer whose body is used, if the corpus has signers.
-pub(super) fn signer(ui: &mut Ui, seen: &Seen<'_>, value: &mut Option<String>) -> bool {
+pub(super) fn signer(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut Option<String>) -> bool {
     let signers = &seen.snapshot.overview.signers;
     if signers.is_empty() && value.is_none() {
         return false;

@@ -14,7 +14,7 @@ use crate::work::{Ended, Outcome, Work, WorkId};
 
 /// The input of an evaluation.
 #[derive(Debug, Clone, PartialEq)]
-struct Wish {
+struct EvaluationRequest {
     text: String,
     /// The generation of the corpus, as the sources may change.
     generation: i64,
@@ -52,7 +52,7 @@ pub(super) struct Live {
     /// Whether the running evaluation was stopped, and whether the one before it was.
     stopped: [bool; 2],
     /// The running evaluation, with the stack that maps the paths of its report to cards.
-    running: Option<(WorkId, Wish, Stack)>,
+    running: Option<(WorkId, EvaluationRequest, Stack)>,
     /// When it was requested, in seconds of the window's clock.
     since: f64,
     /// Whether it ended and its result has not been followed up yet.
@@ -60,7 +60,7 @@ pub(super) struct Live {
     /// How long the last one took until it was followed up, in seconds.
     pub(super) took: f64,
     /// The last evaluation, which may have failed.
-    of: Option<Wish>,
+    of: Option<EvaluationRequest>,
     pub(super) made: Option<Arc<Recombination>>,
     pub(super) notes: BTreeMap<u64, Note>,
     pub(super) trouble: Option<Trouble>,
@@ -80,7 +80,7 @@ impl Live {
         if std::mem::take(&mut self.fresh) {
             self.took = now - self.since;
         }
-        let wish = Wish {
+        let wish = EvaluationRequest {
             text: text.to_owned(),
             generation,
         };

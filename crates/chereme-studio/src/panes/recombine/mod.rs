@@ -22,9 +22,9 @@ use eframe::egui::{Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollA
 use super::{Acted, Carried, Pane, carry};
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
+use crate::model::generated::GeneratedClip;
 use crate::model::handle::{Course, Handle};
-use crate::model::made::Made;
 use crate::script::edit;
 use crate::words::{fill, recombine as words};
 use crate::work::{Ended, Outcome, WorkId};
@@ -266,7 +266,7 @@ impl Recombine {
 
     /// Evaluates the current recipe, and passes the result, its handle and its path to the stage; `now` is the time on
     /// the window's clock.
-    pub(crate) fn keep_up(&mut self, seen: &Seen<'_>, now: f64, out: &mut Outbox) {
+    pub(crate) fn keep_up(&mut self, seen: &PaneInput<'_>, now: f64, out: &mut Outbox) {
         let generation = seen.snapshot.overview.generation;
         if self.wrong.is_none() {
             let text = self.stack.text();
@@ -284,7 +284,7 @@ impl Recombine {
     }
 
     /// Passes the result to the stage, or returns the stage to the recording.
-    fn show_on_stage(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+    fn show_on_stage(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) {
         let made = self.live.made.as_ref().filter(|_| self.on_stage);
         let same = match (made, &self.given) {
             (Some(made), Some(given)) => Arc::ptr_eq(made, given),
@@ -299,7 +299,7 @@ impl Recombine {
             return;
         }
         self.given = made.cloned();
-        let shown = made.map(|made| Arc::new(Made::of(made)));
+        let shown = made.map(|made| Arc::new(GeneratedClip::of(made)));
         out.send(Command::Made(shown));
     }
 
@@ -378,7 +378,7 @@ impl Recombine {
         }
     }
 
-    fn recipe_field(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+    fn recipe_field(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let label = ui.horizontal(|ui| {
             let text = match &self.opened {
                 Some(name) => fill(seen.say(words::OPENED), &[("name", name)]),
@@ -422,7 +422,7 @@ impl Recombine {
     }
 
     /// Shows the page without a recipe.
-    fn beginning(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+    fn beginning(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         ui.add_space(8.0);
         ui.strong(seen.say(words::EMPTY));
         ui.label(seen.say(words::EMPTY_MORE));
@@ -437,7 +437,7 @@ impl Recombine {
         }
     }
 
-    fn adding(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+    fn adding(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         let mut wanted = None;
         ui.horizontal_wrapped(|ui| {
             if !self.stack.is_empty() {
@@ -472,7 +472,7 @@ impl Recombine {
 }
 
 impl Pane for Recombine {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let whole = ui.available_rect_before_wrap();
         if !self.stack.is_empty() {
             Panel::bottom("recombine-store")
@@ -526,7 +526,7 @@ impl Pane for Recombine {
         self.settle_in_time(ui);
     }
 
-    fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {
+    fn act(&mut self, action: Action, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
         match action {
             Action::CardUp
             | Action::CardDown

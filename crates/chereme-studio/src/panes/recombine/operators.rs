@@ -10,7 +10,7 @@ use eframe::egui::{Id, Ui};
 use super::fields::{self, caption, choose};
 use super::path;
 use super::settings::{At, line, transition};
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::words::recombine as words;
 
 #[derive(Clone, Copy, PartialEq)]
@@ -21,7 +21,7 @@ enum ChoiceKind {
     Best,
 }
 
-fn choice(ui: &mut Ui, seen: &Seen<'_>, id: Id, value: &mut Choice) -> bool {
+fn choice(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, value: &mut Choice) -> bool {
     let mut kind = match value {
         Choice::Value(_) => ChoiceKind::Value,
         Choice::From(_) => ChoiceKind::From,
@@ -56,7 +56,7 @@ fn choice(ui: &mut Ui, seen: &Seen<'_>, id: Id, value: &mut Choice) -> bool {
     changed
 }
 
-pub(super) fn configure(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Configure) -> bool {
+pub(super) fn configure(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Configure) -> bool {
     let mut changed = false;
     let mut gone = None;
     let several = it.values.len() > 1;
@@ -109,7 +109,7 @@ enum GoalKind {
     Near,
 }
 
-pub(super) fn place(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Place) -> bool {
+pub(super) fn place(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Place) -> bool {
     let mut kind = match it.to {
         Goal::By(_) => GoalKind::By,
         Goal::At(_) | Goal::Best(_) => GoalKind::At,
@@ -174,7 +174,7 @@ pub(super) fn place(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Place) -> boo
     changed
 }
 
-pub(super) fn orient(ui: &mut Ui, seen: &Seen<'_>, it: &mut Orient) -> bool {
+pub(super) fn orient(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut Orient) -> bool {
     let mut changed = false;
     ui.horizontal_wrapped(|ui| changed |= fields::hands(ui, seen, &mut it.hand, true));
     for (text, value) in [
@@ -219,7 +219,7 @@ pub(super) fn orient(ui: &mut Ui, seen: &Seen<'_>, it: &mut Orient) -> bool {
     changed
 }
 
-pub(super) fn retime(ui: &mut Ui, seen: &Seen<'_>, it: &mut Retime) -> bool {
+pub(super) fn retime(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut Retime) -> bool {
     let mut changed = false;
     let mut gone = None;
     let several = it.paces.len() > 1;
@@ -273,7 +273,7 @@ pub(super) fn retime(ui: &mut Ui, seen: &Seen<'_>, it: &mut Retime) -> bool {
     changed
 }
 
-pub(super) fn indicate(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Indicate) -> bool {
+pub(super) fn indicate(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Indicate) -> bool {
     let mut changed = false;
     ui.horizontal_wrapped(|ui| changed |= fields::hands(ui, seen, &mut it.hand, true));
     for (text, value) in [

@@ -8,7 +8,7 @@ use eframe::egui::{
 };
 
 use super::fields::{self, caption, choose, tidy};
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::words::{fill, recombine as words};
 
 /// Width of the space that the drawing board shows, in metres.
@@ -62,7 +62,7 @@ pub(super) fn offset_of(legs: &[Leg]) -> Option<[f64; 3]> {
 }
 
 /// Shows an offset as three lengths, or as legs if they do not follow the axes.
-pub(super) fn offset(ui: &mut Ui, seen: &Seen<'_>, legs: &mut Vec<Leg>) -> bool {
+pub(super) fn offset(ui: &mut Ui, seen: &PaneInput<'_>, legs: &mut Vec<Leg>) -> bool {
     let Some(mut offset) = offset_of(legs) else {
         return rows(ui, seen, legs, false);
     };
@@ -88,7 +88,7 @@ pub(super) fn offset(ui: &mut Ui, seen: &Seen<'_>, legs: &mut Vec<Leg>) -> bool 
 }
 
 /// Shows each leg with its directions, length and time.
-fn rows(ui: &mut Ui, seen: &Seen<'_>, legs: &mut Vec<Leg>, timed: bool) -> bool {
+fn rows(ui: &mut Ui, seen: &PaneInput<'_>, legs: &mut Vec<Leg>, timed: bool) -> bool {
     let mut changed = false;
     let mut gone = None;
     let several = legs.len() > 1;
@@ -251,7 +251,7 @@ const DRAWING: &str = "path drawn on the stage";
 /// Shows a path: a board to draw it on, and below it its legs or the points of its curve.
 pub(super) fn show(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     (id, card): (Id, u64),
     travel: &mut Travel,
 ) -> bool {
@@ -302,7 +302,7 @@ pub(super) fn show(
 /// Shows the board; returns the points of a newly drawn path.
 fn draw(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     id: Id,
     travel: &Travel,
     board: Board,

@@ -3,7 +3,7 @@
 use chereme_corpus::recipe::{JoinReport, Report};
 use eframe::egui::{CollapsingHeader, Grid, RichText, Ui};
 
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::words::{Text, fill, recombine as words};
 
 /// Changes of velocity at a join above this are visible, in metres per second.
@@ -26,7 +26,7 @@ pub(super) fn join_text(join: &JoinReport) -> (String, String) {
 }
 
 /// Shows the report.
-pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, report: &Report) {
+pub(super) fn show(ui: &mut Ui, seen: &PaneInput<'_>, report: &Report) {
     for warning in &report.warnings {
         ui.label(
             RichText::new(format!("! {}", seen.snapshot.named(warning)))
@@ -71,7 +71,13 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, report: &Report) {
 }
 
 /// Shows a foldable part of the report, if it is not empty.
-fn section(ui: &mut Ui, seen: &Seen<'_>, text: Text, count: usize, content: impl FnOnce(&mut Ui)) {
+fn section(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    text: Text,
+    count: usize,
+    content: impl FnOnce(&mut Ui),
+) {
     if count == 0 {
         return;
     }

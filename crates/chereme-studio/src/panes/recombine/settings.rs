@@ -8,7 +8,7 @@ use eframe::egui::{DragValue, Id, Role, Ui, WidgetInfo};
 use super::fields::{self, caption, choose};
 use super::stack::What;
 use super::{operators, path};
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::pickers::{board, hamnosys};
 use crate::script::edit;
 use crate::words::recombine as words;
@@ -27,7 +27,7 @@ pub(super) struct At {
 }
 
 /// Shows the settings of a card; returns whether the user changed one.
-pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, at: At, what: &mut What) -> bool {
+pub(super) fn show(ui: &mut Ui, seen: &PaneInput<'_>, at: At, what: &mut What) -> bool {
     match what {
         What::Source { via, node } => {
             let mut changed = source(ui, seen, at, node);
@@ -39,11 +39,11 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, at: At, what: &mut What) -> boo
 }
 
 /// Shows a transition if it differs from the default, or if all settings are shown.
-pub(super) fn transition(ui: &mut Ui, seen: &Seen<'_>, at: At, via: &mut Transition) -> bool {
+pub(super) fn transition(ui: &mut Ui, seen: &PaneInput<'_>, at: At, via: &mut Transition) -> bool {
     (at.whole || !via.is_default()) && fields::transition(ui, seen, via)
 }
 
-fn source(ui: &mut Ui, seen: &Seen<'_>, at: At, node: &mut Node) -> bool {
+fn source(ui: &mut Ui, seen: &PaneInput<'_>, at: At, node: &mut Node) -> bool {
     match node {
         Node::Sign(name) => fields::sign(ui, seen, at.id, seen.say(words::SIGN_NAME), name),
         Node::Spell(it) => spell(ui, seen, at, it),
@@ -99,7 +99,7 @@ pub(super) fn line(ui: &mut Ui, name: &str, hint: &str, text: &mut String) -> bo
     response.changed()
 }
 
-fn cue(ui: &mut Ui, seen: &Seen<'_>, it: &mut Cue) -> bool {
+fn cue(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut Cue) -> bool {
     let (name, hint) = (seen.say(words::CUE_TEXT), seen.say(words::CUE_HINT));
     let mut changed = line(ui, name, hint, &mut it.text);
     ui.horizontal_wrapped(|ui| {
@@ -134,7 +134,7 @@ fn cue(ui: &mut Ui, seen: &Seen<'_>, it: &mut Cue) -> bool {
     changed
 }
 
-fn spell(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Spell) -> bool {
+fn spell(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Spell) -> bool {
     let mut changed = line(
         ui,
         seen.say(words::LETTERS),
@@ -184,7 +184,7 @@ fn spell(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Spell) -> bool {
 /// Shows a part of a recipe as text; `take` receives typed text that can be read.
 fn as_text(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     id: Id,
     text: &str,
     mut take: impl FnMut(&str) -> Option<()>,
@@ -210,7 +210,7 @@ fn as_text(
 }
 
 /// Shows a step as text.
-fn step_as_text(ui: &mut Ui, seen: &Seen<'_>, id: Id, step: &mut Step) -> bool {
+fn step_as_text(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, step: &mut Step) -> bool {
     let text = step.to_string();
     as_text(ui, seen, id, &text, |typed| {
         let recipe: Recipe = format!("x | {typed}").parse().ok()?;
@@ -229,7 +229,7 @@ fn step_as_text(ui: &mut Ui, seen: &Seen<'_>, id: Id, step: &mut Step) -> bool {
 
 /// Shows the settings of an operator: in a special form if it has one, else as the usual fields of its settings, else
 /// as text.
-fn operator(ui: &mut Ui, seen: &Seen<'_>, at: At, step: &mut Step) -> bool {
+fn operator(ui: &mut Ui, seen: &PaneInput<'_>, at: At, step: &mut Step) -> bool {
     match step {
         Step::Configure(it) => return operators::configure(ui, seen, at, it),
         Step::Place(it) if !matches!(it.to, Goal::Best(_)) => {
@@ -256,7 +256,7 @@ fn operator(ui: &mut Ui, seen: &Seen<'_>, at: At, step: &mut Step) -> bool {
 }
 
 /// Shows settings one after another.
-fn by_fields(ui: &mut Ui, seen: &Seen<'_>, at: At, all: Vec<FieldSetting<'_>>) -> bool {
+fn by_fields(ui: &mut Ui, seen: &PaneInput<'_>, at: At, all: Vec<FieldSetting<'_>>) -> bool {
     let caption_of = |name: &str| {
         let mut words = words::SETTINGS.into_iter();
         let found = words.find(|(word, _)| *word == name);

@@ -8,14 +8,14 @@ const MOST: usize = 200;
 /// The history of pages of type `T` and operations.
 #[derive(Debug)]
 pub(super) struct Steps<T> {
-    done: Vec<Entry<T>>,
-    undone: Vec<Entry<T>>,
+    done: Vec<UndoStep<T>>,
+    undone: Vec<UndoStep<T>>,
     /// The id of the newest operation of the corpus that is counted.
     newest: Option<i64>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum Entry<T> {
+enum UndoStep<T> {
     /// A change from the first page to the second.
     Page(T, T),
     /// An operation of the corpus.
@@ -35,7 +35,7 @@ impl<T> Default for Steps<T> {
 impl<T: Clone> Steps<T> {
     /// Records a change of the page.
     pub(super) fn did(&mut self, before: T, after: T) {
-        self.done.push(Entry::Page(before, after));
+        self.done.push(UndoStep::Page(before, after));
         self.undone.clear();
         if self.done.len() > MOST {
             self.done.remove(0);
@@ -59,7 +59,7 @@ impl<T: Clone> Steps<T> {
         for kind in new.into_iter().rev() {
             match kind {
                 OperationKind::Do => {
-                    self.done.push(Entry::Corpus);
+                    self.done.push(UndoStep::Corpus);
                     self.undone.clear();
                 }
                 OperationKind::Undo => go_over(&mut self.done, &mut self.undone),
@@ -71,28 +71,28 @@ impl<T: Clone> Steps<T> {
 
     /// Returns the page to go back to; `None` if the corpus is next.
     pub(super) fn back(&mut self) -> Option<T> {
-        let entry = self.done.pop_if(|it| matches!(it, Entry::Page(..)))?;
+        let entry = self.done.pop_if(|it| matches!(it, UndoStep::Page(..)))?;
         self.undone.push(entry.clone());
         match entry {
-            Entry::Page(before, _) => Some(before),
-            Entry::Corpus => None,
+            UndoStep::Page(before, _) => Some(before),
+            UndoStep::Corpus => None,
         }
     }
 
     /// Returns the page to go forward to; `None` if the corpus is next.
     pub(super) fn forward(&mut self) -> Option<T> {
-        let entry = self.undone.pop_if(|it| matches!(it, Entry::Page(..)))?;
+        let entry = self.undone.pop_if(|it| matches!(it, UndoStep::Page(..)))?;
         self.done.push(entry.clone());
         match entry {
-            Entry::Page(_, after) => Some(after),
-            Entry::Corpus => None,
+            UndoStep::Page(_, after) => Some(after),
+            UndoStep::Corpus => None,
         }
     }
 }
 
 /// Moves the newest operation of the corpus from one list to the other.
-fn go_over<T>(from: &mut Vec<Entry<T>>, to: &mut Vec<Entry<T>>) {
-    if let Some(at) = from.iter().rposition(|it| matches!(it, Entry::Corpus)) {
+fn go_over<T>(from: &mut Vec<UndoStep<T>>, to: &mut Vec<UndoStep<T>>) {
+    if let Some(at) = from.iter().rposition(|it| matches!(it, UndoStep::Corpus)) {
         to.push(from.remove(at));
     }
 }

@@ -4,14 +4,14 @@ use eframe::egui::{Button, RichText, Ui};
 
 use super::Recombine;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::button_width;
 use crate::words::{fill, recombine as words};
 use crate::work::Work;
 
 impl Recombine {
     /// Shows the bar with the gloss and the button that stores the sign.
-    pub(super) fn storing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    pub(super) fn storing(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let made = self.live.made.is_some() && self.live.trouble.is_none() && self.wrong.is_none();
         if let Some(made) = &self.live.made {
             let time = format!("{:.2}", made.duration_us as f64 / 1e6);
@@ -90,7 +90,7 @@ impl Recombine {
     }
 
     /// Shows the button that replaces the sign whose recipe was opened.
-    fn storing_again(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, made: bool) {
+    fn storing_again(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, made: bool) {
         let opened = self.opened.as_deref();
         let opened = opened.and_then(|name| seen.snapshot.recording_named(name));
         let Some(glance) = opened.filter(|it| it.recipe.is_some()) else {

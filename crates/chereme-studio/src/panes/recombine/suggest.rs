@@ -3,7 +3,7 @@
 use chereme_corpus::{Address, Origin, Suggestions};
 use eframe::egui::{RichText, Ui};
 
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::overlay::remedy;
 use crate::panes::list_row;
 use crate::words::{Text, fill, recombine as words};
@@ -124,7 +124,7 @@ impl Suggest {
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         of: &str,
         out: &mut Outbox,
     ) -> Option<Proposal> {

@@ -7,7 +7,7 @@ use chereme_motion::{Instant, Span};
 use chereme_sign::query::Example;
 
 use super::builder::{self, Condition};
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::model::Known;
 use crate::panes::inspector::Thing;
 use crate::work::{Ended, Outcome, Work, WorkId};
@@ -34,7 +34,7 @@ fn tokens(query: &str) -> Vec<i64> {
 
 impl Examples {
     /// Looks up the unknown tokens of a query.
-    pub(super) fn follow(&mut self, query: &str, seen: &Seen<'_>, out: &mut Outbox) {
+    pub(super) fn follow(&mut self, query: &str, seen: &PaneInput<'_>, out: &mut Outbox) {
         if !query.contains("token:") {
             return;
         }
@@ -69,7 +69,7 @@ impl Examples {
     }
 
     /// Returns the sign of an example, once it has been looked up.
-    pub(super) fn get(&self, example: &Example, seen: &Seen<'_>) -> Option<Known> {
+    pub(super) fn get(&self, example: &Example, seen: &PaneInput<'_>) -> Option<Known> {
         match example {
             Example::Token(number) => self.known.get(&number.parse().ok()?).cloned(),
             Example::Sign(gloss) => {

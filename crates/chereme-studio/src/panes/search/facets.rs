@@ -12,7 +12,7 @@ use eframe::egui::{
 
 use super::rows::{component_text, feature_text};
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::inspector::Thing;
 use crate::panes::library::data::origin_named;
 use crate::pickers;
@@ -44,7 +44,7 @@ fn clicked(query: &str, field: &str, value: &str) -> Option<(bool, String)> {
 /// query has it already.
 pub(super) fn show(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     facets: &BTreeMap<String, Vec<(String, usize)>>,
     query: &str,
     height: f32,
@@ -114,7 +114,7 @@ const HANDS: [(&str, Text); 3] = [
     ("weak", words::WEAK),
 ];
 
-fn facet_name(field: &str, seen: &Seen<'_>) -> String {
+fn facet_name(field: &str, seen: &PaneInput<'_>) -> String {
     let Ok(known) = field.parse::<Field>() else {
         let known = OTHERS.iter().find(|(word, _)| *word == field);
         return known.map_or(field, |(_, text)| seen.say(*text)).to_owned();
@@ -134,7 +134,7 @@ fn facet_name(field: &str, seen: &Seen<'_>) -> String {
 }
 
 /// Offers the details of a value in a context menu.
-fn menu(seen: &Seen<'_>, response: &Response, thing: Thing, out: &mut Outbox) {
+fn menu(seen: &PaneInput<'_>, response: &Response, thing: Thing, out: &mut Outbox) {
     response.context_menu(|ui| {
         if ui.button(seen.say(library::INSPECT)).clicked() {
             out.send(Command::Inspect(thing));
@@ -147,7 +147,7 @@ fn menu(seen: &Seen<'_>, response: &Response, thing: Thing, out: &mut Outbox) {
 /// its inventory too, if it has one.
 fn facet(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     (field, value): (&str, &str),
     (share, count): (f32, usize),
     on: bool,

@@ -12,7 +12,7 @@ use eframe::egui::{
 };
 
 use super::suggest::{self, Offers};
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::script::edit;
 use crate::words::{fill, search as words, spoken};
 
@@ -57,7 +57,7 @@ impl Field {
 
     /// Draws the field with its completions; `wrong` is the index of the first character of an error that the corpus
     /// reports.
-    pub(crate) fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, wrong: Option<usize>) -> Typed {
+    pub(crate) fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, wrong: Option<usize>) -> Typed {
         let id = ui.scope_id().with("query");
         let here = ui.memory(|memory| memory.has_focus(id));
         let mut typed = Typed::default();
@@ -117,7 +117,7 @@ impl Field {
     }
 
     /// Returns the present completions.
-    fn offers(&self, seen: &Seen<'_>, cursor: usize, here: bool) -> Option<Offers> {
+    fn offers(&self, seen: &PaneInput<'_>, cursor: usize, here: bool) -> Option<Offers> {
         let put_away = self.away.as_deref() == Some(self.text.as_str());
         if !(here || self.over) || put_away || self.text.is_empty() {
             return None;
@@ -180,7 +180,7 @@ impl Field {
     }
 
     /// Draws the completions below the field; returns whether one was taken.
-    fn list(&mut self, field: &Response, seen: &Seen<'_>, offers: &Option<Offers>) -> bool {
+    fn list(&mut self, field: &Response, seen: &PaneInput<'_>, offers: &Option<Offers>) -> bool {
         let Some(offers) = offers else {
             self.over = false;
             return false;
@@ -216,7 +216,7 @@ impl Field {
     fn error(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         error: Option<&QueryError>,
         typed: &mut Typed,
     ) {
@@ -255,7 +255,7 @@ impl Field {
 
 impl Field {
     /// Reports that there is no saved search with that name, and offers the likeliest one.
-    fn unkept(&mut self, ui: &mut Ui, seen: &Seen<'_>, name: String, typed: &mut Typed) {
+    fn unkept(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, name: String, typed: &mut Typed) {
         if name.is_empty() || suggest::kept_query(&self.text, seen.snapshot).is_some() {
             return;
         }

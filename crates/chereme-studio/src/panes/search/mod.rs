@@ -10,18 +10,18 @@
 //! | `examples` | the signs that a query names as examples |
 //! | `tiles` | the first choice of a search: a hand, the body, a movement |
 //! | `facets` | the number of results with each value |
-//! | `aside`, `kept` | recent queries, help, advice for empty results; saved searches |
+//! | `side_column`, `saved` | recent queries, help, advice for empty results; saved searches |
 
-mod aside;
 pub(crate) mod builder;
 mod examples;
 mod facets;
 mod field;
 mod hits;
-mod kept;
 mod page;
 mod results;
 mod rows;
+mod saved;
+mod side_column;
 mod suggest;
 mod symbols;
 mod tiles;
@@ -33,13 +33,13 @@ use chereme_corpus::{Error, Overview, SearchOptions};
 use chereme_sign::query::{Example, Expr, Query};
 use eframe::egui::{ScrollArea, Ui};
 
-use super::bare::{self, Bare};
 use super::inspector::Thing;
 use super::notated::Notated;
+use super::without_movement::{self, Bare};
 use super::{Acted, Carried, Pane};
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::{fill, search as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
 pub(crate) use builder::with_value;
@@ -96,7 +96,7 @@ pub(crate) struct Search {
     wrong: Option<Wrong>,
     /// Whether the search was stopped before there was an answer.
     stopped: bool,
-    aside: aside::Aside,
+    aside: side_column::Aside,
     examples: examples::Examples,
     tiles: tiles::Tiles,
     /// The corpus generation that was searched.
@@ -145,7 +145,7 @@ impl Default for Search {
             query: String::new(),
             wrong: None,
             stopped: false,
-            aside: aside::Aside::default(),
+            aside: side_column::Aside::default(),
             examples: examples::Examples::default(),
             tiles: tiles::Tiles::default(),
             generation: 0,
@@ -235,7 +235,7 @@ impl Search {
     }
 
     /// Opens a hit at its place; one that has only a notation is animated and shown on the stage.
-    fn open(&mut self, at: usize, seen: &Seen<'_>, out: &mut Outbox) {
+    fn open(&mut self, at: usize, seen: &PaneInput<'_>, out: &mut Outbox) {
         let Some(found) = &self.found else { return };
         let Some(hit) = found.hit(at) else { return };
         self.opened = Some(at);
@@ -278,7 +278,7 @@ impl Search {
     }
 
     /// Lists the possible actions for the opened hit if it has no movement.
-    pub(super) fn hint(&self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    pub(super) fn hint(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let found = self.found.as_ref().zip(self.opened);
         let Some(hit) = found.and_then(|(found, at)| found.hit(at)) else {
             return;
@@ -292,12 +292,12 @@ impl Search {
             Some(Bare::Coded)
         };
         if let Some(bare) = bare {
-            bare::show(ui, seen, out, (hit.token, &hit.gloss), &bare);
+            without_movement::show(ui, seen, out, (hit.token, &hit.gloss), &bare);
         }
     }
 
     /// Searches for signs similar to the selected token, or to the token at the selected time.
-    fn like_selected(&mut self, seen: &Seen<'_>, out: &mut Outbox) -> bool {
+    fn like_selected(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) -> bool {
         let Some(contents) = seen
             .shown
             .recording
@@ -335,7 +335,7 @@ impl Search {
     }
 
     /// Searches again if the corpus changed.
-    fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+    fn follow(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) {
         let now = seen.snapshot.overview.generation;
         if self.generation == now {
             return;
@@ -375,7 +375,7 @@ fn select(around: &chereme_corpus::Around, out: &mut Outbox) {
 }
 
 impl Pane for Search {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.follow(seen, out);
         if let Some(around) = self.aside.opened.take() {
             select(&around, out);
@@ -396,7 +396,7 @@ impl Pane for Search {
         area.show(ui, |ui| self.page(ui, seen, out, high));
     }
 
-    fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {
+    fn act(&mut self, action: Action, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
         match action {
             Action::SearchLike => {
                 if !self.like_selected(seen, out) {

@@ -4,10 +4,10 @@ use chereme_corpus::meant;
 use chereme_sign::query::Query;
 use eframe::egui::{RichText, Ui, vec2};
 
-use super::{PAUSE, Search, View, aside, facets, results, rows, suggest, symbols};
+use super::{PAUSE, Search, View, facets, results, rows, side_column, suggest, symbols};
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::{Language, fill, search as words, spoken};
 
 /// A pane wider than this, in points, has room for facets beside its results.
@@ -17,7 +17,7 @@ const SPACIOUS: f32 = 340.0;
 
 impl Search {
     /// Draws the page, with the results `high` points high.
-    pub(super) fn page(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, high: f32) {
+    pub(super) fn page(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, high: f32) {
         let top = ui.cursor().top();
         self.question(ui, seen, out);
         self.head = ui.cursor().top() - top + ui.spacing().interact_size.y;
@@ -45,7 +45,7 @@ impl Search {
     }
 
     /// Draws the query: its text, its rows, and the buttons for it.
-    fn question(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn question(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let now = ui.input(|input| input.time);
         let wrong = self.wrong.as_ref().and_then(|wrong| wrong.from);
         let wrong = wrong.filter(|_| self.query == self.field.text);
@@ -125,7 +125,7 @@ impl Search {
         }
     }
 
-    fn tools(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         ui.horizontal_wrapped(|ui| {
             if ui.available_width() < WIDE {
                 // In a narrow pane the buttons are narrower, so that all of them fit into one line.
@@ -145,7 +145,7 @@ impl Search {
     }
 
     /// Draws the number of results, and the switches for their form.
-    fn status(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn status(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let mut counted = self.counts(ui);
         ui.horizontal_wrapped(|ui| {
             if let Some(running) = self.asked.filter(|id| seen.is_running(Some(*id))) {
@@ -187,7 +187,7 @@ impl Search {
     }
 
     /// Draws the switches for the form of the results.
-    fn ways(&mut self, ui: &mut Ui, seen: &Seen<'_>, counted: &mut bool) {
+    fn ways(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, counted: &mut bool) {
         if self.view == View::Grid {
             ui.checkbox(&mut self.playing, seen.say(words::LOOPING));
             ui.checkbox(&mut self.close, seen.say(words::CLOSE_UP));
@@ -203,12 +203,12 @@ impl Search {
         self.counted.unwrap_or(ui.available_width() > WIDE)
     }
 
-    fn answer(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn answer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let Some(found) = &self.found else { return };
         for note in &found.notes {
             ui.label(RichText::new(note).small().weak());
         }
-        if let Some(query) = aside::findings(ui, seen, found, &self.query) {
+        if let Some(query) = side_column::findings(ui, seen, found, &self.query) {
             return self.turn_to(query, out);
         }
         if found.total == 0 {

@@ -11,8 +11,8 @@ use eframe::egui::{
 use super::hits::{self, Sort, coding};
 use super::{Search, View};
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
-use crate::little::{self, Cell, Focus, Motion};
+use crate::context::{Outbox, PaneInput};
+use crate::miniatures::{self, Cell, Focus, Motion};
 use crate::panes::{Carried, carry, scrolled_to};
 use crate::pickers;
 use crate::words::{Text, fill, search as words};
@@ -61,7 +61,7 @@ impl Shares {
 }
 
 /// Draws the hits.
-pub(crate) fn show(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+pub(crate) fn show(search: &mut Search, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     match search.view {
         View::Grid => grid(search, ui, seen, out),
         View::Table => {
@@ -71,7 +71,7 @@ pub(crate) fn show(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut 
     }
 }
 
-fn grid(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+fn grid(search: &mut Search, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let Some(total) = search.found.as_ref().map(|found| found.total) else {
         return;
     };
@@ -99,7 +99,7 @@ fn grid(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
 fn figure(
     search: &mut Search,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     at: usize,
     size: Vec2,
@@ -135,7 +135,7 @@ fn figure(
             let focus = focus(search.close, &search.field.text);
             let mut little = Cell::new(motion, picture.size()).focused(focus);
             if playing {
-                little = little.playing(little::clock(ui));
+                little = little.playing(miniatures::clock(ui));
             }
             seen.little.paint(ui, seen, out, &little, picture);
             if notated {
@@ -180,7 +180,7 @@ pub(super) fn carried(hit: &Hit) -> Carried {
     }
 }
 
-fn menu(response: &Response, seen: &Seen<'_>, hit: &Hit, out: &mut Outbox) {
+fn menu(response: &Response, seen: &PaneInput<'_>, hit: &Hit, out: &mut Outbox) {
     let recording = recording(hit, seen);
     if response.double_clicked()
         && let Some((recipe, name)) = recording.and_then(|it| seen.snapshot.recipe_of(it))
@@ -191,12 +191,12 @@ fn menu(response: &Response, seen: &Seen<'_>, hit: &Hit, out: &mut Outbox) {
 }
 
 /// Returns the recording that contains a hit.
-fn recording(hit: &Hit, seen: &Seen<'_>) -> Option<i64> {
+fn recording(hit: &Hit, seen: &PaneInput<'_>) -> Option<i64> {
     let name = hit.recording.as_deref()?;
     Some(seen.snapshot.recording_named(name)?.row.id)
 }
 
-fn text_colour(seen: &Seen<'_>) -> eframe::egui::Color32 {
+fn text_colour(seen: &PaneInput<'_>) -> eframe::egui::Color32 {
     seen.colours().on_annotation
 }
 
@@ -205,7 +205,7 @@ fn percent(score: f64) -> i64 {
 }
 
 /// Returns the movement or the film of a hit, if it has any.
-fn motion(hit: &Hit, seen: &Seen<'_>) -> Option<Motion> {
+fn motion(hit: &Hit, seen: &PaneInput<'_>) -> Option<Motion> {
     let (name, span) = hits::place(hit)?;
     let recording = seen.snapshot.recording_named(name)?;
     let is_seen = recording.shown().is_some() || recording.kinds.contains(&TrackKind::Media);
@@ -213,7 +213,7 @@ fn motion(hit: &Hit, seen: &Seen<'_>) -> Option<Motion> {
 }
 
 /// Paints the coding of a sign without movement: a large picture of its handshape, the rest beside it.
-fn coded(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect) {
+fn coded(ui: &Ui, seen: &PaneInput<'_>, hit: &Hit, rect: Rect) {
     ui.painter()
         .rect_filled(rect, 6.0, ui.visuals().extreme_bg_color);
     if codes(ui, seen, hit, rect, false) > 0 {
@@ -234,7 +234,7 @@ fn coded(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect) {
 
 /// Paints pictures of the coding along the right edge: all of them `small`, or the first one large at the left. Returns
 /// how many there are.
-fn codes(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect, small: bool) -> usize {
+fn codes(ui: &Ui, seen: &PaneInput<'_>, hit: &Hit, rect: Rect, small: bool) -> usize {
     let side = if small {
         rect.height().min(rect.width()) * 0.25
     } else {
@@ -264,7 +264,7 @@ fn codes(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect, small: bool) -> usize 
     shown
 }
 
-fn head(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+fn head(search: &mut Search, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let width = ui.available_width() - 12.0;
     let (rect, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
     let whole = search
@@ -318,7 +318,14 @@ fn head(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
 }
 
 /// Makes the right edge of a column draggable.
-fn edge(search: &mut Search, ui: &Ui, seen: &Seen<'_>, place: Rect, width: f32, column: usize) {
+fn edge(
+    search: &mut Search,
+    ui: &Ui,
+    seen: &PaneInput<'_>,
+    place: Rect,
+    width: f32,
+    column: usize,
+) {
     let at = Rect::from_center_size(place.right_center(), vec2(EDGE, ROW));
     let key = ui.scope_id().with(("edge", column));
     let response = ui.interact(at, key, Sense::click_and_drag());
@@ -346,7 +353,7 @@ fn edge(search: &mut Search, ui: &Ui, seen: &Seen<'_>, place: Rect, width: f32, 
         .vline(at.center().x, inside.y_range(), Stroke::new(1.0, colour));
 }
 
-fn table(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+fn table(search: &mut Search, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let Some(total) = search.found.as_ref().map(|found| found.total) else {
         return;
     };
@@ -368,7 +375,7 @@ fn table(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
 fn line(
     search: &mut Search,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     at: usize,
     rect: Rect,
@@ -431,7 +438,7 @@ fn line(
 }
 
 /// Paints the coding of a lexicon entry in a row.
-fn strip(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect) {
+fn strip(ui: &Ui, seen: &PaneInput<'_>, hit: &Hit, rect: Rect) {
     let side = rect.height();
     let mut place = Rect::from_min_size(rect.min, Vec2::splat(side));
     for (field, value) in coding(hit) {
@@ -478,7 +485,7 @@ fn put(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: eframe::egui::Colo
 }
 
 /// Returns the text for a hit outside of recordings.
-fn lexicon(seen: &Seen<'_>, hit: &Hit) -> &'static str {
+fn lexicon(seen: &PaneInput<'_>, hit: &Hit) -> &'static str {
     let notated = seen.snapshot.is_notated(&hit.gloss);
     seen.say(if notated {
         crate::words::library::NOTATED
@@ -491,7 +498,7 @@ fn lexicon(seen: &Seen<'_>, hit: &Hit) -> &'static str {
 fn cell(
     search: &mut Search,
     ui: &Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     rect: Rect,
     at: usize,
     hit: &Hit,
@@ -519,7 +526,14 @@ fn cell(
     response.on_hover_text(tip)
 }
 
-fn frame(search: &Search, ui: &Ui, seen: &Seen<'_>, response: &Response, rect: Rect, at: usize) {
+fn frame(
+    search: &Search,
+    ui: &Ui,
+    seen: &PaneInput<'_>,
+    response: &Response,
+    rect: Rect,
+    at: usize,
+) {
     let accent = seen.colours().accent;
     let stroke = if response.has_focus() {
         Stroke::new(2.0, accent)

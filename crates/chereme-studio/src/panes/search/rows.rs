@@ -10,8 +10,8 @@ use eframe::egui::{
 
 use super::builder::{self, Condition, How, Subject, written};
 use super::examples::Examples;
-use crate::context::{Outbox, Seen};
-use crate::little::{self, Cell, Motion};
+use crate::context::{Outbox, PaneInput};
+use crate::miniatures::{self, Cell, Motion};
 use crate::model::Known;
 use crate::panes::library::data::origin_named;
 use crate::pickers::{self, Picker};
@@ -40,7 +40,7 @@ const PICTURE: f32 = 72.0;
 pub(super) fn show(
     ui: &mut Ui,
     rows: &mut Rows,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     text: &mut String,
     (examples, out): (&Examples, &mut Outbox),
 ) -> bool {
@@ -107,7 +107,7 @@ pub(super) fn show(
 }
 
 /// Returns whether a row shows pictures, and so is higher than others.
-fn has_pictures(seen: &Seen<'_>, row: &Condition) -> bool {
+fn has_pictures(seen: &PaneInput<'_>, row: &Condition) -> bool {
     match row {
         Condition::Values(Subject::Component(field), how, values) => {
             let shown = !matches!(how, How::Has | How::Missing(_)) && !values.is_empty();
@@ -129,7 +129,7 @@ fn is_complete(row: &Condition) -> bool {
 }
 
 /// Draws the button that adds a row; returns the new, incomplete row.
-fn add(ui: &mut Ui, seen: &Seen<'_>) -> Option<Condition> {
+fn add(ui: &mut Ui, seen: &PaneInput<'_>) -> Option<Condition> {
     let mut added = None;
     ui.menu_button(seen.say(words::ADD), |ui| {
         let mut entry = |ui: &mut Ui, name: String, row: Condition| {
@@ -221,13 +221,13 @@ const FEATURES: [(&str, Text); 18] = [
 ];
 
 /// Returns the name of a feature of a component; the feature itself if it has no translation.
-pub(crate) fn feature_text<'a>(feature: &'a str, seen: &Seen<'_>) -> &'a str {
+pub(crate) fn feature_text<'a>(feature: &'a str, seen: &PaneInput<'_>) -> &'a str {
     let known = FEATURES.iter().find(|(it, _)| *it == feature);
     known.map_or(feature, |(_, text)| seen.say(*text))
 }
 
 /// Returns the name of a field without its hand and phase.
-pub(crate) fn field_text(field: &Field, seen: &Seen<'_>) -> String {
+pub(crate) fn field_text(field: &Field, seen: &PaneInput<'_>) -> String {
     let component = seen.say(component_text(field.component));
     match &field.feature {
         Some(feature) => format!("{component} · {}", feature_text(feature, seen)),
@@ -238,7 +238,7 @@ pub(crate) fn field_text(field: &Field, seen: &Seen<'_>) -> String {
 fn row(
     ui: &mut Ui,
     rows: &mut Rows,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     (at, condition): (usize, &mut Condition),
     (examples, out): (&Examples, &mut Outbox),
 ) {
@@ -280,7 +280,7 @@ fn row(
 }
 
 /// Draws the subject of a row with its hand and phase; returns the subject's name.
-fn subject_ui(ui: &mut Ui, seen: &Seen<'_>, subject: &mut Subject) -> String {
+fn subject_ui(ui: &mut Ui, seen: &PaneInput<'_>, subject: &mut Subject) -> String {
     let field = match subject {
         Subject::Component(field) => field,
         Subject::Property(property) => {
@@ -325,7 +325,7 @@ fn subject_ui(ui: &mut Ui, seen: &Seen<'_>, subject: &mut Subject) -> String {
     name
 }
 
-fn hand_text(hand: Option<HandRef>, seen: &Seen<'_>) -> &'static str {
+fn hand_text(hand: Option<HandRef>, seen: &PaneInput<'_>) -> &'static str {
     seen.say(match hand {
         None => words::EITHER,
         Some(HandRef::Right) => words::RIGHT,
@@ -348,7 +348,7 @@ fn how_text(how: How) -> Text {
     }
 }
 
-fn how_ui(ui: &mut Ui, seen: &Seen<'_>, how: &mut How, _name: &str) {
+fn how_ui(ui: &mut Ui, seen: &PaneInput<'_>, how: &mut How, _name: &str) {
     ComboBox::from_id_salt("how")
         .selected_text(seen.say(how_text(*how)))
         .width(10.0)
@@ -361,7 +361,7 @@ fn how_ui(ui: &mut Ui, seen: &Seen<'_>, how: &mut How, _name: &str) {
         });
 }
 
-fn inventory<'a>(seen: &'a Seen<'_>, field: &Field) -> Option<&'a Inventory> {
+fn inventory<'a>(seen: &'a PaneInput<'_>, field: &Field) -> Option<&'a Inventory> {
     let all = seen.snapshot.overview.inventories.iter();
     all.map(|it| &it.inventory)
         .find(|it| it.component == field.component && it.feature == field.feature)
@@ -370,7 +370,7 @@ fn inventory<'a>(seen: &'a Seen<'_>, field: &Field) -> Option<&'a Inventory> {
 fn values_ui(
     ui: &mut Ui,
     rows: &mut Rows,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     at: usize,
     (subject, name): (&Subject, &str),
     values: &mut Vec<Pattern>,
@@ -426,7 +426,7 @@ fn values_ui(
 }
 
 /// Draws a choice among a few values.
-fn choice_ui(ui: &mut Ui, seen: &Seen<'_>, offered: &[&str], values: &mut Vec<Pattern>) {
+fn choice_ui(ui: &mut Ui, seen: &PaneInput<'_>, offered: &[&str], values: &mut Vec<Pattern>) {
     let now: Vec<String> = values.iter().map(written).collect();
     let called = |id: &str| match origin_named(id) {
         Some(text) => seen.say(text).to_owned(),
@@ -528,7 +528,7 @@ fn time_ui(ui: &mut Ui, test: &mut TimeTest) {
 /// Draws the weight of each component of an example.
 fn like_ui(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     example: Option<Known>,
     (weights, above): (&mut [f64; 5], &mut Option<f64>),
@@ -538,7 +538,7 @@ fn like_ui(
         let size = Vec2::splat(PICTURE);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let motion = Motion::Span(recording, span);
-        let cell = Cell::new(motion, size).playing(little::clock(ui));
+        let cell = Cell::new(motion, size).playing(miniatures::clock(ui));
         seen.little.paint(ui, seen, out, &cell, rect);
     }
     let name = match example.gloss.as_str() {

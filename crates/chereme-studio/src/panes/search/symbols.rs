@@ -7,7 +7,7 @@ use chereme_sign::{Component, Inventory};
 use eframe::egui::{RichText, Ui};
 
 use super::builder::{self, Condition, How, Subject};
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::pickers::{board, hamnosys};
 use crate::words::search as words;
 
@@ -15,7 +15,7 @@ use crate::words::search as words;
 const EM: f32 = 22.0;
 
 /// Draws the board and the picked symbols; returns the corresponding query if it changed.
-pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, text: &mut String) -> Option<String> {
+pub(super) fn show(ui: &mut Ui, seen: &PaneInput<'_>, text: &mut String) -> Option<String> {
     let mut changed = board::button(ui, seen, text);
     if !text.is_empty() {
         hamnosys::of_text(ui, seen, text, EM);
@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, text: &mut String) -> Option<St
     Some(query)
 }
 
-fn inventories<'a>(seen: &Seen<'a>) -> impl Iterator<Item = &'a Inventory> {
+fn inventories<'a>(seen: &PaneInput<'a>) -> impl Iterator<Item = &'a Inventory> {
     let all = seen.snapshot.overview.inventories.iter();
     all.map(|it| &it.inventory)
 }

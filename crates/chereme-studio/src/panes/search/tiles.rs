@@ -7,8 +7,8 @@ use eframe::egui::{
 };
 
 use super::builder::with_value;
-use crate::context::{Outbox, Seen};
-use crate::little;
+use crate::context::{Outbox, PaneInput};
+use crate::miniatures;
 use crate::pickers::{self, Picker};
 use crate::words::{Text, search as words};
 
@@ -47,7 +47,7 @@ impl Tiles {
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         out: &mut Outbox,
     ) -> Option<String> {
         let found: Vec<(usize, &Inventory)> = TILES
@@ -80,7 +80,7 @@ impl Tiles {
 }
 
 /// Returns the inventory of a component with the most values.
-fn inventory<'a>(seen: &Seen<'a>, component: Component) -> Option<&'a Inventory> {
+fn inventory<'a>(seen: &PaneInput<'a>, component: Component) -> Option<&'a Inventory> {
     let all = seen.snapshot.overview.inventories.iter();
     all.map(|it| &it.inventory)
         .filter(|it| it.component == component && it.feature.is_none())
@@ -89,7 +89,7 @@ fn inventory<'a>(seen: &Seen<'a>, component: Component) -> Option<&'a Inventory>
 
 fn tile(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     (at, inventory): (usize, &Inventory),
     name: &str,
     width: f32,
@@ -111,7 +111,7 @@ fn tile(
     let corner = CornerRadius::same(8);
     ui.painter()
         .rect(rect, corner, fill, stroke, StrokeKind::Inside);
-    let turn = (little::clock(ui) / TURN) as usize + at;
+    let turn = (miniatures::clock(ui) / TURN) as usize + at;
     let known = TILES[at].2.into_iter().cycle().skip(turn % 4).take(4);
     let side = HIGH - 34.0;
     let picture = Rect::from_center_size(

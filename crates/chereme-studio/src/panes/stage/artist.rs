@@ -14,7 +14,7 @@ use chereme_motion::{Face, ModelPose};
 use eframe::egui::{Color32, ColorImage};
 
 /// A request for pictures, one for each pane.
-pub(super) struct Wish {
+pub(super) struct StageRequest {
     pub(super) figures: Vec<Figure>,
     pub(super) panes: Vec<Pane>,
     pub(super) style: Style,
@@ -93,7 +93,7 @@ struct Shared {
 
 #[derive(Default)]
 struct Wished {
-    next: Option<Wish>,
+    next: Option<StageRequest>,
     over: bool,
 }
 
@@ -118,7 +118,7 @@ impl Artist {
     }
 
     /// Requests pictures; an earlier request that has not been started is dropped.
-    pub(super) fn wish(&self, wish: Wish) {
+    pub(super) fn wish(&self, wish: StageRequest) {
         held(&self.shared.wish).next = Some(wish);
         self.shared.wished.notify_one();
     }
@@ -150,7 +150,7 @@ impl Drop for Artist {
 }
 
 impl Shared {
-    fn next(&self) -> Option<Wish> {
+    fn next(&self) -> Option<StageRequest> {
         let mut wish = held(&self.wish);
         loop {
             if wish.over {
@@ -196,7 +196,7 @@ struct Ground {
 }
 
 impl Hand {
-    fn draw(&mut self, wish: &Wish) -> Drawn {
+    fn draw(&mut self, wish: &StageRequest) -> Drawn {
         let begun = Instant::now();
         self.meshes
             .resize_with(wish.figures.len(), Default::default);
@@ -220,7 +220,7 @@ impl Hand {
     }
 
     /// Draws every pane: large ones on one thread each, and the small ones one after the other.
-    fn panes(&mut self, wish: &Wish) -> Vec<ColorImage> {
+    fn panes(&mut self, wish: &StageRequest) -> Vec<ColorImage> {
         self.canvases.resize_with(wish.panes.len(), Canvas::default);
         let meshes = &self.meshes;
         let large = wish.panes.iter().filter(|pane| !pane.fine).count();

@@ -3,8 +3,8 @@
 use eframe::egui::{self, Align2, Rect, TextStyle, Ui, vec2};
 
 use super::Stage;
-use super::data::{Part, Who};
-use crate::context::Seen;
+use super::data::{StagePart, Who};
+use crate::context::PaneInput;
 use crate::panes::timeline;
 use crate::words::{fill, stage as words};
 
@@ -12,7 +12,7 @@ use crate::words::{fill, stage as words};
 pub(super) const NARROW: f32 = 300.0;
 
 /// Shows whose original is visible, or how a piece without an original was generated.
-pub(super) fn who(stage: &Stage, ui: &Ui, seen: &Seen<'_>, part: &Part) {
+pub(super) fn who(stage: &Stage, ui: &Ui, seen: &PaneInput<'_>, part: &StagePart) {
     if part.who == Who::Signer {
         return;
     }
@@ -39,7 +39,7 @@ pub(super) fn who(stage: &Stage, ui: &Ui, seen: &Seen<'_>, part: &Part) {
     chip(ui, at, anchor, &text);
 }
 
-fn no_original(seen: &Seen<'_>, made_by: &str) -> String {
+fn no_original(seen: &PaneInput<'_>, made_by: &str) -> String {
     let mut short: String = made_by.chars().take(36).collect();
     if short.len() < made_by.len() {
         short.push('…');
@@ -69,7 +69,7 @@ pub(super) fn chip_on(
 }
 
 /// Shows notes about the whole stage, for example that a moment is being loaded, or that the hands have no fingers.
-pub(super) fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
+pub(super) fn notes(stage: &Stage, ui: &Ui, seen: &PaneInput<'_>, whole: Rect) {
     let at = whole.center_bottom() - vec2(0.0, 8.0);
     let whole_top = whole.center_top() + vec2(0.0, 8.0);
     let without_fingers = stage

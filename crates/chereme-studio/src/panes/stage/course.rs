@@ -9,10 +9,10 @@ use eframe::egui::{
 use glam::{DMat3, DVec3};
 
 use super::Stage;
-use super::data::Part;
+use super::data::StagePart;
 use super::gizmo::{Directions, Ray};
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::recombine::{draw_on_stage, drawing, lengths, points_of_line};
 use crate::words::{fill, recombine as words};
 
@@ -51,9 +51,9 @@ pub(super) struct Pull {
 pub(super) fn show(
     stage: &mut Stage,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
-    (pane, projection, pose): (&Part, Projection, &ModelPose),
+    (pane, projection, pose): (&StagePart, Projection, &ModelPose),
 ) {
     let (Some(course), Some(showing)) = (&seen.shown.course, &seen.shown.made) else {
         stage.pull = None;
@@ -107,7 +107,7 @@ fn spot(projection: &Projection, pane: Rect, at: DVec3) -> Pos2 {
     pane.min + vec2(seen.x, seen.y)
 }
 
-fn paint(painter: &Painter, seen: &Seen<'_>, laid: &Laid<'_>) {
+fn paint(painter: &Painter, seen: &PaneInput<'_>, laid: &Laid<'_>) {
     let colours = seen.colours();
     painter.line(
         laid.line.clone(),
@@ -127,7 +127,7 @@ fn paint(painter: &Painter, seen: &Seen<'_>, laid: &Laid<'_>) {
 fn pull_point(
     stage: &mut Stage,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     laid: &Laid<'_>,
     point: usize,
@@ -175,7 +175,13 @@ fn pull_point(
 }
 
 /// Handles pulls between the points: they insert a new point.
-fn pull_line(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, laid: &Laid<'_>) {
+fn pull_line(
+    stage: &mut Stage,
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    out: &mut Outbox,
+    laid: &Laid<'_>,
+) {
     let id = id(ui, laid).with("line");
     let pointer = ui.input(|input| input.pointer.interact_pos());
     let Some(pointer) = pointer.filter(|at| laid.pane.contains(*at)) else {
@@ -224,7 +230,7 @@ fn pull_line(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, 
 }
 
 /// Draws a new path with the pointer, in the plane through its beginning that is perpendicular to the line of sight.
-fn draw(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, laid: &Laid<'_>) {
+fn draw(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, laid: &Laid<'_>) {
     let id = id(ui, laid).with("draw");
     let response = ui.interact(laid.pane, id, Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, seen.say(words::DRAW_ON_STAGE)));

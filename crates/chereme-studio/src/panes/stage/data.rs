@@ -148,7 +148,7 @@ pub(crate) enum Who {
 
 /// A part of the stage: its rectangle, the index of its eye, and its contents.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Part {
+pub(crate) struct StagePart {
     pub(crate) rect: Rect,
     pub(crate) eye: usize,
     pub(crate) who: Who,
@@ -158,7 +158,7 @@ pub(crate) struct Part {
 const GAP: f32 = 2.0;
 
 /// Returns the parts of the stage for that number of eyes, with the original according to `compare`.
-pub(crate) fn parts(whole: Rect, eyes: usize, compare: Option<Compare>) -> Vec<Part> {
+pub(crate) fn parts(whole: Rect, eyes: usize, compare: Option<Compare>) -> Vec<StagePart> {
     let wide = whole.width() >= whole.height();
     let panes = match eyes {
         1 => vec![whole],
@@ -170,7 +170,7 @@ pub(crate) fn parts(whole: Rect, eyes: usize, compare: Option<Compare>) -> Vec<P
     };
     let mut parts = Vec::new();
     for (eye, rect) in panes.into_iter().enumerate() {
-        let mut part = |rect, who| parts.push(Part { rect, eye, who });
+        let mut part = |rect, who| parts.push(StagePart { rect, eye, who });
         match compare {
             Some(Compare::Beside) => {
                 let sides = halves(rect, rect.width() >= rect.height() * 0.8);
@@ -261,7 +261,7 @@ const MARGIN: f32 = 8.0;
 
 /// Returns the close-ups in a part of the stage with that view: the hands below, each on the side where it appears in
 /// the view; the face above.
-pub(crate) fn insets(part: &Part, view: View, wanted: Insets) -> Vec<Inset> {
+pub(crate) fn insets(part: &StagePart, view: View, wanted: Insets) -> Vec<Inset> {
     use chereme_motion::Side;
     let [wide, high] = ROOM;
     let close = matches!(view, View::Hand(_) | View::Palm(_) | View::Face);
@@ -397,7 +397,7 @@ mod tests {
     #[test]
     fn close_ups_lie_in_the_corners_and_never_on_each_other() {
         use chereme_motion::Side;
-        let part = |wide: f32, high: f32| Part {
+        let part = |wide: f32, high: f32| StagePart {
             rect: Rect::from_min_size(Pos2::new(10.0, 20.0), Vec2::new(wide, high)),
             eye: 0,
             who: Who::Signer,
@@ -436,8 +436,8 @@ mod tests {
         assert!(insets(&self::part_of(200.0), View::Addressee, all).is_empty());
     }
 
-    fn part_of(side: f32) -> Part {
-        Part {
+    fn part_of(side: f32) -> StagePart {
+        StagePart {
             rect: Rect::from_min_size(Pos2::ZERO, Vec2::splat(side)),
             eye: 0,
             who: Who::Signer,

@@ -75,7 +75,7 @@ impl Directions {
 
 /// The part of the handle that is dragged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum HandlePart {
     /// The axis of left (0), up (1) or forward (2).
     Axis(usize),
     /// Its middle, which moves perpendicular to the line of sight.
@@ -85,7 +85,7 @@ pub(super) enum Part {
 /// The state at the beginning of a drag.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Begun {
-    pub(super) part: Part,
+    pub(super) part: HandlePart,
     /// The position of the handle, in model space.
     pub(super) origin: DVec3,
     /// The value, in metres to the left, up and forward.
@@ -100,14 +100,14 @@ impl Begun {
     /// Returns the value for a pointer on the line of sight `ray`, rounded to millimetres or to `step`.
     pub(super) fn value(&self, ray: Ray, axes: DMat3, step: Option<f64>) -> Option<[f64; 3]> {
         let way = match self.part {
-            Part::Axis(nth) => {
+            HandlePart::Axis(nth) => {
                 let axis = axes.col(nth);
                 let from = self.ray.along_axis(self.origin, axis)?;
                 let mut way = [0.0; 3];
                 way[nth] = ray.along_axis(self.origin, axis)? - from;
                 way
             }
-            Part::Middle => {
+            HandlePart::Middle => {
                 let from = self.ray.on_plane(self.origin, self.sight)?;
                 let way = ray.on_plane(self.origin, self.sight)? - from;
                 (axes.transpose() * way).to_array()
@@ -115,7 +115,7 @@ impl Begun {
         };
         let mut value = self.value;
         for (nth, way) in way.into_iter().enumerate() {
-            let moves = self.part == Part::Middle || self.part == Part::Axis(nth);
+            let moves = self.part == HandlePart::Middle || self.part == HandlePart::Axis(nth);
             if moves {
                 value[nth] = snapped(value[nth] + way, step);
             }
@@ -274,9 +274,9 @@ mod tests {
         let projection = front();
         let origin = DVec3::new(-0.2, 1.1, 0.3);
         for (part, way) in [
-            (Part::Axis(0), DVec3::new(0.15, 0.0, 0.0)),
-            (Part::Axis(1), DVec3::new(0.0, -0.2, 0.0)),
-            (Part::Middle, DVec3::new(0.1, 0.07, 0.0)),
+            (HandlePart::Axis(0), DVec3::new(0.15, 0.0, 0.0)),
+            (HandlePart::Axis(1), DVec3::new(0.0, -0.2, 0.0)),
+            (HandlePart::Middle, DVec3::new(0.1, 0.07, 0.0)),
         ] {
             let begun = Begun {
                 part,

@@ -8,12 +8,12 @@ use eframe::egui::{
 };
 use glam::{DMat3, DVec3};
 
-use super::data::Part as Pane;
-use super::gizmo::{self, Begun, Directions, Laid, Part, Ray};
+use super::data::StagePart as Pane;
+use super::gizmo::{self, Begun, Directions, HandlePart, Laid, Ray};
 use super::{Of, Stage, ui};
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::model::handle::Handle;
 use crate::words::{fill, recombine, stage as words};
 
@@ -65,7 +65,7 @@ pub(super) struct Grab {
 }
 
 /// A handle in one picture.
-struct Held<'a> {
+struct HandleInView<'a> {
     handle: &'a Handle,
     directions: Directions,
     value: [f64; 3],
@@ -82,7 +82,7 @@ struct Held<'a> {
 pub(super) fn show(
     stage: &mut Stage,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     (pane, projection, pose): (&Pane, Projection, &ModelPose),
 ) {
@@ -109,7 +109,7 @@ pub(super) fn show(
         .find(|side| *side == made.handedness.dominant());
     let first = first.or(sides.first().copied());
     for &side in sides {
-        let held = Held {
+        let held = HandleInView {
             handle,
             directions,
             value,
@@ -140,9 +140,9 @@ fn id(ui: &Ui, pane: &Pane, side: Side) -> Id {
 fn one(
     holding: &mut Holding,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
-    held: &Held<'_>,
+    held: &HandleInView<'_>,
     (anatomy, pose): (&Anatomy, &ModelPose),
 ) {
     let Some(wrist) = anatomy.joint(Joint::Hand(held.side)) else {
@@ -193,14 +193,14 @@ fn one(
         response.request_focus();
     }
     let pointer = ui.input(|input| input.pointer.interact_pos());
-    let nearest = pointer.map_or(Part::Middle, |at| nearest(held, &laid, at));
+    let nearest = pointer.map_or(HandlePart::Middle, |at| nearest(held, &laid, at));
     // A grabbed part stays grabbed, regardless of the pointer's position.
     let taken = own_part(holding, held).unwrap_or(nearest);
     let parts = ends
         .iter()
         .enumerate()
-        .filter_map(|(nth, it)| Some((Part::Axis(nth), it.as_ref()?)))
-        .chain([(Part::Middle, &response), (taken, &zone)]);
+        .filter_map(|(nth, it)| Some((HandlePart::Axis(nth), it.as_ref()?)))
+        .chain([(HandlePart::Middle, &response), (taken, &zone)]);
     let mut lit = None;
     for (part, response) in parts {
         if response.hovered() || response.dragged() {
@@ -221,30 +221,30 @@ fn one(
     response.on_hover_text(seen.say(words::HANDLE_HINT));
 }
 
-fn own_part(holding: &Holding, held: &Held<'_>) -> Option<Part> {
+fn own_part(holding: &Holding, held: &HandleInView<'_>) -> Option<HandlePart> {
     let grab = holding.grab.as_ref().filter(|it| it.side == held.side)?;
     Some(grab.begun.part)
 }
 
 /// Returns the parts of a handle in the picture, each as a line.
-fn lines(held: &Held<'_>, laid: &Laid) -> impl Iterator<Item = (Part, [Pos2; 2])> {
+fn lines(held: &HandleInView<'_>, laid: &Laid) -> impl Iterator<Item = (HandlePart, [Pos2; 2])> {
     let spot = |[x, y]: [f32; 2]| held.pane.min + vec2(x, y);
     let middle = spot(laid.middle);
     let ends = laid.ends.map(|end| end.filter(|_| held.whole).map(spot));
     let axes = ends.into_iter().enumerate();
-    let axes = axes.filter_map(move |(nth, end)| Some((Part::Axis(nth), [middle, end?])));
-    axes.chain([(Part::Middle, [middle, middle])])
+    let axes = axes.filter_map(move |(nth, end)| Some((HandlePart::Axis(nth), [middle, end?])));
+    axes.chain([(HandlePart::Middle, [middle, middle])])
 }
 
 /// Returns the rectangle around a handle in which a press can grab it.
-fn near(held: &Held<'_>, laid: &Laid) -> Rect {
+fn near(held: &HandleInView<'_>, laid: &Laid) -> Rect {
     let all = lines(held, laid).flat_map(|(_, line)| line);
     let all: Vec<Pos2> = all.collect();
     Rect::from_points(&all).expand(NEAR).intersect(held.pane)
 }
 
 /// Returns the part of a handle that is nearest to a point; of an axis, only the outer half is considered.
-fn nearest(held: &Held<'_>, laid: &Laid, at: Pos2) -> Part {
+fn nearest(held: &HandleInView<'_>, laid: &Laid, at: Pos2) -> HandlePart {
     let away = |[from, to]: [Pos2; 2]| {
         let along = to - from;
         let share = (at - from).dot(along) / along.length_sq().max(1e-6);
@@ -257,11 +257,11 @@ fn nearest(held: &Held<'_>, laid: &Laid, at: Pos2) -> Part {
     };
     let parts = lines(held, laid).map(|(part, line)| (part, away(line)));
     let nearest = parts.min_by(|a, b| a.1.total_cmp(&b.1));
-    nearest.map_or(Part::Middle, |it| it.0)
+    nearest.map_or(HandlePart::Middle, |it| it.0)
 }
 
 /// Lets assistive technology move the handle along an axis, in steps.
-fn assisted(ui: &Ui, out: &mut Outbox, held: &Held<'_>, nth: usize, id: Id) {
+fn assisted(ui: &Ui, out: &mut Outbox, held: &HandleInView<'_>, nth: usize, id: Id) {
     use egui::accesskit::Action::{Decrement, Increment};
     ui.ctx().accesskit_node_builder(id, |node| {
         node.add_action(Increment);
@@ -282,7 +282,7 @@ fn keep_in(pane: Rect, at: Pos2) -> Pos2 {
     egui::pos2(at.x.min(x).max(pane.min.x), at.y.min(y).max(pane.min.y))
 }
 
-fn name(seen: &Seen<'_>, side: Side) -> String {
+fn name(seen: &PaneInput<'_>, side: Side) -> String {
     let hand = match side {
         Side::Right => recombine::RIGHT_HAND,
         Side::Left => recombine::LEFT_HAND,
@@ -290,7 +290,7 @@ fn name(seen: &Seen<'_>, side: Side) -> String {
     fill(seen.say(words::HANDLE), &[("hand", &seen.say(hand))])
 }
 
-fn axis_name(seen: &Seen<'_>, nth: usize) -> &'static str {
+fn axis_name(seen: &PaneInput<'_>, nth: usize) -> &'static str {
     seen.say(
         [
             recombine::TO_THE_LEFT,
@@ -301,7 +301,7 @@ fn axis_name(seen: &Seen<'_>, nth: usize) -> &'static str {
 }
 
 /// Returns the value as text: `left 3.2 · up 10.0 · back 0.5 cm`.
-fn value_text(seen: &Seen<'_>, held: &Held<'_>) -> String {
+fn value_text(seen: &PaneInput<'_>, held: &HandleInView<'_>) -> String {
     let ways = [
         [recombine::LEFT, recombine::RIGHT],
         [recombine::UP, recombine::DOWN],
@@ -328,10 +328,10 @@ fn value_text(seen: &Seen<'_>, held: &Held<'_>) -> String {
 fn drag(
     holding: &mut Holding,
     ui: &Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
-    held: &Held<'_>,
-    (part, response, at, pose): (Part, &Response, DVec3, &ModelPose),
+    held: &HandleInView<'_>,
+    (part, response, at, pose): (HandlePart, &Response, DVec3, &ModelPose),
 ) {
     let ray = |place: Pos2| {
         let place = place - held.pane.min;
@@ -393,7 +393,7 @@ fn drag(
     }
 }
 
-fn send(held: &Held<'_>, value: [f64; 3], out: &mut Outbox) {
+fn send(held: &HandleInView<'_>, value: [f64; 3], out: &mut Outbox) {
     let goal = held.handle.goal(value);
     out.send(Command::Placed(held.handle.card, goal));
 }
@@ -401,7 +401,7 @@ fn send(held: &Held<'_>, value: [f64; 3], out: &mut Outbox) {
 /// Restores the card's goal.
 fn back(
     before: &mut Option<(u64, chereme_corpus::recipe::Goal)>,
-    held: &Held<'_>,
+    held: &HandleInView<'_>,
     out: &mut Outbox,
 ) {
     if let Some((card, goal)) = before.take().filter(|it| it.0 == held.handle.card) {
@@ -410,7 +410,13 @@ fn back(
 }
 
 /// Moves with arrow keys in the plane of the picture, with Page Up and Page Down in depth; Escape restores the goal.
-fn keys(holding: &mut Holding, ui: &Ui, out: &mut Outbox, held: &Held<'_>, response: &Response) {
+fn keys(
+    holding: &mut Holding,
+    ui: &Ui,
+    out: &mut Outbox,
+    held: &HandleInView<'_>,
+    response: &Response,
+) {
     if !response.has_focus() {
         if response.lost_focus() {
             holding.before = None;
@@ -469,10 +475,10 @@ fn keys(holding: &mut Holding, ui: &Ui, out: &mut Outbox, held: &Held<'_>, respo
 /// Draws the handle: arrows with a letter each, a ring in the middle, and the offset of the drag.
 fn paint(
     ui: &Ui,
-    seen: &Seen<'_>,
-    held: &Held<'_>,
+    seen: &PaneInput<'_>,
+    held: &HandleInView<'_>,
     laid: &Laid,
-    (lit, focus, dragged): (Option<Part>, bool, Option<(Part, DVec3)>),
+    (lit, focus, dragged): (Option<HandlePart>, bool, Option<(HandlePart, DVec3)>),
 ) {
     let colours = seen.colours();
     let painter = ui.painter().with_clip_rect(held.pane);
@@ -492,7 +498,7 @@ fn paint(
     if held.whole {
         for (nth, end) in laid.ends.iter().enumerate() {
             let Some(end) = end.map(spot) else { continue };
-            let on = lit == Some(Part::Axis(nth));
+            let on = lit == Some(HandlePart::Axis(nth));
             arrow(&painter, [middle, end], (hues[nth], paper), on);
             let letter = letters.get(nth).copied().unwrap_or(' ');
             let small = TextStyle::Small.resolve(ui.style());
@@ -500,7 +506,7 @@ fn paint(
             painter.text(end, Align2::CENTER_CENTER, letter, font, paper);
         }
     }
-    let on = lit == Some(Part::Middle) || focus;
+    let on = lit == Some(HandlePart::Middle) || focus;
     let radius = if on { 8.0 } else { 6.5 };
     painter.circle(
         middle,

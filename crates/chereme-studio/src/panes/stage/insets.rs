@@ -11,19 +11,19 @@ use eframe::egui::{
 };
 
 use super::Stage;
-use super::data::{self, Inset, Part};
+use super::data::{self, Inset, StagePart};
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::pickers;
 use crate::words::{fill, stage as words};
 
 /// Returns the close-ups of all parts.
-pub(super) fn of(stage: &Stage, parts: &[Part]) -> Vec<Inset> {
+pub(super) fn of(stage: &Stage, parts: &[StagePart]) -> Vec<Inset> {
     if stage.signer.is_none() {
         return Vec::new();
     }
-    let insets = |part: &Part| data::insets(part, stage.eyes[part.eye].view, stage.insets);
+    let insets = |part: &StagePart| data::insets(part, stage.eyes[part.eye].view, stage.insets);
     parts.iter().flat_map(insets).collect()
 }
 
@@ -31,7 +31,7 @@ pub(super) fn of(stage: &Stage, parts: &[Part]) -> Vec<Inset> {
 pub(super) fn show(
     stage: &Stage,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     (insets, before): (&[Inset], usize),
 ) {
@@ -81,7 +81,7 @@ pub(super) fn show(
 }
 
 /// Shows the picture of a selected proposal next to the close-up of its hand, with its confidence.
-pub(super) fn proposal(ui: &Ui, seen: &Seen<'_>, insets: &[Inset]) {
+pub(super) fn proposal(ui: &Ui, seen: &PaneInput<'_>, insets: &[Inset]) {
     let Some(proposal) = Proposal::of(seen) else {
         return;
     };
@@ -125,7 +125,7 @@ struct Proposal {
 }
 
 impl Proposal {
-    fn of(seen: &Seen<'_>) -> Option<Self> {
+    fn of(seen: &PaneInput<'_>) -> Option<Self> {
         let found = seen.snapshot.annotation(seen.shown.annotation()?)?;
         let row = &found.tier.row;
         proposed_for(&row.name)?;

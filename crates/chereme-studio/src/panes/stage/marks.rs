@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::scene::Subject;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::inspector::Thing;
 
 /// A placement value, as a position on a body.
@@ -51,7 +51,7 @@ pub(super) fn zones(overview: &Overview) -> Vec<Zone> {
 
 /// A visible mark on the body.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Mark {
+pub(super) struct BodyMark {
     pub(super) name: String,
     /// The placement value, if it has one.
     pub(super) zone: Option<String>,
@@ -66,7 +66,7 @@ pub(super) fn marks(
     pose: &chereme_motion::ModelPose,
     zones: &[Zone],
     name: impl Fn(&str) -> String,
-) -> Vec<Mark> {
+) -> Vec<BodyMark> {
     let Some(frame) = subject.anatomy.body_frame(pose) else {
         return Vec::new();
     };
@@ -75,12 +75,12 @@ pub(super) fn marks(
         .measures()
         .map_or(0.35, |it| it.shoulder_width);
     let find = |landmark: &str| subject.anatomy.landmark(&subject.skeleton, pose, landmark);
-    let mut marks: Vec<Mark> = Vec::new();
+    let mut marks: Vec<BodyMark> = Vec::new();
     for zone in zones {
         let [left, up, forward] = zone.offset.map(|it| it * width);
         let offset = frame.left * left + frame.up * up + frame.forward * forward;
         if let Some(at) = find(&zone.landmark) {
-            marks.push(Mark {
+            marks.push(BodyMark {
                 name: name(&zone.id),
                 zone: Some(zone.id.clone()),
                 inventory: zone.inventory,
@@ -92,7 +92,7 @@ pub(super) fn marks(
         if let Some(at) = find(&landmark)
             && marks.iter().all(|mark| mark.at.distance(at) > 0.012)
         {
-            marks.push(Mark {
+            marks.push(BodyMark {
                 name: landmark.replace('-', " "),
                 zone: None,
                 inventory: 0,
@@ -115,10 +115,10 @@ fn named(painter: &Painter, ui: &Ui, rect: Rect, name: &str) {
 /// Shows the marks over a picture; the name of the one under the pointer or with the focus is at the bottom.
 pub(super) fn show(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     (rect, projection, scale): (Rect, &Projection, f32),
-    marks: &[Mark],
+    marks: &[BodyMark],
 ) {
     let colours = seen.colours();
     let painter = ui.painter().with_clip_rect(rect);

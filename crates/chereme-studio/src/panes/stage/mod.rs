@@ -13,7 +13,7 @@
 //! | `points` | optical markers, and points from film |
 //! | `preview` | the stroke of a newly opened sign |
 //! | `artist` | the thread that draws |
-//! | `ways` | the stored settings |
+//! | `view_settings` | the stored settings |
 //! | `captions` | texts over the pictures |
 //! | `tools` | the line of tools above |
 //! | `transport` | the bar and the buttons below |
@@ -33,7 +33,7 @@ mod scene;
 mod tools;
 mod transport;
 mod ui;
-mod ways;
+mod view_settings;
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -45,8 +45,8 @@ use eframe::egui::{Context, Id, Rect, TextureHandle, Ui};
 
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
-use crate::model::made::Made;
+use crate::context::{Outbox, PaneInput};
+use crate::model::generated::GeneratedClip;
 use crate::panes::{Acted, Pane};
 use crate::work::{Ended, WorkId};
 use artist::Artist;
@@ -55,7 +55,7 @@ use marks::Zone;
 use original::Original;
 use points::Points;
 use scene::{Movement, Subject};
-pub(crate) use ways::StageWays;
+pub(crate) use view_settings::StageWays;
 
 /// The step of a key for turning, in shares of the picture's height, and for magnification.
 const KEY_STEP: f32 = 0.06;
@@ -155,7 +155,7 @@ struct Of(usize);
 
 impl Stage {
     /// Builds the figures of the displayed movement if it changed; `time` is in seconds of the window's clock.
-    fn follow(&mut self, seen: &Seen<'_>, time: f64, out: &mut Outbox) {
+    fn follow(&mut self, seen: &PaneInput<'_>, time: f64, out: &mut Outbox) {
         let made = seen.shown.made.as_ref().map(|showing| &showing.made);
         let sample = seen.reel.sample();
         let now = match (made, sample) {
@@ -200,7 +200,7 @@ impl Stage {
     }
 
     /// Returns whether the newest pictures show that movement.
-    pub(crate) fn shows(&self, made: &Arc<Made>) -> bool {
+    pub(crate) fn shows(&self, made: &Arc<GeneratedClip>) -> bool {
         let of = Of(Arc::as_ptr(made) as usize);
         self.is_drawn() && self.signer.as_ref().is_some_and(|it| it.0 == of)
     }
@@ -271,7 +271,7 @@ impl Stage {
 }
 
 impl Pane for Stage {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         if !std::mem::replace(&mut self.remembered, true) {
             seen.settings.stage.take(self);
         }
@@ -282,7 +282,7 @@ impl Pane for Stage {
         }
     }
 
-    fn act(&mut self, action: Action, _seen: &Seen<'_>, out: &mut Outbox) -> Acted {
+    fn act(&mut self, action: Action, _seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
         match action {
             Action::StageSplit => self.split(match self.eyes.len() {
                 1 => 2,
@@ -338,7 +338,7 @@ pub(crate) fn place(ctx: &Context) -> Option<Rect> {
 }
 
 /// Returns the source of the signer's postures.
-fn movement<'a>(seen: &Seen<'a>) -> Movement<'a> {
+fn movement<'a>(seen: &PaneInput<'a>) -> Movement<'a> {
     match &seen.shown.made {
         Some(showing) => Movement::Clip(&showing.made.clip, &showing.made.faces),
         None => Movement::Reel(seen.reel),

@@ -6,7 +6,7 @@ use chereme_corpus::{MadePart, Moving};
 use chereme_motion::Instant;
 
 use super::scene::Subject;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
 /// The originals of the movement on the stage.
@@ -35,7 +35,7 @@ pub(super) struct Piece {
 
 impl Original {
     /// Requests the originals if the movement on the stage changed; returns whether it did.
-    pub(super) fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) -> bool {
+    pub(super) fn follow(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) -> bool {
         let source = match &seen.shown.made {
             Some(showing) => Some(Source::Parts(showing.made.parts.clone())),
             None => {

@@ -8,7 +8,7 @@ use chereme_figure::mesh::Mesh;
 use chereme_figure::{PointCloud, Theme, View};
 use chereme_motion::{Instant, Markers, Span};
 
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
 /// Length of a piece, in microseconds.
@@ -37,7 +37,7 @@ pub(super) struct Points {
 impl Points {
     /// Switches to the displayed recording, and requests the piece at the playhead; returns whether the picture
     /// changes.
-    pub(super) fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) -> bool {
+    pub(super) fn follow(&mut self, seen: &PaneInput<'_>, out: &mut Outbox) -> bool {
         let source = source(seen);
         let changed = source != self.source || seen.dark != self.dark;
         if changed {
@@ -146,7 +146,7 @@ fn theme(dark: bool) -> Theme {
 }
 
 /// Returns the displayed recording and its tracks of points, if it has any.
-fn source(seen: &Seen<'_>) -> Option<(i64, Vec<(i64, i64)>)> {
+fn source(seen: &PaneInput<'_>) -> Option<(i64, Vec<(i64, i64)>)> {
     if seen.shown.made.is_some() {
         return None;
     }

@@ -3,7 +3,7 @@
 use chereme_figure::has_hand_up;
 use chereme_motion::{Instant, ModelPose, Span};
 
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::player::Preview;
 
 /// How many moments of a span are examined.
@@ -21,7 +21,11 @@ pub(super) struct Stroke {
 
 /// Returns the moment that the stage shows instead of the playhead's, if there is a preview. `time` is in seconds of
 /// the window's clock.
-pub(super) fn moment(known: &mut Option<Stroke>, seen: &Seen<'_>, time: f64) -> Option<Instant> {
+pub(super) fn moment(
+    known: &mut Option<Stroke>,
+    seen: &PaneInput<'_>,
+    time: f64,
+) -> Option<Instant> {
     let shown = seen.shown;
     // A film shows the playhead, and the signer stays in step with it.
     if shown.made.is_some() || seen.films.are_there() {
@@ -54,7 +58,7 @@ pub(super) fn moment(known: &mut Option<Stroke>, seen: &Seen<'_>, time: f64) -> 
 
 /// Returns the middle of those examined moments of a span in which a hand is raised, and whether all moments are
 /// loaded; `None` before anything is loaded.
-fn stroke(seen: &Seen<'_>, span: Span) -> Option<(Option<Instant>, bool)> {
+fn stroke(seen: &PaneInput<'_>, span: Span) -> Option<(Option<Instant>, bool)> {
     let sample = seen.reel.sample()?;
     let (skeleton, anatomy) = (sample.clip.skeleton(), &sample.anatomy);
     let long = span.micros().min(MOST);

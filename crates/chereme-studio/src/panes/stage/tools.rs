@@ -8,14 +8,14 @@ use super::Stage;
 use super::data::Compare;
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::{fill, stage as words};
 
 /// The width of a generated sign's name, in points.
 const MADE: f32 = 220.0;
 
 /// Shows the switches for extras of the picture and for the number of views.
-pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
     ui.horizontal_wrapped(|ui| {
         for (count, text) in [
@@ -132,7 +132,7 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
     ui.add_space(4.0);
 }
 
-fn reach(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
+fn reach(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>) {
     let value = DragValue::new(&mut stage.reach)
         .range(0.1..=2.0)
         .speed(0.02)
@@ -147,7 +147,7 @@ fn reach(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
     }
 }
 
-fn compare(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
+fn compare(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>) {
     let keys = seen.keys.text(Action::StageCompare);
     // The name is as high as the buttons after it, so that a row broken here stays aligned.
     let name = Button::new(RichText::new(seen.say(words::ORIGINAL_HOW)).weak()).frame(false);

@@ -9,7 +9,7 @@ use eframe::egui::{
 
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::timeline::data::time_text;
 use crate::player::SPEEDS;
 use crate::words::{Text, fill, stage as words};
@@ -20,7 +20,7 @@ const BUTTON: Vec2 = vec2(30.0, 26.0);
 /// Shows the bar and the buttons; `low` if the stage has little height; `more` is called after the buttons.
 pub(super) fn show(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     low: bool,
     more: impl FnOnce(&mut Ui, &mut Outbox),
@@ -69,7 +69,7 @@ pub(super) fn show(
 }
 
 /// Shows the time of the playhead; a click lets the user type another.
-fn go_to(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, now: &str) {
+fn go_to(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, now: &str) {
     let time = RichText::new(now).monospace().strong();
     let button = ui.add(Button::new(time).frame_when_inactive(false));
     let name = seen.say(Action::GoToTime.row().name);
@@ -83,13 +83,13 @@ fn go_to(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, now: &str) {
     }
 }
 
-fn rate(seen: &Seen<'_>) -> Option<Rate> {
+fn rate(seen: &PaneInput<'_>) -> Option<Rate> {
     let made = seen.shown.made.as_ref().map(|it| it.made.clip.rate());
     made.or_else(|| seen.reel.rate())
 }
 
 /// Returns the end of the recorded movement if annotations continue beyond it.
-fn movement_end(seen: &Seen<'_>) -> Option<Instant> {
+fn movement_end(seen: &PaneInput<'_>) -> Option<Instant> {
     if seen.shown.made.is_some() {
         return None;
     }
@@ -124,7 +124,7 @@ fn ticks(starts: &[i64], ends: &[i64], whole: Span, pixels: f32) -> Vec<[f32; 2]
 }
 
 /// Shows the bar: annotations of the chosen tier or of the glosses, the selected time, the playhead.
-fn bar(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+fn bar(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let player = seen.shown.on_stage();
     let size = vec2(ui.available_width(), BAR);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
@@ -215,7 +215,7 @@ fn keys(ui: &Ui, response: &Response, out: &mut Outbox) {
     }
 }
 
-fn annotations(painter: &Painter, seen: &Seen<'_>, track: Rect, whole: Span) {
+fn annotations(painter: &Painter, seen: &PaneInput<'_>, track: Rect, whole: Span) {
     let contents = seen
         .shown
         .recording
@@ -250,7 +250,7 @@ enum Icon {
 
 fn button(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     (icon, action): (Icon, Action),
     text: Option<Text>,
@@ -335,7 +335,7 @@ fn draw(painter: &Painter, icon: Icon, at: egui::Pos2, colour: Color32) {
     }
 }
 
-fn speeds(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+fn speeds(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let player = seen.shown.on_stage();
     let now = player.speed;
     let shuttle = player.direction();

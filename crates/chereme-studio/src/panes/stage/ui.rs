@@ -11,19 +11,19 @@ use eframe::egui::{
     StrokeKind, TextureOptions, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
-use super::artist::{Artist, Figure, Pane, Sheet, Wish};
+use super::artist::{Artist, Figure, Pane, Sheet, StageRequest};
 use super::captions::{NARROW, notes, who};
 pub(super) use super::captions::{chip, chip_on};
-use super::data::{self, Compare, Inset, Look, Part, VIEWS, Who};
+use super::data::{self, Compare, Inset, Look, StagePart, VIEWS, Who};
 use super::scene::Subject;
 use super::{
     Eye, Stage, course, handle, insets, marks, movement, original, preview, tools, transport,
 };
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::film::Films;
-use crate::little;
+use crate::miniatures;
 use crate::words::{Text, stage as words};
 
 /// The most pixels that are drawn; larger stages show theirs scaled.
@@ -38,7 +38,7 @@ const HASTE: f32 = 3.0;
 /// How long after a change of the recipe pictures are drawn as fast as in motion, in seconds.
 const SETTLES: f64 = 0.25;
 
-pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let time = ui.input(|input| input.time);
     stage.follow(seen, time, out);
     let frame = egui::Frame::new();
@@ -80,7 +80,7 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
             // The button below needs a separate line.
             let foot = if next.is_some() { 44.0 } else { 0.0 };
             let above = whole.with_max_y(whole.bottom() - foot);
-            little::empty(ui, above, seen.say(text));
+            miniatures::empty(ui, above, seen.say(text));
             if let Some(next) = next {
                 lead_on(ui, seen, out, whole, next);
             }
@@ -94,7 +94,7 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
 fn films(
     stage: &Stage,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     whole: Rect,
 ) -> Option<Rect> {
@@ -126,7 +126,7 @@ fn films(
 }
 
 /// Returns the reason if no signer is visible.
-fn why_nothing(stage: &Stage, seen: &Seen<'_>) -> Option<Text> {
+fn why_nothing(stage: &Stage, seen: &PaneInput<'_>) -> Option<Text> {
     if seen.shown.made.is_some() {
         stage.signer.is_none().then_some(words::NO_MOVEMENT)
     } else if seen.shown.recording.is_none() {
@@ -152,7 +152,7 @@ fn why_nothing(stage: &Stage, seen: &Seen<'_>) -> Option<Text> {
 /// Shows the next steps if the stage is empty: to the signs of a corpus without recordings, or to the import.
 fn lead_on(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     whole: Rect,
     (text, action): (Text, Action),
@@ -165,7 +165,7 @@ fn lead_on(
     }
 }
 
-fn panes(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, whole: Rect) {
+fn panes(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, whole: Rect) {
     let parts = data::parts(whole, stage.eyes.len(), stage.comparing());
     let mut dragged = false;
     for (index, part) in parts.iter().enumerate() {
@@ -210,14 +210,14 @@ fn panes(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, whol
     notes(stage, ui, seen, whole);
 }
 
-fn eye_name(stage: &Stage, seen: &Seen<'_>, part: &Part) -> &'static str {
+fn eye_name(stage: &Stage, seen: &PaneInput<'_>, part: &StagePart) -> &'static str {
     let eye = stage.eyes[part.eye];
     let found = VIEWS.iter().find(|(view, _)| *view == eye.view);
     found.map_or("", |(_, action)| seen.say(action.row().name))
 }
 
 /// Handles the mouse: left drag orbits, right or middle drag pans, the wheel magnifies, a double click resets.
-fn turn(stage: &mut Stage, ui: &Ui, response: &Response, part: &Part) {
+fn turn(stage: &mut Stage, ui: &Ui, response: &Response, part: &StagePart) {
     let eye = &mut stage.eyes[part.eye];
     let moved = response.drag_delta() / part.rect.height().max(1.0);
     let moved = [moved.x, moved.y];
@@ -248,8 +248,8 @@ fn turn(stage: &mut Stage, ui: &Ui, response: &Response, part: &Part) {
 fn pictures(
     stage: &mut Stage,
     ui: &mut Ui,
-    seen: &Seen<'_>,
-    (parts, insets): (&[Part], &[Inset]),
+    seen: &PaneInput<'_>,
+    (parts, insets): (&[StagePart], &[Inset]),
     dragged: bool,
 ) -> Option<ModelPose> {
     stage.artist.get_or_insert_with(|| {
@@ -372,7 +372,7 @@ fn signer_joints(stage: &Stage) -> Option<usize> {
     stage.signer.as_ref().map(|(_, it)| it.skeleton.len())
 }
 
-fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
+fn wish(stage: &mut Stage, seen: &PaneInput<'_>, look: Look, pose: &ModelPose) {
     let theme = if look.dark { Theme::Dark } else { Theme::Light };
     let end = seen.shown.on_stage().whole.end();
     let (Some((_, signer)), Some(artist)) = (&mut stage.signer, &stage.artist) else {
@@ -465,7 +465,7 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
         });
     }
     stage.wished += 1;
-    artist.wish(Wish {
+    artist.wish(StageRequest {
         number: stage.wished,
         figures,
         panes,
@@ -506,7 +506,7 @@ fn wish_points(stage: &mut Stage, look: Look, mesh: Mesh) {
         });
     }
     stage.wished += 1;
-    artist.wish(Wish {
+    artist.wish(StageRequest {
         number: stage.wished,
         figures: Vec::new(),
         panes,
@@ -535,7 +535,7 @@ fn camera(subject: &Subject, eye: Eye, size: [usize; 2], pose: &ModelPose) -> Ca
 }
 
 /// Shows the view's name, which opens a menu of views, and the name of the signer.
-fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
+fn labels(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>, part: &StagePart) {
     let place = Rect::from_min_size(
         part.rect.min + vec2(6.0, 6.0),
         vec2(part.rect.width() - 12.0, 24.0),
@@ -584,12 +584,12 @@ fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
 }
 
 /// Returns whether a part is the first of its eye.
-fn data_first(stage: &Stage, part: &Part) -> bool {
+fn data_first(stage: &Stage, part: &StagePart) -> bool {
     stage.comparing() != Some(Compare::Beside) || part.who == Who::Original
 }
 
 /// Returns the projection of the signer in a part, in points from the part's corner.
-fn projection(stage: &Stage, part: &Part, pose: &ModelPose) -> Option<Projection> {
+fn projection(stage: &Stage, part: &StagePart, pose: &ModelPose) -> Option<Projection> {
     let (_, signer) = stage.signer.as_ref()?;
     let size = [part.rect.width(), part.rect.height()].map(|side| side.round().max(1.0) as usize);
     let camera = camera(signer, stage.eyes[part.eye], size, pose);
@@ -600,9 +600,9 @@ fn projection(stage: &Stage, part: &Part, pose: &ModelPose) -> Option<Projection
 fn handled(
     stage: &mut Stage,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
-    part: &Part,
+    part: &StagePart,
     pose: &ModelPose,
 ) {
     let before = stage.holding.grab.is_some();
@@ -620,9 +620,9 @@ fn handled(
 fn places(
     stage: &mut Stage,
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
-    part: &Part,
+    part: &StagePart,
     pose: &ModelPose,
 ) {
     let overview = &seen.snapshot.overview;

@@ -7,10 +7,10 @@ use eframe::egui::{Button, Color32, ScrollArea, TextStyle, Ui};
 
 use super::edit::Scene;
 use super::rows::{hidden_count, rows};
-use super::ways::Ways;
+use super::view_settings::TimelineSettings;
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::{Text, fill, timeline as words};
 use crate::work::Work;
 
@@ -32,7 +32,7 @@ const SNAPS: [(Action, Text); 3] = [
 ];
 
 /// Returns the name of the current mode, for the status line.
-pub(crate) fn mode_name(ways: &Ways) -> Text {
+pub(crate) fn mode_name(ways: &TimelineSettings) -> Text {
     let on = MODES.iter().find(|(action, _)| ways.is_on(*action));
     on.map_or(words::NORMAL, |(_, text)| *text)
 }
@@ -78,7 +78,7 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
 }
 
 /// Returns the width that the tools need with a button for every switch, in points.
-fn wanted(ui: &Ui, seen: &Seen<'_>, tiers_title: &str) -> f32 {
+fn wanted(ui: &Ui, seen: &PaneInput<'_>, tiers_title: &str) -> f32 {
     let switches = MODES.iter().chain(&SNAPS).map(|(_, text)| seen.say(*text));
     let all = switches.chain([seen.say(words::LANES), tiers_title]);
     let buttons = all.map(|text| width(ui, text)).sum::<f32>();
@@ -95,7 +95,7 @@ fn width(ui: &Ui, text: &str) -> f32 {
     galley.size().x + 2.0 * ui.spacing().button_padding.x + GAP
 }
 
-fn switch(ui: &mut Ui, seen: &Seen<'_>, (action, text): (Action, Text), out: &mut Outbox) {
+fn switch(ui: &mut Ui, seen: &PaneInput<'_>, (action, text): (Action, Text), out: &mut Outbox) {
     let on = seen.settings.timeline.is_on(action);
     let button = ui.add(Button::selectable(on, seen.say(text)));
     let keys = seen.keys.text(action);
@@ -105,7 +105,7 @@ fn switch(ui: &mut Ui, seen: &Seen<'_>, (action, text): (Action, Text), out: &mu
     }
 }
 
-fn menu(ui: &mut Ui, seen: &Seen<'_>, title: &str, rows: &[(Action, Text)], out: &mut Outbox) {
+fn menu(ui: &mut Ui, seen: &PaneInput<'_>, title: &str, rows: &[(Action, Text)], out: &mut Outbox) {
     ui.menu_button(title, |ui| {
         for (action, _) in rows {
             let on = seen.settings.timeline.is_on(*action);
@@ -160,8 +160,8 @@ fn shown(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
                 ui.add_space(12.0 * row.depth as f32);
                 if ui.checkbox(&mut is_shown, name).changed() {
                     let mut ways = ways.clone();
-                    super::ways::toggle(&mut ways.hidden, name.clone());
-                    super::ways::change(scene.seen, out, ways);
+                    super::view_settings::toggle(&mut ways.hidden, name.clone());
+                    super::view_settings::change(scene.seen, out, ways);
                 }
             });
         }
@@ -197,7 +197,7 @@ pub(super) fn like(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
 }
 
 /// Shows actions as the entries of a menu.
-pub(super) fn actions(ui: &mut Ui, seen: &Seen<'_>, all: &[Action], out: &mut Outbox) {
+pub(super) fn actions(ui: &mut Ui, seen: &PaneInput<'_>, all: &[Action], out: &mut Outbox) {
     for action in all {
         let button =
             Button::new(seen.say(action.row().name)).shortcut_text(seen.keys.text(*action));

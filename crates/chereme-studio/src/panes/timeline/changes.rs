@@ -8,7 +8,7 @@ use chereme_corpus::{
 };
 use chereme_motion::Instant;
 
-use super::hold::places;
+use super::dragged::places;
 use super::spans::Item;
 
 fn moment(micros: i64) -> Moment {
@@ -168,7 +168,7 @@ pub(crate) fn has_below(contents: &Contents, annotations: &BTreeSet<i64>) -> boo
 
 #[cfg(test)]
 mod tests {
-    use super::super::hold::tests::contents;
+    use super::super::dragged::tests::contents;
     use super::*;
 
     fn recording() -> Contents {

@@ -6,13 +6,13 @@ use chereme_corpus::Contents;
 use chereme_motion::{Instant, Span};
 use eframe::egui::{CursorIcon, Key, Modifiers, Pos2, Rect, Ui};
 
+use super::dragged::{self, DraggedAnnotations};
 use super::edit::Scene;
 use super::gesture::{Dragging, Gesture};
-use super::hold::{self, Held};
 use super::snap::{Catch, Guides};
 use super::spans::{Grip, Item};
 use super::ui::Drawing;
-use super::{Ghost, Then, changes, choose};
+use super::{Ghost, Then, changes, tier_list};
 use crate::command::Command;
 use crate::words::timeline as words;
 
@@ -170,7 +170,7 @@ impl Drawing<'_, '_> {
         self.follow_with(to);
         let wanted = (from.min(to), from.max(to));
         let found = contents.tiers.iter().find(|it| it.row.id == tier);
-        let room = found.and_then(|tier| hold::room(contents, tier, wanted));
+        let room = found.and_then(|tier| dragged::room(contents, tier, wanted));
         let (start, end) = room.unwrap_or(wanted);
         let ghost = Ghost {
             tier,
@@ -211,7 +211,7 @@ impl Drawing<'_, '_> {
             .collect();
         it.to = self.other_tier(contents, it, pointer);
         if let Some((to, _)) = it.to {
-            let moved = |held: &Held| -> Vec<Item> {
+            let moved = |held: &DraggedAnnotations| -> Vec<Item> {
                 let chosen = held
                     .items
                     .iter()
@@ -232,7 +232,7 @@ impl Drawing<'_, '_> {
             let items: Vec<Item> = it.changed.iter().flatten().copied().collect();
             let chosen = items.iter().map(|item| item.id).collect();
             let fits = scene.tier_of(to).is_some_and(|tier| {
-                choose::unfit(&scene, tier, &items).is_none()
+                tier_list::unfit(&scene, tier, &items).is_none()
                     && !changes::has_below(contents, &chosen)
             });
             it.to = Some((to, fits));

@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 use chereme_corpus::{AnnotationChange, Contents, StoredInventory, TierContents};
 use chereme_motion::Span;
 
+use super::dragged::{self, DraggedAnnotations, TierTiming};
 use super::editor::{Editing, Target};
-use super::hold::{self, Held, Kind};
 use super::snap::Frames;
 use super::spans::{Grip, Item};
 use super::values::{self, Choices};
 use super::{Begun, Ghost, Then, Timeline, changes};
 use crate::action::Action;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::Acted;
 use crate::pickers;
 use crate::words::{shell, timeline as words};
@@ -37,11 +37,11 @@ pub(super) const DIGITS: [Action; 9] = [
 #[derive(Clone, Copy)]
 pub(super) struct Scene<'a> {
     pub(super) contents: &'a Contents,
-    pub(super) seen: &'a Seen<'a>,
+    pub(super) seen: &'a PaneInput<'a>,
 }
 
 impl<'a> Scene<'a> {
-    pub(super) fn of(seen: &'a Seen<'a>) -> Option<Self> {
+    pub(super) fn of(seen: &'a PaneInput<'a>) -> Option<Self> {
         let contents = seen.snapshot.contents(seen.shown.recording?)?;
         Some(Self { contents, seen })
     }
@@ -81,8 +81,8 @@ impl<'a> Scene<'a> {
         }
     }
 
-    pub(super) fn held(&self, chosen: &BTreeSet<i64>) -> Vec<Held> {
-        hold::held(self.contents, chosen, self.frames().is_some())
+    pub(super) fn held(&self, chosen: &BTreeSet<i64>) -> Vec<DraggedAnnotations> {
+        dragged::held(self.contents, chosen, self.frames().is_some())
     }
 
     pub(super) fn inventory(&self, tier: &TierContents) -> Option<&'a StoredInventory> {
@@ -142,7 +142,7 @@ pub(super) fn act(
             Acted::Cannot(shell::NEEDS_ANNOTATION)
         }
         Action::CopyToTier | Action::MoveToTier => {
-            timeline.choose = Some(super::choose::Choose::new(action == Action::MoveToTier));
+            timeline.choose = Some(super::tier_list::Choose::new(action == Action::MoveToTier));
             Acted::Yes
         }
         _ => match digit {
@@ -161,7 +161,7 @@ fn create(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
             Acted::Cannot(shell::NEEDS_SELECTION)
         };
     };
-    match hold::room(scene.contents, tier, wanted) {
+    match dragged::room(scene.contents, tier, wanted) {
         Some(span) => {
             timeline.edit_new(scene, tier.row.id, span);
             Acted::Yes
@@ -201,13 +201,13 @@ fn by_picture(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
 
 /// Returns whether values of an inventory have pictures.
 pub(super) fn has_pictures(inventory: &chereme_sign::Inventory) -> bool {
-    pickers::data::kind(inventory) != pickers::data::Kind::Names
+    pickers::data::kind(inventory) != pickers::data::PickerForm::Names
 }
 
 /// Returns the reason why a tier has no room for an annotation.
 pub(super) fn no_room(tier: &TierContents) -> crate::words::Text {
-    match Kind::of(&tier.row) {
-        Kind::Root => words::NO_ROOM,
+    match TierTiming::of(&tier.row) {
+        TierTiming::Root => words::NO_ROOM,
         _ => words::NO_ROOM_BELOW,
     }
 }
@@ -244,7 +244,7 @@ fn begin_or_end(
         return Acted::Cannot(words::NEEDS_TIER);
     };
     let wanted = (begun.start.min(here), begun.start.max(here));
-    match hold::room(scene.contents, tier, wanted) {
+    match dragged::room(scene.contents, tier, wanted) {
         Some(span) => {
             let add = changes::add(begun.tier, span, &begun.value);
             timeline.change(vec![add], Then::added(begun.tier, span), out)
@@ -279,7 +279,7 @@ fn by_digit(timeline: &mut Timeline, scene: &Scene<'_>, digit: usize, out: &mut 
     let Some(wanted) = scene.selection() else {
         return Acted::Cannot(shell::NEEDS_SELECTION);
     };
-    match hold::room(scene.contents, tier, wanted) {
+    match dragged::room(scene.contents, tier, wanted) {
         Some(span) => {
             let add = changes::add(tier.row.id, span, &value);
             timeline.change(vec![add], Then::added(tier.row.id, span), out)
@@ -365,7 +365,7 @@ fn reach(timeline: &mut Timeline, scene: &Scene<'_>, grip: Grip, out: &mut Outbo
     drag(timeline, scene, &all, (grip, scene.playhead() - edge), out)
 }
 
-fn first_of(held: &Held) -> Option<Item> {
+fn first_of(held: &DraggedAnnotations) -> Option<Item> {
     let mut items = held.items.iter();
     items.find(|it| held.chosen.contains(&it.id)).copied()
 }
@@ -373,11 +373,11 @@ fn first_of(held: &Held) -> Option<Item> {
 fn drag(
     timeline: &mut Timeline,
     scene: &Scene<'_>,
-    all: &[Held],
+    all: &[DraggedAnnotations],
     (grip, by): (Grip, i64),
     out: &mut Outbox,
 ) -> Acted {
-    if all.iter().all(|held| held.kind == Kind::Listed) {
+    if all.iter().all(|held| held.kind == TierTiming::Listed) {
         return Acted::Cannot(words::NO_TIMES);
     }
     let mode = scene.seen.settings.timeline.mode;

@@ -126,7 +126,7 @@ impl Editing {
 }
 
 /// The key pressed in the field.
-enum Said {
+enum FieldKey {
     Nothing,
     /// Keep this value; and whether to go on to the next annotation.
     Keep(String, bool),
@@ -164,7 +164,7 @@ pub(super) fn show(
     let choices = scene.choices(tier);
     if std::mem::take(&mut timeline.left) {
         if let Some(value) = choices.kept(&editing.text, editing.marked) {
-            return done(timeline, (editing, tier), Said::Keep(value, false), out);
+            return done(timeline, (editing, tier), FieldKey::Keep(value, false), out);
         }
         editing.aside = true;
     }
@@ -190,13 +190,13 @@ pub(super) fn show(
 fn done(
     timeline: &mut Timeline,
     (editing, tier): (Editing, &TierContents),
-    said: Said,
+    said: FieldKey,
     out: &mut Outbox,
 ) {
     match said {
-        Said::Nothing => timeline.editing = Some(editing),
-        Said::Drop => {}
-        Said::Keep(value, on) => {
+        FieldKey::Nothing => timeline.editing = Some(editing),
+        FieldKey::Drop => {}
+        FieldKey::Keep(value, on) => {
             let next = if on { next(&editing, tier) } else { None };
             let same = matches!(&editing.target, Target::Of(all) if all.len() == 1);
             if !same || value != editing.before {
@@ -230,7 +230,7 @@ fn field(
     (editing, tier): (&mut Editing, &TierContents),
     (choices, digits): (&Choices, &[String]),
     below: Rect,
-) -> Said {
+) -> FieldKey {
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
     let (up, down) = (pressed(Key::ArrowUp), pressed(Key::ArrowDown));
     let (enter, tab, escape) = (pressed(Key::Enter), pressed(Key::Tab), pressed(Key::Escape));
@@ -244,7 +244,7 @@ fn field(
     };
     let fitting = choices.fitting(filter);
     value_list::step(editing, &fitting, up, down);
-    let mut said = Said::Nothing;
+    let mut said = FieldKey::Nothing;
     let mut turn = false;
     let opened = editing.begun;
     let pictured = scene.inventory(tier);
@@ -266,7 +266,7 @@ fn field(
                 .strip_prefix(before.as_str())
                 .unwrap_or_default();
             if let Some(value) = value_list::picked(&before, typed, choices, digits) {
-                said = Said::Keep(value.to_owned(), false);
+                said = FieldKey::Keep(value.to_owned(), false);
             }
             if editing.text != before {
                 editing.marked = None;
@@ -278,21 +278,21 @@ fn field(
                 (stored, choices, digits),
                 up || down,
             ) {
-                said = Said::Keep(value, false);
+                said = FieldKey::Keep(value, false);
             }
         });
     });
     if turn {
         editing.turn_to_pictures();
-        return Said::Nothing;
+        return FieldKey::Nothing;
     }
     if escape {
-        return Said::Drop;
+        return FieldKey::Drop;
     }
     if enter || tab || opened && elsewhere(ui, shown.response.rect) {
         return match choices.kept(&editing.text, editing.marked) {
-            Some(value) => Said::Keep(value, tab),
-            None => Said::Nothing,
+            Some(value) => FieldKey::Keep(value, tab),
+            None => FieldKey::Nothing,
         };
     }
     said
@@ -305,9 +305,9 @@ fn pictures(
     scene: &Scene<'_>,
     (editing, stored): (&mut Editing, &StoredInventory),
     (choices, digits, below): (&Choices, &[String], Rect),
-) -> Said {
+) -> FieldKey {
     if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
-        return Said::Drop;
+        return FieldKey::Drop;
     }
     let opened = std::mem::replace(&mut editing.pictured, true);
     if !opened {
@@ -319,7 +319,7 @@ fn pictures(
     let screen = ui.ctx().content_rect();
     let width = pickers::data::width(pickers::data::kind(inventory));
     let width = width.min(screen.width() - 48.0);
-    let mut said = Said::Nothing;
+    let mut said = FieldKey::Nothing;
     let mut back = false;
     let (area, width) = area(ui, below, vec2(width, f32::INFINITY));
     let shown = area.show(ui.ctx(), |ui| {
@@ -330,17 +330,17 @@ fn pictures(
             let chosen = inventory.find(&editing.text).map(|value| value.id.as_str());
             let picked = pickers::pick(ui, &mut timeline.picker, scene.seen, inventory, chosen);
             if let Some(value) = picked {
-                said = Said::Keep(value, false);
+                said = FieldKey::Keep(value, false);
             }
         });
     });
     if back {
         editing.turn_to_pictures();
     }
-    if matches!(said, Said::Nothing) && opened && elsewhere(ui, shown.response.rect) {
+    if matches!(said, FieldKey::Nothing) && opened && elsewhere(ui, shown.response.rect) {
         return match choices.kept(&editing.text, None) {
-            Some(value) => Said::Keep(value, false),
-            None => Said::Nothing,
+            Some(value) => FieldKey::Keep(value, false),
+            None => FieldKey::Nothing,
         };
     }
     said

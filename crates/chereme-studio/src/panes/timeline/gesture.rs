@@ -16,8 +16,8 @@ use chereme_corpus::Contents;
 use chereme_motion::{Instant, Span};
 use eframe::egui::{CursorIcon, Modifiers, Pos2, Rect, Response, Ui};
 
+use super::dragged::{self, DraggedAnnotations, TierTiming};
 use super::edit::Scene;
-use super::hold::{self, Held, Kind};
 use super::spans::{Grip, Item};
 use super::ui::Drawing;
 use super::{data, edit, select};
@@ -59,7 +59,7 @@ impl Gesture {
 /// Annotations while they are dragged.
 #[derive(Debug)]
 pub(super) struct Dragging {
-    pub(super) held: Vec<Held>,
+    pub(super) held: Vec<DraggedAnnotations>,
     pub(super) grip: Grip,
     /// The boundaries that snap: one, or both of a whole annotation.
     pub(super) edges: Vec<i64>,
@@ -215,7 +215,7 @@ impl Drawing<'_, '_> {
             seen: self.seen,
         };
         let held = scene.held(&chosen);
-        if held.iter().all(|held| held.kind == Kind::Listed) {
+        if held.iter().all(|held| held.kind == TierTiming::Listed) {
             self.hint(words::NO_TIMES);
             self.timeline.gesture = Some(Gesture::Off);
             return;
@@ -235,7 +235,7 @@ impl Drawing<'_, '_> {
             tier: contents.tiers[at].row.id,
             to: None,
             id,
-            except: hold::with_below(contents, chosen),
+            except: dragged::with_below(contents, chosen),
         })));
     }
 
@@ -254,7 +254,7 @@ impl Drawing<'_, '_> {
         match under {
             Some(under) if modifiers.command || modifiers.alt => {
                 let mut chosen = chosen.clone();
-                super::ways::toggle(&mut chosen, tier.annotations.ids[under]);
+                super::view_settings::toggle(&mut chosen, tier.annotations.ids[under]);
                 self.out.send(Command::Tier(Some(tier.row.id)));
                 self.out.send(Command::Annotations(chosen));
             }
@@ -305,7 +305,7 @@ impl Drawing<'_, '_> {
             return self.hint(crate::words::shell::NEEDS_SELECTION);
         };
         let wanted = (span.start().micros(), span.end().micros());
-        match hold::room(contents, tier, wanted) {
+        match dragged::room(contents, tier, wanted) {
             Some(room) => self.timeline.edit_new(&scene, tier.row.id, room),
             None => self.hint(edit::no_room(tier)),
         }

@@ -9,13 +9,13 @@ use super::edit::Scene;
 use super::lane_shape::{self, FACE, FOLDED, Wanted};
 use super::lanes::{Lane, Run, Source};
 use super::ui::Drawing;
-use super::{lanes, paint, ways};
-use crate::context::Seen;
+use super::{lanes, paint, view_settings};
+use crate::context::PaneInput;
 use crate::theme;
 use crate::words::{fill, timeline as words};
 
 /// Returns the name of a stored curve such as `brows.RB`, from the inventory of its feature.
-fn face_name(seen: &Seen<'_>, name: &str) -> String {
+fn face_name(seen: &PaneInput<'_>, name: &str) -> String {
     let Some((part, code)) = name.split_once('.') else {
         return name.to_owned();
     };
@@ -28,7 +28,7 @@ fn face_name(seen: &Seen<'_>, name: &str) -> String {
 }
 
 /// Returns the colours of the right hand and of the left, like those of the figure on the stage.
-fn hands(seen: &Seen<'_>) -> [Color32; 2] {
+fn hands(seen: &PaneInput<'_>) -> [Color32; 2] {
     theme::hands(seen.dark)
 }
 
@@ -109,8 +109,8 @@ impl Drawing<'_, '_> {
         paint::fold(ui, mark, folded, &response);
         if response.clicked() {
             let mut ways = ways.clone();
-            ways::toggle(&mut ways.folded_lanes, lane);
-            ways::change(self.seen, self.out, ways);
+            view_settings::toggle(&mut ways.folded_lanes, lane);
+            view_settings::change(self.seen, self.out, ways);
         }
         response.on_hover_text(label);
     }

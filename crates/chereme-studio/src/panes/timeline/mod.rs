@@ -4,37 +4,36 @@
 //! |---|---|
 //! | `data` | positions of times, ticks, bars |
 //! | `rows` | the tier of each row |
-//! | `spans`, `hold`, `snap` | times of annotations in a drag |
+//! | `spans`, `dragged`, `snap` | times of annotations in a drag |
 //! | `changes` | requests to the corpus |
 //! | `values` | the possible values of a tier, and the digits |
 //! | `lanes`, `lane_shape`, `lanes_ui` | movement as lanes |
 //! | `overview` | the whole recording in a strip |
-//! | `ways` | stored modes and switches |
-//! | `edit`, `select`, `tiers`, `beside` | effects of actions |
-//! | `clip`, `paste`, `paste_box` | the clipboard: its text, places for pasted annotations, lines without a place |
+//! | `view_settings` | stored modes and switches |
+//! | `edit`, `select`, `tiers`, `neighbours` | effects of actions |
+//! | `copied`, `paste`, `paste_box` | the clipboard: its text, places for pasted annotations, lines without a place |
 //! | `ui`, `names`, `above`, `paint` | rows, the names of tiers, the layer above them, painting |
 //! | `gesture`, `drag`, `menu` | mouse gestures: their begin, their course, the context menu |
 //! | `editor`, `value_list` | the field for values, and the list of matching values below it |
-//! | `choose`, `tier_box`, `go`, `bar` | boxes that choose a tier, edit a tier, or go to a time; the tools |
+//! | `tier_list`, `tier_box`, `go_to_time`, `bar` | boxes that choose a tier, edit a tier, or go to a time; the tools |
 
 mod above;
 pub(crate) mod bar;
-mod beside;
 mod changes;
-mod choose;
-mod clip;
+mod copied;
 pub(crate) mod data;
 mod drag;
+mod dragged;
 mod edit;
 mod editor;
 mod gesture;
-mod go;
-mod hold;
+mod go_to_time;
 mod lane_shape;
 pub(crate) mod lanes;
 mod lanes_ui;
 mod menu;
 mod names;
+mod neighbours;
 mod overview;
 mod paint;
 mod paste;
@@ -44,11 +43,12 @@ mod rows;
 mod select;
 mod snap;
 pub(crate) mod tier_box;
+mod tier_list;
 mod tiers;
 mod ui;
 mod value_list;
 mod values;
-mod ways;
+mod view_settings;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -59,7 +59,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::model::Opened;
 use crate::panes::{Acted, Pane};
 use crate::pickers::Picker;
@@ -68,7 +68,7 @@ use chereme_sign::tier::spans::{self, Item};
 use data::Window;
 use edit::Scene;
 use editor::{Editing, Target};
-pub(crate) use ways::Ways;
+pub(crate) use view_settings::TimelineSettings;
 
 /// Returns a recording with one tier of annotations, each given as id, start and end.
 #[cfg(test)]
@@ -77,7 +77,7 @@ pub(crate) fn contents_of(annotations: &[(i64, i64, i64)]) -> chereme_corpus::Co
         .iter()
         .map(|(id, start, end)| (*id, *start, *end, None));
     let all: Vec<_> = with_parents.collect();
-    hold::tests::contents(&[(1, None, "", &all)])
+    dragged::tests::contents(&[(1, None, "", &all)])
 }
 
 /// The pane.
@@ -117,9 +117,9 @@ pub(crate) struct Timeline {
     left: bool,
     picker: Picker,
     digits: values::Digits,
-    choose: Option<choose::Choose>,
+    choose: Option<tier_list::Choose>,
     paste_box: Option<paste_box::PasteBox>,
-    go_box: Option<go::GoBox>,
+    go_box: Option<go_to_time::GoBox>,
     /// The text to paste.
     clip: Option<String>,
     tier_box: Option<tier_box::TierBox>,
@@ -224,7 +224,7 @@ impl Timeline {
         known.is_none()
     }
 
-    fn zoom(&mut self, factor: f64, seen: &Seen<'_>) {
+    fn zoom(&mut self, factor: f64, seen: &PaneInput<'_>) {
         let player = &seen.shown.player;
         let window = self.window(player.whole, self.width);
         let around = player.playhead().micros() as f64;
@@ -232,7 +232,7 @@ impl Timeline {
     }
 
     /// Scrolls through time by a share of the visible span; the playhead stays.
-    fn page(&mut self, share: f32, seen: &Seen<'_>) {
+    fn page(&mut self, share: f32, seen: &PaneInput<'_>) {
         let whole = seen.shown.player.whole;
         let window = self.window(whole, self.width);
         self.window = Some(window.panned(share * self.width, whole, self.width));
@@ -362,12 +362,12 @@ impl Pane for Timeline {
         self.left = self.editing.is_some();
     }
 
-    fn ui(&mut self, ui: &mut eframe::egui::Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn ui(&mut self, ui: &mut eframe::egui::Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.drawn = true;
         ui::show(self, ui, seen, out);
     }
 
-    fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {
+    fn act(&mut self, action: Action, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
         match action {
             Action::ZoomIn => self.zoom(0.6, seen),
             Action::ZoomOut => self.zoom(1.0 / 0.6, seen),
@@ -376,14 +376,14 @@ impl Pane for Timeline {
             Action::PageForward => self.page(0.9, seen),
             other => {
                 if let Some(ways) = seen.settings.timeline.after(other) {
-                    ways::change(seen, out, ways);
+                    view_settings::change(seen, out, ways);
                     return Acted::Yes;
                 }
                 let Some(scene) = Scene::of(seen) else {
                     return Acted::No;
                 };
                 if other == Action::GoToTime {
-                    self.go_box = Some(go::GoBox::default());
+                    self.go_box = Some(go_to_time::GoBox::default());
                     if !self.drawn {
                         out.send(Command::Do(Action::ShowTimeline));
                     }
@@ -395,7 +395,7 @@ impl Pane for Timeline {
                     edit::act,
                     tiers::act,
                     paste::act,
-                    beside::act,
+                    neighbours::act,
                 ]
                 .into_iter()
                 .map(|act| act(self, other, &scene, out))

@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use super::edit::Scene;
-use super::rows::Row;
+use super::rows::TimelineRow;
 use super::ui::{Drawing, INDENT};
 use super::{bar, paint, tiers};
 use crate::action::Action;
@@ -16,7 +16,13 @@ use crate::words::{fill, timeline as words};
 
 impl Drawing<'_, '_> {
     /// Shows the name of a tier, with its fold mark and a context menu.
-    pub(super) fn header(&mut self, ui: &mut Ui, contents: &Contents, row: &Row, name: Rect) {
+    pub(super) fn header(
+        &mut self,
+        ui: &mut Ui,
+        contents: &Contents,
+        row: &TimelineRow,
+        name: Rect,
+    ) {
         let tier = &contents.tiers[row.tier];
         let scene = Scene {
             contents,
@@ -98,7 +104,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    fn fold(&mut self, ui: &mut Ui, row: &Row, (id, name): (i64, &str), rect: Rect) {
+    fn fold(&mut self, ui: &mut Ui, row: &TimelineRow, (id, name): (i64, &str), rect: Rect) {
         let words = if row.folded {
             words::UNFOLD
         } else {

@@ -262,7 +262,7 @@ impl Drawing<'_, '_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::hold::tests::contents;
+    use super::super::dragged::tests::contents;
     use super::*;
 
     #[test]

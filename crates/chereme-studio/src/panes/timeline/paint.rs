@@ -11,7 +11,7 @@ use eframe::egui::{
 use super::data::{self, Bar, Window};
 use super::drag::Sight;
 use super::snap::Catch;
-use crate::context::Seen;
+use crate::context::PaneInput;
 use crate::pickers::data as pickers;
 use crate::words::{Language, timeline as words};
 
@@ -23,7 +23,7 @@ pub(super) fn ruler(
     painter: &Painter,
     rect: Rect,
     window: &Window,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     font: &FontId,
 ) {
     let colours = seen.colours();
@@ -54,7 +54,7 @@ pub(super) fn bar_rect(row: Rect, window: &Window, bar: &Bar) -> Rect {
 }
 
 /// Returns the text on a bar.
-pub(super) fn bar_text(tier: &TierContents, bar: &Bar, seen: &Seen<'_>) -> String {
+pub(super) fn bar_text(tier: &TierContents, bar: &Bar, seen: &PaneInput<'_>) -> String {
     if bar.count > 1 {
         return format!("×{}", bar.count);
     }
@@ -80,7 +80,7 @@ pub(super) fn bar(
     painter: &Painter,
     rect: Rect,
     (tier, bar): (&TierContents, &Bar),
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     (font, faint): (&FontId, bool),
 ) {
     let colours = seen.colours();
@@ -171,7 +171,7 @@ fn grips(painter: &Painter, rect: Rect, colour: Color32) {
 }
 
 /// Paints a frame around the annotation with the keyboard focus.
-pub(super) fn focus(painter: &Painter, rect: Rect, seen: &Seen<'_>) {
+pub(super) fn focus(painter: &Painter, rect: Rect, seen: &PaneInput<'_>) {
     let stroke = Stroke::new(2.0, seen.colours().accent);
     painter.rect_stroke(rect.expand(1.0), 3.0, stroke, StrokeKind::Outside);
 }
@@ -183,7 +183,7 @@ pub(super) fn ghost(
     window: &Window,
     (start, end): (i64, i64),
     (tier, text, refused): (&TierContents, String, bool),
-    (seen, font): (&Seen<'_>, &FontId),
+    (seen, font): (&PaneInput<'_>, &FontId),
 ) {
     let bar = Bar {
         at: 0,
@@ -213,7 +213,7 @@ pub(super) fn sight(
     lane: Rect,
     window: &Window,
     (sight, at): (&Sight, Option<Pos2>),
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
 ) {
     let colours = seen.colours();
     if let Some(band) = sight.band {
@@ -243,7 +243,7 @@ pub(super) fn sight(
 }
 
 /// Paints start, end and duration of a drag above the pointer.
-fn times(painter: &Painter, lane: Rect, (start, end): (i64, i64), at: Pos2, seen: &Seen<'_>) {
+fn times(painter: &Painter, lane: Rect, (start, end): (i64, i64), at: Pos2, seen: &PaneInput<'_>) {
     let visuals = painter.ctx().global_style().visuals.clone();
     let time = |micros| data::time_text(Instant::from_micros(micros));
     let text = format!(
@@ -298,7 +298,7 @@ pub(super) fn selection(
     rect: Rect,
     window: &Window,
     span: Span,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
 ) {
     let x = |micros: i64| rect.left() + window.x(micros as f64);
     let (left, right) = (x(span.start().micros()), x(span.end().micros()));
@@ -315,7 +315,7 @@ pub(super) fn selection(
 }
 
 /// Paints the playhead over `rect`.
-pub(super) fn playhead(painter: &Painter, rect: Rect, window: &Window, seen: &Seen<'_>) {
+pub(super) fn playhead(painter: &Painter, rect: Rect, window: &Window, seen: &PaneInput<'_>) {
     let x = rect.left() + window.x(seen.shown.player.playhead().micros() as f64);
     let colour = seen.colours().playhead;
     painter.vline(x, rect.y_range(), Stroke::new(1.5, colour));

@@ -5,11 +5,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use chereme_corpus::{AnnotationChange, Contents, Stereotype, TierContents};
 use chereme_motion::Instant;
 
-use super::clip::{self, Clip, Odd, Said};
+use super::copied::{self, Clip, CopiedAnnotation, Odd};
 use super::data::time_text;
+use super::dragged::{self, TierTiming};
 use super::edit::{self, Scene};
-use super::hold::{self, Kind};
-use super::{Ghost, Then, Timeline, changes, choose, paste_box};
+use super::{Ghost, Then, Timeline, changes, paste_box, tier_list};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::Outbox;
@@ -61,11 +61,11 @@ fn chosen(scene: &Scene<'_>) -> BTreeSet<i64> {
 }
 
 /// Returns annotations as lines of the clipboard's text, tier by tier.
-fn said_of(contents: &Contents, chosen: &BTreeSet<i64>) -> Vec<Said> {
+fn said_of(contents: &Contents, chosen: &BTreeSet<i64>) -> Vec<CopiedAnnotation> {
     let mut all = Vec::new();
     for tier in &contents.tiers {
         let columns = &tier.annotations;
-        all.extend(hold::places(tier, chosen).map(|at| Said {
+        all.extend(dragged::places(tier, chosen).map(|at| CopiedAnnotation {
             line: 0,
             tier: Some(tier.row.name.clone()),
             start: columns.starts[at],
@@ -82,14 +82,14 @@ fn copy(scene: &Scene<'_>, with_below: bool, out: &mut Outbox) -> Acted {
         return Acted::Cannot(shell::NEEDS_ANNOTATION);
     }
     if with_below {
-        chosen = hold::with_below(scene.contents, chosen);
+        chosen = dragged::with_below(scene.contents, chosen);
     }
     let all = said_of(scene.contents, &chosen);
     let rows = all.iter().map(|it| {
         let tier = it.tier.as_deref().unwrap_or_default();
         (tier, it.start, it.end, it.value.clone())
     });
-    out.send(Command::Copy(clip::write(rows)));
+    out.send(Command::Copy(copied::write(rows)));
     let text = scene.seen.say(words::COPIED);
     out.send(Command::Say(fill(text, &[("n", &all.len())])));
     Acted::Yes
@@ -107,7 +107,7 @@ fn paste(
         let at = usize::try_from(at).ok()?;
         frames.map(|it| it.rate.instant(at).micros() + it.offset)
     };
-    let (rows, odd) = match clip::read(text, frame) {
+    let (rows, odd) = match copied::read(text, frame) {
         Clip::Rows(rows, odd) => (rows, odd),
         Clip::Values(values) => return say(timeline, scene, values, out),
     };
@@ -171,7 +171,7 @@ fn say(
     };
     let shown = scene.seen.shown;
     let columns = &tier.annotations;
-    let places: Vec<usize> = hold::places(tier, &shown.annotations).collect();
+    let places: Vec<usize> = dragged::places(tier, &shown.annotations).collect();
     let places = match (places.as_slice(), values.as_slice()) {
         (_, []) => return Acted::Cannot(words::NOTHING_TO_PASTE),
         ([], [(_, value)]) => {
@@ -179,7 +179,7 @@ fn say(
                 return Acted::Cannot(shell::NEEDS_ANNOTATION);
             };
             let wanted = (span.start().micros(), span.end().micros());
-            return match hold::room(scene.contents, tier, wanted) {
+            return match dragged::room(scene.contents, tier, wanted) {
                 Some(span) => {
                     let (tier, value) = (tier.row.id, value.clone());
                     put(timeline, &[Add { tier, span, value }], out)
@@ -226,10 +226,10 @@ fn duplicate(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Ac
     let (Some(tier), false) = (scene.tier(), chosen.is_empty()) else {
         return Acted::Cannot(shell::NEEDS_ANNOTATION);
     };
-    let own: Vec<usize> = hold::places(tier, &chosen).collect();
+    let own: Vec<usize> = dragged::places(tier, &chosen).collect();
     let columns = &tier.annotations;
     let Some(last) = own.last() else {
-        return match choose::put(timeline, scene, tier.row.id, false, out) {
+        return match tier_list::put(timeline, scene, tier.row.id, false, out) {
             Some(why) => Acted::Cannot(why),
             None => Acted::Yes,
         };
@@ -240,9 +240,9 @@ fn duplicate(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Ac
     let mut all = said_of(scene.contents, &chosen);
     let end = columns.ends[*last];
     if let [one] = all.as_mut_slice() {
-        let until = hold::limits(scene.contents, scene.frames().is_some()).to;
+        let until = dragged::limits(scene.contents, scene.frames().is_some()).to;
         let next = columns.starts.get(last + 1).map_or(until, |it| *it);
-        one.end = one.end.min(one.start + (next - end).max(hold::LEAST));
+        one.end = one.end.min(one.start + (next - end).max(dragged::LEAST));
     }
     let plan = scene.plan(tier, all, Some(end));
     if plan.odd.is_empty() {
@@ -262,7 +262,7 @@ pub(super) struct Add {
 
 /// The plan of a paste: annotations to add, and lines that cannot be added.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(super) struct Plan {
+pub(super) struct PastePlan {
     /// In an order in which they can be added: parents before children.
     pub(super) adds: Vec<Add>,
     pub(super) odd: Vec<Odd>,
@@ -277,8 +277,8 @@ impl Scene<'_> {
         stored.is_none_or(|it| MISSING.contains(&value) || it.inventory.find(value).is_some())
     }
 
-    fn plan(&self, to: &TierContents, rows: Vec<Said>, here: Option<i64>) -> Plan {
-        let until = hold::limits(self.contents, self.frames().is_some()).to;
+    fn plan(&self, to: &TierContents, rows: Vec<CopiedAnnotation>, here: Option<i64>) -> PastePlan {
+        let until = dragged::limits(self.contents, self.frames().is_some()).to;
         let knows = |tier: &TierContents, value: &str| self.knows(tier, value);
         plan(self.contents, to, rows, (here, until), knows)
     }
@@ -290,10 +290,10 @@ impl Scene<'_> {
 pub(super) fn plan(
     contents: &Contents,
     to: &TierContents,
-    mut rows: Vec<Said>,
+    mut rows: Vec<CopiedAnnotation>,
     (here, until): (Option<i64>, i64),
     knows: impl Fn(&TierContents, &str) -> bool,
-) -> Plan {
+) -> PastePlan {
     let names: BTreeSet<&str> = rows.iter().filter_map(|it| it.tier.as_deref()).collect();
     let named = |name: &str| contents.tiers.iter().position(|it| it.row.name == name);
     let own = contents.tiers.iter().position(|it| it.row.id == to.row.id);
@@ -304,7 +304,7 @@ pub(super) fn plan(
     };
     let first = rows.iter().map(|it| it.start).min().unwrap_or_default();
     let by = here.map_or(0, |here| here - first);
-    let mut plan = Plan::default();
+    let mut plan = PastePlan::default();
     let mut placed = Vec::new();
     for mut row in rows.drain(..) {
         (row.start, row.end) = (row.start + by, row.end + by);
@@ -376,13 +376,13 @@ fn fit(
     if start < 0 || end > until {
         return Err(words::ODD_OUTSIDE);
     }
-    let kind = Kind::of(&tier.row);
+    let kind = TierTiming::of(&tier.row);
     let tiers = &contents.tiers;
     let parent = tiers
         .iter()
         .find(|it| Some(it.row.id) == tier.row.parent_id);
     let mut above = (start, end);
-    if let Some(parent) = parent.filter(|_| kind != Kind::Root) {
+    if let Some(parent) = parent.filter(|_| kind != TierTiming::Root) {
         let all = taken
             .entry(parent.row.id)
             .or_insert_with(|| taken_by(parent));
@@ -394,17 +394,17 @@ fn fit(
     let meets = own.range(..end).next_back().filter(|(_, to)| **to > start);
     let meets = meets.map(|it| (*it.0, *it.1));
     let asked = match (kind, meets) {
-        (Kind::Tiled, None) => above,
-        (Kind::Tiled, Some((from, to))) if from < start => {
+        (TierTiming::Tiled, None) => above,
+        (TierTiming::Tiled, Some((from, to))) if from < start => {
             own.insert(from, start);
             (start, to)
         }
-        (Kind::Listed, None) => above,
-        (Kind::Listed, Some(_)) if !is_association(tier) => above,
+        (TierTiming::Listed, None) => above,
+        (TierTiming::Listed, Some(_)) if !is_association(tier) => above,
         (_, Some(_)) => return Err(words::ODD_TAKEN),
         (_, None) => (start, end),
     };
-    let lies = if kind == Kind::Listed {
+    let lies = if kind == TierTiming::Listed {
         (start, end)
     } else {
         asked
@@ -420,11 +420,11 @@ pub(super) fn is_association(tier: &TierContents) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::hold::tests::contents;
+    use super::super::dragged::tests::contents;
     use super::*;
 
-    fn said(tier: Option<&str>, start: i64, end: i64) -> Said {
-        Said {
+    fn said(tier: Option<&str>, start: i64, end: i64) -> CopiedAnnotation {
+        CopiedAnnotation {
             line: 0,
             tier: tier.map(str::to_owned),
             start,
@@ -444,7 +444,11 @@ mod tests {
     }
 
     /// Returns `(tier, start, end)` of the planned annotations, and the reasons for the refused lines.
-    fn planned(to: usize, rows: Vec<Said>, here: Option<i64>) -> (Vec<(i64, i64, i64)>, Vec<Text>) {
+    fn planned(
+        to: usize,
+        rows: Vec<CopiedAnnotation>,
+        here: Option<i64>,
+    ) -> (Vec<(i64, i64, i64)>, Vec<Text>) {
         let all = recording();
         let plan = plan(&all, &all.tiers[to], rows, (here, 1000), |_, _| true);
         let adds = plan.adds.iter().map(|it| (it.tier, it.span.0, it.span.1));

@@ -4,7 +4,7 @@ use eframe::egui::{Align2, Id, Key, Label, Modifiers, ScrollArea, Ui, Window, ve
 
 use super::Timeline;
 use super::edit::Scene;
-use super::paste::{self, Plan};
+use super::paste::{self, PastePlan};
 use crate::context::Outbox;
 use crate::words::{fill, shell, timeline as words};
 
@@ -14,7 +14,7 @@ const MOST: usize = 200;
 /// The list while it is open.
 #[derive(Debug)]
 pub(super) struct PasteBox {
-    pub(super) plan: Plan,
+    pub(super) plan: PastePlan,
 }
 
 /// Shows the list, and pastes the other lines if the user agrees.

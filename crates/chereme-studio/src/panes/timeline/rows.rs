@@ -6,7 +6,7 @@ use chereme_corpus::TierContents;
 
 /// A row of the timeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Row {
+pub(crate) struct TimelineRow {
     /// Index of the tier in the recording's list.
     pub(crate) tier: usize,
     /// The number of its ancestors.
@@ -22,7 +22,7 @@ pub(crate) fn rows(
     tiers: &[TierContents],
     folded: &BTreeSet<String>,
     hidden: &BTreeSet<String>,
-) -> Vec<Row> {
+) -> Vec<TimelineRow> {
     let known: BTreeSet<i64> = tiers.iter().map(|tier| tier.row.id).collect();
     let mut below: BTreeMap<Option<i64>, Vec<usize>> = BTreeMap::new();
     // ELAN's settings may order tiers differently than their file.
@@ -48,7 +48,7 @@ pub(crate) fn rows(
         }
         let has_below = below.contains_key(&Some(row.id));
         let folded = has_below && folded.contains(&row.name);
-        rows.push(Row {
+        rows.push(TimelineRow {
             tier: at,
             depth,
             has_below,

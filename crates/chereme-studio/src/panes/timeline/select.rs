@@ -6,11 +6,11 @@ use chereme_corpus::{Contents, TierContents};
 use chereme_motion::{Instant, Span};
 
 use super::edit::Scene;
-use super::rows::{Row, rows};
-use super::{Timeline, data, hold};
+use super::rows::{TimelineRow, rows};
+use super::{Timeline, data, dragged};
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::Acted;
 use crate::words::timeline as words;
 
@@ -82,7 +82,7 @@ pub(super) fn select(tier: &TierContents, at: usize, out: &mut Outbox) {
 }
 
 /// Returns the visible rows.
-pub(super) fn shown_rows(contents: &Contents, seen: &Seen<'_>) -> Vec<Row> {
+pub(super) fn shown_rows(contents: &Contents, seen: &PaneInput<'_>) -> Vec<TimelineRow> {
     let ways = &seen.settings.timeline;
     rows(&contents.tiers, &ways.folded, &ways.hidden)
 }
@@ -94,7 +94,7 @@ fn walk(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) -> bool {
         return false;
     };
     let columns = &tier.annotations;
-    let mut chosen = hold::places(tier, &scene.seen.shown.annotations);
+    let mut chosen = dragged::places(tier, &scene.seen.shown.annotations);
     let selected = if forwards {
         chosen.last()
     } else {
@@ -126,7 +126,7 @@ fn walk(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) -> bool {
 fn also(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) {
     let chosen = &scene.seen.shown.annotations;
     let Some(tier) = scene.tier() else { return };
-    let mut places = hold::places(tier, chosen);
+    let mut places = dragged::places(tier, chosen);
     let next = if forwards {
         places.last().map(|at| at + 1)
     } else {
@@ -147,7 +147,7 @@ fn also(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) {
 /// Returns the tier `by` rows below the selected one.
 fn neighbour<'a>(scene: &Scene<'a>, by: isize) -> Option<&'a TierContents> {
     let rows = shown_rows(scene.contents, scene.seen);
-    let tier = |row: &Row| &scene.contents.tiers[row.tier];
+    let tier = |row: &TimelineRow| &scene.contents.tiers[row.tier];
     let current = scene.tier().map(|it| it.row.id);
     let here = rows
         .iter()
@@ -234,7 +234,7 @@ fn extend(scene: &Scene<'_>, out: &mut Outbox, to: i64) {
 
 /// Returns the annotations from the first selected one to index `at` on a tier, as Shift and a click select them.
 pub(super) fn range(tier: &TierContents, chosen: &BTreeSet<i64>, at: usize) -> BTreeSet<i64> {
-    let mut places = hold::places(tier, chosen);
+    let mut places = dragged::places(tier, chosen);
     let anchor = places.next().unwrap_or(at);
     let (from, to) = (anchor.min(at), anchor.max(at));
     tier.annotations.ids[from..=to].iter().copied().collect()
@@ -242,7 +242,7 @@ pub(super) fn range(tier: &TierContents, chosen: &BTreeSet<i64>, at: usize) -> B
 
 #[cfg(test)]
 mod tests {
-    use super::super::hold::tests::contents;
+    use super::super::dragged::tests::contents;
     use super::*;
 
     #[test]

@@ -11,7 +11,7 @@ use eframe::egui::{
 
 use super::Timeline;
 use super::edit::Scene;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::combo;
 use crate::panes::search::field_text;
 use crate::script::edit;
@@ -189,7 +189,7 @@ const PLAIN: [(&str, Text); 4] = [
 ];
 
 /// Returns the name of a role such as `right.configuration`.
-pub(crate) fn role_text(role: &str, seen: &Seen<'_>) -> String {
+pub(crate) fn role_text(role: &str, seen: &PaneInput<'_>) -> String {
     let (hand, rest) = match role.split_once('.') {
         Some((hand, rest)) => (HANDS.iter().find(|(id, _)| *id == hand), rest),
         None => (None, role),
@@ -208,7 +208,7 @@ pub(crate) fn role_text(role: &str, seen: &Seen<'_>) -> String {
 }
 
 /// Returns the possible roles of a tier: the four without components, then those with inventories.
-fn roles(seen: &Seen<'_>) -> Vec<(String, String)> {
+fn roles(seen: &PaneInput<'_>) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = PLAIN
         .iter()
         .map(|(id, text)| ((*id).to_owned(), seen.say(*text).to_owned()))
@@ -224,7 +224,7 @@ fn roles(seen: &Seen<'_>) -> Vec<(String, String)> {
 }
 
 /// Returns the name of a relation between tiers, with ELAN's name for it.
-pub(crate) fn how_text(how: Stereotype, seen: &Seen<'_>) -> String {
+pub(crate) fn how_text(how: Stereotype, seen: &PaneInput<'_>) -> String {
     let text = match how {
         Stereotype::TimeSubdivision => words::HOW_FILLED,
         Stereotype::IncludedIn => words::HOW_WITHIN,
@@ -384,7 +384,7 @@ fn form(ui: &mut Ui, scene: &Scene<'_>, tier: &mut TierBox) {
         });
 }
 
-fn name_field(ui: &mut Ui, seen: &Seen<'_>, tier: &mut TierBox) {
+fn name_field(ui: &mut Ui, seen: &PaneInput<'_>, tier: &mut TierBox) {
     ui.label(seen.say(words::TIER_NAME));
     let field = edit::line(ui, &mut tier.name, |field| {
         field.desired_width(220.0).id(Id::unique(NAME_FIELD))
@@ -401,7 +401,7 @@ fn name_field(ui: &mut Ui, seen: &Seen<'_>, tier: &mut TierBox) {
     ui.end_row();
 }
 
-fn copy_form(ui: &mut Ui, seen: &Seen<'_>, tier: &mut TierBox) {
+fn copy_form(ui: &mut Ui, seen: &PaneInput<'_>, tier: &mut TierBox) {
     let text = match &tier.copied {
         Copied::Holding(text) => text.clone(),
         _ => String::new(),
@@ -462,7 +462,7 @@ fn choice<T>(ui: &mut Ui, name: &str, now: &str, all: &[(T, String)], mut choose
     ui.end_row();
 }
 
-fn buttons(ui: &mut Ui, seen: &Seen<'_>, tier: &TierBox) -> Pressed {
+fn buttons(ui: &mut Ui, seen: &PaneInput<'_>, tier: &TierBox) -> Pressed {
     let text = match tier.what {
         What::Add => words::ADD,
         What::Change(_) => words::CHANGE,
@@ -487,7 +487,7 @@ fn buttons(ui: &mut Ui, seen: &Seen<'_>, tier: &TierBox) -> Pressed {
 
 #[cfg(test)]
 mod tests {
-    use super::super::hold::tests::contents;
+    use super::super::dragged::tests::contents;
     use super::*;
 
     #[test]

@@ -8,7 +8,7 @@ use chereme_sign::{Component, HandRef};
 
 use super::edit::Scene;
 use super::tier_box::{TierBox, What};
-use super::{Timeline, ways};
+use super::{Timeline, view_settings};
 use crate::action::Action;
 use crate::context::Outbox;
 use crate::panes::Acted;
@@ -97,9 +97,9 @@ pub(super) fn act(
         Action::HideTier => {
             ways.hidden.insert(name);
         }
-        _ => ways::toggle(&mut ways.folded, name),
+        _ => view_settings::toggle(&mut ways.folded, name),
     }
-    ways::change(scene.seen, out, ways);
+    view_settings::change(scene.seen, out, ways);
     Acted::Yes
 }
 
@@ -184,7 +184,7 @@ fn hide_empty(scene: &Scene<'_>, out: &mut Outbox) -> Acted {
     if ways.hidden.len() == before {
         return Acted::Cannot(words::NONE_EMPTY);
     }
-    ways::change(scene.seen, out, ways);
+    view_settings::change(scene.seen, out, ways);
     Acted::Yes
 }
 

@@ -12,11 +12,11 @@ use eframe::egui::{
 
 use super::data::{self, Window, time_text};
 use super::edit::Scene;
-use super::rows::Row;
-use super::{Timeline, bar, choose, go, paint, paste_box, select, tier_box};
+use super::rows::TimelineRow;
+use super::{Timeline, bar, go_to_time, paint, paste_box, select, tier_box, tier_list};
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::{fill, timeline as words};
 
 /// The least width of the column of tier names in points, and its greatest share of the pane.
@@ -36,7 +36,7 @@ pub(super) struct Layout {
     /// The visible tiers, by index in the recording's list, with their vertical ranges.
     pub(super) rows: Vec<(usize, Rangef)>,
     /// All rows, and the inputs that they were computed from.
-    all: Vec<Row>,
+    all: Vec<TimelineRow>,
     of: Option<(usize, BTreeSet<String>, BTreeSet<String>)>,
     /// The width of the column of names, the width of each tier's name, and the time when names last became wider.
     names: f32,
@@ -64,7 +64,7 @@ impl Layout {
 
     /// Computes the rows and the width of names again if the snapshot, the settings or the pane changed; returns
     /// whether the rows are new.
-    fn update(&mut self, ui: &Ui, contents: &Contents, seen: &Seen<'_>) -> bool {
+    fn update(&mut self, ui: &Ui, contents: &Contents, seen: &PaneInput<'_>) -> bool {
         let ways = &seen.settings.timeline;
         let open = seen.snapshot.open.as_ref();
         let now = open.map_or(0, |open| Arc::as_ptr(open) as usize);
@@ -122,7 +122,7 @@ fn fitting(widths: impl Iterator<Item = f32>) -> f32 {
     widths.fold(NAMES, f32::max)
 }
 
-pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let Some(recording) = seen.shown.recording else {
         if seen.snapshot.overview.recordings.is_empty() {
             return no_recordings(ui, seen, out);
@@ -183,14 +183,14 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     } else {
         frame.rows(ui, scene.contents);
     }
-    choose::show(timeline, ui, &scene, out);
+    tier_list::show(timeline, ui, &scene, out);
     tier_box::show(timeline, ui, &scene, out);
     paste_box::show(timeline, ui, &scene, out);
-    go::show(timeline, ui, &scene, out);
+    go_to_time::show(timeline, ui, &scene, out);
 }
 
 /// Shows the next steps in a corpus without recordings.
-fn no_recordings(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+fn no_recordings(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
     let empty = seen.snapshot.overview.signs.is_empty();
     let (text, actions): (_, &[Action]) = if empty {
         let import = &[Action::ImportFiles, Action::ImportFolder];
@@ -264,7 +264,7 @@ pub(super) struct Drawing<'a, 'b> {
     pub(super) timeline: &'a mut Timeline,
     pub(super) window: Window,
     pub(super) names: f32,
-    pub(super) seen: &'a Seen<'b>,
+    pub(super) seen: &'a PaneInput<'b>,
     pub(super) out: &'a mut Outbox,
 }
 
@@ -352,7 +352,7 @@ impl Drawing<'_, '_> {
             }
         });
         self.timeline.layout.top = shown.state.clamped_offset().y;
-        let is = |row: &Row| Some(contents.tiers[row.tier].row.id) == selected;
+        let is = |row: &TimelineRow| Some(contents.tiers[row.tier].row.id) == selected;
         let inside = all.iter().position(is).is_some_and(|number| {
             let top = number as f32 * ROW - self.timeline.layout.top;
             (0.0..=area.height() - ROW).contains(&top)
@@ -381,11 +381,11 @@ impl Drawing<'_, '_> {
     }
 
     /// Returns the distance to scroll to bring the selected tier into sight, on request.
-    fn reveal(&mut self, all: &[Row], contents: &Contents, height: f32) -> Option<f32> {
+    fn reveal(&mut self, all: &[TimelineRow], contents: &Contents, height: f32) -> Option<f32> {
         if !std::mem::take(&mut self.timeline.reveal) {
             return None;
         }
-        let is = |row: &Row| Some(contents.tiers[row.tier].row.id) == self.seen.shown.tier;
+        let is = |row: &TimelineRow| Some(contents.tiers[row.tier].row.id) == self.seen.shown.tier;
         let number = all.iter().position(is)?;
         let at = number as f32 * ROW;
         let top = self.timeline.layout.top;
@@ -414,7 +414,7 @@ impl Drawing<'_, '_> {
         &mut self,
         ui: &mut Ui,
         contents: &Contents,
-        (number, row): (usize, &Row),
+        (number, row): (usize, &TimelineRow),
         moving: &BTreeSet<i64>,
     ) {
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());

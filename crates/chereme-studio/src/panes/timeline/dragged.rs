@@ -1,6 +1,6 @@
 //! Changes of annotations in a drag, as the library computes them.
 
-pub(crate) use chereme_corpus::hold::*;
+pub(crate) use chereme_corpus::drag_limits::*;
 #[cfg(test)]
 use chereme_corpus::{Contents, TierContents, TierRow};
 

@@ -1,10 +1,10 @@
 //! Looping little figures: movement at a glance, for results, cards and pickers.
 //!
-//! Any pane shows one with [`Figures::show`], through [`Seen::little`](crate::context::Seen::little):
+//! Any pane shows one with [`Figures::show`], through [`Seen::little`](crate::context::PaneInput::little):
 //!
 //! ```text
 //! let motion = Motion::Span(recording, span);
-//! let cell = Cell::new(motion, vec2(150.0, 150.0)).playing(little::clock(ui));
+//! let cell = Cell::new(motion, vec2(150.0, 150.0)).playing(miniatures::clock(ui));
 //! if seen.little.show(ui, seen, out, &cell, "BOL").clicked() { … }
 //! ```
 //!
@@ -27,7 +27,7 @@ use chereme_corpus::Overview;
 use chereme_motion::{HandAngles, Side, Span};
 use eframe::egui::{TextureHandle, Ui, Vec2};
 
-use crate::model::made::Made;
+use crate::model::generated::GeneratedClip;
 use crate::work::{Ended, Outcome, WorkId};
 use draw::{Board, Film, Movement};
 
@@ -38,7 +38,7 @@ pub(crate) enum Motion {
     Span(i64, Span),
     /// Generated movement outside of recordings.
     #[allow(dead_code, reason = "for cards of recipes")]
-    Made(Arc<Made>),
+    Made(Arc<GeneratedClip>),
 }
 
 /// The part of the signer in the picture.
@@ -140,7 +140,7 @@ struct Own {
     asked: BTreeMap<WorkId, Source>,
     textures: BTreeMap<Key, Texture>,
     /// Generated movement that is kept in memory as long as its pictures are, so that its address stays unique.
-    made: BTreeMap<Source, Arc<Made>>,
+    made: BTreeMap<Source, Arc<GeneratedClip>>,
     /// The frame in which unused textures were last removed.
     swept: u64,
 }

@@ -3,17 +3,17 @@
 use chereme_sign::hamnosys::{MotionKind, Repeat};
 
 use super::super::Stage;
-use super::super::words::{self, Said};
+use super::super::words::{self, WordsAndSymbols};
 use super::*;
 
 impl Writer<'_> {
     pub(super) fn told<T>(
         &mut self,
         kind: FeatureKind,
-        track: Option<&Track>,
+        track: Option<&HandTrajectory>,
         frame: usize,
         found: &Found<T>,
-        said: impl Fn(&T) -> Said,
+        said: impl Fn(&T) -> WordsAndSymbols,
     ) {
         let unit = match kind {
             FeatureKind::Location | FeatureKind::Contact | FeatureKind::Movement => {
@@ -30,7 +30,7 @@ impl Writer<'_> {
         } else {
             1.0
         };
-        let Said { words, text } = said(&found.best);
+        let WordsAndSymbols { words, text } = said(&found.best);
         self.features.push(Feature {
             kind,
             hand: track.map(|track| track.side),
@@ -42,7 +42,7 @@ impl Writer<'_> {
             residual: found.residual * scale,
             unit,
             runner_up: found.runner_up.as_ref().map(|(value, residual)| {
-                let Said { words, text } = said(value);
+                let WordsAndSymbols { words, text } = said(value);
                 RunnerUp {
                     value: words,
                     text,
@@ -83,11 +83,17 @@ impl Writer<'_> {
         self.told(FeatureKind::Hands, None, frame, &found, |kind| {
             let known = texts.iter().flatten().find(|(of, _)| of == kind);
             let text = known.map_or_else(String::new, |(_, text)| text.clone());
-            Said::new(kind.words(), text)
+            WordsAndSymbols::new(kind.words(), text)
         });
     }
 
-    pub(super) fn told_seen(&mut self, track: &Track, frame: usize, seen: &Seen, which: [bool; 3]) {
+    pub(super) fn told_seen(
+        &mut self,
+        track: &HandTrajectory,
+        frame: usize,
+        seen: &HandReading,
+        which: [bool; 3],
+    ) {
         let hand = Some(track);
         if (which[1] || which[2]) && seen.beyond > 1.0 {
             self.findings.push(format!(
@@ -108,7 +114,12 @@ impl Writer<'_> {
         }
     }
 
-    pub(super) fn told_place(&mut self, track: Option<&Track>, frame: usize, placed: &Placed) {
+    pub(super) fn told_place(
+        &mut self,
+        track: Option<&HandTrajectory>,
+        frame: usize,
+        placed: &Placed,
+    ) {
         self.told(
             FeatureKind::Location,
             track,
@@ -138,7 +149,7 @@ impl Writer<'_> {
         });
     }
 
-    pub(super) fn told_repetition(&mut self, track: &Track, act: &Act, repeat: Repeat) {
+    pub(super) fn told_repetition(&mut self, track: &HandTrajectory, act: &Act, repeat: Repeat) {
         let times = Found {
             best: act.times,
             residual: 0.0,
@@ -150,7 +161,12 @@ impl Writer<'_> {
         });
     }
 
-    pub(super) fn told_size(&mut self, track: &Track, frame: usize, found: &Found<Option<Size>>) {
+    pub(super) fn told_size(
+        &mut self,
+        track: &HandTrajectory,
+        frame: usize,
+        found: &Found<Option<Size>>,
+    ) {
         self.told(FeatureKind::Size, Some(track), frame, found, |size| {
             words::size(*size)
         });
@@ -159,7 +175,7 @@ impl Writer<'_> {
     /// Records the kind of a movement; `written` returns the notation of a value.
     pub(super) fn told_movement<T>(
         &mut self,
-        track: &Track,
+        track: &HandTrajectory,
         frame: usize,
         found: &Found<T>,
         name: impl Fn(&T) -> &'static str,
@@ -167,7 +183,7 @@ impl Writer<'_> {
     ) {
         self.told(FeatureKind::Movement, Some(track), frame, found, |value| {
             let text = written(value).map(|kind| words::motion(&Motion::new(kind)));
-            Said::new(name(value), text.unwrap_or_default())
+            WordsAndSymbols::new(name(value), text.unwrap_or_default())
         });
     }
 }

@@ -9,16 +9,16 @@ use eframe::egui::{Context, ViewportCommand};
 
 use crate::action::{Action, Owner};
 use crate::app::Studio;
-use crate::choose::Choose;
 use crate::command::Command;
-use crate::context::{Outbox, Showing, Shown};
+use crate::context::{DisplayState, Outbox, Showing};
 use crate::draft::Drafts;
+use crate::file_dialogs::Choose;
 use crate::film::Films;
 use crate::keys::Keys;
 use crate::layout::{self, Busy};
-use crate::little::Figures;
+use crate::miniatures::Figures;
 use crate::model::Snapshot;
-use crate::model::made::Made;
+use crate::model::generated::GeneratedClip;
 use crate::model::reel::Reel;
 use crate::panes::history::data as history;
 use crate::panes::{Acted, Carried, PaneKind, recombine};
@@ -496,9 +496,9 @@ impl Studio {
         }
         let speed = self.shown.player.speed;
         let looping = self.shown.player.looping;
-        self.shown = Shown {
+        self.shown = DisplayState {
             recording: Some(id),
-            ..Shown::default()
+            ..DisplayState::default()
         };
         let end = Instant::from_micros(glance.row.duration_us);
         let span = Span::between(Instant::ZERO, end);
@@ -512,7 +512,7 @@ impl Studio {
     }
 
     /// Shows generated movement in a loop. New movement of the same length keeps the playhead of the old.
-    fn show_made(&mut self, made: Option<Arc<Made>>) {
+    fn show_made(&mut self, made: Option<Arc<GeneratedClip>>) {
         let before = self.shown.made.take();
         let Some(made) = made else { return };
         let whole = made.clip.span();
@@ -607,7 +607,7 @@ impl Studio {
         self.overlays.notices.withdraw();
         self.drafts = Drafts::default();
         self.snapshot = None;
-        self.shown = Shown::default();
+        self.shown = DisplayState::default();
         self.reel = Reel::default();
         self.little = Figures::default();
         self.films = Films::default();
@@ -641,9 +641,9 @@ impl Studio {
         match glance {
             None => {
                 let made = self.shown.made.take();
-                self.shown = Shown {
+                self.shown = DisplayState {
                     made,
-                    ..Shown::default()
+                    ..DisplayState::default()
                 };
             }
             Some(glance) => {

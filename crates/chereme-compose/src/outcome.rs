@@ -11,7 +11,7 @@ use crate::language::Language;
 
 /// A generated sign or utterance.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Made {
+pub struct Generated {
     /// The movement.
     pub clip: Clip,
     /// The parts of the body that the skeleton's joints are.

@@ -15,7 +15,7 @@ use super::plan::{Plan, WholeText};
 use super::probe::{Probe, RowField, Text};
 use super::texts::{Glob, words};
 use crate::db::search::answers;
-use crate::db::search::terms::Mark;
+use crate::db::search::terms::TokenProperty;
 
 /// The longest word that is compared up to slips: the automaton grows with its length.
 const LONGEST_FUZZY: usize = 64;
@@ -117,7 +117,7 @@ fn other(ask: &Ask<'_>, translation: bool, comparison: &Comparison) -> Asked<Pla
     } else {
         ("comment", Text::Comment)
     };
-    let has = || Plan::Index(Probe::readings([Mark::Has.term(name)]));
+    let has = || Plan::Index(Probe::readings([TokenProperty::Has.term(name)]));
     match (comparison.operator, &comparison.values[..]) {
         (Operator::Is | Operator::Exactly, [value]) if value.wanted == Wanted::Present => {
             return Ok(has());

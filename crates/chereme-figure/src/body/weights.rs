@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use super::form::{slope, smooth_step};
 use super::glove::{ARCH, Bone, CUFF, FOLLOWERS, HALF, Maker, PALM, RADII, Skin, THUMB, bone};
+use super::solids::{slope, smooth_step};
 
 impl Maker {
     pub(super) fn weigh(&mut self) {

@@ -9,12 +9,12 @@ use super::snap::Snaps;
 use super::spans::Mode;
 use crate::action::Action;
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 
 /// Settings of the timeline.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
-pub(crate) struct Ways {
+pub(crate) struct TimelineSettings {
     /// How an edit treats neighbouring annotations.
     pub(crate) mode: Mode,
     /// The kinds of times that drags snap to.
@@ -31,7 +31,7 @@ pub(crate) struct Ways {
     pub(crate) hidden: BTreeSet<String>,
 }
 
-impl Default for Ways {
+impl Default for TimelineSettings {
     fn default() -> Self {
         Self {
             mode: Mode::default(),
@@ -45,7 +45,7 @@ impl Default for Ways {
     }
 }
 
-impl Ways {
+impl TimelineSettings {
     /// Returns the settings after an action; `None` if the action does not change them.
     pub(crate) fn after(&self, action: Action) -> Option<Self> {
         let mut ways = self.clone();
@@ -91,7 +91,7 @@ pub(crate) fn toggle<T: Ord>(set: &mut BTreeSet<T>, it: T) {
 }
 
 /// Changes the timeline's settings.
-pub(crate) fn change(seen: &Seen<'_>, out: &mut Outbox, ways: Ways) {
+pub(crate) fn change(seen: &PaneInput<'_>, out: &mut Outbox, ways: TimelineSettings) {
     let mut settings = seen.settings.clone();
     settings.timeline = ways;
     out.send(Command::Settings(Box::new(settings)));
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn switches_go_on_and_off_and_modes_exclude_each_other() {
-        let mut ways = Ways::default();
+        let mut ways = TimelineSettings::default();
         for action in [Action::SnapMinima, Action::LaneSpeed, Action::ModeShift] {
             assert!(!ways.is_on(action));
             ways = ways.after(action).expect("its own");

@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::Bearing;
-use super::solve::{AROUND, Arm, Got, Row, eased};
+use super::solve::{AROUND, Arm, ArmFrame, Got, eased};
 use super::track::{Outlines, Wanted};
 
 /// The number of rounds of this correction.
@@ -35,7 +35,7 @@ static TURNS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
 impl Arm<'_> {
     /// Solves the arm for all frames, clear of the trunk: returns the settings and the resulting posture
     /// of each frame.
-    pub(crate) fn over_time(&self, wanted: &Wanted<'_>, rate: f64) -> (Vec<Row>, Vec<Got>) {
+    pub(crate) fn over_time(&self, wanted: &Wanted<'_>, rate: f64) -> (Vec<ArmFrame>, Vec<Got>) {
         let mut ways = self.ways(wanted, rate);
         let mut rows = self.laid(wanted, &ways, rate);
         let mut got = self.settled(&rows, &wanted.outlines);
@@ -144,7 +144,7 @@ impl Arm<'_> {
     }
 
     /// Returns the resulting posture of the arm in each frame.
-    fn settled(&self, rows: &[Row], outlines: &Outlines<'_>) -> Vec<Got> {
+    fn settled(&self, rows: &[ArmFrame], outlines: &Outlines<'_>) -> Vec<Got> {
         let mut all: Vec<Got> = Vec::with_capacity(rows.len());
         for (frame, row) in rows.iter().enumerate() {
             let same = frame > 0 && rows[frame - 1] == *row;

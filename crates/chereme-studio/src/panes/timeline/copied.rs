@@ -11,7 +11,7 @@ use crate::words::{Text, timeline as words};
 
 /// An annotation in a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Said {
+pub(crate) struct CopiedAnnotation {
     /// The line of the text, counted from 1.
     pub(crate) line: usize,
     /// The name of its tier, if the text has one.
@@ -34,7 +34,7 @@ pub(crate) struct Odd {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Clip {
     /// Annotations, and lines that cannot be read.
-    Rows(Vec<Said>, Vec<Odd>),
+    Rows(Vec<CopiedAnnotation>, Vec<Odd>),
     /// Values, one below the other, each with its line number.
     Values(Vec<(usize, String)>),
 }
@@ -165,7 +165,7 @@ impl Columns {
         line: usize,
         cells: &[String],
         frame: &impl Fn(u64) -> Option<i64>,
-    ) -> Result<Said, Odd> {
+    ) -> Result<CopiedAnnotation, Odd> {
         let cell = |at: Option<usize>| {
             let text = at.and_then(|at| cells.get(at)).map(|it| it.trim());
             text.filter(|text| !text.is_empty())
@@ -195,7 +195,7 @@ impl Columns {
             return Err(odd(words::ODD_ENDS, end));
         }
         let value = self.value.and_then(|at| cells.get(at));
-        Ok(Said {
+        Ok(CopiedAnnotation {
             line,
             tier: cell(self.tier).map(str::to_owned),
             start: from,
@@ -256,15 +256,20 @@ fn cells(text: &str) -> Vec<(usize, Vec<String>)> {
 mod tests {
     use super::*;
 
-    fn rows(text: &str) -> (Vec<Said>, Vec<(usize, Text)>) {
+    fn rows(text: &str) -> (Vec<CopiedAnnotation>, Vec<(usize, Text)>) {
         match read(text, |frame| (frame < 100).then_some(frame as i64 * 10_000)) {
             Clip::Rows(said, odd) => (said, odd.into_iter().map(|it| (it.line, it.why)).collect()),
             Clip::Values(values) => panic!("{values:?}"),
         }
     }
 
-    fn said(line: usize, tier: Option<&str>, (start, end): (i64, i64), value: &str) -> Said {
-        Said {
+    fn said(
+        line: usize,
+        tier: Option<&str>,
+        (start, end): (i64, i64),
+        value: &str,
+    ) -> CopiedAnnotation {
+        CopiedAnnotation {
             line,
             tier: tier.map(str::to_owned),
             start,
@@ -285,7 +290,7 @@ mod tests {
         assert!(text.starts_with("tier\tstart\tend\tvalue\nGloss\t1.250\t1.500001\tMAISON\n"));
         let (found, odd) = rows(&text);
         let want = all.iter().zip([2, 3, 5, 6]);
-        let want: Vec<Said> = want
+        let want: Vec<CopiedAnnotation> = want
             .map(|(it, line)| said(line, Some(it.0), (it.1, it.2), it.3))
             .collect();
         assert_eq!((found, odd), (want, vec![]));

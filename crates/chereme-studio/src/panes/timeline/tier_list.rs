@@ -6,8 +6,8 @@ use eframe::egui::{
     Align2, Button, Id, Key, Modifiers, Role, ScrollArea, Ui, WidgetInfo, Window, vec2,
 };
 
+use super::dragged::{self, TierTiming};
 use super::edit::{Scene, no_room};
-use super::hold::{self, Kind};
 use super::spans::Item;
 use super::{Then, Timeline, changes};
 use crate::context::Outbox;
@@ -40,7 +40,7 @@ fn fitting<'a>(scene: &Scene<'a>, text: &str) -> Vec<&'a TierContents> {
     let chosen = &scene.seen.shown.annotations;
     let wanted = fold(text.trim());
     let fits = |tier: &&TierContents| {
-        fold(&tier.row.name).contains(&wanted) && hold::places(tier, chosen).next().is_none()
+        fold(&tier.row.name).contains(&wanted) && dragged::places(tier, chosen).next().is_none()
     };
     scene.contents.tiers.iter().filter(fits).collect()
 }
@@ -135,7 +135,7 @@ pub(super) fn put(
     let chosen = &scene.seen.shown.annotations;
     let tiers = scene.contents.tiers.iter();
     let items: Vec<Item> = tiers
-        .flat_map(|tier| hold::items(tier, None))
+        .flat_map(|tier| dragged::items(tier, None))
         .filter(|item| chosen.contains(&item.id))
         .collect();
     let tier = scene.tier_of(to)?;
@@ -161,9 +161,9 @@ pub(super) fn put(
 
 /// Returns the reason if annotations with these times cannot be put on a tier.
 pub(super) fn unfit(scene: &Scene<'_>, tier: &TierContents, items: &[Item]) -> Option<Text> {
-    let listed = Kind::of(&tier.row) == Kind::Listed;
+    let listed = TierTiming::of(&tier.row) == TierTiming::Listed;
     let fits = |item: &Item| {
-        let room = hold::room(scene.contents, tier, (item.start, item.end));
+        let room = dragged::room(scene.contents, tier, (item.start, item.end));
         room.is_some_and(|room| listed || room == (item.start, item.end))
     };
     (!items.iter().all(fits)).then(|| no_room(tier))

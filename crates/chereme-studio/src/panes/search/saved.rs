@@ -8,7 +8,7 @@ use chereme_sign::query::Query;
 use eframe::egui::{Button, Key, Popup, PopupCloseBehavior, Role, ScrollArea, Ui, WidgetInfo};
 
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::script::edit;
 use crate::settings::Searches;
 use crate::words::{fill, search as words};
@@ -52,7 +52,7 @@ impl Kept {
     pub(super) fn menu(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         out: &mut Outbox,
         query: &str,
     ) -> Option<String> {
@@ -78,7 +78,7 @@ impl Kept {
     }
 
     /// Draws the field that saves the query under a name.
-    fn keep(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, query: &str) {
+    fn keep(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, query: &str) {
         ui.horizontal(|ui| {
             let hint = seen.say(words::SAVE_NAME);
             let before = self.name.clone();
@@ -107,7 +107,7 @@ impl Kept {
     }
 
     /// Draws the saved searches; returns the chosen one.
-    fn list(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) -> Option<String> {
+    fn list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) -> Option<String> {
         let mut chosen = None;
         let all = &seen.snapshot.overview.searches;
         if all.is_empty() {
@@ -144,7 +144,7 @@ impl Kept {
     }
 
     /// Draws the field that renames a saved search, if it is this one.
-    fn rename(&mut self, ui: &mut Ui, seen: &Seen<'_>, name: &str, out: &mut Outbox) -> bool {
+    fn rename(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, name: &str, out: &mut Outbox) -> bool {
         let Some((of, text)) = self.renaming.as_mut().filter(|(of, _)| of == name) else {
             return false;
         };
@@ -170,7 +170,7 @@ impl Kept {
     }
 
     /// Offers the searches saved on this computer, from before corpora saved searches.
-    fn of_this_computer(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn of_this_computer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let old = &seen.settings.searches.saved;
         if old.is_empty() {
             return;

@@ -7,8 +7,8 @@ use chereme_sign::text::{did_you_mean, edit_distance, fold, nearest};
 use rusqlite::Connection;
 
 use crate::Corpus;
-use crate::db::kept as rows;
 pub use crate::db::rows::KeptSearch;
+use crate::db::saved_searches as rows;
 use crate::error::{Error, Result};
 use crate::search::wrong;
 

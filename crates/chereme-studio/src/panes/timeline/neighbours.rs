@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_corpus::{AnnotationAction, AnnotationChange, AnnotationName, TierContents, TierName};
 
+use super::dragged::{self, TierTiming};
 use super::edit::{self, Scene};
-use super::hold::{self, Kind};
 use super::spans::{Grip, Item};
 use super::{Ghost, Then, Timeline, changes, paste};
 use crate::action::Action;
@@ -45,10 +45,10 @@ fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox
     };
     let columns = &tier.annotations;
     let parent = columns.parents[at];
-    let kind = Kind::of(&tier.row);
+    let kind = TierTiming::of(&tier.row);
     match kind {
-        Kind::Listed if paste::is_association(tier) => Acted::Cannot(words::ONLY_ONE),
-        Kind::Listed => {
+        TierTiming::Listed if paste::is_association(tier) => Acted::Cannot(words::ONLY_ONE),
+        TierTiming::Listed => {
             let family = columns.parents[..at].iter().filter(|it| **it == parent);
             let place = family.count() + usize::from(after);
             let add = AnnotationAction::Add {
@@ -69,7 +69,7 @@ fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox
         }
         _ => {
             let here = (columns.starts[at], columns.ends[at]);
-            let span = if kind == Kind::Tiled {
+            let span = if kind == TierTiming::Tiled {
                 let middle = scene.stepped((here.0 + here.1) / 2, 0);
                 let half = if after {
                     (middle, here.1)
@@ -85,7 +85,7 @@ fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox
                 } else {
                     (gap.0.max(gap.1 - length), gap.1)
                 })
-                .filter(|it| it.1 - it.0 >= hold::LEAST)
+                .filter(|it| it.1 - it.0 >= dragged::LEAST)
             };
             let Some(span) = span else {
                 return Acted::Cannot(words::NO_ROOM_BESIDE);
@@ -100,7 +100,7 @@ fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox
 /// annotation, or the end of the recording.
 fn gap(scene: &Scene<'_>, tier: &TierContents, at: usize, after: bool) -> (i64, i64) {
     let columns = &tier.annotations;
-    let mut limits = hold::limits(scene.contents, scene.frames().is_some());
+    let mut limits = dragged::limits(scene.contents, scene.frames().is_some());
     if limits.to > scene.contents.recording.duration_us {
         limits.to = scene.contents.recording.duration_us.max(columns.ends[at]);
     }
@@ -165,7 +165,7 @@ fn below(tiers: &[TierContents], chosen: &BTreeSet<i64>) -> Vec<(i64, (i64, i64)
                 under.entry((tier.row.id, *parent)).or_default().push(at);
             }
         }
-        open.extend(hold::places(tier, chosen).map(|at| {
+        open.extend(dragged::places(tier, chosen).map(|at| {
             let span = (columns.starts[at], columns.ends[at]);
             (tier.row.id, span, Some(columns.ids[at]))
         }));
@@ -195,7 +195,7 @@ fn below(tiers: &[TierContents], chosen: &BTreeSet<i64>) -> Vec<(i64, (i64, i64)
 fn merge_previous(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
     let chosen = &scene.seen.shown.annotations;
     let first = match scene.tier() {
-        Some(tier) if chosen.len() > 1 => hold::places(tier, chosen).next().map(|at| (tier, at)),
+        Some(tier) if chosen.len() > 1 => dragged::places(tier, chosen).next().map(|at| (tier, at)),
         _ => found(scene),
     };
     let Some((tier, at)) = first else {
@@ -230,15 +230,17 @@ fn stretch(timeline: &mut Timeline, scene: &Scene<'_>, grip: Grip, out: &mut Out
     let mut changed: Vec<AnnotationChange> = Vec::new();
     let mut ghosts = Vec::new();
     for tier in &scene.contents.tiers {
-        let kind = Kind::of(&tier.row);
+        let kind = TierTiming::of(&tier.row);
         let columns = &tier.annotations;
-        for at in hold::places(tier, &chosen) {
+        for at in dragged::places(tier, &chosen) {
             let last = if grip == Grip::End {
                 columns.len() - 1
             } else {
                 0
             };
-            if !matches!(kind, Kind::Root | Kind::Inside) || (kind == Kind::Root && at == last) {
+            if !matches!(kind, TierTiming::Root | TierTiming::Inside)
+                || (kind == TierTiming::Root && at == last)
+            {
                 continue;
             }
             let gap = gap(scene, tier, at, grip == Grip::End);
@@ -267,7 +269,7 @@ fn stretch(timeline: &mut Timeline, scene: &Scene<'_>, grip: Grip, out: &mut Out
 
 #[cfg(test)]
 mod tests {
-    use super::super::hold::tests::contents;
+    use super::super::dragged::tests::contents;
     use super::*;
 
     #[test]

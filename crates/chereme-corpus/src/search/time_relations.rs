@@ -14,7 +14,7 @@ use super::finding::FindingKind;
 use super::findings;
 use super::plan::{self, Plan};
 use super::probe::{Column, Doc, RowField};
-use super::{texts, whole};
+use super::{text_match, texts};
 use crate::db::search::answers::{self, CodedRow};
 use crate::db::search::terms::{self, hand_codes, hands_of, phase_code, phase_counts};
 use crate::error::Result;
@@ -137,8 +137,8 @@ impl Beside {
         recordings: &BTreeSet<i64>,
         times: &Times,
         ids: &dyn Column,
-    ) -> Asked<BTreeMap<i64, Vec<Mark>>> {
-        let mut marks: BTreeMap<i64, Vec<Mark>> = BTreeMap::new();
+    ) -> Asked<BTreeMap<i64, Vec<RelatedSpan>>> {
+        let mut marks: BTreeMap<i64, Vec<RelatedSpan>> = BTreeMap::new();
         for other in &self.other {
             let Other::Gloss(plan) = other else {
                 continue;
@@ -148,7 +148,7 @@ impl Beside {
                     continue;
                 };
                 if recordings.contains(&recording) {
-                    marks.entry(recording).or_default().push(Mark {
+                    marks.entry(recording).or_default().push(RelatedSpan {
                         span: span(start, end),
                         token: ids.get(doc).filter(|_| !self.itself),
                         passes: true,
@@ -160,12 +160,12 @@ impl Beside {
     }
 
     /// Adds the annotations of a recording to which the relation may hold.
-    fn collect(&self, ask: &Ask<'_>, recording: i64, marks: &mut Vec<Mark>) -> Result<()> {
+    fn collect(&self, ask: &Ask<'_>, recording: i64, marks: &mut Vec<RelatedSpan>) -> Result<()> {
         ask.go_on()?;
         let mut add = |row: &CodedRow<'_>, passes: bool| {
             let wanted = passes || self.relation.is_none();
             if let Some((start, end)) = row.span.filter(|_| wanted) {
-                marks.push(Mark {
+                marks.push(RelatedSpan {
                     span: span(start, end),
                     token: None,
                     passes,
@@ -195,7 +195,7 @@ impl Beside {
                     for (tier, name, _) in answers::tiers(ask.connection, recording)? {
                         if pattern.matches(&name) {
                             answers::on_tier(ask.connection, tier, |row| {
-                                add(&row, whole::text_passes(comparison, &reading_of(&row)));
+                                add(&row, text_match::text_passes(comparison, &reading_of(&row)));
                             })?;
                         }
                     }
@@ -267,7 +267,7 @@ fn component_passes(test: &ComponentTest, row: &CodedRow<'_>, left_handed: bool)
 fn text_passes(test: &Test, row: &CodedRow<'_>) -> bool {
     let reading = reading_of(row);
     match &test.what {
-        What::Whole(_, comparison) => whole::text_passes(comparison, &reading),
+        What::Whole(_, comparison) => text_match::text_passes(comparison, &reading),
         what => reading
             .value()
             .is_some_and(|text| texts::passes(what, text)),
@@ -280,7 +280,7 @@ struct Candidate {
     span: Span,
 }
 
-struct Mark {
+struct RelatedSpan {
     span: Span,
     /// The token, if the annotation is that of one.
     token: Option<i64>,
@@ -289,12 +289,12 @@ struct Mark {
 
 /// Annotations ordered by start, each with the latest end up to it, for a fast search around a span.
 struct Marks {
-    marks: Vec<Mark>,
+    marks: Vec<RelatedSpan>,
     latest: Vec<Instant>,
 }
 
 impl Marks {
-    fn new(mut marks: Vec<Mark>) -> Self {
+    fn new(mut marks: Vec<RelatedSpan>) -> Self {
         marks.sort_by_key(|mark| mark.span.start());
         let mut latest = Vec::with_capacity(marks.len());
         for mark in &marks {
@@ -309,9 +309,9 @@ impl Marks {
         &self,
         relation: Relation,
         candidate: &Candidate,
-        wanted: impl Fn(&Mark) -> bool,
+        wanted: impl Fn(&RelatedSpan) -> bool,
     ) -> bool {
-        let holds = |mark: &Mark| {
+        let holds = |mark: &RelatedSpan| {
             wanted(mark)
                 && mark.token != Some(candidate.token)
                 && relation.holds(candidate.span, mark.span)

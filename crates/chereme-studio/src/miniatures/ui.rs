@@ -12,8 +12,8 @@ use eframe::egui::{
 
 use super::draw::{Film, Movement, State};
 use super::{Cell, Figures, Focus, Key, Motion, Own, Source, Texture, data};
-use crate::context::{Outbox, Seen};
-use crate::model::made::Made;
+use crate::context::{Outbox, PaneInput};
+use crate::model::generated::GeneratedClip;
 use crate::words::{Language, stage as words};
 use crate::work::Work;
 
@@ -45,7 +45,7 @@ impl Figures {
     pub(crate) fn show(
         &self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         out: &mut Outbox,
         cell: &Cell,
         name: &str,
@@ -61,7 +61,7 @@ impl Figures {
     pub(crate) fn paint(
         &self,
         ui: &Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         out: &mut Outbox,
         cell: &Cell,
         rect: Rect,
@@ -88,7 +88,7 @@ impl Figures {
         &self,
         ui: &Ui,
         language: Language,
-        (made, clock): (&Arc<Made>, f64),
+        (made, clock): (&Arc<GeneratedClip>, f64),
         rect: Rect,
         focus: Focus,
     ) {
@@ -113,7 +113,7 @@ impl Figures {
     pub(crate) fn hand(
         &self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         (side, angles): (Side, &HandAngles),
         size: Vec2,
         name: &str,
@@ -191,7 +191,7 @@ impl Figures {
         state.films.insert(source.clone(), film);
     }
 
-    fn load_made(&self, state: &mut State, source: &Source, made: &Arc<Made>) {
+    fn load_made(&self, state: &mut State, source: &Source, made: &Arc<GeneratedClip>) {
         if !state.films.contains_key(source) {
             let mut own = self.own.borrow_mut();
             own.made.insert(source.clone(), made.clone());

@@ -8,7 +8,7 @@ use chereme_sign::Handedness;
 
 /// A generated clip, with its name and its source.
 #[derive(Debug, Clone)]
-pub(crate) struct Made {
+pub(crate) struct GeneratedClip {
     /// Name for display: the gloss or the recipe.
     pub(crate) name: String,
     /// The token whose notation it was generated from, if that is its only source.
@@ -23,7 +23,7 @@ pub(crate) struct Made {
     pub(crate) parts: Vec<MadePart>,
 }
 
-impl Made {
+impl GeneratedClip {
     /// Returns the movement generated from the notation of a token, named after its sign.
     pub(crate) fn notated(made: &Recombination, token: i64) -> Self {
         Self {

@@ -15,7 +15,7 @@ pub(super) const FAR: i64 = 1 << 50;
 
 /// How the annotations of a tier get their times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum TierTiming {
     /// Times of their own.
     Root,
     /// Times of their own, within the parent annotation.
@@ -26,7 +26,7 @@ pub enum Kind {
     Listed,
 }
 
-impl Kind {
+impl TierTiming {
     /// Returns the kind of a tier.
     #[must_use]
     pub fn of(row: &TierRow) -> Self {
@@ -43,11 +43,11 @@ impl Kind {
 
 /// Annotations of one tier that are being dragged, with those that may be in their way.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Held {
+pub struct DraggedAnnotations {
     /// The tier.
     pub tier: i64,
     /// How its annotations get their times.
-    pub kind: Kind,
+    pub kind: TierTiming,
     /// The annotations that may be in the way, including the dragged ones, in order of time.
     pub items: Vec<Item>,
     /// The dragged annotations.
@@ -56,13 +56,13 @@ pub struct Held {
     pub limits: Limits,
 }
 
-impl Held {
+impl DraggedAnnotations {
     /// Returns the annotations that change when they are dragged.
     #[must_use]
     pub fn dragged(&self, grip: Grip, by: i64, mode: Mode) -> Vec<Item> {
         match self.kind {
-            Kind::Listed => Vec::new(),
-            Kind::Tiled => spans::tiled(&self.items, &self.chosen, (grip, by), self.limits),
+            TierTiming::Listed => Vec::new(),
+            TierTiming::Tiled => spans::tiled(&self.items, &self.chosen, (grip, by), self.limits),
             _ => spans::dragged(&self.items, &self.chosen, (grip, by), mode, self.limits),
         }
     }
@@ -70,7 +70,7 @@ impl Held {
     /// Returns the changes that must be requested, in an order that never overlaps.
     #[must_use]
     pub fn asked(&self, changed: &[Item]) -> Vec<Item> {
-        if self.kind == Kind::Tiled {
+        if self.kind == TierTiming::Tiled {
             // The neighbours' shared boundaries are adjusted automatically.
             let own = changed.iter().filter(|item| self.chosen.contains(&item.id));
             return own.copied().collect();
@@ -97,19 +97,19 @@ pub fn limits(contents: &Contents, frames: bool) -> Limits {
 /// Returns what is dragged if `chosen` are, tier by tier. Annotations whose parent is dragged too move with it and are
 /// left out.
 #[must_use]
-pub fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<Held> {
+pub fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<DraggedAnnotations> {
     let limits = limits(contents, frames);
     let mut all = Vec::new();
     for tier in &contents.tiers {
         let columns = &tier.annotations;
         let mut families: BTreeMap<Option<i64>, BTreeSet<i64>> = BTreeMap::new();
-        let kind = Kind::of(&tier.row);
+        let kind = TierTiming::of(&tier.row);
         for at in places(tier, chosen) {
             let parent = columns.parents.get(at).copied().flatten();
             if parent.is_some_and(|parent| chosen.contains(&parent)) {
                 continue;
             }
-            let family = parent.filter(|_| kind != Kind::Root);
+            let family = parent.filter(|_| kind != TierTiming::Root);
             families.entry(family).or_default().insert(columns.ids[at]);
         }
         for (parent, chosen) in families {
@@ -118,7 +118,7 @@ pub fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<He
                 Some((from, to)) => Limits { from, to, ..limits },
                 None => limits,
             };
-            all.push(Held {
+            all.push(DraggedAnnotations {
                 tier: tier.row.id,
                 kind,
                 items: items(tier, parent),
@@ -186,12 +186,12 @@ fn span_of(contents: &Contents, id: i64) -> Option<(i64, i64)> {
 #[must_use]
 pub fn room(contents: &Contents, tier: &TierContents, wanted: (i64, i64)) -> Option<(i64, i64)> {
     let own = items(tier, None);
-    let kind = Kind::of(&tier.row);
+    let kind = TierTiming::of(&tier.row);
     let parent = contents
         .tiers
         .iter()
         .find(|it| Some(it.row.id) == tier.row.parent_id);
-    let Some(parent) = parent.filter(|_| kind != Kind::Root) else {
+    let Some(parent) = parent.filter(|_| kind != TierTiming::Root) else {
         return spans::room(&own, wanted);
     };
     let mut best: Option<(i64, i64)> = None;
@@ -201,8 +201,8 @@ pub fn room(contents: &Contents, tier: &TierContents, wanted: (i64, i64)) -> Opt
             continue;
         }
         let found = match kind {
-            Kind::Inside => spans::room(&own, inside),
-            Kind::Listed => Some((above.start, above.end)),
+            TierTiming::Inside => spans::room(&own, inside),
+            TierTiming::Listed => Some((above.start, above.end)),
             _ => tiled_room(&own, above, inside),
         };
         let length = |span: (i64, i64)| span.1.min(wanted.1) - span.0.max(wanted.0);

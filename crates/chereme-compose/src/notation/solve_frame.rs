@@ -3,7 +3,7 @@
 use chereme_motion::glam::{DMat3, DQuat, DVec3};
 
 use super::arm::{Bearing, Posed};
-use super::solve::{Arm, Got, Row};
+use super::solve::{Arm, ArmFrame, Got};
 
 /// Distance (m) from the goal above which a point is not settled.
 const UNSETTLED: f64 = 1e-3;
@@ -17,7 +17,12 @@ const DAMPING: f64 = 1e-3;
 impl Arm<'_> {
     /// Solves the arm so that the hand's reference point is at its goal with the given wrist angles;
     /// pushes the hand out of the trunk.
-    pub(crate) fn settle(&self, row: &Row, outlines: [&[DVec3]; 2], before: Option<&Got>) -> Got {
+    pub(crate) fn settle(
+        &self,
+        row: &ArmFrame,
+        outlines: [&[DVec3]; 2],
+        before: Option<&Got>,
+    ) -> Got {
         let rig = self.rig();
         let at = |wrist: DVec3| {
             let posed = rig.reach(wrist, row.bearing, self.limits);
@@ -121,7 +126,7 @@ impl Arm<'_> {
 
     /// Moves a hand's reference point towards its goal from the last wrist position, by damped
     /// least-squares steps.
-    fn near(&self, row: &Row, goal: DVec3, from: DVec3) -> (Posed, DQuat) {
+    fn near(&self, row: &ArmFrame, goal: DVec3, from: DVec3) -> (Posed, DQuat) {
         let at = |wrist: DVec3| {
             let posed = self.rig().reach(wrist, row.bearing, self.limits);
             let rotation = self.rig().hung(&posed, &row.angles, &self.held);

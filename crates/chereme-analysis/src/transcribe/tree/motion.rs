@@ -1,13 +1,13 @@
 //! Writes the motions of a hand: paths, wrist and finger movement, and changes on the way.
 
 use super::super::acts::wrist_name;
-use super::super::way::ROUND;
+use super::super::path::ROUND;
 use super::*;
 
 impl Writer<'_> {
     /// Writes a path through space.
-    pub(super) fn way(&mut self, track: &Track, act: &Act) -> Motion {
-        let Kind::Way(fitted) = &act.kind else {
+    pub(super) fn way(&mut self, track: &HandTrajectory, act: &Act) -> Motion {
+        let ActKind::Way(fitted) = &act.kind else {
             return Motion::new(MotionKind::Still);
         };
         let first = *act.frames.start();
@@ -17,19 +17,19 @@ impl Writer<'_> {
             residual: fitted.residual,
             runner_up: fitted.runner_up,
         };
-        let written = |way: &Way| Some(written(scene, way));
-        self.told_movement(track, first, &kind, Way::kind, written);
-        let round = matches!(fitted.way, Way::Circle { .. });
+        let written = |way: &PathForm| Some(written(scene, way));
+        self.told_movement(track, first, &kind, PathForm::kind, written);
+        let round = matches!(fitted.way, PathForm::Circle { .. });
         let found = aim::nearest(fitted.way.line().normalize_or(DVec3::Z), false);
         self.told(FeatureKind::Course, Some(track), first, &found, |aim| {
             words::course(aim, round)
         });
         self.told_size(track, first, &size(scene, &fitted.way));
-        Motion::new(super::way::written(scene, &fitted.way))
+        Motion::new(super::motion::written(scene, &fitted.way))
     }
 
     /// Records that a hand changes its posture in place.
-    pub(super) fn told_change(&mut self, track: &Track, frame: usize) {
+    pub(super) fn told_change(&mut self, track: &HandTrajectory, frame: usize) {
         let found = Found {
             best: (),
             residual: 0.0,
@@ -39,7 +39,7 @@ impl Writer<'_> {
     }
 
     /// Writes a movement of wrist or fingers to and fro.
-    pub(super) fn sway(&mut self, track: &Track, sway: &Sway, first: usize) -> Motion {
+    pub(super) fn sway(&mut self, track: &HandTrajectory, sway: &Sway, first: usize) -> Motion {
         let l = self.scene.language;
         match sway {
             Sway::Play { digits, .. } => {
@@ -104,7 +104,7 @@ impl Writer<'_> {
     /// Writes the changes at the end of an act: shape, direction, palm.
     pub(super) fn changed(
         &mut self,
-        track: &Track,
+        track: &HandTrajectory,
         act: &Act,
         first: usize,
         last: usize,
@@ -114,14 +114,14 @@ impl Writer<'_> {
             return posture;
         }
         let (before, after) = (self.sight.see(track, first), self.sight.see(track, last));
-        let best = |seen: &Seen| seen.shape.as_ref().map(|found| found.best.clone());
+        let best = |seen: &HandReading| seen.shape.as_ref().map(|found| found.best.clone());
         let mut which = [false; 3];
         if let Some(shape) = best(&after).filter(|_| act.reshaped && best(&before) != best(&after))
         {
             posture.shape = Each::Shared(shape);
             which[0] = true;
         }
-        let palm = |seen: &Seen| seen.palm.as_ref().map(|found| found.best);
+        let palm = |seen: &HandReading| seen.palm.as_ref().map(|found| found.best);
         if act.turned {
             which[1] = before.extended.best != after.extended.best;
             which[2] = palm(&before) != palm(&after);
@@ -146,7 +146,7 @@ impl Writer<'_> {
         first: usize,
         last: usize,
     ) -> Option<Place> {
-        if !matches!(act.kind, Kind::Way(_)) {
+        if !matches!(act.kind, ActKind::Way(_)) {
             return None;
         }
         let (before, after) = (self.sight.body(first)?, self.sight.body(last)?);
@@ -191,7 +191,7 @@ impl Writer<'_> {
 }
 
 /// Converts a path to notation.
-pub(super) fn written(scene: &Scene<'_>, way: &Way) -> MotionKind {
+pub(super) fn written(scene: &Scene<'_>, way: &PathForm) -> MotionKind {
     let (l, arm) = (scene.language, scene.arm);
     let direction = aim::nearest(way.line().normalize_or(DVec3::Z), false)
         .best
@@ -209,7 +209,7 @@ pub(super) fn written(scene: &Scene<'_>, way: &Way) -> MotionKind {
         ellipse: None,
     };
     match *way {
-        Way::Circle {
+        PathForm::Circle {
             turns,
             long,
             narrow,
@@ -230,7 +230,7 @@ pub(super) fn written(scene: &Scene<'_>, way: &Way) -> MotionKind {
             }
             return MotionKind::Circular(round);
         }
-        Way::Arc { chord, bow } => {
+        PathForm::Arc { chord, bow } => {
             let back = aim::from_out(DVec3::from(direction.vector())).inverse();
             let flat = back * bow;
             let deep = bow.length() / chord.length().max(1e-9);
@@ -239,23 +239,23 @@ pub(super) fn written(scene: &Scene<'_>, way: &Way) -> MotionKind {
                 size: sized(deep, [l.arc_small, l.arc_normal, l.arc_big]).best,
             });
         }
-        Way::Wave { width, wavy, .. } => {
+        PathForm::Wave { width, wavy, .. } => {
             directed.zigzag = Some(Zigzag {
                 wavy,
                 size: sized(width / arm, [l.zigzag_small, l.zigzag_normal, l.zigzag_big]).best,
                 growth: None,
             });
         }
-        Way::Straight { .. } => {}
+        PathForm::Straight { .. } => {}
     }
     MotionKind::Directed(directed)
 }
 
 /// Returns the size of a path: of its chord, or of a circle's longer radius.
-fn size(scene: &Scene<'_>, way: &Way) -> Found<Option<Size>> {
+fn size(scene: &Scene<'_>, way: &PathForm) -> Found<Option<Size>> {
     let (l, arm) = (scene.language, scene.arm);
     match way {
-        Way::Circle { long, .. } => sized(
+        PathForm::Circle { long, .. } => sized(
             long.length() / arm,
             [l.circle_small, l.circle_normal, l.circle_big],
         ),

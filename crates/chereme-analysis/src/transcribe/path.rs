@@ -30,7 +30,7 @@ const WIDE: f64 = 0.7;
 
 /// The path of a hand; lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Way {
+pub(crate) enum PathForm {
     /// Straight.
     Straight {
         /// From start to end.
@@ -72,14 +72,14 @@ pub(crate) enum Way {
 /// A fitted path, with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fitted {
-    pub(crate) way: Way,
+    pub(crate) way: PathForm,
     /// The root of the mean square of the distance, in metres.
     pub(super) residual: f64,
     /// The next simpler or deeper kind, with its residual.
-    pub(super) runner_up: Option<(Way, f64)>,
+    pub(super) runner_up: Option<(PathForm, f64)>,
 }
 
-impl Way {
+impl PathForm {
     /// Returns the name of its kind.
     pub(super) fn kind(&self) -> &'static str {
         match self {
@@ -114,7 +114,7 @@ pub(crate) fn fit(points: &[DVec3], exact: f64) -> Fitted {
     let points = evenly(points, POINTS);
     let (first, last) = (points[0], points[points.len() - 1]);
     let chord = last - first;
-    let straight = Way::Straight { chord };
+    let straight = PathForm::Straight { chord };
     let off_straight = off(&points, |s| first + chord * s);
     if let Some((circle, residual)) = circle(&points, exact) {
         return Fitted {
@@ -132,7 +132,7 @@ pub(crate) fn fit(points: &[DVec3], exact: f64) -> Fitted {
     }
     let middle = points[points.len() / 2].midpoint(points[(points.len() - 1) / 2]);
     let bow = (middle - first - chord / 2.0).reject_from(chord.normalize_or(DVec3::X));
-    let arc = Way::Arc { chord, bow };
+    let arc = PathForm::Arc { chord, bow };
     let off_arc = off(&points, |s| first + along_arc(chord, bow, s));
     let (deep, wide) = (bow.length(), chord.length());
     let sure = deep > SHALLOW.0 && deep > SHALLOW.1 * wide && off_arc < SHALLOW.2 * off_straight;
@@ -197,7 +197,7 @@ fn along_arc(chord: DVec3, bow: DVec3, s: f64) -> DVec3 {
 }
 
 /// Fits a circle or ellipse; `None` if the path does not go round.
-fn circle(points: &[DVec3], exact: f64) -> Option<(Way, f64)> {
+fn circle(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
     let mean = points.iter().sum::<DVec3>() / points.len() as f64;
     let area: DVec3 = points
         .windows(2)
@@ -251,7 +251,7 @@ fn circle(points: &[DVec3], exact: f64) -> Option<(Way, f64)> {
     let most = if swept < ROUND { PART_OFF } else { 0.3 };
     (residual < most * long).then(|| {
         let spoke = |point: DVec3| (point - centre).reject_from_normalized(axis);
-        let way = Way::Circle {
+        let way = PathForm::Circle {
             axis,
             turns: swept / TAU,
             long: (x * cos + y * sin) * long,
@@ -282,7 +282,7 @@ fn centred(points: &[DVec3], axis: DVec3) -> Option<DVec3> {
 }
 
 /// Fits a zigzag or wave; `None` if the path does not advance along its chord or crosses it too rarely.
-fn wave(points: &[DVec3], exact: f64) -> Option<(Way, f64)> {
+fn wave(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
     let first = points[0];
     let chord = points[points.len() - 1] - first;
     let line = chord.try_normalize()?;
@@ -324,7 +324,7 @@ fn wave(points: &[DVec3], exact: f64) -> Option<(Way, f64)> {
     // A sine spends more of its path near its turns than corners do.
     let far = across.iter().filter(|x| x.abs() > 0.8 * width).count();
     let wavy = far as f64 / points.len() as f64 > 0.26;
-    Some((Way::Wave { chord, width, wavy }, residual))
+    Some((PathForm::Wave { chord, width, wavy }, residual))
 }
 
 #[cfg(test)]
@@ -347,7 +347,7 @@ mod tests {
             &along(30, |s| along_arc(DVec3::X * 0.2, DVec3::Z * 0.06, ease(s))),
             EXACT,
         );
-        let Way::Arc { bow, .. } = arc.way else {
+        let PathForm::Arc { bow, .. } = arc.way else {
             panic!("{arc:?}");
         };
         assert!(bow.distance(DVec3::Z * 0.06) < 1e-3, "{bow}");
@@ -362,7 +362,7 @@ mod tests {
             )
         };
         for wavy in [true, false] {
-            let Way::Wave {
+            let PathForm::Wave {
                 width, wavy: is, ..
             } = wave(wavy).way
             else {
@@ -382,7 +382,7 @@ mod tests {
                 }),
                 EXACT,
             );
-            let Way::Circle {
+            let PathForm::Circle {
                 axis,
                 turns: is,
                 long,
@@ -411,7 +411,7 @@ mod tests {
             )
         };
         assert_eq!(turn(0.5).way.kind(), "arc");
-        let Way::Circle { end, turns, .. } = turn(0.79).way else {
+        let PathForm::Circle { end, turns, .. } = turn(0.79).way else {
             panic!("{:?}", turn(0.79));
         };
         let (sin, cos) = (TAU * 0.79).sin_cos();

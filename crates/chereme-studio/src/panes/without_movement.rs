@@ -3,7 +3,7 @@
 use eframe::egui::{Frame, Label, Margin, Panel, RichText, Ui};
 
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::panes::recombine::recipe_of;
 use crate::words::{fill, library as words};
 
@@ -26,7 +26,7 @@ const LOW: f32 = 300.0;
 /// Shows the state of a sign's movement, and the possible actions.
 pub(crate) fn show(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     (token, gloss): (i64, &str),
     bare: &Bare,
@@ -67,7 +67,7 @@ pub(crate) fn show(
 /// Shows the possible actions.
 fn offers(
     ui: &mut Ui,
-    seen: &Seen<'_>,
+    seen: &PaneInput<'_>,
     out: &mut Outbox,
     (token, gloss): (i64, &str),
     bare: &Bare,

@@ -13,7 +13,7 @@ use eframe::egui::{Color32, ColorImage, Context};
 
 use super::data;
 use super::{Focus, Key, Source};
-use crate::model::made::Made;
+use crate::model::generated::GeneratedClip;
 
 /// Frames of the window after which a figure that was not requested again is no longer drawn.
 const PATIENCE: u64 = 20;
@@ -58,7 +58,7 @@ pub(super) enum Film {
 #[derive(Clone)]
 pub(super) enum Movement {
     Recorded(Arc<Moving>),
-    Made(Arc<Made>),
+    Made(Arc<GeneratedClip>),
 }
 
 /// Movement that can be drawn.

@@ -34,7 +34,7 @@ impl<'a> Sight<'a> {
     pub(in crate::transcribe) fn acts(
         &self,
         hand: usize,
-        track: &Track,
+        track: &HandTrajectory,
         frames: &RangeInclusive<usize>,
     ) -> (Vec<Act>, Option<usize>) {
         let ends = [*frames.start(), *frames.end()];
@@ -86,7 +86,7 @@ impl<'a> Sight<'a> {
     }
 
     /// Returns the handshape in a frame; computed once.
-    fn shape(&self, track: &Track, frame: usize) -> Option<Found<Handshape>> {
+    fn shape(&self, track: &HandTrajectory, frame: usize) -> Option<Found<Handshape>> {
         let key = (track.side, frame);
         if let Some(known) = self.shapes.borrow().get(&key) {
             return known.clone();
@@ -99,12 +99,12 @@ impl<'a> Sight<'a> {
     }
 
     /// Reads shape, direction and palm of a hand in a frame.
-    pub(in crate::transcribe) fn see(&self, track: &Track, frame: usize) -> Seen {
+    pub(in crate::transcribe) fn see(&self, track: &HandTrajectory, frame: usize) -> HandReading {
         let between = self.options.between;
         let along = track.along[frame];
         let shape = self.shape(track, frame);
         if !track.faces {
-            return Seen {
+            return HandReading {
                 shape,
                 extended: aim::nearest(along, between),
                 palm: None,
@@ -112,7 +112,7 @@ impl<'a> Sight<'a> {
             };
         }
         let turned = self.turned(track, frame, 1).swap_remove(0);
-        Seen {
+        HandReading {
             shape,
             extended: turned.extended,
             palm: Some(turned.palm),
@@ -124,7 +124,7 @@ impl<'a> Sight<'a> {
     /// first.
     pub(in crate::transcribe) fn turned(
         &self,
-        track: &Track,
+        track: &HandTrajectory,
         frame: usize,
         most: usize,
     ) -> Vec<aim::Turned> {

@@ -9,10 +9,10 @@ use eframe::egui::{Label, Popup, PopupCloseBehavior, RichText, Role, ScrollArea,
 
 use super::builder::{self, Condition, How, Subject};
 use super::hits::Found;
-use super::kept::{Kept, only_counted};
 use super::rows::component_text;
+use super::saved::{Kept, only_counted};
 use crate::command::Command;
-use crate::context::{Outbox, Seen};
+use crate::context::{Outbox, PaneInput};
 use crate::words::{Text, fill, search as words, spoken};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
@@ -76,7 +76,7 @@ impl Coded {
     }
 
     /// Reports which components nobody has coded yet, and offers to infer them from movement.
-    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn show(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let moving = seen.snapshot.overview.recordings.iter();
         let moving = moving.filter(|it| it.frames > 0).count();
         for component in uncoded(&self.counts) {
@@ -190,7 +190,7 @@ impl Aside {
     }
 
     /// Adds a query to the recent ones.
-    pub(super) fn remember(&mut self, query: &str, seen: &Seen<'_>, out: &mut Outbox) {
+    pub(super) fn remember(&mut self, query: &str, seen: &PaneInput<'_>, out: &mut Outbox) {
         let mut searches = seen.settings.searches.clone();
         if Query::parse(query).is_ok() && searches.asked(query) {
             out.send(Command::Searches(searches));
@@ -201,7 +201,7 @@ impl Aside {
     pub(super) fn menus(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         out: &mut Outbox,
         query: &str,
     ) -> Option<String> {
@@ -242,7 +242,7 @@ impl Aside {
     pub(super) fn nothing(
         &mut self,
         ui: &mut Ui,
-        seen: &Seen<'_>,
+        seen: &PaneInput<'_>,
         out: &mut Outbox,
         query: &str,
     ) -> Option<String> {
@@ -298,7 +298,12 @@ impl Aside {
 
 /// Shows the findings of an answer: conditions that match more than they name, or nothing. Returns the query with
 /// another name, if the user chose one.
-pub(super) fn findings(ui: &mut Ui, seen: &Seen<'_>, found: &Found, query: &str) -> Option<String> {
+pub(super) fn findings(
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    found: &Found,
+    query: &str,
+) -> Option<String> {
     /// The most alternative names.
     const NAMES: usize = 6;
     let mut chosen = None;
@@ -326,7 +331,7 @@ pub(super) fn findings(ui: &mut Ui, seen: &Seen<'_>, found: &Found, query: &str)
 }
 
 /// Draws example queries; returns the chosen one.
-pub(super) fn examples(ui: &mut Ui, seen: &Seen<'_>) -> Option<String> {
+pub(super) fn examples(ui: &mut Ui, seen: &PaneInput<'_>) -> Option<String> {
     let mut chosen = None;
     ui.label(RichText::new(seen.say(words::EXAMPLES)).strong());
     for (query, about) in EXAMPLES {
