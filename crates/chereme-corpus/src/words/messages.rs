@@ -4,7 +4,11 @@
 //! stands for a variable part, which is copied.
 
 use super::Language;
+use super::asking::ASKING;
+use super::editing::EDITING;
 use super::findings::FINDINGS;
+use super::importing::IMPORTING;
+use super::moving::MOVING;
 use super::notes::NOTES;
 use super::queries::QUERIES;
 
@@ -316,7 +320,12 @@ pub fn message(text: &str, language: Language) -> Option<String> {
 
 /// Returns all messages in English and French.
 fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
-    MESSAGES.iter().chain(FINDINGS).chain(QUERIES).chain(NOTES)
+    let first = MESSAGES.iter().chain(FINDINGS).chain(QUERIES).chain(NOTES);
+    first
+        .chain(MOVING)
+        .chain(IMPORTING)
+        .chain(EDITING)
+        .chain(ASKING)
 }
 
 fn in_french(text: &str) -> Option<String> {

@@ -22,12 +22,16 @@ macro_rules! texts {
     };
 }
 
+mod asking;
 mod count;
 pub mod deeds;
+mod editing;
 mod findings;
 pub mod history;
+mod importing;
 pub mod merge;
 mod messages;
+mod moving;
 mod notes;
 mod queries;
 pub mod trouble;
