@@ -125,7 +125,7 @@ impl Output {
             let _ = self.text.flush();
             let spoken = |text: &str| self.spoken(text);
             let label = |text: Text, value: String| fill(self.say(text), &[("what", &value)]);
-            tell(&label(trouble::ERROR, drawn_below(&spoken(&told))));
+            tell(&label(trouble::ERROR, drawn_below(&told, &spoken)));
             if let Some(place) = place.filter(|place| !told.contains(place.as_str())) {
                 tell(&label(trouble::WHERE, place));
             }
@@ -137,15 +137,15 @@ impl Output {
     }
 }
 
-/// Returns a message that begins with a drawing of the error's position (words, carets below them, the error) with
-/// the drawing at its end, so that text before the message cannot shift the carets.
-fn drawn_below(message: &str) -> String {
+/// Returns a message in the language of `spoken`. A drawing of the error's position that begins it (words, carets below
+/// them, the error) stands at its end, so that text before the message cannot shift the carets.
+fn drawn_below(message: &str, spoken: &dyn Fn(&str) -> String) -> String {
     let lines: Vec<&str> = message.splitn(3, '\n').collect();
     match lines[..] {
         [words, carets, told] if carets.trim_start().starts_with('^') => {
-            format!("{told}\n{words}\n{carets}")
+            format!("{}\n{words}\n{carets}", spoken(told))
         }
-        _ => message.to_owned(),
+        _ => spoken(message),
     }
 }
 

@@ -428,7 +428,7 @@ pub(super) const ASKING: &[(&str, &str)] = &[
         "l’inventaire {inventory} n’a pas de valeur {name}",
     ),
     (
-        "\"{name}\"; did you mean \"{near}\"?",
-        "\"{name}\" ; vouliez-vous dire \"{near}\" ?",
+        "{fault}; did you mean {near}?",
+        "{fault} ; vouliez-vous dire {near} ?",
     ),
 ];

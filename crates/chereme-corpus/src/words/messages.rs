@@ -5,6 +5,9 @@
 
 use super::Language;
 use super::asking::ASKING;
+use super::coding::CODING;
+use super::commands::COMMANDS;
+use super::composing::COMPOSING;
 use super::editing::EDITING;
 use super::findings::FINDINGS;
 use super::importing::IMPORTING;
@@ -192,6 +195,10 @@ const MESSAGES: &[(&str, &str)] = &[
         "la recette ne se lit pas : {why}",
     ),
     (
+        "the recipe cannot be made: {step}: {why}",
+        "la recette ne peut pas être exécutée : {step} : {why}",
+    ),
+    (
         "the recipe cannot be made: {why}",
         "la recette ne peut pas être exécutée : {why}",
     ),
@@ -325,6 +332,9 @@ fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
         .chain(MOVING)
         .chain(IMPORTING)
         .chain(EDITING)
+        .chain(COMPOSING)
+        .chain(CODING)
+        .chain(COMMANDS)
         .chain(ASKING)
 }
 

@@ -23,6 +23,9 @@ macro_rules! texts {
 }
 
 mod asking;
+mod coding;
+mod commands;
+mod composing;
 mod count;
 pub mod deeds;
 mod editing;

@@ -1,0 +1,459 @@
+//! French forms of messages about recipes and the movement that they generate, looked up by their English form.
+
+/// Messages and remedies in English and French; a form that is contained in another comes after it.
+pub(super) const COMPOSING: &[(&str, &str)] = &[
+    ("the name of the sign is empty", "le nom du signe est vide"),
+    (
+        "the name of the alphabet is empty",
+        "le nom de l’alphabet est vide",
+    ),
+    (
+        "the name of the signer is empty",
+        "le nom du signeur est vide",
+    ),
+    ("the name of the code is empty", "le nom du code est vide"),
+    (
+        "the name of the body language is empty",
+        "le nom du langage corporel est vide",
+    ),
+    (
+        "the name of the placement is empty",
+        "le nom de l’emplacement est vide",
+    ),
+    (
+        "the name of the function is empty",
+        "le nom de la fonction est vide",
+    ),
+    ("the word is empty", "le mot est vide"),
+    ("the value is empty", "la valeur est vide"),
+    ("the query is empty", "la requête est vide"),
+    ("there is nothing to cue", "il n’y a rien à coder"),
+    ("nothing is notated", "rien n’est noté"),
+    (
+        "phones are written as sampa, ipa or mfa",
+        "les phones s’écrivent en sampa, ipa ou mfa",
+    ),
+    (
+        "one hand cues: name right, left, dominant or weak",
+        "une seule main code : nommez right, left, dominant ou weak",
+    ),
+    (
+        "it ends before it begins; write the earlier time first, such as 0.4s..1.9s",
+        "cela finit avant de commencer ; écrivez d’abord le premier temps, comme 0.4s..1.9s",
+    ),
+    (
+        "the directions are missing, too many, or cancel out",
+        "les directions manquent, sont trop nombreuses, ou s’annulent",
+    ),
+    (
+        "this recipe is of version {n}; this program reads version 1, so a newer one is needed",
+        "cette recette est de la version {n} ; ce programme lit la version 1, il en faut un plus récent",
+    ),
+    (
+        "{step}: {what} is {found}; it must lie between {least} and {most}",
+        "{step} : {what} est {found} ; il faut une valeur entre {least} et {most}",
+    ),
+    (
+        "a recipe has at most {most} {what}; split it and store the parts as signs",
+        "une recette a au plus {most} {what} ; divisez-la et enregistrez les parties comme signes",
+    ),
+    ("sources and operators", "sources et opérateurs"),
+    ("letters in a word", "lettres dans un mot"),
+    ("character {n}: {why}", "caractère {n} : {why}"),
+    (
+        "the text ends where {what} was expected",
+        "le texte finit là où il fallait : {what}",
+    ),
+    (
+        "{found} stands where {what} was expected",
+        "{found} se trouve là où il fallait : {what}",
+    ),
+    ("this {sign} is never closed", "{sign} n’est jamais fermé"),
+    (
+        "the query is not understood: {why}",
+        "la requête ne se comprend pas : {why}",
+    ),
+    (
+        "the query {query} is not understood: {why}",
+        "la requête {query} ne se comprend pas : {why}",
+    ),
+    (
+        "the text is longer than {n} bytes",
+        "le texte dépasse {n} octets",
+    ),
+    (
+        "parentheses are nested deeper than {n}",
+        "il y a plus de {n} parenthèses les unes dans les autres",
+    ),
+    ("the evaluation was stopped", "l’évaluation a été arrêtée"),
+    (
+        "the corpus has no captured keys with the tier Hand M1 M2",
+        "le corpus n’a pas de clés captées avec l’acteur Hand M1 M2",
+    ),
+    (
+        "the body language {name} cannot be used: {why}",
+        "le langage corporel {name} ne peut pas servir : {why}",
+    ),
+    (
+        "the body language cannot be used: {why}",
+        "le langage corporel ne peut pas servir : {why}",
+    ),
+    (
+        "this skeleton has no {side} arm (shoulder, elbow, wrist)",
+        "ce squelette n’a pas de bras (épaule, coude, poignet) de ce côté : {side}",
+    ),
+    (
+        "the {side} hand has no fingers in this skeleton",
+        "la main {side} n’a pas de doigts dans ce squelette",
+    ),
+    (
+        "there is no head in this skeleton",
+        "ce squelette n’a pas de tête",
+    ),
+    (
+        "the target is {cm} cm away from the {side} shoulder, and the arm is {long} cm long",
+        "la cible est à {cm} cm de l’épaule ({side}), et le bras mesure {long} cm",
+    ),
+    (
+        "{given} values are given, but the {side} hand holds {held} one after another",
+        "{given} valeurs sont données, mais la main {side} en a {held} à la suite",
+    ),
+    (
+        "{given} paces are given, but the sign has {phases} phases",
+        "{given} allures sont données, mais le signe a {phases} phases",
+    ),
+    (
+        "no sign with movement holds {value}, and its inventory gives no {what} for it",
+        "aucun signe avec mouvement n’a {value}, et son inventaire n’en donne rien de tel : {what}",
+    ),
+    (
+        "the query {query} finds no sign with movement",
+        "la requête {query} ne trouve aucun signe avec mouvement",
+    ),
+    (
+        "{address} shows no {what} to take",
+        "{address} ne montre rien de tel à prendre : {what}",
+    ),
+    (
+        "the movement lasts {length} s, so that nothing of it is left",
+        "le mouvement dure {length} s : il n’en reste rien",
+    ),
+    (
+        "the two pieces do not meet: {what} would leap by {distance} m, at {speed} m/s",
+        "les deux morceaux ne se rejoignent pas : {what} sauterait de {distance} m, à {speed} m/s",
+    ),
+    ("{name} has no frames", "{name} n’a pas d’images"),
+    (
+        "the result would have {frames} frames, and at most {most} can be generated for this skeleton",
+        "le résultat aurait {frames} images, et on peut en produire au plus {most} pour ce squelette",
+    ),
+    (
+        "the corpus shows too few transitions to learn their course from",
+        "le corpus montre trop peu de transitions pour en apprendre le déroulement",
+    ),
+    (
+        "{address} has changed since this sign was generated",
+        "{address} a changé depuis que ce signe a été composé",
+    ),
+    (
+        "the stored inputs lack what this step needs",
+        "il manque aux données enregistrées ce que demande cette étape",
+    ),
+    (
+        "the result is not a valid movement: {why}",
+        "le résultat n’est pas un mouvement valable : {why}",
+    ),
+    ("resolve the recipe again", "résolvez de nouveau la recette"),
+    (
+        "name its joints in a roles file, or use a recording that has one",
+        "nommez ses articulations dans un fichier de rôles, ou prenez un enregistrement qui en a un",
+    ),
+    (
+        "move it nearer by {cm} cm or more",
+        "rapprochez-la de {cm} cm ou plus",
+    ),
+    ("give 1 or {n}", "donnez-en 1 ou {n}"),
+    ("generate it again", "composez-le de nouveau"),
+    ("generate the sign again", "composez de nouveau le signe"),
+    (
+        "name another rule: paper, attina, sppas or duchnowski",
+        "nommez une autre règle : paper, attina, sppas ou duchnowski",
+    ),
+    (
+        "use a recording of the hands, or name its joints in a roles file",
+        "prenez un enregistrement des mains, ou nommez ses articulations dans un fichier de rôles",
+    ),
+    (
+        "name its joint in a roles file",
+        "nommez son articulation dans un fichier de rôles",
+    ),
+    (
+        "choose another value, or annotate a sign that has it",
+        "choisissez une autre valeur, ou annotez un signe qui l’a",
+    ),
+    ("choose another sign", "choisissez un autre signe"),
+    ("loosen it", "assouplissez-la"),
+    ("name times within it", "nommez des temps qui s’y trouvent"),
+    (
+        "cut wrong first or last frames off (`| trim`, or `| span 0.2s..1.5s`), or give the transition more time (`then via 0.4s`, `repeat 2 gap 0.3s`)",
+        "coupez les premières ou dernières images fausses (`| trim`, ou `| span 0.2s..1.5s`), ou donnez plus de temps à la transition (`then via 0.4s`, `repeat 2 gap 0.3s`)",
+    ),
+    (
+        "name a recording with movement",
+        "nommez un enregistrement avec un mouvement",
+    ),
+    (
+        "make it shorter, or in several signs",
+        "faites-le plus court, ou en plusieurs signes",
+    ),
+    (
+        "import captured movement, or use sigmoid",
+        "importez du mouvement capté, ou prenez sigmoid",
+    ),
+    (
+        "a recipe needs \"version\"",
+        "une recette demande \"version\"",
+    ),
+    (
+        "a recipe needs \"make\", its tree",
+        "une recette demande \"make\", son arbre",
+    ),
+    (
+        "unknown field {name}; a recipe has version and make",
+        "champ inconnu {name} ; une recette a version et make",
+    ),
+    (
+        "{name} holds one thing, but {first} and {second} are given; leave one out",
+        "{name} contient une chose, mais {first} et {second} sont donnés ; ôtez-en une",
+    ),
+    (
+        "a recipe's tree has only strings, lists and objects with string keys",
+        "l’arbre d’une recette n’a que des textes, des listes et des objets à clés de texte",
+    ),
+    (
+        "the body of {name} has no arm with shoulder, elbow and wrist",
+        "le corps de {name} n’a pas de bras avec épaule, coude et poignet",
+    ),
+    (
+        "the movement would last {seconds} s; at most {most} s can be generated at once",
+        "le mouvement durerait {seconds} s ; on peut en produire au plus {most} s d’un coup",
+    ),
+    (
+        "name them in a roles file",
+        "nommez-les dans un fichier de rôles",
+    ),
+    ("animate its signs one by one", "animez ses signes un à un"),
+    (
+        "the hands remain {cm} cm deep in each other",
+        "les mains restent l’une dans l’autre de {cm} cm",
+    ),
+    (
+        "the hands would go through each other at {time} s: each moves {cm} cm aside",
+        "les mains se traverseraient à {time} s : chacune s’écarte de {cm} cm",
+    ),
+    (
+        "the {side} hand stays {cm} cm short of its contact",
+        "il manque {cm} cm à la main {side} pour son contact",
+    ),
+    (
+        "the {side} hand stays up to {cm} cm off its path",
+        "la main {side} reste jusqu’à {cm} cm à côté de son trajet",
+    ),
+    (
+        "the {side} hand is turned up to {angle} less than written: {why}",
+        "la main {side} est tournée jusqu’à {angle} de moins qu’il n’est écrit : {why}",
+    ),
+    (
+        "the {side} hand was moved {cm} cm out of the trunk",
+        "la main {side} a été écartée du tronc de {cm} cm",
+    ),
+    (
+        "the {side} hand touches with the part in front of the named one",
+        "la main {side} touche avec la partie qui est devant celle qui est nommée",
+    ),
+    (
+        "movements of the body in place of a hand are annotated, not animated",
+        "les mouvements du corps à la place d’une main s’annotent, ils ne s’animent pas",
+    ),
+    (
+        "the wrist bends no farther",
+        "le poignet ne se plie pas plus",
+    ),
+    (
+        "the forearm turns no farther",
+        "l’avant-bras ne tourne pas plus",
+    ),
+    ("the arm does not reach", "le bras n’y arrive pas"),
+    ("the trunk is in the way", "le tronc est dans le chemin"),
+    ("there is no time for it", "il n’y a pas le temps"),
+    (
+        "{point} touched {place} at {time}; it is now {cm} cm away, having moved {by} cm against it",
+        "{point} touchait {place} à {time} ; c’est maintenant à {cm} cm, après un déplacement de {by} cm",
+    ),
+    (
+        "{point} touched {place} at {time}; now {other} is {cm} cm away from {there}",
+        "{point} touchait {place} à {time} ; maintenant {other} est à {cm} cm de {there}",
+    ),
+    (
+        "{point} touched {place} at {time}; it comes to {cm} cm of it at the nearest",
+        "{point} touchait {place} à {time} ; il en approche à {cm} cm au plus",
+    ),
+    (
+        "the course was learned from {what}",
+        "le déroulement a été appris de {what}",
+    ),
+    (
+        "the fingertip comes within {mm} mm of the lips at {time}; they should be {least} mm free",
+        "le bout du doigt vient à {mm} mm des lèvres à {time} ; il devrait les laisser libres de {least} mm",
+    ),
+    (
+        "the fingertip stays {mm} mm or more outside the lips",
+        "le bout du doigt reste à {mm} mm ou plus des lèvres",
+    ),
+    (
+        "operators left out, as they cancel out or become one: {n}",
+        "opérateurs laissés de côté, car ils s’annulent ou n’en font qu’un : {n}",
+    ),
+    (
+        "{step}: a hand stays up to {cm} cm from its target",
+        "{step} : une main reste jusqu’à {cm} cm de sa cible",
+    ),
+    ("no value is given", "aucune valeur n’est donnée"),
+    (
+        "the mouth keeps its own movement",
+        "la bouche garde son propre mouvement",
+    ),
+    (
+        "the first {time} s lie before the movement and are not seen",
+        "les premières {time} s sont avant le mouvement et ne se voient pas",
+    ),
+    (
+        "the last {time} s lie after the movement and are not seen",
+        "les dernières {time} s sont après le mouvement et ne se voient pas",
+    ),
+    (
+        "neither where it starts nor where it ends is given",
+        "ni son départ ni son arrivée ne sont donnés",
+    ),
+    (
+        "one arm is copied to the other; name right, left, dominant or weak",
+        "un bras est copié sur l’autre ; nommez right, left, dominant ou weak",
+    ),
+    (
+        "the hands go through each other in {n} frames, from {first} on; take one aside, as with: place left by left 5cm",
+        "les mains se traversent dans {n} images, à partir de {first} ; écartez-en une, comme avec : place left by left 5cm",
+    ),
+    (
+        "joints without a counterpart stay as they were: {names}",
+        "les articulations sans pendant restent comme elles étaient : {names}",
+    ),
+    (
+        "milestones decrease; write M1 to M5 in order of time",
+        "les jalons reculent ; écrivez M1 à M5 dans l’ordre du temps",
+    ),
+    (
+        "neither palm nor fingers nor a turn is given",
+        "ni la paume, ni les doigts, ni une rotation ne sont donnés",
+    ),
+    ("no path is given", "aucun trajet n’est donné"),
+    ("no pace is given", "aucune allure n’est donnée"),
+    (
+        "the place is that of the contact at {time}: the {part} at the {place}",
+        "l’emplacement est celui du contact à {time} : {part} à {place}",
+    ),
+    (
+        "the wrist leaves the arm's reach fast: beyond {share}% of its length it lags behind, so that the elbow opens smoothly",
+        "le poignet quitte vite la portée du bras : au-delà de {share} % de sa longueur il prend du retard, pour que le coude s’ouvre sans à-coup",
+    ),
+    (
+        "legs and a curve are given: keep one of them",
+        "des segments et une courbe sont donnés : gardez l’un des deux",
+    ),
+    (
+        "only a curve has a time; each leg has its own, such as left 5cm in 0.2s",
+        "seule une courbe a un temps ; chaque segment a le sien, comme left 5cm in 0.2s",
+    ),
+    (
+        "the curve has more than 64 points",
+        "la courbe a plus de 64 points",
+    ),
+    (
+        "a curve of {cm} cm ({what})",
+        "une courbe de {cm} cm ({what})",
+    ),
+    ("it has no milestones", "il n’a pas de jalons"),
+    (
+        "{address} is not in the corpus",
+        "{address} n’est pas dans le corpus",
+    ),
+    (
+        "{address} could be any of {names}",
+        "{address} peut être n’importe lequel de {names}",
+    ),
+    (
+        "{address} has no movement: it is an entry of a lexicon",
+        "{address} n’a pas de mouvement : c’est une entrée d’un lexique",
+    ),
+    (
+        "{address} has no expression of the face to transfer: {why}",
+        "{address} n’a pas d’expression du visage à transférer : {why}",
+    ),
+    (
+        "{text} is no {component} of any inventory",
+        "{text} n’est dans aucun inventaire de {component}",
+    ),
+    (
+        "{name} is no manual alphabet",
+        "{name} n’est pas un alphabet manuel",
+    ),
+    (
+        "{letter} is no letter of the manual alphabet {alphabet}",
+        "{letter} n’est pas une lettre de l’alphabet manuel {alphabet}",
+    ),
+    (
+        "the corpus cannot be read: {why}",
+        "le corpus ne se lit pas : {why}",
+    ),
+    (
+        "name a sign that was captured or generated",
+        "nommez un signe qui a été capté ou composé",
+    ),
+    (
+        "import it as SiGML or HamNoSys, or write it from its movement: {command}",
+        "importez-le en SiGML ou en HamNoSys, ou écrivez-le d’après son mouvement : {command}",
+    ),
+    ("spell with {known} only", "épelez avec {known} seulement"),
+    (
+        "{text} is no number with a unit, such as {example}",
+        "{text} n’est pas un nombre avec une unité, comme {example}",
+    ),
+    (
+        "{text} has {found}; write one of {units}",
+        "{text} a {found} ; écrivez l’une de {units}",
+    ),
+    ("the unknown unit {unit}", "l’unité inconnue {unit}"),
+    (
+        "the code {code} has no table of durations",
+        "le code {code} n’a pas de table de durées",
+    ),
+    (
+        "give each phone its milliseconds, such as h=80 aU=240, or leave the pace out",
+        "donnez à chaque phone ses millisecondes, comme h=80 aU=240, ou laissez l’allure de côté",
+    ),
+    (
+        "phone {n} {label} is not in the code {code}; it has no key",
+        "le phone {n} {label} n’est pas dans le code {code} ; il n’a pas de clé",
+    ),
+    (
+        "phone {n} {label} begins before the phone before it ends",
+        "le phone {n} {label} commence avant la fin du précédent",
+    ),
+    (
+        "{letter} in {word} is silent: no rule of pronunciation knows it",
+        "{letter} dans {word} est muet : aucune règle de prononciation ne le connaît",
+    ),
+    (
+        "{text} was left out; write it in words",
+        "{text} a été laissé de côté ; écrivez-le en toutes lettres",
+    ),
+];
