@@ -311,8 +311,8 @@ fn pose_at(
 
 /// Returns the local rotations that give the hand of `side` the posture: joint and rotation.
 ///
-/// If the donor's finger joints have the same names, in the same order, on the same side, and the skeletons agree
-/// (`same_body`), its rotations are used unchanged; otherwise the angles are set.
+/// If the donor's finger joints have the same names, in the same order, on the same side, and give the same angles on
+/// this skeleton, its rotations are used unchanged; otherwise the angles are set.
 pub(crate) fn rotations(
     skeleton: &Skeleton,
     anatomy: &chereme_motion::Anatomy,

@@ -1,4 +1,4 @@
-//! Tables of facial expressions.
+//! Draws several facial expressions of the signer as a table, each above its name.
 
 use chereme_motion::{Anatomy, Clip, Face};
 

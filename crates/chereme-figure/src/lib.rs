@@ -34,14 +34,17 @@
 //! | [`palette`] | colours of body and paper |
 //! | [`camera`], [`view`] | the position of the eye; presets fitted to a clip |
 //! | [`raster`] | triangles to pixels, with lines between parts |
+//! | `buffers`, `fill`, `ink` | the steps of that: nearest surfaces, colours, lines and shade |
 //! | [`image`], [`writer`] | pixels, and PNG |
 //! | [`sheet`] | contact sheets, thumbnails |
 //! | [`points`] | markers, and points from film, as dots and limbs |
 //! | [`animation`] | moving pictures, and GIF |
+//! | `points_film`, `quantize` | animations of points; the few colours of a GIF |
 //! | [`strip`] | several of them next to each other, with captions |
 //! | [`handshape`] | a hand alone, from joint angles |
+//! | [`faces`] | a table of facial expressions |
 //! | [`chart`] | a chart of the alignment of two clips |
-//! | [`letters`] | text in any script, and the fonts of the computer |
+//! | [`letters`], `font` | text in any script, and the fonts of the computer; small dotted letters |
 //! | [`error`] | the reasons why a picture cannot be drawn |
 
 pub mod animation;

@@ -50,7 +50,7 @@ pub(crate) enum Command {
     Seek(Instant),
     /// Move the playhead of the stage, even if it shows generated movement.
     Cue(Instant),
-    /// Note the placement value that was clicked on the body: [`Shown::spot`](crate::context::DisplayState::spot).
+    /// Note the placement value that was clicked on the body: [`DisplayState::spot`](crate::context::DisplayState::spot).
     Spot(Option<String>),
     /// Play at that multiple of the recorded speed.
     Speed(f64),
@@ -58,10 +58,10 @@ pub(crate) enum Command {
     /// something in a recording end it too.
     Made(Option<Arc<GeneratedClip>>),
     /// Set the placement that can be dragged on the stage, or `None` to remove it:
-    /// [`Shown::handle`](crate::context::DisplayState::handle).
+    /// [`DisplayState::handle`](crate::context::DisplayState::handle).
     Handle(Option<Handle>),
     /// Set the path that can be pulled on the stage, or `None` to remove it:
-    /// [`Shown::course`](crate::context::DisplayState::course).
+    /// [`DisplayState::course`](crate::context::DisplayState::course).
     Course(Option<Box<Course>>),
     /// Change the path of a card, which was pulled or drawn: the card's number, and the points of the path as lengths
     /// to the left, up and forward.

@@ -16,11 +16,17 @@
 //! | `words` | every text in English and French |
 //! | `player` | the transport |
 //! | `miniatures` | looping little figures, for any pane |
+//! | `film` | the recording's films, in step with the playhead |
+//! | `pickers` | boxes in which a value is chosen by its look |
+//! | `share` | the contents of the stage as a film, a picture or a body |
+//! | `clipboard`, `file_dialogs` | the clipboard and the file choosers of the system |
 //! | `draft` | unfinished text, kept through a crash |
 //! | `settings`, `layout`, `theme` | the stored settings, the places of the panes, colours and fonts |
 //! | `script` | text in the scripts of the world: fonts, and text that is read from the right |
 //! | `panes` | one module each: rows by plain functions in `data`, widgets in `ui` |
 //! | `menu_and_status`, `start`, `overlay` | menus and status line, the page without a corpus, windows above the panes |
+//! | `pixel_rects` | shapes as rectangles of whole pixels |
+//! | `error` | the reasons why the window cannot open |
 
 mod action;
 mod app;

@@ -14,6 +14,7 @@
 //! | [`session`] | takes of one cuer: fingertips, gestures of keys, recognition and phases |
 //! | [`targets`](mod@targets) | target frames of keys, arrival of the hand, quartiles |
 //! | [`generate`] | generated sessions with known truth, from a seed |
+//! | `linear`, `terms` | small matrices; the terms of the hand's regression |
 
 pub mod face;
 pub mod gauss;

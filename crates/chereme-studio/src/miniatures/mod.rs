@@ -1,6 +1,6 @@
 //! Looping little figures: movement at a glance, for results, cards and pickers.
 //!
-//! Any pane shows one with [`Figures::show`], through [`Seen::little`](crate::context::PaneInput::little):
+//! Any pane shows one with [`Figures::show`], through [`PaneInput::little`](crate::context::PaneInput::little):
 //!
 //! ```text
 //! let motion = Motion::Span(recording, span);

@@ -17,6 +17,7 @@
 //! | `captions` | texts over the pictures |
 //! | `tools` | the line of tools above |
 //! | `transport` | the bar and the buttons below |
+//! | `ui` | the pictures, and the gestures of the mouse on them |
 
 mod artist;
 mod captions;

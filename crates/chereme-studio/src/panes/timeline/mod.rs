@@ -4,9 +4,10 @@
 //! |---|---|
 //! | `data` | positions of times, ticks, bars |
 //! | `rows` | the tier of each row |
-//! | `spans`, `dragged`, `snap` | times of annotations in a drag |
+//! | `dragged`, `snap` | times of annotations in a drag |
 //! | `changes` | requests to the corpus |
 //! | `values` | the possible values of a tier, and the digits |
+//! | `proposals` | values proposed from movement, until a person accepts them |
 //! | `lanes`, `lane_shape`, `lanes_ui` | movement as lanes |
 //! | `overview` | the whole recording in a strip |
 //! | `view_settings` | stored modes and switches |
