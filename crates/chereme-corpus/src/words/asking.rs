@@ -428,6 +428,10 @@ pub(super) const ASKING: &[(&str, &str)] = &[
         "l’inventaire {inventory} n’a pas de valeur {name}",
     ),
     (
+        "{fault}; did you mean one of {names}?",
+        "{fault} ; vouliez-vous dire l’un de {names} ?",
+    ),
+    (
         "{fault}; did you mean {near}?",
         "{fault} ; vouliez-vous dire {near} ?",
     ),

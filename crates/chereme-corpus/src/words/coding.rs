@@ -130,7 +130,11 @@ pub(super) const CODING: &[(&str, &str)] = &[
         "{annotation} is on {tier}, which does not exist",
         "{annotation} est sur {tier}, qui n’existe pas",
     ),
-    ("{name} does not exist", "{name} n’existe pas"),
+    ("tier:{id} does not exist", "il n’y a pas de tier:{id}"),
+    (
+        "annotation:{id} does not exist",
+        "il n’y a pas d’annotation:{id}",
+    ),
     (
         "{tier} is a {stereotype}: its annotations have no times of their own; change the one above",
         "{tier} est un {stereotype} : ses annotations n’ont pas de temps à elles ; modifiez celle au-dessus",

@@ -142,7 +142,7 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "the two pieces do not meet: {what} would leap by {distance} m, at {speed} m/s",
         "les deux morceaux ne se rejoignent pas : {what} sauterait de {distance} m, à {speed} m/s",
     ),
-    ("{name} has no frames", "{name} n’a pas d’images"),
+    ("\"{name}\" has no frames", "\"{name}\" n’a pas d’images"),
     (
         "the result would have {frames} frames, and at most {most} can be generated for this skeleton",
         "le résultat aurait {frames} images, et on peut en produire au plus {most} pour ce squelette",

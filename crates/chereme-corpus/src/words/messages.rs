@@ -5,18 +5,95 @@
 
 use super::Language;
 use super::asking::ASKING;
+use super::captures::CAPTURES;
 use super::coding::CODING;
 use super::commands::COMMANDS;
 use super::composing::COMPOSING;
+use super::documents::DOCUMENTS;
 use super::editing::EDITING;
 use super::findings::FINDINGS;
 use super::importing::IMPORTING;
 use super::moving::MOVING;
 use super::notes::NOTES;
 use super::queries::QUERIES;
+use super::reading::READING;
 
-/// Messages and remedies as English and French.
+/// Messages and remedies in English and French; a form that is contained in another comes after it.
 const MESSAGES: &[(&str, &str)] = &[
+    (
+        "write the name of a signer or a recording; {command} lists them",
+        "écrivez le nom d’un signeur ou d’un enregistrement ; {command} en donne la liste",
+    ),
+    (
+        "write annotation:12; {command} lists them",
+        "écrivez annotation:12 ; {command} en donne la liste",
+    ),
+    (
+        "name channels that both have with --channels; {command} lists them",
+        "nommez avec --channels des canaux que les deux ont ; {command} en donne la liste",
+    ),
+    (
+        "the file is damaged: take a backup, or save what can still be read with {command}",
+        "le fichier est abîmé : prenez une sauvegarde, ou sauvez ce qui se lit encore avec {command}",
+    ),
+    ("the file is damaged: {why}", "le fichier est abîmé : {why}"),
+    (
+        "left out of {where}, the first {gloss}: {why}",
+        "laissé de côté ({where}, le premier : {gloss}) : {why}",
+    ),
+    (
+        "there is no field or attribute {name}",
+        "il n’y a ni champ ni attribut {name}",
+    ),
+    ("the file has too many bytes", "le fichier a trop d’octets"),
+    (
+        "no column is called a gloss",
+        "aucune colonne ne s’appelle glose",
+    ),
+    (
+        "the movement has no frames",
+        "le mouvement n’a pas d’images",
+    ),
+    (
+        "a key has no part {part}",
+        "une clé n’a pas de partie {part}",
+    ),
+    (
+        "{text} is no number of a conflict",
+        "{text} n’est pas un numéro de conflit",
+    ),
+    (
+        "{text} is no number of a frame",
+        "{text} n’est pas un numéro d’image",
+    ),
+    (
+        "the stored frame time is no number",
+        "la durée d’image enregistrée n’est pas un nombre",
+    ),
+    (
+        "frame {n} of {name} is missing",
+        "il manque l’image {n} de {name}",
+    ),
+    (
+        "<{element}> was read as {what}; write digits from 1 (thumb) to 5, each once",
+        "<{element}> a été lu comme {what} ; écrivez des doigts de 1 (pouce) à 5, chacun une fois",
+    ),
+    (
+        "write one of its 209 symbols or their names",
+        "écrivez l’un de ses 209 symboles ou de leurs noms",
+    ),
+    (
+        "write one of its 209 symbols, perhaps {near}",
+        "écrivez l’un de ses 209 symboles, peut-être {near}",
+    ),
+    (
+        "write one of its 209 symbols",
+        "écrivez l’un de ses 209 symboles",
+    ),
+    (
+        "write one of a kind, after the movement that it modifies",
+        "écrivez-en un de chaque sorte, après le mouvement qu’il modifie",
+    ),
     (
         "{path}: there is nothing of this name",
         "{path} : rien ne porte ce nom",
@@ -335,6 +412,9 @@ fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
         .chain(COMPOSING)
         .chain(CODING)
         .chain(COMMANDS)
+        .chain(READING)
+        .chain(CAPTURES)
+        .chain(DOCUMENTS)
         .chain(ASKING)
 }
 
@@ -385,6 +465,15 @@ mod tests {
             assert_eq!(blanks(english), blanks(french), "{english}");
             let same = carried(english, english, english, &str::to_owned);
             assert_eq!(same.as_deref(), Some(english), "it is of its own form");
+        }
+    }
+
+    #[test]
+    fn no_form_hides_a_later_one() {
+        for (english, _) in all() {
+            let mut fitting =
+                all().filter(|(form, _)| carried(english, form, form, &str::to_owned).is_some());
+            assert_eq!(fitting.next().map(|first| first.0), Some(*english));
         }
     }
 

@@ -23,11 +23,13 @@ macro_rules! texts {
 }
 
 mod asking;
+mod captures;
 mod coding;
 mod commands;
 mod composing;
 mod count;
 pub mod deeds;
+mod documents;
 mod editing;
 mod findings;
 pub mod history;
@@ -37,6 +39,7 @@ mod messages;
 mod moving;
 mod notes;
 mod queries;
+mod reading;
 pub mod trouble;
 
 /// A language of the user interfaces.

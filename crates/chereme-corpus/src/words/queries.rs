@@ -53,7 +53,7 @@ pub(super) const QUERIES: &[(&str, &str)] = &[
     ("this sign joins nothing here", "ce signe ne relie rien ici"),
     ("{text} is no time", "{text} n’est pas un temps"),
     ("{text} has no unit", "{text} n’a pas d’unité"),
-    ("{text} is no number", "{text} n’est pas un nombre"),
+    ("\"{text}\" is no number", "\"{text}\" n’est pas un nombre"),
     (
         "there is no unit of time {unit}",
         "il n’y a pas d’unité de temps {unit}",
