@@ -90,6 +90,26 @@ impl Output {
         message(text, self.language).unwrap_or_else(|| text.to_owned())
     }
 
+    /// Writes a warning of the library in the language of the output.
+    pub(crate) fn warn(&mut self, warning: &str) -> Result<()> {
+        self.remark(trouble::WARNING, warning)
+    }
+
+    /// Writes a note of the library in the language of the output.
+    pub(crate) fn note(&mut self, note: &str) -> Result<()> {
+        self.remark(trouble::NOTE, note)
+    }
+
+    /// Writes a remedy of the library in the language of the output.
+    pub(crate) fn advise(&mut self, remedy: &str) -> Result<()> {
+        self.remark(trouble::WHAT_TO_DO, remedy)
+    }
+
+    fn remark(&mut self, form: Text, remark: &str) -> Result<()> {
+        let what = self.spoken(remark);
+        self.line(fill(self.say(form), &[("what", &what)]))
+    }
+
     /// Returns a text of the shared table in the language of the output.
     pub(crate) fn say(&self, text: Text) -> &'static str {
         text.of(self.language)

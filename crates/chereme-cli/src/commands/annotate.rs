@@ -199,7 +199,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                     .line
                     .map(|line| format!("line {line}: "))
                     .unwrap_or_default();
-                output.line(format!("{}: {line}{}", finding.severity, finding.message))?;
+                let said = output.spoken(&finding.message);
+                output.line(format!("{}: {line}{said}", finding.severity))?;
             }
             return tell(report, args.ids, output);
         }

@@ -30,12 +30,14 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     for fault in &report.faults {
         output.line(format!(
             "{}: {}: {}",
-            fault.kind, fault.place, fault.message
+            fault.kind,
+            fault.place,
+            output.spoken(&fault.message)
         ))?;
-        output.line(format!("  what to do: {}", fault.remedy))?;
+        output.advise(&fault.remedy)?;
     }
     for mended in &report.mended {
-        output.line(format!("mended: {mended}"))?;
+        output.line(format!("mended: {}", output.spoken(mended)))?;
     }
     let looked: Vec<String> = report
         .checked

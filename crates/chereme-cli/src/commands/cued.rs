@@ -230,7 +230,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             output.table(&titles, &rows)?;
             if let Some(first) = done.first() {
                 for finding in &first.findings {
-                    output.line(format!("warning: {finding}"))?;
+                    output.warn(finding)?;
                 }
             }
             if *dry_run {
@@ -506,7 +506,7 @@ fn tell(said: &FromDictionary, output: &mut Output) -> Result<()> {
         ))?;
     }
     for finding in &said.findings {
-        output.line(format!("warning: {finding}"))?;
+        output.warn(finding)?;
     }
     match &said.recording {
         Some(name) => output.line(format!("stored as {name}")),

@@ -70,7 +70,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         io::Write::flush(&mut out)?;
         drop(bar);
         for note in notes {
-            tell(&format!("note: {note}"));
+            tell(&format!("note: {}", output.spoken(&note)));
         }
         output.silence();
         return Ok(());
@@ -98,7 +98,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         }
     }
     for note in &report.notes {
-        output.line(format!("note: {note}"))?;
+        output.note(note)?;
     }
     output.document(report)
 }

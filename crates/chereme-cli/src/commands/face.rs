@@ -151,8 +151,8 @@ fn findings(all: &[FaceFinding], output: &mut Output) -> Result<()> {
         let remedy = it
             .remedy
             .as_deref()
-            .map_or(String::new(), |it| format!(" ({it})"));
-        output.line(format!("- {}{remedy}", it.message))?;
+            .map_or(String::new(), |it| format!(" ({})", output.spoken(it)));
+        output.line(format!("- {}{remedy}", output.spoken(&it.message)))?;
     }
     Ok(())
 }

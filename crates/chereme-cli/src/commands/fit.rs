@@ -63,7 +63,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         output.line(format!("not used: {}", report.unused.join(", ")))?;
     }
     for finding in &report.findings {
-        output.line(format!("warning: {finding}"))?;
+        output.warn(finding)?;
     }
     match &report.track {
         Some(track) => output.line(format!("stored as the track {track:?}"))?,

@@ -306,7 +306,7 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
             Some(ending) => format!("{} .{ending}", kind.files.len()),
             None => format!("{} without an ending", kind.files.len()),
         };
-        output.line(format!("not read: {what} ({})", kind.why))?;
+        output.line(format!("not read: {what} ({})", output.spoken(&kind.why)))?;
         for file in kind.files.iter().take(NAMED) {
             output.line(format!("  {file}"))?;
         }
@@ -314,7 +314,7 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
             output.line(format!("  and {} more", kind.files.len() - NAMED))?;
         }
         if let Some(remedy) = kind.remedy {
-            output.line(format!("    what to do: {remedy}"))?;
+            output.line(format!("    what to do: {}", output.spoken(&remedy)))?;
         }
     }
     for finding in &report.findings {

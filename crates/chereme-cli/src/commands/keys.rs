@@ -159,7 +159,7 @@ pub(super) fn run(_: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let rows: Vec<Vec<String>> = found.keys.iter().map(row).collect();
     output.table(&["shape", "placement", "phones", "seconds"], &rows)?;
     for finding in &found.findings {
-        output.line(finding)?;
+        output.line(output.spoken(finding))?;
     }
     output.document(found)
 }

@@ -140,7 +140,7 @@ fn print(report: &MergeReport, output: &mut Output) -> Result<()> {
         output.line(output.say(words::NOTHING))?;
     }
     for note in &report.notes {
-        output.line(format!("note: {note}"))?;
+        output.note(note)?;
     }
     list(&report.conflicts, output)?;
     if !report.conflicts.is_empty() {
@@ -209,7 +209,8 @@ fn file_into_corpus(cli: &Cli, args: &MergeArgs, output: &mut Output) -> Result<
     drop(bar);
     for file in &report.files {
         for finding in &file.findings {
-            output.line(format!("{}: {}", finding.severity, finding.message))?;
+            let said = output.spoken(&finding.message);
+            output.line(format!("{}: {said}", finding.severity))?;
         }
     }
     let conflicts = corpus.conflicts(false)?;

@@ -182,10 +182,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         output.line(format!("  {field}: {}{more}", counts.join(", ")))?;
     }
     for finding in &answer.findings {
-        output.line(format!("note: {}", finding.message()))?;
+        output.note(&finding.message())?;
     }
     for note in &answer.notes {
-        output.line(format!("note: {note}"))?;
+        output.note(note)?;
     }
     output.document(answer)
 }

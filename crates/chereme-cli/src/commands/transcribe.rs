@@ -76,7 +76,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             &rows,
         )?;
         for finding in &written.findings {
-            output.line(finding)?;
+            output.line(output.spoken(finding))?;
         }
     }
     output.document(written)

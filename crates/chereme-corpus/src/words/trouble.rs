@@ -4,6 +4,8 @@ texts! {
     ERROR: "error: {what}", "erreur : {what}";
     WHERE: "  where: {what}", "  où : {what}";
     WHAT_TO_DO: "  what to do: {what}", "  que faire : {what}";
+    WARNING: "warning: {what}", "attention : {what}";
+    NOTE: "note: {what}", "note : {what}";
     LINE: "line {n}: ", "ligne {n} : ";
     ACTIONS: "The actions are: {names}", "Les actions sont : {names}";
     FAILED: "That could not be done.", "Cela n’a pas été possible.";
