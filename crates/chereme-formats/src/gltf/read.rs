@@ -10,7 +10,7 @@ use chereme_motion::{
 use super::accessor::Data;
 use super::error::Error;
 use super::model::{Animation, Document, Node};
-use super::sample::{Keys, place, turn};
+use super::sample::{Keys, turn};
 use crate::finding::Finding;
 use crate::scene::{Scene, near_usual, settle};
 use crate::tally::Findings;
@@ -435,12 +435,12 @@ fn scene(data: &Data<'_>, rig: Rig, findings: &mut Findings) -> Result<Scene, Er
     let channels = rig.joints.iter().zip(&moved).zip(&rig.scales);
     let channels = channels.map(|((joint, moved), scale)| Channel {
         rotations: match &moved.rotation {
-            Some(keys) => grid.times().map(|time| turn(&keys.at(time))).collect(),
+            Some(keys) => grid.times().map(|time| keys.turn_at(time)).collect(),
             None => vec![joint.rest; grid.frames],
         },
         translations: moved.translation.as_ref().map(|keys| {
             grid.times()
-                .map(|time| place(&keys.at(time)) * *scale)
+                .map(|time| keys.place_at(time) * *scale)
                 .collect()
         }),
     });
@@ -589,9 +589,14 @@ struct Grid {
 impl Grid {
     /// Returns frames at the rate of the keys; keys between frames are reported.
     fn of<'k>(keys: impl Iterator<Item = &'k Keys>, findings: &mut Findings) -> Option<Self> {
-        let mut times: Vec<f64> = keys
-            .flat_map(|keys| keys.times.iter().map(|time| f64::from(*time)))
-            .collect();
+        // The joints of most files share one list of times.
+        let mut lists: Vec<&[f32]> = Vec::new();
+        for keys in keys {
+            if lists.last() != Some(&keys.times.as_slice()) {
+                lists.push(&keys.times);
+            }
+        }
+        let mut times: Vec<f64> = lists.concat().into_iter().map(f64::from).collect();
         times.sort_by(f64::total_cmp);
         times.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
         let (first, last) = (*times.first()?, *times.last()?);
@@ -652,11 +657,17 @@ fn morphs(document: &Document, weights: &[Weights], grid: &Grid) -> Option<Curve
         let mesh = mesh
             .and_then(|mesh| mesh.name.clone())
             .unwrap_or_else(|| "mesh".to_owned());
-        let rows: Vec<Vec<f64>> = grid.times().map(|time| moved.keys.at(time)).collect();
-        for target in 0..moved.keys.width {
+        let mut columns = vec![Vec::with_capacity(grid.frames); moved.keys.width];
+        let mut row = vec![0.0; moved.keys.width];
+        for time in grid.times() {
+            moved.keys.at(time, &mut row);
+            for (column, value) in columns.iter_mut().zip(&row) {
+                column.push(*value as f32);
+            }
+        }
+        for (target, values) in columns.into_iter().enumerate() {
             let given = names.get(target).and_then(|name| name.as_str());
             let name = given.map_or_else(|| format!("{mesh} {target}"), str::to_owned);
-            let values = rows.iter().map(|row| row[target] as f32).collect();
             curves.push(Curve::new(name, Column::singles(values)));
         }
     }

@@ -35,44 +35,90 @@ impl Keys {
         &self.values[at * self.width..(at + 1) * self.width]
     }
 
-    /// Returns the value at a time in seconds; outside the keys, that of the first or last key.
-    pub(super) fn at(&self, time: f64) -> Vec<f64> {
-        let numbers = |values: &[f32]| values.iter().map(|value| f64::from(*value)).collect();
-        let after = self.times.partition_point(|key| f64::from(*key) <= time);
-        let Some(before) = after.checked_sub(1) else {
-            return numbers(self.value(0, 1));
-        };
-        if after == self.times.len() {
-            return numbers(self.value(before, 1));
-        }
-        let (start, end) = (f64::from(self.times[before]), f64::from(self.times[after]));
-        let length = end - start;
-        let share = (time - start) / length;
-        let (a, b) = (self.value(before, 1), self.value(after, 1));
-        let pairs = a.iter().zip(b).map(|(a, b)| (f64::from(*a), f64::from(*b)));
-        match self.interpolation {
-            Interpolation::Step => numbers(a),
-            Interpolation::Linear if self.width == 4 => {
-                let quat = |values: &[f32]| {
-                    turn(&values.iter().map(|it| f64::from(*it)).collect::<Vec<_>>())
-                };
-                quat(a).slerp(quat(b), share).to_array().to_vec()
+    /// Returns the rotation at a time in seconds; outside the keys, that of the first or last key.
+    pub(super) fn turn_at(&self, time: f64) -> DQuat {
+        match self.around(time) {
+            Around::Between(before, share) if self.interpolation == Interpolation::Linear => {
+                let (a, b) = (self.value(before, 1), self.value(before + 1, 1));
+                turn(&four(a)).slerp(turn(&four(b)), share)
             }
-            Interpolation::Linear => pairs.map(|(a, b)| a + (b - a) * share).collect(),
-            Interpolation::Cubic => {
-                let (out, into) = (self.value(before, 2), self.value(after, 0));
-                let (s, s2, s3) = (share, share * share, share * share * share);
-                let spline = |(at, (a, b)): (usize, (f64, f64))| {
-                    let (out, into) = (f64::from(out[at]), f64::from(into[at]));
-                    (2.0 * s3 - 3.0 * s2 + 1.0) * a
-                        + length * (s3 - 2.0 * s2 + s) * out
-                        + (-2.0 * s3 + 3.0 * s2) * b
-                        + length * (s3 - s2) * into
-                };
-                pairs.enumerate().map(spline).collect()
+            _ => {
+                let mut values = [0.0; 4];
+                self.at(time, &mut values);
+                turn(&values)
             }
         }
     }
+
+    /// Returns the position at a time in seconds; outside the keys, that of the first or last key.
+    pub(super) fn place_at(&self, time: f64) -> DVec3 {
+        let mut values = [0.0; 3];
+        self.at(time, &mut values);
+        DVec3::from_array(values)
+    }
+
+    /// Writes the numbers at a time in seconds into `into`; outside the keys, those of the first or last key.
+    pub(super) fn at(&self, time: f64, into: &mut [f64]) {
+        let (before, share) = match self.around(time) {
+            Around::Key(key) => return put(self.value(key, 1), into),
+            Around::Between(before, share) => (before, share),
+        };
+        let (a, b) = (self.value(before, 1), self.value(before + 1, 1));
+        match self.interpolation {
+            Interpolation::Step => put(a, into),
+            Interpolation::Linear => {
+                for (into, (a, b)) in into.iter_mut().zip(a.iter().zip(b)) {
+                    let (a, b) = (f64::from(*a), f64::from(*b));
+                    *into = a + (b - a) * share;
+                }
+            }
+            Interpolation::Cubic => {
+                let (out, toward) = (self.value(before, 2), self.value(before + 1, 0));
+                let length = f64::from(self.times[before + 1]) - f64::from(self.times[before]);
+                let (s, s2, s3) = (share, share * share, share * share * share);
+                for (at, into) in into.iter_mut().enumerate().take(self.width) {
+                    let [a, out, b, toward] = [a[at], out[at], b[at], toward[at]].map(f64::from);
+                    *into = (2.0 * s3 - 3.0 * s2 + 1.0) * a
+                        + length * (s3 - 2.0 * s2 + s) * out
+                        + (-2.0 * s3 + 3.0 * s2) * b
+                        + length * (s3 - s2) * toward;
+                }
+            }
+        }
+    }
+
+    /// Returns the keys around a time.
+    fn around(&self, time: f64) -> Around {
+        let after = self.times.partition_point(|key| f64::from(*key) <= time);
+        match after.checked_sub(1) {
+            None => Around::Key(0),
+            Some(before) if after == self.times.len() => Around::Key(before),
+            Some(before) => {
+                let (start, end) = (f64::from(self.times[before]), f64::from(self.times[after]));
+                Around::Between(before, (time - start) / (end - start))
+            }
+        }
+    }
+}
+
+/// The place of a time among the keys.
+enum Around {
+    /// Outside the keys: this one is the nearest.
+    Key(usize),
+    /// After this key, by this share of the time to the next one.
+    Between(usize, f64),
+}
+
+fn put(values: &[f32], into: &mut [f64]) {
+    for (into, value) in into.iter_mut().zip(values) {
+        *into = f64::from(*value);
+    }
+}
+
+fn four(values: &[f32]) -> [f64; 4] {
+    let mut four = [0.0; 4];
+    put(values, &mut four);
+    four
 }
 
 /// Returns a unit rotation from x y z w; all zeros give the identity.
@@ -91,10 +137,57 @@ pub(super) fn turn(values: &[f64]) -> DQuat {
     }
 }
 
-/// Returns a position from x y z.
-pub(super) fn place(values: &[f64]) -> DVec3 {
-    match values {
-        [x, y, z] => DVec3::new(*x, *y, *z),
-        _ => DVec3::ZERO,
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keys(interpolation: Interpolation, width: usize, values: &[f32]) -> Keys {
+        Keys {
+            times: vec![1.0, 3.0],
+            values: values.to_vec(),
+            interpolation,
+            width,
+        }
+    }
+
+    fn at(keys: &Keys, time: f64) -> Vec<f64> {
+        let mut values = vec![0.0; keys.width];
+        keys.at(time, &mut values);
+        values
+    }
+
+    #[test]
+    fn four_weights_are_numbers_and_no_rotation() {
+        let weights = [0.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0, 0.0];
+        let keys = keys(Interpolation::Linear, 4, &weights);
+        assert!(keys.are_sound());
+        assert_eq!(at(&keys, 2.0), [0.5, 0.25, 0.0, 0.5]);
+        assert_eq!(at(&keys, 0.0), [0.0, 0.0, 0.0, 1.0]);
+        assert_eq!(at(&keys, 9.0), [1.0, 0.5, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn rotations_go_the_short_way_at_an_even_speed() {
+        let turns = [0.0, 0.9].map(|angle| DQuat::from_rotation_y(angle).as_quat().to_array());
+        let flipped = turns[1].map(|it| -it);
+        for last in [turns[1], flipped] {
+            let keys = keys(Interpolation::Linear, 4, &[turns[0], last].concat());
+            for (time, angle) in [(0.0, 0.0), (1.5, 0.225), (2.0, 0.45), (3.0, 0.9)] {
+                let turned = keys.turn_at(time);
+                let apart = turned.angle_between(DQuat::from_rotation_y(angle));
+                assert!(apart < 1e-6, "{time}: {apart}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_spline_is_that_of_the_appendix() {
+        // In-tangent, value, out-tangent of two keys: the line 2 t has the tangent 2 everywhere.
+        let line = [2.0, 2.0, 2.0, 2.0, 6.0, 2.0];
+        let keys = keys(Interpolation::Cubic, 1, &line);
+        for time in [1.0, 1.25, 2.0, 2.9, 3.0] {
+            assert!((at(&keys, time)[0] - 2.0 * time).abs() < 1e-12, "{time}");
+        }
+        assert_eq!(keys.place_at(0.0), DVec3::new(2.0, 0.0, 0.0));
     }
 }
