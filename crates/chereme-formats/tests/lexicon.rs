@@ -517,7 +517,7 @@ fn exports_of_signbank_and_asl_lex_are_understood_by_their_titles() {
         Movement Direction,Repeated Movement,Orientation Change,Mouthing\n\
         12,NGT,PET,CAP,PET-A,CAP-A,pet,2a,B,B,head,brush,backwards,True,-,pet\n";
     let (lexicon, _) = read(signbank);
-    assert_eq!(lexicon.entries[0].gloss, "PET");
+    assert_eq!(lexicon.entries[0].gloss, "PET-A");
     let codings = codings(&lexicon, 0);
     for wanted in [
         "dominant.configuration=B",
@@ -561,5 +561,45 @@ fn exports_of_signbank_and_asl_lex_are_understood_by_their_titles() {
     assert_eq!(
         lexicon.columns.iter().find_map(title),
         Some(Meaning::Attribute)
+    );
+}
+
+#[test]
+fn a_table_of_signbank_names_signs_by_their_annotation_gloss() {
+    let text = "Signbank ID,Lemma ID Gloss (Dutch),Lemma ID Gloss (English),Annotation ID Gloss (Dutch),\
+                Annotation ID Gloss (English),Senses (Dutch),Strong Hand,Relative Orientation: Movement,\
+                Phonology Other\n\
+                7,PAARD,HORSE,PAARD-A,HORSE-A,1. paard,Curved B,-,-\n\
+                8,PAARD,HORSE,PAARD-B,HORSE-B,-,S,Palm,hidden\n";
+    let (lexicon, _) = read(text);
+    let glosses: Vec<&str> = lexicon.entries.iter().map(|it| it.gloss.as_str()).collect();
+    assert_eq!(glosses, ["PAARD-A", "PAARD-B"], "they share a lemma");
+    let of = |language: &str, text: &str| (language.to_owned(), text.to_owned());
+    assert_eq!(
+        lexicon.entries[0].translations,
+        [
+            of("nl", "PAARD"),
+            of("en", "HORSE"),
+            of("en", "HORSE-A"),
+            of("nl", "1. paard")
+        ]
+    );
+    assert_eq!(
+        lexicon.entries[1].translations.len(),
+        3,
+        "a dash is no sense"
+    );
+    assert_eq!(
+        codings(&lexicon, 1),
+        [
+            "dominant.configuration=S",
+            "orientation.relative-movement=Palm"
+        ]
+    );
+    let attributes = |entry: usize| lexicon.entries[entry].attributes.clone();
+    assert_eq!(attributes(0), [of("Signbank ID", "7")]);
+    assert_eq!(
+        attributes(1),
+        [of("Signbank ID", "8"), of("Phonology Other", "hidden")]
     );
 }

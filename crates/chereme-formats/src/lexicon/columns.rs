@@ -195,7 +195,7 @@ const MEASURES: [&str; 24] = [
     "rank",
 ];
 
-/// Returns the inferred meaning of each column. The first gloss column names the sign; further ones are translations.
+/// Returns the inferred meaning of each column. One gloss column names the sign; further ones are translations.
 /// Of columns with unknown titles, those with HamNoSys's symbols are notation, the others attributes; if no column is
 /// titled a gloss, one titled a name or a word is the gloss, else the first one next to the notation. A column of
 /// measurements is an attribute even if its title names a component.
@@ -206,7 +206,6 @@ pub(super) fn meanings(
     findings: &mut Findings,
 ) -> Vec<Column> {
     let mut columns: Vec<Column> = header.iter().map(|title| column(title, mapping)).collect();
-    let mut gloss = false;
     for (at, column) in columns.iter_mut().enumerate() {
         if column.why.is_empty() && holds_notation(rows, at) {
             column.meaning = Meaning::Notation;
@@ -221,16 +220,20 @@ pub(super) fn meanings(
             column.confidence = 0.8;
             "its cells are numbers that measure".clone_into(&mut column.why);
         }
-        if let Meaning::Gloss { language } = &column.meaning {
-            if gloss {
-                column.meaning = Meaning::Translation {
-                    language: language.clone(),
-                };
-            }
-            gloss = true;
+    }
+    let named = gloss_column(&columns);
+    for (at, column) in columns.iter_mut().enumerate() {
+        if let Meaning::Gloss { language } = &column.meaning
+            && named != Some(at)
+        {
+            column.meaning = Meaning::Translation {
+                language: language.clone(),
+            };
         }
     }
-    if !gloss && let Some(at) = likely_gloss(&columns) {
+    if named.is_none()
+        && let Some(at) = likely_gloss(&columns)
+    {
         let column = &mut columns[at];
         column.meaning = Meaning::Gloss { language: None };
         column.confidence = 0.4;
@@ -258,6 +261,20 @@ pub(super) fn meanings(
     }
     tell_attributes(&columns, findings);
     columns
+}
+
+/// Returns the column that names the sign: the first gloss column of a mapping, otherwise the first one whose title
+/// speaks of annotation, because several signs of Signbank share a lemma, otherwise the first gloss column.
+fn gloss_column(columns: &[Column]) -> Option<usize> {
+    let glosses = || {
+        let gloss = |it: &(usize, &Column)| matches!(it.1.meaning, Meaning::Gloss { .. });
+        columns.iter().enumerate().filter(gloss)
+    };
+    let mapped = glosses().find(|(_, column)| column.confidence >= 1.0);
+    let annotation = |title: &str| normal(title).split(' ').any(|word| word == "annotation");
+    let annotated = || glosses().find(|(_, column)| annotation(&column.title));
+    let found = mapped.or_else(annotated).or_else(|| glosses().next());
+    found.map(|(at, _)| at)
 }
 
 /// Reports the columns that become attributes, all in one finding.

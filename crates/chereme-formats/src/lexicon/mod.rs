@@ -258,7 +258,7 @@ fn entry(row: Row, gloss: usize, columns: &[Column]) -> LexiconEntry {
     };
     for (at, (column, cell)) in columns.iter().zip(&row.cells).enumerate() {
         match &column.meaning {
-            Meaning::Translation { language } if !cell.trim().is_empty() => {
+            Meaning::Translation { language } if !["", "-"].contains(&cell.trim()) => {
                 let language = language.clone().unwrap_or_default();
                 entry.translations.push((language, cell.trim().to_owned()));
             }
@@ -266,7 +266,8 @@ fn entry(row: Row, gloss: usize, columns: &[Column]) -> LexiconEntry {
             Meaning::Notation if !cell.trim().is_empty() && entry.notation.is_none() => {
                 entry.notation = Some(in_plain_symbols(cell).trim().to_owned());
             }
-            Meaning::Attribute if !cell.trim().is_empty() => {
+            // Signbank writes a dash for what is not set.
+            Meaning::Attribute if !["", "-"].contains(&cell.trim()) => {
                 entry.attributes.push((column.title.clone(), cell.clone()));
             }
             Meaning::Coding {
