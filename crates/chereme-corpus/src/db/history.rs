@@ -19,7 +19,7 @@ use crate::progress::{Progress, Step, Unit};
 use tracked::{TRACKED, columns, from_image, row_image};
 
 pub(super) use tracked::record_changes;
-pub(crate) use tracked::refers_to;
+pub(crate) use tracked::{alike, refers_to};
 
 const PART_BYTES: usize = 4 << 20;
 
@@ -483,9 +483,10 @@ fn expect_row(
         .optional()?;
     let found = found.and_then(|text| serde_json::from_str::<Value>(&text).ok());
     // The row image of an earlier version has fewer columns.
-    let same = found
-        .zip(want.as_object())
-        .is_some_and(|(found, want)| want.iter().all(|(column, value)| found[column] == *value));
+    let same = found.zip(want.as_object()).is_some_and(|(found, want)| {
+        want.iter()
+            .all(|(column, value)| alike(&found[column], value))
+    });
     if same {
         return Ok(());
     }

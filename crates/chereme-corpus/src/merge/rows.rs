@@ -3,6 +3,7 @@
 use rusqlite::Connection;
 use serde_json::Value;
 
+use crate::db::history::alike;
 use crate::db::merge::Image;
 use crate::db::tiers;
 use crate::error::Result;
@@ -39,17 +40,17 @@ pub(super) fn merged(table: &str, base: &Image, mine: &Image, theirs: &Image) ->
         // The first columns of a group hold its value, the others its source.
         let length = if group[0] == "state" { 2 } else { 1 };
         let said = |values: &[Value]| values[..length].to_vec();
-        if new == old || own == new || said(&new) == said(&own) {
+        if same(&new, &old) || same(&own, &new) || same(&said(&new), &said(&own)) {
             continue;
         }
-        if own == old || said(&own) == said(&old) {
+        if same(&own, &old) || same(&said(&own), &said(&old)) {
             for (column, value) in group.iter().zip(new) {
                 taken.insert((*column).to_owned(), value);
             }
         } else if group == ["duration_us"] {
             let most = own[0].as_i64().max(new[0].as_i64());
             taken.insert("duration_us".to_owned(), Value::from(most));
-        } else if said(&new) != said(&old)
+        } else if !same(&said(&new), &said(&old))
             && !SOFT.iter().any(|it| it.0 == table && group == [it.1])
         {
             disagree = true;
@@ -61,8 +62,13 @@ pub(super) fn merged(table: &str, base: &Image, mine: &Image, theirs: &Image) ->
 /// Reports whether the content of a row has changed; its position among other rows does not count.
 pub(super) fn differ(table: &str, base: &Image, mine: &Image) -> bool {
     let soft = |column: &str| SOFT.contains(&(table, column));
-    mine.iter()
-        .any(|(column, value)| !soft(column) && base.get(column).unwrap_or(&Value::Null) != value)
+    mine.iter().any(|(column, value)| {
+        !soft(column) && !alike(base.get(column).unwrap_or(&Value::Null), value)
+    })
+}
+
+fn same(a: &[Value], b: &[Value]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| alike(a, b))
 }
 
 fn groups<'g>(table: &str, row: &'g Image) -> Vec<Vec<&'g str>> {

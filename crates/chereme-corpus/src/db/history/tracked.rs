@@ -1,6 +1,7 @@
 //! The tables whose changes history records, and the triggers that record them.
 
 use rusqlite::Connection;
+use serde_json::Value;
 
 use crate::error::Result;
 
@@ -173,6 +174,8 @@ pub(in crate::db) struct Column {
     pub(in crate::db) name: String,
     /// Whether it holds bytes, which are hexadecimal in JSON.
     pub(in crate::db) blob: bool,
+    /// Whether it holds floating-point numbers, which need 17 digits in JSON.
+    real: bool,
 }
 
 /// Returns the columns of a table in their order.
@@ -184,6 +187,7 @@ pub(in crate::db) fn columns(connection: &Connection, table: &str) -> Result<Vec
             Ok(Column {
                 name: row.get(0)?,
                 blob: row.get::<_, String>(1)? == "BLOB",
+                real: row.get::<_, String>(1)? == "REAL",
             })
         })?
         .collect::<rusqlite::Result<Vec<_>>>()?;
@@ -194,12 +198,14 @@ pub(in crate::db) fn columns(connection: &Connection, table: &str) -> Result<Vec
 pub(in crate::db) fn row_image(columns: &[Column], row: &str) -> String {
     let fields: Vec<String> = columns
         .iter()
-        .map(|Column { name, blob }| {
-            if *blob {
-                format!("'{name}',hex({row}.{name})")
-            } else {
-                format!("'{name}',{row}.{name}")
-            }
+        .map(|Column { name, blob, real }| match (blob, real) {
+            (true, _) => format!("'{name}',hex({row}.{name})"),
+            // SQLite writes 15 digits of a number into JSON by itself.
+            (_, true) => format!(
+                "'{name}',iif(abs({row}.{name}) < 1e300, json(printf('%!.17g', {row}.{name})), \
+                 {row}.{name})"
+            ),
+            _ => format!("'{name}',{row}.{name}"),
         })
         .collect();
     format!("json_object({})", fields.join(","))
@@ -216,8 +222,92 @@ pub(crate) fn refers_to(table: &str, column: &str) -> Option<&'static str> {
 pub(in crate::db) fn from_image(column: &Column) -> String {
     let name = &column.name;
     if column.blob {
-        format!("unhex(json_extract(?1, '$.{name}'))")
+        // The image of a null is the same as that of no bytes, and no column holds no bytes.
+        format!("unhex(nullif(json_extract(?1, '$.{name}'), ''))")
     } else {
         format!("json_extract(?1, '$.{name}')")
+    }
+}
+
+/// Reports whether two values of row images are equal; earlier versions wrote numbers with 15 digits.
+pub(crate) fn alike(a: &Value, b: &Value) -> bool {
+    /// The largest relative error of a number with 15 digits.
+    const LEAST: f64 = 1e-14;
+    if a == b {
+        return true;
+    }
+    match (a.as_f64(), b.as_f64()) {
+        (Some(x), Some(y)) if a.is_f64() || b.is_f64() => {
+            (x - y).abs() <= LEAST * x.abs().max(y.abs())
+        }
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Row = (Option<f64>, Option<Vec<u8>>, Option<String>, Option<i64>);
+
+    #[test]
+    fn a_row_is_the_same_after_its_image() {
+        let connection = Connection::open_in_memory().expect("opened");
+        let table = "CREATE TABLE t (x REAL, b BLOB, s TEXT, n INTEGER) STRICT";
+        connection.execute_batch(table).expect("created");
+        let all = columns(&connection, "t").expect("columns");
+        let values: Vec<String> = all.iter().map(from_image).collect();
+        let image = format!("SELECT {} FROM t AS r", row_image(&all, "r"));
+        let insert = format!("INSERT INTO t VALUES ({})", values.join(","));
+        let mut state = 1_u64;
+        let random = std::iter::repeat_with(|| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        });
+        let special = [
+            0.0,
+            -0.1,
+            1e-300,
+            1e300,
+            f64::MAX,
+            f64::INFINITY,
+            1.0 / 3.0,
+            2e15 + 0.5,
+        ];
+        let numbers = special.into_iter().map(Some).chain([None]);
+        for x in numbers.chain(random.take(3000).map(Some)) {
+            let row: Row = (
+                x,
+                x.map(|_| vec![0, 255]),
+                x.map(|it| it.to_string()),
+                x.map(|_| 7),
+            );
+            connection.execute("DELETE FROM t", []).expect("deleted");
+            let sql = "INSERT INTO t VALUES (?1, ?2, ?3, ?4)";
+            connection
+                .execute(sql, (row.0, &row.1, &row.2, row.3))
+                .expect("inserted");
+            let text: String = connection
+                .query_row(&image, [], |it| it.get(0))
+                .expect("an image");
+            connection.execute("DELETE FROM t", []).expect("deleted");
+            connection.execute(&insert, [&text]).expect("inserted");
+            let again: Row = connection
+                .query_row("SELECT * FROM t", [], |it| {
+                    Ok((it.get(0)?, it.get(1)?, it.get(2)?, it.get(3)?))
+                })
+                .expect("a row");
+            assert_eq!(again, row, "{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_with_15_digits_are_alike_and_others_are_not() {
+        let third = Value::from(1.0 / 3.0);
+        assert!(alike(&third, &Value::from(0.333_333_333_333_333)));
+        assert!(!alike(&third, &Value::from(0.333_333_333_333)));
+        assert!(!alike(&Value::from(1), &Value::from(2)) && !alike(&third, &Value::Null));
     }
 }
