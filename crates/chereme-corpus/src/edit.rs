@@ -211,7 +211,8 @@ fn derive(connection: &Connection, recordings: &[i64]) -> Result<()> {
     Ok(())
 }
 
-fn sign_there(connection: &Connection, id: i64) -> Result<i64> {
+/// Returns the number of a sign if there is such a sign.
+pub(crate) fn sign_there(connection: &Connection, id: i64) -> Result<i64> {
     match edits::sign(connection, id) {
         Ok(_) => Ok(id),
         Err(Error::Database(rusqlite::Error::QueryReturnedNoRows)) => {

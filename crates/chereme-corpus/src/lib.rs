@@ -15,6 +15,7 @@ mod cue;
 mod cued;
 mod curves;
 pub(crate) mod db;
+mod delete;
 mod details;
 mod edit;
 mod error;
@@ -104,10 +105,12 @@ pub use cued::{
     ScriptCoverage, SlipKind, WorthRecording, read_marker_labels,
 };
 pub use db::columns::{AnnotationOrigin, Origin, ValueState};
+pub use db::delete::Belongings;
 pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
 pub use db::tiers::{TierRow, TierShown};
 pub use db::{OperationKind, OperationRow, on_waiting};
+pub use delete::{DeleteOptions, Deleted, DeletedRecording, Dependent, Dependents};
 pub use details::{
     Details, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue,
 };

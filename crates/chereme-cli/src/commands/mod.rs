@@ -7,6 +7,7 @@ mod choose;
 mod completions;
 mod cue;
 mod cued;
+mod delete;
 mod demo;
 mod diff;
 mod export;
@@ -54,6 +55,7 @@ pub(crate) enum Command {
     Info(list::InfoArgs),
     List(list::Args),
     Annotate(annotate::Args),
+    Delete(delete::Args),
     Inventory(inventory::Args),
     Track(track::Args),
     Fit(fit::Args),
@@ -95,6 +97,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Info(args) => list::info(cli, args, output),
         Command::List(args) => list::list(cli, args, output),
         Command::Annotate(args) => annotate::run(cli, args, output),
+        Command::Delete(args) => delete::run(cli, args, output),
         Command::Inventory(args) => inventory::run(cli, args, output),
         Command::Export(args) => export::run(cli, args, output).map_err(offer_force),
         Command::New(args) => new::run(cli, args, output),

@@ -19,6 +19,18 @@ const CHANGED: &[&str] = &[
     "/removed",
     "/recordings",
 ];
+const DELETED: &[&str] = &[
+    "/dry_run",
+    "/recordings/0/recording",
+    "/recordings/0/name",
+    "/recordings/0/tracks",
+    "/recordings/0/tiers",
+    "/recordings/0/annotations",
+    "/recordings/0/tokens",
+    "/signs",
+    "/annotations",
+    "/dependents",
+];
 const HITS: &[&str] = &[
     "/query",
     "/total",
@@ -252,6 +264,16 @@ pub(crate) const CASES: &[Case] = &[
     ("annotate @c --in bowl set a1 --value TASSE", 0, CHANGED),
     ("annotate @c --in bowl split a1 --at 0.4", 0, CHANGED),
     ("annotate @c --in bowl remove a8", 0, CHANGED),
+    ("delete @c recording:bowl --dry-run", 0, DELETED),
+    ("delete @c recording:bowl", 0, DELETED),
+    (
+        "delete @c sign:CHAT --with-dependents",
+        0,
+        &["/signs/0", "/annotations", "/dependents/0/address"],
+    ),
+    ("delete @c sign:CHAT", 1, ERROR),
+    ("delete @c CHAT", 1, ERROR),
+    ("delete @c recording:none", 1, ERROR),
     ("annotate @c from @more/changes.csv", 0, CHANGED),
     (
         "annotate @c --in bowl add Gloss JOUR --start 0.2 --end 0.4",

@@ -239,6 +239,21 @@ fn carry_out(
     Ok((report, summary))
 }
 
+/// Removes annotations with all below them, inside the caller's operation, and returns how many were removed.
+pub(crate) fn remove_all(
+    connection: &Connection,
+    annotations: &[i64],
+    progress: &mut Progress<'_>,
+) -> Result<u64> {
+    let remove = |id: &i64| AnnotationAction::Remove {
+        annotation: AnnotationName::Number(*id),
+    };
+    let changes: Vec<AnnotationChange> = annotations.iter().map(remove).map(Into::into).collect();
+    let options = AnnotateOptions::default();
+    let (report, _) = carry_out(connection, &changes, &options, Vec::new(), progress)?;
+    Ok(report.removed)
+}
+
 /// State while a list of changes is carried out.
 struct Work<'a> {
     connection: &'a Connection,

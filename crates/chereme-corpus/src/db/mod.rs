@@ -7,6 +7,7 @@ pub(crate) mod attributes;
 pub(crate) mod check;
 pub(crate) mod columns;
 pub(crate) mod contents;
+pub(crate) mod delete;
 pub(crate) mod dump;
 pub(crate) mod edits;
 pub(crate) mod history;

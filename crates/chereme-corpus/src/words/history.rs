@@ -66,6 +66,8 @@ texts! {
     DID_MERGE_VALUES: "Values merged: {what}", "Valeurs fusionnées : {what}";
     DID_KEEP_SEARCH: "Search saved: {what}", "Recherche enregistrée : {what}";
     DID_RENAME_SEARCH: "Search renamed: {what}", "Recherche renommée : {what}";
+    DID_DELETE: "Deleted: {what}", "Supprimé : {what}";
+    BACK_AGAIN: "Restored: {what}", "Rétabli : {what}";
     DID_FORGET_SEARCH: "Saved search removed: {what}", "Recherche enregistrée supprimée : {what}";
 }
 
@@ -122,6 +124,7 @@ fn plain(name: &str) -> Option<Text> {
         "keep search" => DID_KEEP_SEARCH,
         "rename search" => DID_RENAME_SEARCH,
         "forget search" => DID_FORGET_SEARCH,
+        "delete" => DID_DELETE,
         _ => return None,
     })
 }
@@ -136,6 +139,9 @@ pub fn taken_back(it: &OperationRow, language: Language) -> String {
         let values: [(&str, &dyn Display); 2] = [("n", &n), ("place", &place)];
         (it.name == "annotate" && what == "removed").then(|| fill(text.of(language), &values))
     };
+    if it.name == "delete" {
+        return fill(BACK_AGAIN.of(language), &[("what", &it.summary)]);
+    }
     let whole = || {
         fill(
             TAKEN_BACK.of(language),
@@ -254,6 +260,7 @@ mod tests {
                 "Search saved: chins",
                 "Recherche enregistrée : chins",
             ),
+            ("delete", "a, B", "Deleted: a, B", "Supprimé : a, B"),
             ("novel", "x", "novel: x", "novel: x"),
         ] {
             let row = row(1, OperationKind::Do, None, name, summary);
@@ -285,5 +292,7 @@ mod tests {
             assert_eq!(taken_back(&row, Language::English), english);
             assert_eq!(taken_back(&row, Language::French), french);
         }
+        let row = row(2, OperationKind::Undo, Some(1), "delete", "escargot");
+        assert_eq!(taken_back(&row, Language::French), "Rétabli : escargot");
     }
 }

@@ -231,6 +231,30 @@ const MESSAGES: &[(&str, &str)] = &[
         "{command} lists all operations",
         "{command} dit ce qui a été fait",
     ),
+    (
+        "generated signs take movement from {what}: {made}",
+        "des signes composés prennent leur mouvement de {what} : {made}",
+    ),
+    (
+        "delete them as well with --with-dependents, or keep them with --keep-dependents: they keep their own movement, and their recipes cannot be evaluated again",
+        "supprimez-les aussi avec --with-dependents, ou gardez-les avec --keep-dependents : ils gardent leur mouvement, mais leurs recettes ne peuvent plus être évaluées",
+    ),
+    (
+        "{gloss} has {count} in recordings that stay, the first in {place}",
+        "{gloss} a {count} dans des enregistrements qui restent, la première dans {place}",
+    ),
+    (
+        "delete its annotations as well with --with-dependents, or name the recordings, too",
+        "supprimez aussi ses annotations avec --with-dependents, ou nommez aussi les enregistrements",
+    ),
+    (
+        "{what} is neither a recording nor a sign",
+        "{what} n’est ni un enregistrement ni un signe",
+    ),
+    (
+        "write sign:GLOSS, or recording:NAME",
+        "écrivez sign:GLOSE ou recording:NOM",
+    ),
     ("there is nothing to undo", "il n’y a rien à annuler"),
     ("there is nothing to redo", "il n’y a rien à rétablir"),
     (

@@ -29,6 +29,7 @@ mod commands;
 mod composing;
 mod count;
 pub mod deeds;
+pub mod deletion;
 mod documents;
 mod editing;
 mod findings;
@@ -112,7 +113,13 @@ pub fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 4] = [deeds::ALL, history::ALL, merge::ALL, trouble::ALL];
+    const TABLES: [&[(&str, Text)]; 5] = [
+        deeds::ALL,
+        deletion::ALL,
+        history::ALL,
+        merge::ALL,
+        trouble::ALL,
+    ];
 
     fn blanks(text: &str) -> Vec<&str> {
         let mut names: Vec<&str> = text

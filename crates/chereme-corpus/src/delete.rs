@@ -1,0 +1,389 @@
+//! Deletes recordings and signs, each with everything that belongs to it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_motion::Instant;
+use rusqlite::Connection;
+use serde::Serialize;
+
+use crate::Corpus;
+use crate::address::{self, Address, Name};
+use crate::annotate;
+use crate::db::check::tried;
+use crate::db::delete::{self as rows, Belongings};
+use crate::db::edits;
+use crate::db::recipes;
+use crate::db::recordings;
+use crate::db::signs::{self, TokenRow};
+use crate::db::tiers;
+use crate::edit::sign_there;
+use crate::error::{Error, Result};
+use crate::progress::{Progress, Step, Unit};
+use crate::words;
+
+/// What happens to things that depend on a deleted one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Dependents {
+    /// Nothing is deleted if there are any.
+    #[default]
+    Refuse,
+    /// They are deleted, too.
+    Delete,
+    /// Generated signs keep their movement; their recipes have lost a source and cannot be evaluated again.
+    Keep,
+}
+
+/// How to delete.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct DeleteOptions {
+    /// What happens to generated signs whose recipes take movement from something deleted, and to annotations of a
+    /// deleted sign in recordings that stay.
+    pub dependents: Dependents,
+    /// Whether to report what would be deleted, and write nothing.
+    pub dry_run: bool,
+}
+
+/// A deleted recording.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct DeletedRecording {
+    /// Its row.
+    pub recording: i64,
+    /// Its name.
+    pub name: String,
+    /// The rows that went with it.
+    #[serde(flatten)]
+    pub belongings: Belongings,
+}
+
+/// Something that depends on a deleted recording or sign.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Dependent {
+    /// Its address: a generated recording, or an annotation of the sign in a recording that stays.
+    pub address: String,
+    /// The name of the recording.
+    pub recording: String,
+    /// The time of the annotation; `None` for a generated recording.
+    pub start_us: Option<i64>,
+}
+
+/// The result of a deletion.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct Deleted {
+    /// Whether nothing was written.
+    pub dry_run: bool,
+    /// The recordings, in the order of their rows.
+    pub recordings: Vec<DeletedRecording>,
+    /// The signs: those that were named, and those without token, translation and remark afterwards.
+    pub signs: Vec<String>,
+    /// How many annotations were removed from recordings that stay.
+    pub annotations: u64,
+    /// Things that depend on deleted ones: deleted or kept, as asked for, or in the way.
+    pub dependents: Vec<Dependent>,
+    /// The names of the recordings and of the named signs, as in the history.
+    pub summary: String,
+}
+
+impl Corpus {
+    /// Deletes recordings and signs as one operation.
+    ///
+    /// A recording goes with its tracks, tiers, annotations, tokens and recipe. The blocks of its movement stay in the
+    /// file, because undo restores the recording with them; so do media files next to the corpus. A sign goes with its
+    /// lexicon entries, translations and remarks, and with recordings that were generated for it alone. A sign that
+    /// loses its last token goes as well, unless it has a translation or a remark.
+    ///
+    /// # Errors
+    /// Fails if there is no such recording or sign, or if something depends on it and `options` does not say what
+    /// happens to that.
+    pub fn delete(
+        &mut self,
+        what: &[Address],
+        options: DeleteOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Deleted> {
+        if options.dry_run {
+            let connection = self.store.read();
+            let plan = Plan::of(connection, what, options.dependents)?;
+            let mut done = match plan.is_refused(options.dependents) {
+                true => plan.foreseen(connection)?,
+                false => tried(connection, || plan.carry_out(connection, progress))?,
+            };
+            done.dry_run = true;
+            return Ok(done);
+        }
+        self.store
+            .operation_told("delete", progress, |connection, progress| {
+                edits::defer_references(connection)?;
+                let plan = Plan::of(connection, what, options.dependents)?;
+                if plan.is_refused(options.dependents) {
+                    return Err(plan.refusal(connection)?);
+                }
+                let done = plan.carry_out(connection, progress)?;
+                let summary = done.summary.clone();
+                Ok((done, summary))
+            })
+    }
+}
+
+/// Everything that goes, and what depends on it.
+#[derive(Default)]
+struct Plan {
+    recordings: BTreeSet<i64>,
+    signs: BTreeSet<i64>,
+    /// Entries of the signs in the lexicon.
+    entries: Vec<i64>,
+    /// Tokens of the signs in recordings that stay.
+    annotated: Vec<TokenRow>,
+    /// Generated recordings that take movement from something that goes, by row.
+    made: BTreeMap<i64, String>,
+}
+
+impl Plan {
+    fn of(connection: &Connection, what: &[Address], dependents: Dependents) -> Result<Self> {
+        let mut plan = Self::default();
+        for address in what {
+            match address {
+                Address::Recording(name) => {
+                    plan.recordings
+                        .insert(address::recording(connection, name)?.id);
+                }
+                Address::Sign(name) => {
+                    plan.signs.insert(sign(connection, name)?);
+                }
+                other => return Err(not_here(other)),
+            }
+        }
+        for sign in plan.signs.clone() {
+            plan.tokens_of(connection, sign)?;
+        }
+        plan.follow(connection, dependents)?;
+        Ok(plan)
+    }
+
+    /// Sorts the tokens of a sign: recordings that were generated for it alone go with it.
+    fn tokens_of(&mut self, connection: &Connection, sign: i64) -> Result<()> {
+        for token in signs::tokens_of_sign(connection, sign)? {
+            let Some(recording) = token.recording_id else {
+                self.entries.push(token.id);
+                continue;
+            };
+            if self.recordings.contains(&recording) {
+                continue;
+            }
+            let generated = recipes::of_recording(connection, recording)?.is_some();
+            let all = signs::tokens_of_recording(connection, recording)?;
+            if generated && all.iter().all(|it| self.signs.contains(&it.sign_id)) {
+                self.recordings.insert(recording);
+            } else {
+                self.annotated.push(token);
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds the generated recordings that take movement from something that goes; if they go too, also those that
+    /// take movement from them.
+    fn follow(&mut self, connection: &Connection, dependents: Dependents) -> Result<()> {
+        let mut next: Vec<i64> = self.recordings.iter().copied().collect();
+        let mut users = Vec::new();
+        for entry in &self.entries {
+            users.extend(recipes::made_from(connection, *entry)?);
+        }
+        loop {
+            for recording in std::mem::take(&mut next) {
+                users.extend(recipes::made_from_recording(connection, recording)?);
+            }
+            if users.is_empty() {
+                break;
+            }
+            for (recording, name) in std::mem::take(&mut users) {
+                if self.recordings.contains(&recording) {
+                    continue;
+                }
+                self.made.insert(recording, name);
+                if dependents == Dependents::Delete {
+                    self.recordings.insert(recording);
+                    next.push(recording);
+                }
+            }
+        }
+        let gone = &self.recordings;
+        self.annotated
+            .retain(|token| token.recording_id.is_none_or(|it| !gone.contains(&it)));
+        Ok(())
+    }
+
+    /// Returns whether something is in the way. Generated signs can be kept, but no annotation of a sign that goes.
+    fn is_refused(&self, dependents: Dependents) -> bool {
+        match dependents {
+            Dependents::Refuse => !self.made.is_empty() || !self.annotated.is_empty(),
+            Dependents::Keep => !self.annotated.is_empty(),
+            Dependents::Delete => false,
+        }
+    }
+
+    fn refusal(&self, connection: &Connection) -> Result<Error> {
+        let gone = self.names(connection)?;
+        if let Some(token) = self.annotated.first() {
+            let place = place(token);
+            let count = words::counted(self.annotated.len() as u64, "tokens");
+            return Ok(Error::wrong(format!(
+                "{} has {count} in recordings that stay, the first in {place}",
+                token.gloss
+            ))
+            .at(place)
+            .advise(
+                "delete its annotations as well with --with-dependents, or name the recordings, too",
+            ));
+        }
+        let made: Vec<&str> = self.made.values().map(String::as_str).collect();
+        Ok(Error::wrong(format!(
+            "generated signs take movement from {gone}: {}",
+            made.join(", ")
+        ))
+        .at(gone)
+        .advise(
+            "delete them as well with --with-dependents, or keep them with --keep-dependents: they keep their own \
+             movement, and their recipes cannot be evaluated again",
+        ))
+    }
+
+    /// Returns the names of the recordings and the glosses of the signs that go.
+    fn names(&self, connection: &Connection) -> Result<String> {
+        let mut names = BTreeSet::new();
+        for recording in &self.recordings {
+            names.insert(recordings::recording(connection, *recording)?.name);
+        }
+        for sign in &self.signs {
+            names.insert(edits::sign(connection, *sign)?.0);
+        }
+        Ok(names.into_iter().collect::<Vec<_>>().join(", "))
+    }
+
+    /// Returns what is to be deleted, without trying it.
+    fn foreseen(&self, connection: &Connection) -> Result<Deleted> {
+        let mut done = Deleted {
+            summary: self.names(connection)?,
+            dependents: self.dependents(),
+            ..Deleted::default()
+        };
+        for recording in &self.recordings {
+            done.recordings.push(counted(connection, *recording)?);
+        }
+        for sign in &self.signs {
+            done.signs.push(edits::sign(connection, *sign)?.0);
+        }
+        Ok(done)
+    }
+
+    fn dependents(&self) -> Vec<Dependent> {
+        let made = self.made.iter().map(|(recording, name)| Dependent {
+            address: format!("recording:{recording}"),
+            recording: name.clone(),
+            start_us: None,
+        });
+        let annotated = self.annotated.iter().map(|token| Dependent {
+            address: format!("annotation:{}", token.annotation_id.unwrap_or_default()),
+            recording: token.recording.clone().unwrap_or_default(),
+            start_us: token.start_us,
+        });
+        made.chain(annotated).collect()
+    }
+
+    fn carry_out(&self, connection: &Connection, progress: &mut Progress<'_>) -> Result<Deleted> {
+        let mut done = self.foreseen(connection)?;
+        let mut affected: BTreeMap<i64, String> = BTreeMap::new();
+        for (count, recording) in self.recordings.iter().enumerate() {
+            progress.tell(Step {
+                task: "deleting",
+                done: count as u64,
+                total: Some(self.recordings.len() as u64),
+                unit: Unit::Items,
+            })?;
+            for token in signs::tokens_of_recording(connection, *recording)? {
+                affected.insert(token.sign_id, token.gloss);
+            }
+            rows::delete_recording(connection, *recording)?;
+        }
+        done.annotations = self.remove_annotations(connection, progress)?;
+        for entry in &self.entries {
+            signs::delete_token(connection, *entry)?;
+        }
+        for sign in &self.signs {
+            affected.remove(sign);
+            rows::delete_sign(connection, *sign)?;
+        }
+        for (sign, gloss) in affected {
+            rows::cite_another(connection, sign)?;
+            signs::delete_empty_sign(connection, sign)?;
+            if signs::find_sign(connection, &gloss)?.is_none() {
+                done.signs.push(gloss);
+            }
+        }
+        done.signs.sort();
+        Ok(done)
+    }
+
+    /// Removes the annotations of the signs from recordings that stay, with all below them.
+    fn remove_annotations(
+        &self,
+        connection: &Connection,
+        progress: &mut Progress<'_>,
+    ) -> Result<u64> {
+        let own: BTreeSet<i64> = self
+            .annotated
+            .iter()
+            .filter_map(|token| token.annotation_id)
+            .collect();
+        let mut roots = Vec::new();
+        for id in &own {
+            let mut above = tiers::annotation(connection, *id)?.parent_id;
+            while let Some(parent) = above.filter(|parent| !own.contains(parent)) {
+                above = tiers::annotation(connection, parent)?.parent_id;
+            }
+            if above.is_none() {
+                roots.push(*id);
+            }
+        }
+        annotate::remove_all(connection, &roots, progress)
+    }
+}
+
+fn counted(connection: &Connection, recording: i64) -> Result<DeletedRecording> {
+    Ok(DeletedRecording {
+        recording,
+        name: recordings::recording(connection, recording)?.name,
+        belongings: rows::belongings(connection, recording)?,
+    })
+}
+
+fn place(token: &TokenRow) -> String {
+    let start = Instant::from_micros(token.start_us.unwrap_or_default());
+    let recording = token.recording.as_deref().unwrap_or_default();
+    format!("{recording:?} at {start}")
+}
+
+fn sign(connection: &Connection, name: &Name) -> Result<i64> {
+    match name {
+        Name::Text(gloss) => address::sign(connection, gloss),
+        Name::Number(id) => sign_there(connection, *id),
+    }
+}
+
+/// Returns the error for something that is removed in another way.
+fn not_here(address: &Address) -> Error {
+    let remedy = match address {
+        Address::Annotation(_) | Address::Token(_) => {
+            "a token goes with its annotation: `chereme annotate CORPUS remove ANNOTATION`"
+        }
+        Address::Tier(_) => "remove a tier with `chereme annotate CORPUS remove-tier TIER`",
+        Address::Gloss(_) => "write sign:GLOSS, or recording:NAME",
+        _ => "write recording:3, recording:NAME or sign:GLOSS",
+    };
+    Error::wrong(format!("{address} is neither a recording nor a sign"))
+        .at(address.to_string())
+        .advise(remedy)
+}
+
+#[cfg(test)]
+#[path = "delete/tests.rs"]
+mod tests;

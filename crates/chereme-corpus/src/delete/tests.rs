@@ -1,0 +1,289 @@
+use std::path::PathBuf;
+
+use chereme_motion::Instant;
+use rusqlite::types::Value;
+
+use super::*;
+use crate::{
+    AnnotateOptions, AnnotationAction, AnnotationChange, ImportOptions, Moment, SearchOptions,
+    SignChange, unheard, unpack_starter,
+};
+
+/// Returns a corpus with two captured takes and a small lexicon, and LIMACE, which is generated from one of them.
+fn corpus() -> (tempfile::TempDir, Corpus) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = unpack_starter(&folder.path().join("files")).expect("unpacked");
+    let wanted = ["escargot", "bol", "lexicon"];
+    let named = |path: &PathBuf| {
+        path.file_stem()
+            .is_some_and(|it| wanted.iter().any(|w| it == *w))
+    };
+    let files: Vec<PathBuf> = files.into_iter().filter(named).collect();
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("created");
+    corpus
+        .import(
+            &files,
+            &ImportOptions::default(),
+            &mut Progress::new(&mut unheard),
+        )
+        .expect("imported");
+    corpus
+        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .expect("generated");
+    (folder, corpus)
+}
+
+fn delete(corpus: &mut Corpus, what: &str, dependents: Dependents) -> Result<Deleted> {
+    let what: Vec<Address> = what
+        .split_whitespace()
+        .map(|it| it.parse().expect("an address"))
+        .collect();
+    let options = DeleteOptions {
+        dependents,
+        dry_run: false,
+    };
+    corpus.delete(&what, options, &mut Progress::new(&mut unheard))
+}
+
+/// Every row of every table, except the history and the search index.
+fn state(corpus: &Corpus) -> Vec<(String, Vec<Value>)> {
+    let connection = corpus.store.read();
+    let tables = "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE 'search_%'
+                  AND name NOT IN ('operation', 'changeset') ORDER BY name";
+    let mut tables = connection.prepare(tables).expect("a schema");
+    let tables = tables.query_map([], |row| row.get::<_, String>(0));
+    let mut all = Vec::new();
+    for table in tables.expect("tables").map(|it| it.expect("a name")) {
+        let sql = format!("SELECT * FROM {table} ORDER BY 1");
+        let mut statement = connection.prepare(&sql).expect("a table");
+        let width = statement.column_count();
+        let rows = statement.query_map([], |row| (0..width).map(|at| row.get(at)).collect());
+        for row in rows.expect("rows") {
+            all.push((table.clone(), row.expect("a row")));
+        }
+    }
+    all
+}
+
+/// Fails with the rows that are not as they were.
+fn same(corpus: &Corpus, before: &[(String, Vec<Value>)], what: &str) {
+    let now = state(corpus);
+    let missing: Vec<_> = before.iter().filter(|row| !now.contains(row)).collect();
+    let new: Vec<_> = now.iter().filter(|row| !before.contains(row)).collect();
+    assert!(now == before, "{what}: {missing:?} became {new:?}");
+}
+
+fn found(corpus: &mut Corpus, query: &str) -> usize {
+    corpus
+        .search(query, &SearchOptions::default())
+        .expect("an answer")
+        .total
+}
+
+fn blocks(corpus: &Corpus) -> i64 {
+    let sql = "SELECT count(*) FROM block";
+    corpus
+        .store
+        .read()
+        .query_row(sql, [], |row| row.get(0))
+        .expect("a number")
+}
+
+fn faultless(corpus: &mut Corpus) {
+    let checked = corpus.check(false, &mut Progress::new(&mut unheard));
+    assert_eq!(checked.expect("checked").faults, []);
+}
+
+#[test]
+fn a_recording_goes_with_all_it_has_and_undo_restores_every_row() {
+    let (_folder, mut corpus) = corpus();
+    let (before, stored) = (state(&corpus), blocks(&corpus));
+    assert_eq!(found(&mut corpus, "gloss=BOL"), 1);
+    let done = delete(&mut corpus, "recording:bol", Dependents::Refuse).expect("deleted");
+    assert_eq!(done.recordings.len(), 1);
+    let own = done.recordings[0].belongings;
+    assert!(
+        own.tracks > 0 && own.tiers > 1 && own.annotations > 1 && own.tokens == 1,
+        "{own:?}"
+    );
+    assert_eq!(found(&mut corpus, "gloss=BOL"), 0);
+    assert!(
+        corpus
+            .movement(&"recording:bol".parse().expect("an address"))
+            .is_err()
+    );
+    let connection = corpus.store.read();
+    for (table, condition) in [
+        ("tier", "recording_id NOT IN (SELECT id FROM recording)"),
+        ("annotation", "tier_id NOT IN (SELECT id FROM tier)"),
+        ("track_block", "track_id NOT IN (SELECT id FROM track)"),
+        ("token_value", "token_id NOT IN (SELECT id FROM token)"),
+    ] {
+        let sql = format!("SELECT count(*) FROM {table} WHERE {condition}");
+        let left: i64 = connection
+            .query_row(&sql, [], |row| row.get(0))
+            .expect("a number");
+        assert_eq!(left, 0, "{table}");
+    }
+    assert_eq!(blocks(&corpus), stored, "undo needs the blocks");
+    faultless(&mut corpus);
+    let after = state(&corpus);
+    corpus.undo().expect("undone");
+    same(&corpus, &before, "undone");
+    assert_eq!(found(&mut corpus, "gloss=BOL"), 1);
+    assert!(
+        corpus
+            .movement(&"recording:bol".parse().expect("an address"))
+            .is_ok()
+    );
+    faultless(&mut corpus);
+    corpus.redo().expect("done again");
+    same(&corpus, &after, "done again");
+}
+
+#[test]
+fn a_source_of_a_generated_sign_goes_only_if_it_is_said_what_happens_to_that() {
+    let (_folder, mut corpus) = corpus();
+    let before = state(&corpus);
+    let limace: Address = "LIMACE".parse().expect("an address");
+    let movement = |corpus: &Corpus| corpus.movement(&limace).map(|it| it.clip);
+    let own = movement(&corpus).expect("it moves");
+    let refused = delete(&mut corpus, "recording:escargot", Dependents::Refuse);
+    let refused = refused.expect_err("LIMACE depends on it");
+    assert!(
+        refused.to_string().ends_with("from escargot: LIMACE"),
+        "{refused}"
+    );
+    same(&corpus, &before, "refused");
+    let seen = corpus.delete(
+        &["recording:escargot".parse().expect("an address")],
+        DeleteOptions {
+            dry_run: true,
+            ..DeleteOptions::default()
+        },
+        &mut Progress::new(&mut unheard),
+    );
+    let seen = seen.expect("a report");
+    assert!(seen.dry_run && seen.dependents.len() == 1, "{seen:?}");
+    same(&corpus, &before, "tried");
+
+    let kept = delete(&mut corpus, "recording:escargot", Dependents::Keep).expect("deleted");
+    assert_eq!((kept.recordings.len(), kept.dependents.len()), (1, 1));
+    assert_eq!(
+        movement(&corpus).expect("it moves"),
+        own,
+        "it keeps its movement"
+    );
+    assert_eq!(found(&mut corpus, "gloss=LIMACE origin=made"), 1);
+    faultless(&mut corpus);
+    corpus.undo().expect("undone");
+    same(&corpus, &before, "undone");
+
+    let both = delete(&mut corpus, "recording:escargot", Dependents::Delete).expect("deleted");
+    let names: Vec<&str> = both.recordings.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names, ["escargot", "LIMACE"]);
+    assert!(movement(&corpus).is_err());
+    faultless(&mut corpus);
+    corpus.undo().expect("undone");
+    same(&corpus, &before, "undone");
+}
+
+#[test]
+fn a_sign_goes_with_its_entry_and_its_generated_recording() {
+    let (_folder, mut corpus) = corpus();
+    let before = state(&corpus);
+    let done = delete(&mut corpus, "sign:LIMACE", Dependents::Refuse).expect("deleted");
+    assert_eq!(done.signs, ["LIMACE"]);
+    let names: Vec<&str> = done.recordings.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names, ["LIMACE"]);
+    assert_eq!(found(&mut corpus, "gloss=LIMACE"), 0);
+    faultless(&mut corpus);
+    corpus.undo().expect("undone");
+    same(&corpus, &before, "undone");
+}
+
+#[test]
+fn an_annotated_sign_takes_its_annotations_along_only_if_asked() {
+    let (_folder, mut corpus) = corpus();
+    let before = state(&corpus);
+    let refused = delete(&mut corpus, "sign:BOL", Dependents::Keep).expect_err("it is annotated");
+    assert!(
+        refused
+            .to_string()
+            .contains("BOL has 1 token in recordings that stay"),
+        "{refused}"
+    );
+    let done = delete(&mut corpus, "sign:BOL", Dependents::Delete).expect("deleted");
+    assert!(
+        done.recordings.is_empty() && done.annotations > 0,
+        "{done:?}"
+    );
+    assert!(
+        corpus
+            .movement(&"recording:bol".parse().expect("an address"))
+            .is_ok()
+    );
+    assert_eq!(found(&mut corpus, "gloss=BOL"), 0);
+    faultless(&mut corpus);
+    corpus.undo().expect("undone");
+    same(&corpus, &before, "undone");
+}
+
+#[test]
+fn another_token_becomes_the_citation_form_and_a_described_sign_stays() {
+    let (_folder, mut corpus) = corpus();
+    let bol = Name::Text("BOL".into());
+    let note = SignChange {
+        notes: Some(Some("rare".into())),
+        ..SignChange::default()
+    };
+    corpus.change_sign(&bol, &note).expect("changed");
+    let copy = corpus.recombine("BOL", "ESCARGOT").expect("generated");
+    let add = AnnotationChange::from(AnnotationAction::Set {
+        annotation: crate::AnnotationName::Number(
+            signs::token(corpus.store.read(), copy.token.expect("a token"))
+                .expect("read")
+                .annotation_id
+                .expect("an annotation"),
+        ),
+        start: None,
+        end: Some(Moment::Time(Instant::from_micros(400_000))),
+        value: Some("BOL".into()),
+    });
+    corpus
+        .annotate(
+            &[add],
+            &AnnotateOptions::default(),
+            &mut Progress::new(&mut unheard),
+        )
+        .expect("changed");
+    delete(&mut corpus, "recording:bol", Dependents::Keep).expect("deleted");
+    let cited = address::token(corpus.store.read(), &Address::Gloss("BOL".into()));
+    assert_eq!(cited.expect("a token").recording_id, copy.recording);
+    faultless(&mut corpus);
+    delete(&mut corpus, "recording:ESCARGOT", Dependents::Refuse).expect("deleted");
+    assert!(
+        corpus
+            .sign_details(&bol)
+            .expect("it has a remark")
+            .tokens
+            .iter()
+            .all(|it| it.recording_id.is_none())
+    );
+}
+
+#[test]
+fn only_recordings_and_signs_are_deleted_here() {
+    let (_folder, mut corpus) = corpus();
+    for (what, remedy) in [
+        ("token:1", "annotate CORPUS remove"),
+        ("tier:1", "remove-tier"),
+        ("BOL", "sign:GLOSS"),
+        ("recording:nobody", "list CORPUS recordings"),
+        ("sign:9999", "list CORPUS signs"),
+    ] {
+        let refused = delete(&mut corpus, what, Dependents::Delete).expect_err(what);
+        let said = refused.remedy().unwrap_or_default();
+        assert!(said.contains(remedy), "{what}: {said}");
+    }
+}
