@@ -176,3 +176,112 @@ fn a_hit_is_dragged_over_a_tab_to_the_recipe() {
         "the card has the sign"
     );
 }
+
+#[test]
+fn a_recording_is_deleted_by_key_and_undone_from_its_notice() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    let path = folder.path().join("small.chereme");
+    let recordings = || {
+        let corpus = Corpus::open(&path, "B").expect("opened");
+        corpus.overview(1).expect("read").recordings.len()
+    };
+    click(&mut window, "Recordings (1)");
+    let row = window.get_by_label("escargot").rect().center();
+    pointer(&mut window, row, Some(true));
+    pointer(&mut window, row, Some(false));
+    window.run_steps(3);
+    window.key_press(Key::Delete);
+    until(&mut window, "the notice", |window| {
+        says(window, "Deleted: escargot")
+    });
+    idle(&mut window);
+    assert_eq!(recordings(), 0);
+    until(&mut window, "the empty list", |window| {
+        says(window, "The corpus is empty")
+    });
+    let undo = window.get_all_by_label("Undo").last().expect("an offer");
+    undo.click();
+    until(&mut window, "the recording", |window| {
+        has(window, "escargot")
+    });
+    idle(&mut window);
+    assert_eq!(recordings(), 1);
+}
+
+#[test]
+fn before_the_source_of_a_sign_is_deleted_it_is_asked_what_happens_to_the_sign() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path());
+    let recordings = || -> Vec<String> {
+        let corpus = Corpus::open(&path, "B").expect("opened");
+        let all = corpus.overview(1).expect("read").recordings;
+        all.into_iter().map(|it| it.row.name).collect()
+    };
+    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let made = corpus.recombine("ESCARGOT | configure right U", "LIMACE");
+    made.expect("generated");
+    drop(corpus);
+    let mut window = window(Options {
+        corpus: Some(path.clone()),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    idle(&mut window);
+    let ask = |window: &mut Window<'_>| {
+        window.get_by_label("escargot").click_secondary();
+        window.run_steps(3);
+        let entry = window.get_by_label_contains("Delete from the corpus");
+        entry.click();
+        until(window, "the question", |window| {
+            says(window, "Generated signs take movement from escargot")
+        });
+        assert!(says(window, "• LIMACE"));
+    };
+    ask(&mut window);
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    assert!(!says(&window, "Generated signs take movement"));
+    assert_eq!(recordings(), ["escargot", "LIMACE"]);
+    ask(&mut window);
+    click(&mut window, "Keep them with their own movement");
+    until(&mut window, "the notice", |window| {
+        says(window, "Deleted: escargot")
+    });
+    idle(&mut window);
+    assert_eq!(recordings(), ["LIMACE"]);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    until(&mut window, "the recording", |window| {
+        has(window, "escargot")
+    });
+    idle(&mut window);
+    ask(&mut window);
+    click(&mut window, "Delete them as well");
+    until(&mut window, "the notice", |window| {
+        says(window, "Deleted: LIMACE, escargot")
+    });
+    idle(&mut window);
+    assert!(recordings().is_empty());
+}
+
+#[test]
+fn an_annotated_sign_is_deleted_with_its_annotations() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    click(&mut window, "Signs (1)");
+    window.get_by_label("ESCARGOT").click_secondary();
+    window.run_steps(3);
+    window
+        .get_by_label_contains("Delete from the corpus")
+        .click();
+    until(&mut window, "the question", |window| {
+        says(window, "ESCARGOT is annotated in recordings that stay")
+    });
+    click(&mut window, "Delete its annotations as well");
+    until(&mut window, "the notice", |window| {
+        says(window, "Deleted: ESCARGOT")
+    });
+    until(&mut window, "the empty list", |window| {
+        says(window, "Signs (0)")
+    });
+}

@@ -45,6 +45,8 @@ actions! {
         Edit, Corpus, In(Search), "Ctrl+Shift+F" "=" "=";
     SearchView "edit.search-view" "Hits as figures or as a table" | "Résultats en figures ou en tableau"
         Edit, Corpus, In(Search), "Ctrl+Shift+G" "=" "=";
+    DeleteListed "library.delete" "Delete from the corpus" | "Supprimer du fonds"
+        Edit, Pane(Library), In(Library), changes, "Delete" "=" "=";
     ClearSelection "edit.clear-selection" "Clear the selection" | "Effacer la sélection"
         Edit, Corpus, WithCorpus, "Shift+Alt+C" "=" "Ctrl+D";
     Copy "edit.copy" "Copy the annotations" | "Copier les annotations"

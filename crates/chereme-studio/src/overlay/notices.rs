@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use chereme_corpus::{Cause, CheckReport, Error};
+use chereme_corpus::{Cause, CheckReport, Deleted, Error};
 use eframe::egui::text::{LayoutJob, TextFormat, TextWrapping};
 use eframe::egui::{
     Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, RichText, Role,
@@ -10,6 +10,7 @@ use eframe::egui::{
 };
 
 use super::trouble;
+use crate::action::Action;
 use crate::command::Command;
 use crate::context::Outbox;
 use crate::theme;
@@ -19,6 +20,8 @@ use crate::work::Outcome;
 
 /// How long a hint is shown, in seconds.
 const SHORT: f64 = 5.0;
+/// How long a hint with a command is shown, in seconds.
+const LONG: f64 = 15.0;
 /// How many notices are shown at once.
 const MOST: usize = 4;
 
@@ -154,6 +157,7 @@ impl Notices {
                 | Outcome::Imported(_)
                 | Outcome::Merged(_)
                 | Outcome::Recombined(_)
+                | Outcome::Deleted(_)
                 | Outcome::Undone(_)
                 | Outcome::Redone(_)
         );
@@ -162,6 +166,7 @@ impl Notices {
             Outcome::Recombined(made) => {
                 fill(words::NOTICE_STORED.of(language), &[("gloss", &made.gloss)])
             }
+            Outcome::Deleted(done) => return self.deleted(done, language),
             Outcome::Undone(row) => history::taken_back(row, language),
             Outcome::Walked { back, steps } => {
                 let text = if *back {
@@ -196,6 +201,18 @@ impl Notices {
             _ => return,
         };
         self.hint(text);
+    }
+
+    /// Reports a deletion, and offers to undo it.
+    fn deleted(&mut self, done: &Deleted, language: Language) {
+        if done.dry_run {
+            return;
+        }
+        let values: [(&str, &dyn Display); 1] = [("what", &done.summary)];
+        self.hint(fill(history::DID_DELETE.of(language), &values));
+        if let Some(notice) = self.all.last_mut() {
+            notice.offers = vec![(Action::Undo.row().name, Command::Do(Action::Undo))];
+        }
     }
 
     /// Reports the results of a check: faults with their places and remedies, which stay until they are dismissed.
@@ -251,7 +268,12 @@ impl Notices {
     /// action is cut short.
     pub(crate) fn line(&mut self, ui: &mut Ui, language: Language) {
         self.in_line = None;
-        let Some(notice) = self.all.iter().rev().find(|it| !it.stays) else {
+        let Some(notice) = self
+            .all
+            .iter()
+            .rev()
+            .find(|it| !it.stays && it.offers.is_empty())
+        else {
             return;
         };
         let font = TextStyle::Body.resolve(ui.style());
@@ -282,7 +304,12 @@ impl Notices {
             notice.since.get_or_insert(now);
         }
         let old = |notice: &Notice| {
-            !notice.stays && notice.since.is_some_and(|since| now - since > SHORT)
+            let shown = if notice.offers.is_empty() {
+                SHORT
+            } else {
+                LONG
+            };
+            !notice.stays && notice.since.is_some_and(|since| now - since > shown)
         };
         self.all.retain(|notice| !old(notice));
         if self.all.is_empty() {

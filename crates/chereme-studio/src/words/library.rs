@@ -22,6 +22,13 @@ texts! {
     MAKE: "Make it by a recipe", "Le composer par une recette";
     TO_RECIPE: "Take it into a recipe", "Le prendre dans une recette";
     ALIKE: "Signs like it that move", "Signes semblables qui bougent";
+    NONE_CHOSEN: "Choose a recording or a sign in the library first.", "Choisissez d’abord un enregistrement ou un signe dans le fonds.";
+    DELETE_TITLE: "Delete {name}?", "Supprimer {name} ?";
+    DELETE_SOURCE: "Generated signs take movement from {name}:", "Des signes composés prennent leur mouvement de {name} :";
+    DELETE_ANNOTATED: "{name} is annotated in recordings that stay:", "{name} est annoté dans des enregistrements qui restent :";
+    DELETE_WITH_MADE: "Delete them as well", "Les supprimer aussi";
+    DELETE_WITH_ANNOTATIONS: "Delete its annotations as well", "Supprimer aussi ses annotations";
+    DELETE_KEEPING: "Keep them with their own movement", "Les garder avec leur mouvement";
     IMPORT: "Import…", "Importer…";
     SKELETON: "skeleton", "squelette";
     MARKERS: "markers", "marqueurs";

@@ -74,6 +74,7 @@ pub(super) fn carry(
             .rename_search(&from, &to)
             .map(|()| Outcome::Changed)?,
         Work::ForgetSearch(name) => corpus.forget_search(&name).map(|_| Outcome::Changed)?,
+        Work::Delete(what, options) => Outcome::Deleted(corpus.delete(&what, options, progress)?),
         Work::Check { mend } => Outcome::Checked(corpus.check(mend, progress)?),
         Work::ProposeIn(options) => Outcome::Proposed(corpus.propose(&options, progress)?),
         Work::Accept(annotations) => {

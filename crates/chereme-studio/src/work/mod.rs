@@ -12,12 +12,12 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
-    Choice, ChooseOptions, Copied, CueSlips, Curves, Decision, Details, Error, ExportOptions,
-    ExportReport, ExportWhat, Expressions, Function, ImportOptions, ImportReport, KeptSearch,
-    MadePart, MediaChange, MergeReport, Moving, Name, NewTier, Onsets, OperationRow, Picture,
-    PictureOptions, PointsPiece, ProposeOptions, Proposed, Recombination, RecordingChange, Scheme,
-    SearchOptions, SignChange, SignMap, SignerChange, Suggestions, TierChange, TierName,
-    TrackChange, Unit,
+    Choice, ChooseOptions, Copied, CueSlips, Curves, Decision, DeleteOptions, Deleted, Details,
+    Error, ExportOptions, ExportReport, ExportWhat, Expressions, Function, ImportOptions,
+    ImportReport, KeptSearch, MadePart, MediaChange, MergeReport, Moving, Name, NewTier, Onsets,
+    OperationRow, Picture, PictureOptions, PointsPiece, ProposeOptions, Proposed, Recombination,
+    RecordingChange, Scheme, SearchOptions, SignChange, SignMap, SignerChange, Suggestions,
+    TierChange, TierName, TrackChange, Unit,
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
@@ -98,6 +98,8 @@ pub(crate) enum Work {
     RenameSearch(String, String),
     /// Deletes a saved search.
     ForgetSearch(String),
+    /// Deletes recordings and signs, or reports what would be deleted.
+    Delete(Vec<Address>, DeleteOptions),
     /// Checks the whole corpus; rebuilds wrong derived rows on request.
     Check {
         /// Whether to rebuild them.
@@ -209,6 +211,8 @@ pub(crate) enum Outcome {
         /// Their number.
         steps: usize,
     },
+    /// Recordings and signs were deleted, or examined for that.
+    Deleted(Deleted),
     /// The corpus was checked.
     Checked(CheckReport),
     /// Values of a component were proposed from movement.
@@ -335,6 +339,7 @@ impl Work {
             | Self::KeepSearches(_)
             | Self::RenameSearch(..)
             | Self::ForgetSearch(_)
+            | Self::Delete(..)
             | Self::Check { .. }
             | Self::Propose(_)
             | Self::ProposeIn(_)

@@ -109,7 +109,9 @@ pub(crate) fn news(
         return None;
     }
     if own {
-        let told = newest.kind != OperationKind::Do || newest.name.starts_with("recombine");
+        let told = newest.kind != OperationKind::Do
+            || newest.name.starts_with("recombine")
+            || newest.name == "delete";
         return (!told).then(|| sentence(newest, language));
     }
     let what = match newest.kind {

@@ -1,6 +1,7 @@
 //! The library pane: lists of the recordings and the signs of the corpus.
 
 pub(crate) mod data;
+mod delete;
 mod wall;
 
 use std::collections::BTreeMap;
@@ -15,7 +16,7 @@ use eframe::egui::{
 use super::inspector::Thing;
 use super::notated::Notated;
 use super::without_movement::{self, Bare};
-use super::{Carried, Pane};
+use super::{Acted, Carried, Pane};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
@@ -24,6 +25,7 @@ use crate::script::edit;
 use crate::words::{Language, fill, library as words};
 use crate::work::{Ended, WorkId};
 use data::{LibraryRow, Moves, SignRow};
+use delete::Leaving;
 
 /// Height of a row, in heights of a button.
 const ROW: f32 = 2.1;
@@ -47,11 +49,14 @@ pub(crate) struct Library {
     /// The row at the keyboard cursor, and the row to give the focus next.
     at: usize,
     reach: Option<usize>,
+    /// The row with the keyboard focus.
+    focused: Option<usize>,
     /// The scroll offset of the list, in points.
     scrolled: f32,
     /// The sign that was clicked last.
     chosen: Option<SignRow>,
     notated: Notated,
+    leaving: Leaving,
 }
 
 /// The filtered rows, computed again when their inputs change.
@@ -243,6 +248,7 @@ impl Library {
         }
         if response.has_focus() {
             self.at = at;
+            self.focused = Some(at);
             let arrows = EventFilter {
                 vertical_arrows: true,
                 ..EventFilter::default()
@@ -277,7 +283,7 @@ impl Library {
 
     /// Handles clicks on a recording.
     fn on_recording(
-        &self,
+        &mut self,
         seen: &PaneInput<'_>,
         out: &mut Outbox,
         row: &LibraryRow,
@@ -299,6 +305,9 @@ impl Library {
                 }
             }
             inspect(ui, seen, Thing::Recording(row.id), out);
+            ui.separator();
+            let doomed = || delete::recording(row.id, &row.name);
+            self.delete_entry(ui, seen, doomed, out);
         });
     }
 
@@ -361,9 +370,12 @@ impl Library {
             open_recipe(seen, recording, out);
         }
         response.context_menu(|ui| {
-            let Some(token) = row.token else { return };
             let gloss = row.gloss.as_str();
-            super::carry::menu(ui, seen, (token, gloss, recording), out);
+            if let Some(token) = row.token {
+                super::carry::menu(ui, seen, (token, gloss, recording), out);
+                ui.separator();
+            }
+            self.delete_entry(ui, seen, || delete::sign(gloss), out);
         });
     }
 }
@@ -428,6 +440,8 @@ fn inspect(ui: &mut Ui, seen: &PaneInput<'_>, thing: Thing, out: &mut Outbox) {
 impl Pane for Library {
     fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.notated.follow(seen.snapshot.overview.generation);
+        self.deletion(ui, seen, out);
+        self.focused = None;
         let overview = &seen.snapshot.overview;
         if overview.recordings.is_empty() && overview.signs.is_empty() {
             ui.label(seen.say(words::EMPTY));
@@ -454,7 +468,15 @@ impl Pane for Library {
         }
     }
 
+    fn act(&mut self, action: Action, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
+        match action {
+            Action::DeleteListed => self.delete_chosen(seen, out),
+            _ => Acted::No,
+        }
+    }
+
     fn hear(&mut self, id: WorkId, ended: &Ended) {
         self.notated.hear(id, ended);
+        self.hear_deletion(id, ended);
     }
 }
