@@ -123,7 +123,7 @@ fn a_coded_sign_says_what_can_be_done() {
     window.run_steps(3);
     click(&mut window, "LIMACE");
     window.run_steps(3);
-    assert!(says(&window, "LIMACE is coded, and nothing moves yet"));
+    assert!(says(&window, "LIMACE is coded, but has no movement yet"));
     click(&mut window, "Make it by a recipe");
     window.run_steps(3);
     assert!(!says(&window, "LIMACE is coded"), "the recipe is in front");
