@@ -21,7 +21,7 @@ pub struct Stretch<'a> {
     pub clip: &'a Clip,
     /// The joints of the transition, such as those of an arm or of a hand's fingers.
     pub joints: &'a [usize],
-    /// The frames, from the first posture to the last, inclusive.
+    /// The frames: the first shows the one posture, the last the other.
     pub frames: Range<usize>,
 }
 

@@ -66,7 +66,7 @@ pub enum About {
     Cue(CueTier),
 }
 
-/// The subject of a note of cued speech.
+/// The tier of cued speech to which a note belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CueTier {

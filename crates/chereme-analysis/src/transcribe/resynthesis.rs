@@ -101,7 +101,7 @@ struct Trial {
 /// A trial with the result of its re-synthesis.
 struct Tried {
     trial: Trial,
-    /// Its penalty against the simplest and exact reading, in nepers.
+    /// Its penalty in nepers; the simplest reading, if exact, has none.
     total: f64,
     /// The error of each hand: the distance between its observed and its re-synthesised position, in
     /// metres.

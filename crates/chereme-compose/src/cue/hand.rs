@@ -53,7 +53,7 @@ fn time(work: &Work, frame: usize) -> f64 {
     frame as f64 * work.rate.frame_time()
 }
 
-/// Returns the target that is shown or approached at a time, and the share of the time of its approach.
+/// Returns the number of the target that is shown or approached at a time, and the share of its approach that is over.
 fn along(
     targets: &[Target],
     time: f64,

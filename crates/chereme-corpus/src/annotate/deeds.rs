@@ -14,7 +14,7 @@ pub(super) struct Deeds {
     split: BTreeSet<i64>,
     /// Annotations that got a value, by the sentence for it and the value.
     valued: BTreeMap<(&'static str, String), (Text, Text, BTreeSet<i64>)>,
-    /// Whether the summary counts added, changed and removed annotations instead.
+    /// Whether anything else changed; the summary then counts added, changed and removed annotations instead.
     other: bool,
 }
 

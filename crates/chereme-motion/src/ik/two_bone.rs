@@ -34,7 +34,7 @@ pub struct TwoBone {
     pub end: DVec3,
     /// The distance from root to target as a share of both bones' length; above 1 the target is out of reach.
     pub extension: f64,
-    /// Whether the end was held back by the soft end near full extension.
+    /// Whether the end was held back a little because the limb is almost straight.
     pub soft: bool,
     /// Whether the target lies outside the reach, too far or too near.
     pub clamped: bool,

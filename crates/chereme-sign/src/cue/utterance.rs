@@ -200,7 +200,7 @@ impl Utterance {
     }
 }
 
-/// Returns microseconds as milliseconds, at least one of them.
+/// Returns a duration as text in whole milliseconds, at least 1.
 fn ms(micros: i64) -> String {
     let text = format!("{:.3}", (micros as f64 / 1000.0).max(1.0));
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

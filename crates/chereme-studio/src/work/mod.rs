@@ -271,7 +271,7 @@ pub(crate) enum Outcome {
     },
 }
 
-/// The object that is shared.
+/// Movement that the user shares as a file: stored in the corpus, or only generated.
 #[derive(Debug, Clone)]
 pub(crate) enum Shared {
     /// Something stored in the corpus.
