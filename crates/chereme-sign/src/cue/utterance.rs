@@ -200,7 +200,7 @@ impl Utterance {
     }
 }
 
-/// Returns a duration as text in whole milliseconds, at least 1.
+/// Returns a duration as text in milliseconds: at least 1, without zeros at the end.
 fn ms(micros: i64) -> String {
     let text = format!("{:.3}", (micros as f64 / 1000.0).max(1.0));
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
