@@ -428,6 +428,10 @@ pub(super) const ASKING: &[(&str, &str)] = &[
         "l’inventaire {inventory} n’a pas de valeur {name}",
     ),
     (
+        "{address} has no expression of {function}",
+        "{address} n’a pas d’expression de {function}",
+    ),
+    (
         "{fault}; did you mean one of {names}?",
         "{fault} ; vouliez-vous dire l’un de {names} ?",
     ),

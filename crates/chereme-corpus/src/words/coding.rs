@@ -251,4 +251,8 @@ pub(super) const CODING: &[(&str, &str)] = &[
         "{annotation} on {tier} says {value}, which is not in {vocabulary}",
         "{annotation} sur {tier} dit {value}, qui n’est pas dans {vocabulary}",
     ),
+    (
+        "{text} names no component: configuration, placement, movement, orientation or nonmanual",
+        "{text} ne nomme pas de composant : configuration, placement, movement, orientation ou nonmanual",
+    ),
 ];

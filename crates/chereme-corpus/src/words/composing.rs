@@ -456,4 +456,131 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "{text} was left out; write it in words",
         "{text} a été laissé de côté ; écrivez-le en toutes lettres",
     ),
+    ("\"|\", \"then\" or the end", "\"|\", \"then\" ou la fin"),
+    (
+        "the symbols of a sign, in quotes",
+        "les symboles d’un signe, entre guillemets",
+    ),
+    (
+        "a SiGML file or a notated sign",
+        "un fichier SiGML ou un signe noté",
+    ),
+    (
+        "a sign, \"spell\", \"point\" or \"(\"",
+        "un signe, \"spell\", \"point\" ou \"(\"",
+    ),
+    (
+        "\"default\", \"measured\" or a file of body language",
+        "\"default\", \"measured\" ou un fichier de langage corporel",
+    ),
+    ("the word to spell", "le mot à épeler"),
+    (
+        "the text to cue, in quotes",
+        "le texte à coder, entre guillemets",
+    ),
+    (
+        "an alphabet: sampa, ipa or mfa",
+        "un alphabet : sampa, ipa ou mfa",
+    ),
+    ("a code, such as french", "un code, comme french"),
+    (
+        "a habit of cuers, such as schwa-as-eu",
+        "une habitude de codeur, comme schwa-as-eu",
+    ),
+    ("a rule of phases", "une règle de phases"),
+    ("a hand or \"at\"", "une main ou \"at\""),
+    (
+        "a value, \"from\" and a sign, \"best(...)\" or \"_\"",
+        "une valeur, \"from\" et un signe, \"best(...)\" ou \"_\"",
+    ),
+    (
+        "me, you, a direction, a placement, or a point such as 30cm,140cm,50cm",
+        "me, you, une direction, un emplacement, ou un point comme 30cm,140cm,50cm",
+    ),
+    (
+        "a comma: a point has three lengths",
+        "une virgule : un point a trois longueurs",
+    ),
+    (
+        "a direction (left, right, up, down, forward, back)",
+        "une direction (left, right, up, down, forward, back)",
+    ),
+    (
+        "slerp, cosine, sigmoid, minimum-jerk, learned, or a time such as 0.2s",
+        "slerp, cosine, sigmoid, minimum-jerk, learned, ou un temps comme 0.2s",
+    ),
+    (
+        "two times with two dots between, such as 0.4s..1.9s",
+        "deux temps avec deux points entre eux, comme 0.4s..1.9s",
+    ),
+    (
+        "a point: left, up and forward, such as 10cm,5cm,0cm",
+        "un point : gauche, haut et avant, comme 10cm,5cm,0cm",
+    ),
+    ("\"from\" and a sign", "\"from\" et un signe"),
+    (
+        "a part such as 0.4s..1.9s, or five times with commas between",
+        "une partie comme 0.4s..1.9s, ou cinq temps séparés par des virgules",
+    ),
+    ("\"about\" and a direction", "\"about\" et une direction"),
+    (
+        "\"palm\", \"fingers\" or \"by\"",
+        "\"palm\", \"fingers\" ou \"by\"",
+    ),
+    ("a point of the hand", "un point de la main"),
+    (
+        "a hand, \"by\", \"at\" or \"near\"",
+        "une main, \"by\", \"at\" ou \"near\"",
+    ),
+    (
+        "a placement or a point such as 0cm,120cm,30cm",
+        "un emplacement ou un point comme 0cm,120cm,30cm",
+    ),
+    ("how often, such as 2", "combien de fois, comme 2"),
+    (
+        "a factor, such as 150%, or \"to\" and a time",
+        "un facteur, comme 150%, ou \"to\" et un temps",
+    ),
+    ("a factor, such as {example}", "un facteur, comme {example}"),
+    ("a time, such as {example}", "un temps, comme {example}"),
+    (
+        "a length, such as {example}",
+        "une longueur, comme {example}",
+    ),
+    ("an angle, such as {example}", "un angle, comme {example}"),
+    ("the length in metres", "la longueur en mètres"),
+    ("the share of the arm", "la part du bras"),
+    ("the transition's time", "la durée de la transition"),
+    ("the number of times", "le nombre de fois"),
+    ("did you mean {name}?", "vouliez-vous dire {name} ?"),
+    ("the body moves: {what}", "le corps bouge : {what}"),
+    (
+        "notation of {gloss}: {what}",
+        "notation de {gloss} : {what}",
+    ),
+    (
+        "{what} {time} s, the median of {n} in the corpus",
+        "{what} {time} s, la médiane de {n} dans le corpus",
+    ),
+    (
+        "{what} {time} s: the corpus shows too few to learn from",
+        "{what} {time} s : le corpus en montre trop peu pour apprendre",
+    ),
+    ("letters are held for", "les lettres sont tenues"),
+    (
+        "from letter to letter it takes",
+        "d’une lettre à l’autre il faut",
+    ),
+    (
+        "{head} joints of the head and {trunk} of the trunk",
+        "{head} articulations de la tête et {trunk} du tronc",
+    ),
+    (
+        "the {side} hand is kept out of head and trunk: moved by up to {cm} cm in {n} frames",
+        "la main {side} reste hors de la tête et du tronc : écartée de {cm} cm au plus dans {n} images",
+    ),
+    (
+        "measured on {pairs} pairs, {vowels} vowels and {consonants} consonants alone",
+        "mesuré sur {pairs} paires, {vowels} voyelles et {consonants} consonnes seules",
+    ),
 ];

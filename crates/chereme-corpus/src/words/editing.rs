@@ -328,4 +328,37 @@ pub(super) const EDITING: &[(&str, &str)] = &[
         "ses occurrences ne correspondent pas à ses acteurs",
     ),
     ("it is cut short", "il est tronqué"),
+    (
+        "{id} can be {n} annotations: {list}",
+        "{id} peut désigner {n} annotations : {list}",
+    ),
+    (
+        "the tier {tier} says {n} that the inventory {inventory} does not have: {list}",
+        "l’acteur {tier} dit {n} que l’inventaire {inventory} n’a pas : {list}",
+    ),
+    ("the new annotation", "la nouvelle annotation"),
+    (
+        "an annotation without a value ({id})",
+        "une annotation sans valeur ({id})",
+    ),
+    (
+        "{what} has {n} frames of {all}",
+        "{what} a {n} images sur {all}",
+    ),
+    (
+        "operation {id} holds {n} of its {all} changes",
+        "l’opération {id} contient {n} de ses {all} modifications",
+    ),
+    (
+        "a token goes with its annotation: {command}",
+        "une occurrence part avec son annotation : {command}",
+    ),
+    (
+        "remove a tier with {command}",
+        "retirez un acteur avec {command}",
+    ),
+    (
+        "write recording:3, recording:NAME or sign:GLOSS",
+        "écrivez recording:3, recording:NOM ou sign:GLOSE",
+    ),
 ];

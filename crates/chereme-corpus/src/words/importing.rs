@@ -622,4 +622,20 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "the file is longer than a megabyte",
         "le fichier dépasse un mégaoctet",
     ),
+    (
+        "the offsets of {n} are not where the movement puts {them}: the movement is used, and the stored numbers stay those of the file",
+        "les offsets de {n} ne sont pas là où le mouvement met {them} : le mouvement est utilisé, et les nombres enregistrés restent ceux du fichier",
+    ),
+    (
+        "a file of the recording {name}",
+        "un fichier de l’enregistrement {name}",
+    ),
+    (
+        "H.264 of a profile with more than 8 bits, or 4:2:2",
+        "du H.264 d’un profil de plus de 8 bits, ou 4:2:2",
+    ),
+    (
+        "{what} with \">\" or \"+\" in it would be read back as several",
+        "{what} avec \">\" ou \"+\" se relirait comme plusieurs",
+    ),
 ];

@@ -292,6 +292,10 @@ const MESSAGES: &[(&str, &str)] = &[
         "l’acteur {tier} ne peut pas être {what}",
     ),
     (
+        "the recipe cannot be read: {why}\n{drawn}",
+        "la recette ne se lit pas : {why}\n{drawn}",
+    ),
+    (
         "the recipe cannot be read: {why}",
         "la recette ne se lit pas : {why}",
     ),

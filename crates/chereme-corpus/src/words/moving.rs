@@ -534,4 +534,25 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "the notation is odd: {why}",
         "la notation est étrange : {why}",
     ),
+    (
+        "{name} is no kind of track",
+        "{name} n’est pas un genre de piste",
+    ),
+    (
+        "the kinds are: skeleton, markers, curves, media",
+        "les genres sont : skeleton, markers, curves, media",
+    ),
+    (
+        "{name} is no origin of a recording",
+        "{name} n’est pas une origine d’enregistrement",
+    ),
+    (
+        "write captured, made or generated",
+        "écrivez captured, made ou generated",
+    ),
+    (
+        "{address} has no expression",
+        "{address} n’a pas d’expression",
+    ),
+    ("all captured signers", "tous les signeurs captés"),
 ];
