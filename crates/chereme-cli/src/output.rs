@@ -61,10 +61,18 @@ impl Output {
         self.document = None;
     }
 
-    /// Writes a line for people.
+    /// Writes a line for people, in the language of the output if the table of messages has it.
     pub(crate) fn line(&mut self, text: impl AsRef<str>) -> Result<()> {
+        let text = text.as_ref();
+        let words = text.trim_start();
+        let indent = &text[..text.len() - words.len()];
+        self.line_as_is(&format!("{indent}{}", self.spoken(words)))
+    }
+
+    /// Writes a line for people without a look into the table of messages, as for rows of a table.
+    fn line_as_is(&mut self, text: &str) -> Result<()> {
         if !self.json {
-            quiet(writeln!(self.text, "{}", text.as_ref()))?;
+            quiet(writeln!(self.text, "{text}"))?;
         }
         Ok(())
     }
@@ -75,7 +83,7 @@ impl Output {
             return Ok(());
         }
         for line in table::lines(header, rows, self.width) {
-            self.line(line)?;
+            self.line_as_is(&line)?;
         }
         Ok(())
     }

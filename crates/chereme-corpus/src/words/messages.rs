@@ -13,6 +13,7 @@ use super::documents::DOCUMENTS;
 use super::editing::EDITING;
 use super::findings::FINDINGS;
 use super::importing::IMPORTING;
+use super::lines::LINES;
 use super::moving::MOVING;
 use super::notes::NOTES;
 use super::queries::QUERIES;
@@ -444,6 +445,7 @@ fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
         .chain(CAPTURES)
         .chain(DOCUMENTS)
         .chain(ASKING)
+        .chain(LINES)
 }
 
 fn in_french(text: &str) -> Option<String> {

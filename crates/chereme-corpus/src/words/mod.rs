@@ -35,6 +35,7 @@ mod editing;
 mod findings;
 pub mod history;
 mod importing;
+mod lines;
 pub mod merge;
 mod messages;
 mod moving;
