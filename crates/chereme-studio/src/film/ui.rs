@@ -13,7 +13,7 @@ use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::file_dialogs::Choose;
 use crate::panes::inspector::Thing;
-use crate::words::{fill, film as words};
+use crate::words::{fill, film as words, spoken};
 use crate::work::Work;
 
 /// The height of the line of controls below a film, in points.
@@ -100,7 +100,8 @@ fn one(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox,
         }
         (Known::Refused(why, remedy), _) => {
             let remedy = remedy.as_deref().unwrap_or_default();
-            told(ui, room, &format!("{why}\n\n{remedy}"));
+            let said = [why.as_str(), remedy].map(|text| spoken(text, seen.language));
+            told(ui, room, &said.join("\n\n"));
         }
     }
     let mut builder = UiBuilder::new().max_rect(line);

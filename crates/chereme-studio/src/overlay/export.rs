@@ -12,7 +12,7 @@ use crate::panes::complete::Line;
 use crate::panes::import::Paths;
 use crate::panes::recombine::selected_token;
 use crate::settings::Settings;
-use crate::words::{Text, export as words, fill, shell};
+use crate::words::{Text, export as words, fill, shell, spoken};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
 /// The object of an export.
@@ -252,7 +252,9 @@ impl Export {
         ui.add_space(4.0);
         self.buttons(ui, seen, settings, &what, out);
         if let Some(wrong) = &self.wrong {
-            ui.label(RichText::new(wrong).color(seen.colours().trouble));
+            let lines = wrong.lines().map(|line| spoken(line, seen.language));
+            let said = lines.collect::<Vec<_>>().join("\n");
+            ui.label(RichText::new(said).color(seen.colours().trouble));
         }
         if self.stopped {
             ui.label(seen.say(words::STOPPED));
@@ -270,7 +272,7 @@ impl Export {
                     ));
                 }
                 for note in &report.notes {
-                    ui.small(note);
+                    ui.small(spoken(note, seen.language));
                 }
             });
         }

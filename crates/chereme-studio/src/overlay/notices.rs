@@ -15,7 +15,7 @@ use crate::command::Command;
 use crate::context::Outbox;
 use crate::theme;
 use crate::theme::Colours;
-use crate::words::{Language, Text, fill, history, shell as words};
+use crate::words::{Language, Text, fill, history, shell as words, spoken};
 use crate::work::Outcome;
 
 /// How long a hint is shown, in seconds.
@@ -230,8 +230,12 @@ impl Notices {
             notice.kind = NoticeKind::Error;
         }
         let faults = report.faults.iter();
-        let faults = faults.map(|it| format!("{}: {} ({})", it.place, it.message, it.remedy));
-        let lines: Vec<String> = report.mended.iter().cloned().chain(faults).collect();
+        let said = |text: &String| spoken(text, language);
+        let faults = faults.map(|it| {
+            let (message, remedy) = (said(&it.message), said(&it.remedy));
+            format!("{}: {message} ({remedy})", it.place)
+        });
+        let lines: Vec<String> = report.mended.iter().map(said).chain(faults).collect();
         if let Some(notice) = self.all.last_mut() {
             notice.detail = Some(lines.join("\n"));
         }

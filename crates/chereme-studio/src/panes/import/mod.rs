@@ -19,7 +19,7 @@ use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::file_dialogs::Choose;
 use crate::overlay::remedy;
-use crate::words::{fill, import as words, shell};
+use crate::words::{fill, import as words, shell, spoken};
 use crate::work::{Ended, Outcome, Work, WorkId};
 use known::ImportCorrections;
 pub(crate) use paths::Paths;
@@ -228,7 +228,8 @@ impl Pane for Import {
             self.buttons(ui, seen, out);
         }
         if let Some((wrong, remedy)) = &self.wrong {
-            ui.label(RichText::new(wrong).color(seen.colours().trouble));
+            let said = spoken(wrong, seen.language);
+            ui.label(RichText::new(said).color(seen.colours().trouble));
             let remedy = remedy
                 .as_deref()
                 .and_then(|it| remedy::here(it, seen.language));

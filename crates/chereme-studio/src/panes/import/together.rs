@@ -9,7 +9,7 @@ use eframe::egui::{Button, ProgressBar, RichText, ScrollArea, Ui};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
-use crate::words::{fill, import as words, merge, shell};
+use crate::words::{fill, import as words, merge, shell, spoken};
 use crate::work::{Work, WorkId};
 
 /// Returns whether a path names a corpus.
@@ -61,7 +61,7 @@ fn outcome(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, report: &MergeRe
             ui.label(line);
         }
         for note in &report.notes {
-            ui.weak(note);
+            ui.weak(spoken(note, seen.language));
         }
         if report.conflicts.is_empty() {
             ui.label(seen.say(words::MERGE_DONE));

@@ -285,7 +285,7 @@ fn menu(ui: &mut Ui, seen: &PaneInput<'_>, id: u64, did: &mut Vec<Did>) {
 fn told(ui: &mut Ui, seen: &PaneInput<'_>, shown: &ShownCard<'_>) -> Option<What> {
     if let Some(trouble) = shown.trouble {
         ui.label(
-            RichText::new(&trouble.text)
+            RichText::new(spoken(&trouble.text, seen.language))
                 .small()
                 .color(seen.colours().trouble),
         );
@@ -294,7 +294,7 @@ fn told(ui: &mut Ui, seen: &PaneInput<'_>, shown: &ShownCard<'_>) -> Option<What
             .as_ref()
             .filter(|it| !trouble.text.contains(*it))
         {
-            ui.label(RichText::new(remedy).small());
+            ui.label(RichText::new(spoken(remedy, seen.language)).small());
         }
         let meant = trouble.meant.as_ref()?;
         let mended = shown.card.what.mended(&meant.written, &meant.right)?;

@@ -206,7 +206,7 @@ impl Search {
     fn answer(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let Some(found) = &self.found else { return };
         for note in &found.notes {
-            ui.label(RichText::new(note).small().weak());
+            ui.label(RichText::new(spoken(note, seen.language)).small().weak());
         }
         if let Some(query) = side_column::findings(ui, seen, found, &self.query) {
             return self.turn_to(query, out);
