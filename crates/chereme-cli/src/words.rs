@@ -2,7 +2,7 @@
 
 mod help;
 
-use chereme_corpus::words::Language;
+use chereme_corpus::words::{Language, guide};
 use clap::builder::StyledStr;
 use clap::{Arg, ArgAction, Command};
 
@@ -117,7 +117,8 @@ fn argument(argument: Arg) -> Arg {
     argument
 }
 
-/// Returns a text of the help in French, paragraph by paragraph; one without French words stays English.
+/// Returns a text of the help in French, paragraph by paragraph, and guides line by line; one without French words stays
+/// English.
 fn translated(text: &StyledStr) -> String {
     let text = text.to_string();
     if let Some(french) = help::of(&text) {
@@ -125,7 +126,7 @@ fn translated(text: &StyledStr) -> String {
     }
     let paragraph = |text: &str| {
         let known = help::of(text).or_else(|| help::of(text.trim_end_matches('.')));
-        known.unwrap_or(text).to_owned()
+        known.map_or_else(|| guide(text, Language::French), str::to_owned)
     };
     let all: Vec<String> = text.split("\n\n").map(paragraph).collect();
     all.join("\n\n")

@@ -8,6 +8,7 @@ use std::fmt::Display;
 use serde::{Deserialize, Serialize};
 
 pub use count::{counted, counted_in, numbered};
+pub use guides::guide;
 pub use messages::message;
 
 /// Declares the texts of one part.
@@ -33,6 +34,7 @@ pub mod deletion;
 mod documents;
 mod editing;
 mod findings;
+mod guides;
 pub mod history;
 mod importing;
 mod lines;

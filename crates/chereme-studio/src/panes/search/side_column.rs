@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_corpus::words::guide;
 use chereme_corpus::{Around, Finding, FindingKind, Proposed, guessed};
 use chereme_sign::Component;
 use chereme_sign::query::Query;
@@ -227,9 +228,8 @@ impl Aside {
                 let by_example = examples(ui, seen);
                 ui.collapsing(seen.say(words::WHOLE_HELP), |ui| {
                     ScrollArea::vertical().max_height(280.0).show(ui, |ui| {
-                        let text = RichText::new(chereme_corpus::QUERY_HELP)
-                            .monospace()
-                            .small();
+                        let text = guide(chereme_corpus::QUERY_HELP, seen.language);
+                        let text = RichText::new(text).monospace().small();
                         ui.add(Label::new(text).extend());
                     });
                 });
