@@ -11,7 +11,7 @@ use super::stack::{Card, Stack, What};
 use super::{catalogue, fields, settings};
 use crate::action::Action;
 use crate::context::PaneInput;
-use crate::words::{fill, recombine as words, search, spoken};
+use crate::words::{Language, fill, recombine as words, search, spoken};
 
 /// Residuals above this are reported as a warning, in metres.
 const FAR: f64 = 0.005;
@@ -280,12 +280,21 @@ fn menu(ui: &mut Ui, seen: &PaneInput<'_>, id: u64, did: &mut Vec<Did>) {
     }
 }
 
+/// Returns the reason for a failure in `language`; a step that is named before it stays as it is.
+fn failure(text: &str, language: Language) -> String {
+    let said = spoken(text, language);
+    match text.split_once(": ") {
+        Some((step, cause)) if said == text => format!("{step}: {}", spoken(cause, language)),
+        _ => said,
+    }
+}
+
 /// Shows the results of a card: its effects, its residual, or why it is impossible; returns the corrected card if the
 /// user accepts a proposed correction.
 fn told(ui: &mut Ui, seen: &PaneInput<'_>, shown: &ShownCard<'_>) -> Option<What> {
     if let Some(trouble) = shown.trouble {
         ui.label(
-            RichText::new(spoken(&trouble.text, seen.language))
+            RichText::new(failure(&trouble.text, seen.language))
                 .small()
                 .color(seen.colours().trouble),
         );
