@@ -1,7 +1,9 @@
 //! French forms of the library's messages, looked up by their English form.
 //!
-//! The library writes its messages in English. Each line of the table has such a message and its French form; `{name}`
-//! stands for a variable part, which is copied.
+//! The library writes its messages in English. Each line of a table has such a message and its French form; `{name}`
+//! stands for a variable part, which is put into French as well if a table has it, and copied otherwise. The tables are
+//! in the files beside this one, by theme; the first form that fits counts, so that a form with more words of its own
+//! comes before one with fewer.
 
 use super::Language;
 use super::asking::ASKING;
