@@ -185,7 +185,8 @@ pub(crate) fn up_of(markers: &[Marker]) -> Option<Direction> {
     Some(Direction::nearest(mean(&high)? - mean(&low)?))
 }
 
-/// Returns the direction from right to left, from pairs of markers whose names differ by L and R.
+/// Returns the direction from right to left, from pairs of markers whose names differ by L and R. A name of a letter and
+/// a number is none of a pair: L1 and R1 may be the little and the ring finger, or a vertebra.
 fn left_of(markers: &[Marker], up: Direction) -> Option<Direction> {
     let mut sum = DVec3::ZERO;
     let up = up.vector();
@@ -199,6 +200,9 @@ fn left_of(markers: &[Marker], up: Direction) -> Option<Direction> {
             let Some(rest) = left.name.strip_prefix(from) else {
                 continue;
             };
+            if !rest.chars().any(char::is_alphabetic) {
+                continue;
+            }
             let other = format!("{to}{rest}");
             let Some(right) = markers
                 .iter()
@@ -213,4 +217,31 @@ fn left_of(markers: &[Marker], up: Direction) -> Option<Direction> {
     }
     let across = sum - up * sum.dot(up);
     (across.length() > 0.5).then(|| Direction::nearest(across))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn marker(name: &str, at: DVec3) -> Marker {
+        let place = at.to_array().map(|x| Column::doubles(vec![x])).to_vec();
+        Marker::new(name.to_owned(), place)
+    }
+
+    #[test]
+    fn shoulders_show_which_side_is_left_and_numbered_fingers_do_not() {
+        let pair = |left: &str, right: &str| {
+            let both = [marker(left, DVec3::Z), marker(right, DVec3::NEG_Z)];
+            left_of(&both, "+Y".parse().expect("a direction"))
+        };
+        assert_eq!(
+            pair("LSHO", "RSHO"),
+            Some("+Z".parse().expect("a direction"))
+        );
+        assert_eq!(
+            pair("l_wrist", "r_wrist"),
+            Some("+Z".parse().expect("a direction"))
+        );
+        assert_eq!(pair("L1", "R1"), None);
+    }
 }

@@ -1,7 +1,8 @@
 //! Generates sessions of cued speech, and measures how well the models recover their known truth.
 //!
 //! `cargo run --release -p chereme-tests --example cued -- table` prints the table, `… -- table FILE` writes it into a
-//! Markdown file between the lines `<!-- cued -->` and `<!-- end of cued -->`;
+//! Markdown file between the lines `<!-- cued -->` and `<!-- end of cued -->`, with numpy beside the training of models if
+//! `CHEREME_PYTHON` names a Python that has it;
 //! `… -- session OUT [SENTENCES] [SEED]` writes a session, 238 sentences if no number is given: C3D with TextGrid, TRC with
 //! EAF, the truth as CSV, and a README that declares everything as generated. `… -- fable` prints the keys of two fables of La Fontaine, line by line; the same
 //! text is cued with `chereme cue CORPUS "$(cat tests/examples/cued/corbeau.txt)"`.

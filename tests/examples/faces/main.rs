@@ -5,8 +5,8 @@
 //! Eighteen sentences in three functions (negation, wh and yes/no questions) are performed by a generator whose faces and
 //! milestones are known. They are written as files of MPEG-4 parameters and imported; then their milestones are derived,
 //! and they are scored, ranked, and transferred to each other. FOLDER keeps the files, the corpus and `tables.md`;
-//! without it they are in a temporary folder. `--write` puts the tables into `tests/examples/faces/RESULTS.md`.
-//! `--pool N` chooses among N performances instead, and prints the time of that.
+//! without it they are in a temporary folder. `--pool N` chooses among N performances instead, and prints the time of
+//! that. `--write` puts the tables into `tests/examples/faces/RESULTS.md`; those of the other kind remain.
 //!
 //! Each table states what it shows and what it does not. Nobody rated these performances: the paper's correlations with
 //! comprehension need people, and no number of this program replaces them.
@@ -46,8 +46,15 @@ fn main() -> Result<(), Failure> {
     let own = tempfile::tempdir()?;
     let folder = folder.unwrap_or_else(|| own.path().to_owned());
     std::fs::create_dir_all(&folder)?;
+    let results = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/faces/RESULTS.md");
+    let (tables, speed) = table::sections(&std::fs::read_to_string(&results)?);
     if let Some(count) = pool {
-        return pool::run(&folder, count);
+        let text = pool::run(&folder, count)?;
+        if write {
+            std::fs::write(results, tables + &text)?;
+        }
+        println!("{text}");
+        return Ok(());
     }
     let mut tables = Tables::default();
     let all = Sentence::all();
@@ -62,8 +69,7 @@ fn main() -> Result<(), Failure> {
     let text = tables.text();
     std::fs::write(folder.join("tables.md"), &text)?;
     if write {
-        let results = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/faces/RESULTS.md");
-        std::fs::write(results, &text)?;
+        std::fs::write(results, text.clone() + &speed)?;
     }
     println!("{text}");
     Ok(())

@@ -8,9 +8,14 @@ use chereme_corpus::{ChooseOptions, Corpus, Function, ImportOptions, Progress, u
 use crate::sentence::{Numbers, Sentence};
 use crate::{Failure, address};
 
-/// Imports `count` performances of wh questions and chooses among them twice: first as the corpus lies on disk, then as it
-/// is in memory.
-pub(crate) fn run(folder: &Path, count: usize) -> Result<(), Failure> {
+/// The mean number of frames of a performance, from M1 to M5.
+const FRAMES: f64 = 200.0;
+/// The number of times each case is measured.
+const TIMES: usize = 5;
+
+/// Imports `count` performances of wh questions with their annotation files and chooses among them: first from the
+/// recordings, then in a corpus opened again, then in one that chose before. Returns a section of tables.
+pub(crate) fn run(folder: &Path, count: usize) -> Result<String, Failure> {
     let path = folder.join("pool.chereme");
     if path.exists() {
         std::fs::remove_file(&path)?;
@@ -18,38 +23,63 @@ pub(crate) fn run(folder: &Path, count: usize) -> Result<(), Failure> {
     let files = folder.join("pool");
     std::fs::create_dir_all(&files)?;
     let mut numbers = Numbers(10);
-    let all: Vec<Sentence> = (0..=count)
-        .map(|n| Sentence::new(format!("P{n:05}"), "wh", &mut numbers))
-        .collect();
     let mut paths = Vec::new();
-    for sentence in &all {
+    let mut frames = 0.0;
+    for n in 0..=count {
+        let seconds = FRAMES / 30.0 * (0.85 + 0.3 * numbers.next());
+        let sentence = Sentence::new(format!("P{n:05}"), "wh", &mut numbers).lasting(seconds);
+        frames += sentence.frames();
         let path = files.join(format!("{}.fap", sentence.name));
         std::fs::write(&path, sentence.fap())?;
+        std::fs::write(path.with_extension("TextGrid"), sentence.text_grid())?;
+        paths.push(path.with_extension("TextGrid"));
         paths.push(path);
     }
-    let mut corpus = Corpus::create(&path, "faces")?;
+    let frames = frames / (count + 1) as f64;
     let mut hear = unheard;
     let progress = &mut Progress::new(&mut hear);
+    let mut corpus = Corpus::create(&path, "faces")?;
     let begun = Instant::now();
     corpus.import(&paths, &ImportOptions::default(), progress)?;
-    for sentence in &all {
-        sentence.annotate(&mut corpus)?;
-    }
-    let took = begun.elapsed();
-    println!(
-        "{} performances imported and annotated in {took:.1?}",
-        all.len()
-    );
-    for state in ["from disk", "in memory"] {
+    let imported = begun.elapsed();
+    let target = address("P00000");
+    let mut choose = |corpus: &Corpus| -> Result<(f64, String), Failure> {
         let begun = Instant::now();
         let options = ChooseOptions::default();
-        let target = address(&all[0].name);
         let choice = corpus.choose(&Function::of("wh"), &target, &options, progress)?;
-        let (first, took) = (&choice.ranking[0], begun.elapsed());
-        println!(
-            "{state}: {} compared in {took:.3?}; nearest {} ({:.3})",
+        let took = begun.elapsed().as_secs_f64();
+        let first = &choice.ranking[0];
+        let found = format!(
+            "{} compared, nearest {} ({:.3})",
             choice.compared, first.recording, first.score
         );
+        Ok((took, found))
+    };
+    let (first, found) = choose(&corpus)?;
+    let (mut opened, mut again) = (Vec::new(), Vec::new());
+    for _ in 0..TIMES {
+        corpus = Corpus::open(&path, "faces")?;
+        for times in [&mut opened, &mut again] {
+            let (took, same) = choose(&corpus)?;
+            if same != found {
+                return Err(format!("{same} instead of {found}").into());
+            }
+            times.push(took);
+        }
     }
-    Ok(())
+    let median = |times: &mut Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        times[TIMES / 2]
+    };
+    let (opened, again) = (median(&mut opened), median(&mut again));
+    Ok(format!(
+        "## Speed: choosing among {count} performances of {frames:.0} frames\n\n\
+         | state of the corpus | seconds |\n| --- | --- |\n\
+         | all files imported, with their annotations | {:.1} |\n\
+         | first choice after a change: every recording is read | {first:.2} |\n\
+         | corpus opened, nothing changed since (median of {TIMES}) | {opened:.2} |\n\
+         | next choice (median of {TIMES}) | {again:.2} |\n\n\
+         {found}. The wanted time is one second.\n",
+        imported.as_secs_f64()
+    ))
 }

@@ -6,6 +6,8 @@ use chereme_corpus::{
     AnnotateOptions, AnnotationAction, Corpus, Function, Instant, Milestones, Moment, Name,
     NewTier, Progress, TierName, TierRole, unheard,
 };
+use chereme_formats::eaf::convert::{Annotation, Tier, Timing, Transcript};
+use chereme_formats::textgrid::{self, Form, INTERVALS};
 use chereme_motion::Span;
 use chereme_sign::milestones::{EDGE, milestones};
 
@@ -142,6 +144,68 @@ impl Sentence {
         };
         let part = smooth((seconds - m3) / 0.2 + 0.5);
         (smooth(rise).min(smooth(fall)), part)
+    }
+
+    /// Returns the same performance in another tempo: one that lasts about `seconds` from M1 to M5, because the half
+    /// seconds at the edges of an utterance do not stretch.
+    pub(crate) fn lasting(mut self, seconds: f64) -> Self {
+        let factor = seconds / self.milestones.span().seconds();
+        let at = |time: Instant| Instant::from_millis((time.seconds() * factor * 1000.0) as i64);
+        let slower = |span: &Span| Span::between(at(span.start()), at(span.end()));
+        for (_, span) in &mut self.signs {
+            *span = slower(span);
+        }
+        self.body = slower(&self.body);
+        let spans: Vec<Span> = self.signs.iter().map(|(_, span)| *span).collect();
+        let inside = |span: &Span| self.body.contains(span.start());
+        let first = spans.iter().position(inside).unwrap_or(0);
+        let count = spans.iter().filter(|span| inside(span)).count();
+        let function = Function::of(self.function);
+        if let Some(found) = milestones(&spans, first..first + count, &function, EDGE) {
+            self.milestones = found;
+        }
+        self.seconds = spans.last().map_or(0.0, |span| span.end().seconds()) + 0.7;
+        self
+    }
+
+    /// Returns the number of frames from M1 to M5.
+    pub(crate) fn frames(&self) -> f64 {
+        self.milestones.span().seconds() * RATE
+    }
+
+    /// Returns the signs and the function as a TextGrid, so that they are imported with the capture file of that name.
+    pub(crate) fn text_grid(&self) -> String {
+        let mut next = 0;
+        let mut tier = |name: &str, of: &[(String, Span)]| {
+            let annotations = of.iter().map(|(value, span)| {
+                next += 1;
+                Annotation {
+                    id: format!("a{next}"),
+                    span: *span,
+                    timing: Timing::Own,
+                    parent: None,
+                    order: 0,
+                    value: value.clone(),
+                    entry: None,
+                    language: None,
+                    external_ref: None,
+                    millis: None,
+                }
+            });
+            Tier {
+                name: name.to_owned(),
+                kind: INTERVALS.to_owned(),
+                annotations: annotations.collect(),
+                ..Tier::default()
+            }
+        };
+        let function = [(self.function.to_owned(), self.body)];
+        let both = Transcript {
+            tiers: vec![tier("gloss", &self.signs), tier("function", &function)],
+            ..Transcript::default()
+        };
+        let end = Instant::from_seconds(self.seconds);
+        textgrid::write(&both, Form::Short, end).0
     }
 
     /// Returns the raised brow at a moment.

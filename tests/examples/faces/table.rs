@@ -33,6 +33,12 @@ impl Tables {
     }
 }
 
+/// Cuts the text of the results into the tables of the experiment and the section on speed.
+pub(crate) fn sections(text: &str) -> (String, String) {
+    let at = text.find("## Speed").unwrap_or(text.len());
+    (text[..at].to_owned(), text[at..].to_owned())
+}
+
 /// Returns Spearman's rank correlation; equal values share the mean of their ranks.
 pub(crate) fn rho(a: &[f64], b: &[f64]) -> f64 {
     let (a, b) = (ranks(a), ranks(b));

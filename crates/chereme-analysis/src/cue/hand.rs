@@ -37,9 +37,8 @@ pub struct HandModel {
     back: Vec<DVec3>,
     /// The point about which the hand rotates, in the space of the forearm.
     wrist: DVec3,
-    /// The displacement of all markers by one radian of each angle, in millimetres.
-    levers: Vec<f64>,
-    /// Components of the angles, which are scaled to millimetres of displacement.
+    levers: Levers,
+    /// Components of the angles, which are converted to millimetres of displacement.
     pub components: Pca,
     terms: Terms,
     /// The coefficients of the 150 marker coordinates for each term, in the space of the hand.
@@ -69,8 +68,9 @@ type Linear = (Vec<DVec3>, Vec<Vec<DVec3>>);
 impl HandModel {
     /// Learns a model of `keep` components from frames of an unobstructed hand, such as one in free space.
     ///
-    /// The components are those of the angles, each scaled by how far it moves the markers. The wrist rotates the hand
-    /// as a whole, so that the regression contains no product of rotations.
+    /// The components are those of the angles, in numbers whose differences are displacements of all markers: joints
+    /// that move the same markers count together. The wrist rotates the hand as a whole, so that the regression contains
+    /// no product of rotations.
     ///
     /// # Errors
     /// [`ModelError`] if too few frames show the forearm, or a marker is visible in none.
@@ -100,26 +100,15 @@ impl HandModel {
         let filled: Vec<Vec<f64>> = some.iter().map(|n| whole(&angles[*n], &first)).collect();
         let frames: Vec<Frame> = some.iter().map(|n| local[*n].clone()).collect();
         let moved = regress(&terms, &filled, &frames, wrist)?;
-        let levers = levers(&terms, &moved, &filled, wrist);
+        let levers = Levers::of(&terms, &moved, &filled, wrist)?;
         let scaled: Vec<Vec<f64>> = angles
             .iter()
-            .map(|row| {
-                row.iter()
-                    .zip(&levers)
-                    .map(|(x, lever)| x * lever)
-                    .collect()
-            })
+            .map(|row| levers.scaled(&whole(row, &first)))
             .collect();
         let components = Pca::fit(&scaled, keep, 6)?;
         let said: Vec<Vec<f64>> = scaled
             .iter()
-            .map(|row| {
-                let own = components.rebuild(&components.project(&whole(row, &components)));
-                own.iter()
-                    .zip(&levers)
-                    .map(|(x, lever)| x / lever)
-                    .collect()
-            })
+            .map(|row| levers.angles(&components.rebuild(&components.project(row))))
             .collect();
         let moved = regress(&terms, &said, &local, wrist)?;
         let mut missed = vec![(0.0, 0.0); HAND];
@@ -149,7 +138,7 @@ impl HandModel {
         })
     }
 
-    /// Returns the share of the angles' variance that the components explain, each angle scaled by how far it moves the
+    /// Returns the share of the angles' variance that the components explain, measured by how far the angles move the
     /// markers.
     #[must_use]
     pub fn explained(&self) -> f64 {
@@ -249,12 +238,20 @@ impl HandModel {
     /// values.
     fn read_off(&self, frame: &Frame) -> Vec<f64> {
         let angles = self.angles_of(frame);
-        let scaled: Vec<f64> = angles
-            .iter()
-            .zip(&self.levers)
-            .map(|(x, lever)| x * lever)
-            .collect();
-        self.components.project(&whole(&scaled, &self.components))
+        let mut own = self.levers.angles(&self.components.mean);
+        for _ in 0..6 {
+            for (own, angle) in own.iter_mut().zip(&angles) {
+                if angle.is_finite() {
+                    *own = *angle;
+                }
+            }
+            let parameters = self.components.project(&self.levers.scaled(&own));
+            if angles.iter().all(|angle| angle.is_finite()) {
+                return parameters;
+            }
+            own = self.levers.angles(&self.components.rebuild(&parameters));
+        }
+        self.components.project(&self.levers.scaled(&own))
     }
 
     /// Returns the seven distances that distinguish shapes, from markers in any space.
@@ -304,12 +301,7 @@ impl HandModel {
     }
 
     fn linear(&self, parameters: &[f64]) -> Linear {
-        let scaled = self.components.rebuild(parameters);
-        let angles: Vec<f64> = scaled
-            .iter()
-            .zip(&self.levers)
-            .map(|(x, lever)| x / lever)
-            .collect();
+        let angles = self.levers.angles(&self.components.rebuild(parameters));
         let input = self.terms.of(&angles);
         let turn = turn_of(&angles);
         let local: Vec<DVec3> = (0..HAND)
@@ -325,11 +317,7 @@ impl HandModel {
             .directions
             .iter()
             .map(|direction| {
-                let way: Vec<f64> = direction
-                    .iter()
-                    .zip(&self.levers)
-                    .map(|(x, lever)| x / lever)
-                    .collect();
+                let way = self.levers.angles(direction);
                 self.slope(&angles, &way, (turn, &local))
             })
             .collect();
@@ -533,29 +521,70 @@ fn ridged(mut gram: Matrix) -> Result<Matrix, ModelError> {
     gram.cholesky().ok_or(ModelError::Singular)
 }
 
-/// Returns the displacement of all markers by one radian of each angle, in millimetres: the root of the sum of squares.
-fn levers(terms: &Terms, moved: &Matrix, angles: &[Vec<f64>], wrist: DVec3) -> Vec<f64> {
-    let some: Vec<&Vec<f64>> = angles.iter().step_by((angles.len() / 60).max(1)).collect();
-    (0..ANGLES)
-        .map(|n| {
-            let mut way = vec![0.0; ANGLES];
-            way[n] = 1.0;
-            let mut sum = 0.0;
-            for row in &some {
-                let (input, change) = (terms.of(row), terms.slopes(row, &way));
-                for marker in 0..HAND {
-                    sum += point(moved, &change, marker).length_squared();
-                    if n < 3 && marker >= TURNED {
-                        let axis = DVec3::AXES[n];
-                        sum += axis
-                            .cross(point(moved, &input, marker) - wrist)
-                            .length_squared();
-                    }
+/// Converts angles to numbers whose differences have the length of the displacement of all markers, in millimetres: the
+/// root of the sum of squares.
+#[derive(Debug, Clone)]
+struct Levers {
+    /// The lower triangle `L` of the Cholesky factor of the mean of `Jᵀ J`, where `J` is the derivative of all markers by
+    /// the angles; the numbers are `Lᵀ angles`.
+    lower: Matrix,
+}
+
+impl Levers {
+    fn of(
+        terms: &Terms,
+        moved: &Matrix,
+        angles: &[Vec<f64>],
+        wrist: DVec3,
+    ) -> Result<Self, ModelError> {
+        let some: Vec<&Vec<f64>> = angles.iter().step_by((angles.len() / 60).max(1)).collect();
+        let mut gram = Matrix::zeros(ANGLES, ANGLES);
+        for row in &some {
+            let input = terms.of(row);
+            let slopes: Vec<Vec<f64>> = (0..ANGLES)
+                .map(|n| {
+                    let mut way = vec![0.0; ANGLES];
+                    way[n] = 1.0;
+                    terms.slopes(row, &way)
+                })
+                .collect();
+            for marker in 0..HAND {
+                let at = point(moved, &input, marker) - wrist;
+                let ways = (0..ANGLES).map(|n| match n {
+                    0..3 if marker >= TURNED => DVec3::AXES[n].cross(at),
+                    _ => point(moved, &slopes[n], marker),
+                });
+                let ways: Vec<DVec3> = ways.collect();
+                for axis in 0..3 {
+                    let row: Vec<f64> = ways.iter().map(|way| way[axis]).collect();
+                    gram.add_outer(&row, &row, 1.0 / some.len() as f64);
                 }
             }
-            (sum / some.len().max(1) as f64).sqrt().max(1.0)
-        })
-        .collect()
+        }
+        for n in 0..ANGLES {
+            // An angle that moves nothing still counts as a millimetre a radian.
+            gram[(n, n)] += 1.0;
+        }
+        let lower = gram.cholesky().ok_or(ModelError::Singular)?;
+        Ok(Self { lower })
+    }
+
+    fn scaled(&self, angles: &[f64]) -> Vec<f64> {
+        (0..ANGLES)
+            .map(|k| (k..ANGLES).map(|n| self.lower[(n, k)] * angles[n]).sum())
+            .collect()
+    }
+
+    fn angles(&self, scaled: &[f64]) -> Vec<f64> {
+        let mut angles = scaled.to_vec();
+        for k in (0..ANGLES).rev() {
+            let above: f64 = (k + 1..ANGLES)
+                .map(|n| self.lower[(n, k)] * angles[n])
+                .sum();
+            angles[k] = (angles[k] - above) / self.lower[(k, k)];
+        }
+        angles
+    }
 }
 
 fn point(terms: &Matrix, input: &[f64], marker: usize) -> DVec3 {

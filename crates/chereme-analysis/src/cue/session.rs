@@ -8,7 +8,9 @@ use super::gauss::Recogniser;
 use super::hand::{self, HandModel};
 use super::labels::RIGID;
 use super::rigid::Rigid;
-use super::targets::{MinimumJerkFit, Quartiles, Sought, TargetOptions, targets, way};
+use super::targets::{
+    AFTER, LEAST, MinimumJerkFit, Quartiles, Sought, TargetOptions, handed_over, targets,
+};
 
 /// Measurements of a take, computed from its markers.
 #[derive(Debug, Clone, Default)]
@@ -471,60 +473,106 @@ fn gestures(
         let rows = of.iter().map(|at| at.map(|at| at.to_array()));
         rows.collect::<Vec<Option<[f64; 3]>>>()
     });
-    keys.iter()
-        .enumerate()
-        .map(|(n, key)| {
-            let before = n.checked_sub(1);
-            let own = &tips[usize::from(!points_with_index(key.shape))];
-            let row = |frame: usize| own.get(frame)?.as_ref().map(<[f64; 3]>::as_slice);
-            let posteriors = |frame: usize| {
-                let tip = take.tip(key.shape, frame)?;
-                Some(known.placements.posteriors(&tip.to_array()))
-            };
-            let same = before.is_some_and(|n| keys[n].placement == key.placement);
-            let around = (before.map(|n| hand[n]), hand[n], hand.get(n + 1).copied());
-            let hand = gesture(take, around, key.placement, row, posteriors, (SHORT, same));
-            let row = |frame: usize| take.seven.get(frame)?.as_ref().map(<[f64; 7]>::as_slice);
-            let posteriors = |frame: usize| {
-                let seven = take.seven.get(frame)?.as_ref()?;
-                Some(known.shapes.posteriors(seven))
-            };
-            let same = before.is_some_and(|n| keys[n].shape == key.shape);
-            let around = (
-                before.map(|n| fingers[n]),
-                fingers[n],
-                fingers.get(n + 1).copied(),
-            );
-            let fingers = gesture(take, around, key.shape, row, posteriors, (SHORT, same));
-            KeyGestures { hand, fingers }
-        })
-        .collect()
+    let mut all: Vec<KeyGestures> = Vec::with_capacity(keys.len());
+    for (n, key) in keys.iter().enumerate() {
+        let before = n.checked_sub(1);
+        let around = |frames: &[usize], gesture: fn(&KeyGestures) -> Gesture| Around {
+            before: before.map(|n| frames[n]),
+            arrived: all.last().map(gesture).map_or(0.0, |it| it.way.end),
+            frame: frames[n],
+            after: frames.get(n + 1).copied(),
+        };
+        // On the way from one pointing finger to another the first gives way to the second; a hand that comes from rest
+        // counts as pointing with the middle finger.
+        let pointing = |shape: u8| &tips[usize::from(!points_with_index(shape))];
+        let [first, second] = [before.map_or(REST, |n| keys[n].shape), key.shape].map(pointing);
+        let rows = |frame: usize| {
+            let (first, second) = (first.get(frame)?.as_ref()?, second.get(frame)?.as_ref()?);
+            Some([first.as_slice(), second.as_slice()])
+        };
+        let posteriors = |frame: usize| {
+            let tip = take.tip(key.shape, frame)?;
+            Some(known.placements.posteriors(&tip.to_array()))
+        };
+        let same = before.is_some_and(|n| keys[n].placement == key.placement);
+        let near = around(hand, |it| it.hand);
+        let hand = gesture(take, &near, key.placement, rows, posteriors, same);
+        let rows = |frame: usize| {
+            let row = take.seven.get(frame)?.as_ref()?.as_slice();
+            Some([row, row])
+        };
+        let posteriors = |frame: usize| {
+            let seven = take.seven.get(frame)?.as_ref()?;
+            Some(known.shapes.posteriors(seven))
+        };
+        let same = before.is_some_and(|n| keys[n].shape == key.shape);
+        let near = around(fingers, |it| it.fingers);
+        let fingers = gesture(take, &near, key.shape, rows, posteriors, same);
+        all.push(KeyGestures { hand, fingers });
+    }
+    all
 }
 
+/// The shape of a hand at rest.
+const REST: u8 = 0;
 /// The longest time before its target at which the movement to the first key may begin, in seconds.
 const LONGEST: f64 = 0.6;
 
+/// The frames between which a gesture is sought.
+struct Around {
+    /// The target of the previous key.
+    before: Option<usize>,
+    /// The time in which the movement to the previous key ends, in seconds.
+    arrived: f64,
+    /// The target.
+    frame: usize,
+    /// The target of the next key.
+    after: Option<usize>,
+}
+
+/// Fits the movement to a target. A movement that ends with the examined frames is fitted again to more of them, up to
+/// the next target; a target found in the middle of a movement is corrected by this.
+fn movement<'a>(
+    rows: impl Fn(usize) -> Option<[&'a [f64]; 2]>,
+    (from, to, most): (usize, usize, usize),
+    frame_time: f64,
+) -> Option<MinimumJerkFit> {
+    const MORE: usize = 3;
+    let mut to = to;
+    loop {
+        let found = handed_over(&rows, (from, to), frame_time)?;
+        let at_its_limit = found.end / frame_time >= to as f64 + AFTER - 0.5;
+        if !at_its_limit || to >= most {
+            return Some(found);
+        }
+        to = (to + MORE).min(most);
+    }
+}
+
 fn gesture<'a>(
     take: &Followed,
-    (before, frame, after): (Option<usize>, usize, Option<usize>),
+    around: &Around,
     right: u8,
-    row: impl Fn(usize) -> Option<&'a [f64]>,
+    rows: impl Fn(usize) -> Option<[&'a [f64]; 2]>,
     posteriors: impl Fn(usize) -> Option<Vec<(u8, f64)>>,
-    (short, same): (f64, bool),
+    same: bool,
 ) -> Gesture {
+    let (before, frame, after) = (around.before, around.frame, around.after);
     let frame_time = 1.0 / take.rate;
     let last = take.frames().saturating_sub(1);
     let earliest = frame.saturating_sub((LONGEST * take.rate) as usize);
-    let from = before.map_or(earliest, |before| before.max(earliest));
-    let to = (frame + 2).min(after.unwrap_or(last)).min(last);
-    let found = way(row, (from, to), frame_time);
+    let arrived = (around.arrived * take.rate) as usize;
+    let arrived = if arrived + LEAST <= frame { arrived } else { 0 };
+    let from = before.map_or(earliest, |before| before.max(arrived).max(earliest));
+    let most = after.unwrap_or(last).min(last);
+    let found = movement(rows, (from, (frame + 2).min(most), most), frame_time);
     let still = MinimumJerkFit {
         start: frame as f64 * frame_time,
         end: frame as f64 * frame_time,
         length: 0.0,
         explained: 0.0,
     };
-    let measured = !same && found.is_some_and(|it| it.length >= short && it.explained >= CLEAR);
+    let measured = !same && found.is_some_and(|it| it.length >= SHORT && it.explained >= CLEAR);
     let at = posteriors(frame).unwrap_or_default();
     let best = |all: &[(u8, f64)]| {
         let most = all.iter().copied();

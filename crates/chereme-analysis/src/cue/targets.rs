@@ -124,7 +124,9 @@ pub struct MinimumJerkFit {
 /// The shortest movement that a fit may have, in seconds.
 const SHORTEST: f64 = 0.05;
 /// The longest time after the last frame at which a movement may end, in frames.
-const AFTER: f64 = 3.0;
+pub(super) const AFTER: f64 = 3.0;
+/// The fewest frames to which a movement is fitted.
+pub(super) const LEAST: usize = 6;
 
 /// Fits the minimum-jerk movement that explains most of the change of `row` over the frames `from..=to`, with rest
 /// before and after it. A frame without numbers is ignored.
@@ -135,57 +137,36 @@ const AFTER: f64 = 3.0;
 #[must_use]
 pub fn way<'a>(
     row: impl Fn(usize) -> Option<&'a [f64]>,
+    range: (usize, usize),
+    frame_time: f64,
+) -> Option<MinimumJerkFit> {
+    handed_over(|frame| row(frame).map(|row| [row, row]), range, frame_time)
+}
+
+/// Fits a movement that one point begins and another ends, as when the middle finger points first and the index finger
+/// later: in the course of the movement, the first of the two rows of each frame gives way to the second. Otherwise as
+/// [`way`].
+#[must_use]
+pub fn handed_over<'a>(
+    rows: impl Fn(usize) -> Option<[&'a [f64]; 2]>,
     (from, to): (usize, usize),
     frame_time: f64,
 ) -> Option<MinimumJerkFit> {
-    let seen: Vec<(f64, &[f64])> = (from..=to)
-        .filter_map(|frame| Some((frame as f64, row(frame)?)))
+    let seen: Vec<(f64, [&[f64]; 2])> = (from..=to)
+        .filter_map(|frame| Some((frame as f64, rows(frame)?)))
         .collect();
-    let width = seen.first()?.1.len();
-    const LEAST: usize = 6;
-    if seen.len() < LEAST || seen.iter().any(|(_, row)| row.len() != width) {
+    let width = seen.first()?.1[0].len();
+    let uneven = |rows: &[&[f64]; 2]| rows.iter().any(|row| row.len() != width);
+    if seen.len() < LEAST || seen.iter().any(|(_, rows)| uneven(rows)) {
         return None;
     }
-    let count = seen.len() as f64;
-    let mut mean = vec![0.0; width];
-    for (_, row) in &seen {
-        mean.iter_mut()
-            .zip(*row)
-            .for_each(|(mean, x)| *mean += x / count);
-    }
-    let apart =
-        |row: &[f64]| -> f64 { row.iter().zip(&mean).map(|(x, m)| (x - m) * (x - m)).sum() };
-    let total: f64 = seen.iter().map(|(_, row)| apart(row)).sum();
-    if total.is_nan() || total <= 1e-9 {
-        return None;
-    }
-    // The variance that a movement explains, and the square of its length.
-    let gain = |start: f64, end: f64| -> (f64, f64) {
-        let share = |time: f64| {
-            Interpolation::MinimumJerk.share(((time - start) / (end - start)).clamp(0.0, 1.0))
-        };
-        let shares: Vec<f64> = seen.iter().map(|(time, _)| share(*time)).collect();
-        let middle = shares.iter().sum::<f64>() / count;
-        let spread: f64 = shares.iter().map(|s| (s - middle) * (s - middle)).sum();
-        if spread < 1e-9 {
-            return (0.0, 0.0);
-        }
-        let mut along = vec![0.0; width];
-        for (share, (_, row)) in shares.iter().zip(&seen) {
-            for ((along, x), mean) in along.iter_mut().zip(*row).zip(&mean) {
-                *along += (share - middle) * (x - mean);
-            }
-        }
-        let square: f64 = along.iter().map(|x| x * x).sum();
-        (square / spread, square / (spread * spread))
-    };
     let (first, last) = (from as f64, to as f64 + AFTER);
     let shortest = SHORTEST / frame_time;
-    let mut best = (f64::NEG_INFINITY, first, last);
-    let better = |best: &mut (f64, f64, f64), start: f64, end: f64| {
+    let mut best = (Fit::NONE, first, last);
+    let better = |best: &mut (Fit, f64, f64), start: f64, end: f64| {
         if start >= first - 1.0 && end <= last && end - start >= shortest {
-            let own = gain(start, end).0;
-            if own > best.0 {
+            let own = Fit::of(&seen, width, start, end);
+            if own.left < best.0.left {
                 *best = (own, start, end);
                 return true;
             }
@@ -200,7 +181,7 @@ pub fn way<'a>(
             better(&mut best, first + i as f64 * grid, end);
         }
     }
-    if best.0 == f64::NEG_INFINITY {
+    if best.0.left == f64::INFINITY {
         return None;
     }
     let mut step = grid / 2.0;
@@ -223,14 +204,68 @@ pub fn way<'a>(
             step /= 2.0;
         }
     }
-    let (_, start, end) = best;
-    let (explained, square) = gain(start, end);
+    let (fit, start, end) = best;
     Some(MinimumJerkFit {
         start: start * frame_time,
         end: end * frame_time,
-        length: square.sqrt(),
-        explained: (explained / total).clamp(0.0, 1.0),
+        length: fit.length,
+        explained: (1.0 - fit.left / fit.total).clamp(0.0, 1.0),
     })
+}
+
+/// A movement with given times, fitted to frames by least squares.
+#[derive(Clone, Copy)]
+struct Fit {
+    /// The sum of squares around the mean.
+    total: f64,
+    /// The sum of squares that the movement leaves.
+    left: f64,
+    /// The length of the movement.
+    length: f64,
+}
+
+impl Fit {
+    /// No movement.
+    const NONE: Self = Self {
+        total: 0.0,
+        left: f64::INFINITY,
+        length: 0.0,
+    };
+
+    fn of(seen: &[(f64, [&[f64]; 2])], width: usize, start: f64, end: f64) -> Self {
+        let share = |time: f64| {
+            Interpolation::MinimumJerk.share(((time - start) / (end - start)).clamp(0.0, 1.0))
+        };
+        let count = seen.len() as f64;
+        let shares: Vec<f64> = seen.iter().map(|(time, _)| share(*time)).collect();
+        let middle = shares.iter().sum::<f64>() / count;
+        let spread: f64 = shares.iter().map(|s| (s - middle) * (s - middle)).sum();
+        if spread < 1e-9 {
+            return Self::NONE;
+        }
+        let (mut total, mut square) = (0.0, 0.0);
+        for k in 0..width {
+            let (mut sum, mut squares, mut along) = (0.0, 0.0, 0.0);
+            // Numbers count from the first frame, so that far origins cost no precision.
+            let origin = seen[0].1[0][k];
+            for (share, (_, [before, after])) in shares.iter().zip(seen) {
+                let own = before[k] + (after[k] - before[k]) * share - origin;
+                sum += own;
+                squares += own * own;
+                along += (share - middle) * own;
+            }
+            total += squares - sum * sum / count;
+            square += along * along;
+        }
+        if total.is_nan() || total <= 1e-9 {
+            return Self::NONE;
+        }
+        Self {
+            total,
+            left: total - square / spread,
+            length: square.sqrt() / spread,
+        }
+    }
 }
 
 /// Median and quartiles of numbers.

@@ -51,6 +51,8 @@ fn a_rigid_motion_is_found_and_what_has_none_is_refused() {
             let turn = found.rotation.angle_between(motion.rotation).to_degrees();
             let middle = from.iter().sum::<DVec3>() / 9.0;
             let off = found.apply(middle).distance(motion.apply(middle));
+            let shortest = found.rotation.to_scaled_axis().length();
+            assert!(shortest <= std::f64::consts::PI + 1e-9, "{shortest}");
             if noise == 0.0 {
                 assert!(off < 1e-9, "{off}");
             } else {

@@ -1,5 +1,9 @@
 //! Hidden markers restored from models of hand and face, as a track of their own.
 
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::thread;
+use std::time::Duration;
+
 use chereme_analysis::cue::face::FaceModel;
 use chereme_analysis::cue::hand::{HandModel, Restored};
 use chereme_analysis::cue::rigid::Rigid;
@@ -14,6 +18,7 @@ use super::capture::{RESTORED, Take, take, takes};
 use super::{CuedOptions, rounded};
 use crate::Corpus;
 use crate::address::{self, Name};
+use crate::db::recordings::RecordingRow;
 use crate::db::tracks::{self, TrackKind};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
@@ -92,11 +97,18 @@ pub struct RestoredMarker {
 
 /// The predicted standard deviation in the room above which a position counts as uncertain, in millimetres.
 const UNCERTAIN: f64 = 8.0;
+/// The mean distance of visible markers from the model above which a finding warns, in millimetres.
+const FAR: f64 = 6.0;
+/// The number of frames after which no further take is loaded to be restored at the same time.
+const TOGETHER: usize = 100_000;
 /// The largest number of frames from which a model learns.
 const MOST_LEARNED: usize = 10_000;
 
 /// A frame in the model of the face: the head's motion, and the position and predicted error of each marker.
 type FaceRow = (Rigid, Vec<DVec3>, Vec<f64>);
+
+/// The report on a take, and the track of restored markers if there are any.
+type Restoration = (RestoredTake, Option<NewTrack>);
 
 struct Models {
     hand: Option<(HandModel, Vec<String>)>,
@@ -122,32 +134,41 @@ impl Corpus {
                 .advise("a hand has from 1 to 25; the founding paper keeps 12"));
         }
         let connection = self.store.read();
-        let models = models(connection, options, progress)?;
+        let (models, rows) = models(connection, options, progress)?;
         let mut done = Vec::new();
         let mut new = Vec::new();
-        let named: Vec<_> = if recordings.is_empty() {
-            takes(connection, &[], &options.cued)?
-                .into_iter()
-                .map(|it| it.row)
-                .collect()
-        } else {
-            let rows = recordings
-                .iter()
-                .map(|name| address::recording(connection, name));
-            rows.collect::<Result<_>>()?
+        let named: Vec<RecordingRow> = match (recordings, options.train.as_slice()) {
+            ([], []) => rows,
+            ([], _) => {
+                let all = takes(connection, &[], &options.cued)?;
+                all.into_iter().map(|it| it.row).collect()
+            }
+            _ => {
+                let rows = recordings
+                    .iter()
+                    .map(|name| address::recording(connection, name));
+                rows.collect::<Result<_>>()?
+            }
         };
-        let total = named.len() as u64;
-        for (n, row) in named.into_iter().enumerate() {
-            let take = take(connection, row, &options.cued)?;
-            progress.tell(Step {
-                task: &take.row.name,
-                done: n as u64,
-                total: Some(total),
-                unit: Unit::Items,
-            })?;
-            let (report, track) = restored(&take, &models, progress)?;
-            done.push(report);
-            new.push((take.row.id, track));
+        let mut ahead = named.into_iter().peekable();
+        let mut counted = Counted::default();
+        while ahead.peek().is_some() {
+            let mut together: Vec<Take> = Vec::new();
+            let mut frames = 0;
+            while together.len() < cores() && frames < TOGETHER {
+                let Some(row) = ahead.next() else { break };
+                let take = take(connection, row, &options.cued)?;
+                frames += take.frames();
+                together.push(take);
+            }
+            for (take, result) in together
+                .iter()
+                .zip(counted.all(&together, &models, progress)?)
+            {
+                let (report, track) = result?;
+                done.push(report);
+                new.push((take.row.id, track));
+            }
         }
         if options.dry_run || new.iter().all(|(_, track)| track.is_none()) {
             return Ok(done);
@@ -181,12 +202,13 @@ impl Corpus {
     }
 }
 
-/// Trains the models: the hand's on takes of the hand alone if there are any, the face's on takes of the face.
+/// Trains the models: the hand's on takes of the hand alone if there are any, the face's on takes of the face. Returns the
+/// recordings of all takes that were read, too.
 fn models(
     connection: &Connection,
     options: &RestoreOptions,
     progress: &mut Progress<'_>,
-) -> Result<Models> {
+) -> Result<(Models, Vec<RecordingRow>)> {
     let all = takes(connection, &options.train, &options.cued)?;
     let alone = |of: fn(&Take) -> bool, other: fn(&Take) -> bool| -> Vec<&Take> {
         let own: Vec<&Take> = all.iter().filter(|take| of(take)).collect();
@@ -235,11 +257,12 @@ fn models(
         return Err(Error::wrong(findings.join("; "))
             .advise("name with --train recordings that show every marker, of the hand alone or the face alone"));
     }
-    Ok(Models {
+    let models = Models {
         hand,
         face,
         findings,
-    })
+    };
+    Ok((models, all.into_iter().map(|take| take.row).collect()))
 }
 
 /// Returns captured frames of takes in which something is visible, evenly thinned.
@@ -255,23 +278,66 @@ fn thinned(takes: &[&Take], points: fn(&Take) -> &[Option<usize>]) -> Vec<Vec<Op
     some
 }
 
-fn restored(
-    take: &Take,
-    models: &Models,
-    progress: &mut Progress<'_>,
-) -> Result<(RestoredTake, Option<NewTrack>)> {
+/// Returns the number of takes that are restored at the same time.
+fn cores() -> usize {
+    thread::available_parallelism()
+        .map_or(1, usize::from)
+        .min(8)
+}
+
+/// Frames restored so far.
+#[derive(Default)]
+struct Counted {
+    frames: AtomicU64,
+    stopped: AtomicBool,
+}
+
+impl Counted {
+    /// Restores takes at the same time, each by a thread of its own, and reports the progress from this one.
+    fn all(
+        &mut self,
+        takes: &[Take],
+        models: &Models,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<Result<Restoration>>> {
+        const PAUSE: Duration = Duration::from_millis(20);
+        let counted = &*self;
+        thread::scope(|scope| {
+            let running: Vec<_> = takes
+                .iter()
+                .map(|take| scope.spawn(move || restored(take, models, counted)))
+                .collect();
+            while running.iter().any(|it| !it.is_finished()) {
+                let step = Step {
+                    task: "restoring markers",
+                    done: counted.frames.load(Ordering::Relaxed),
+                    total: None,
+                    unit: Unit::Frames,
+                };
+                if let Err(stopped) = progress.tell(step) {
+                    counted.stopped.store(true, Ordering::Relaxed);
+                    return Err(stopped);
+                }
+                thread::sleep(PAUSE);
+            }
+            let lost = || Err(Error::wrong("a take could not be restored"));
+            let done = running.into_iter();
+            Ok(done
+                .map(|it| it.join().unwrap_or_else(|_| lost()))
+                .collect())
+        })
+    }
+}
+
+fn restored(take: &Take, models: &Models, counted: &Counted) -> Result<Restoration> {
     let mut hand_rows: Vec<Option<Restored>> = Vec::new();
     let mut face_rows: Vec<Option<FaceRow>> = Vec::new();
     let mut before: Option<Restored> = None;
     for frame in 0..take.frames() {
-        if frame % 240 == 0 {
-            progress.tell(Step {
-                task: &take.row.name,
-                done: frame as u64,
-                total: Some(take.frames() as u64),
-                unit: Unit::Frames,
-            })?;
+        if frame % 64 == 0 && counted.stopped.load(Ordering::Relaxed) {
+            return Err(Error::Stopped);
         }
+        counted.frames.fetch_add(1, Ordering::Relaxed);
         if let Some((model, _)) = &models.hand {
             let own = model.restore(&captured(take, &take.hand_points, frame), before.as_ref());
             before.clone_from(&own);
@@ -321,6 +387,14 @@ fn restored(
     report.hand_mm = hand_mm.map(|it| rounded(it, 2));
     report.hand_axis_mm = axis_mm.map(|it| rounded(it, 2));
     report.face_mm = face_mm.map(|it| rounded(it, 2));
+    for (part, mm) in [("hand", hand_mm), ("face", face_mm)] {
+        if let Some(mm) = mm.filter(|mm| *mm > FAR) {
+            report.findings.push(format!(
+                "the visible markers of the {part} are {mm:.1} mm from the model on average, so restored ones are not to be \
+                 trusted; check the labels and the axes of this recording, or train on takes of the same person"
+            ));
+        }
+    }
     if points.is_empty() {
         return Ok((report, None));
     }

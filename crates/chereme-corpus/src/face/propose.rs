@@ -126,6 +126,7 @@ impl Corpus {
         progress: &mut Progress<'_>,
     ) -> Result<u64> {
         let mut changes: Vec<AnnotationChange> = Vec::new();
+        let mut new: Vec<NewTier> = Vec::new();
         let mut names: Vec<&str> = report.proposals.iter().map(|it| it.tier.as_str()).collect();
         names.dedup();
         let mut written = 0;
@@ -154,7 +155,7 @@ impl Corpus {
                         component: Component::NonManual,
                         feature: Some(feature.to_owned()),
                     };
-                    self.add_tier(&NewTier::new(Name::Number(recording), name, role))?;
+                    new.push(NewTier::new(Name::Number(recording), name, role));
                 }
             }
             let free = |it: &&FaceProposal| {
@@ -188,7 +189,7 @@ impl Corpus {
                 origin: AnnotationOrigin::Detector,
                 ..AnnotateOptions::default()
             };
-            self.annotate(&changes, &options, progress)?;
+            self.annotate_with("propose", &new, (&changes, &options), progress)?;
         }
         Ok(written)
     }

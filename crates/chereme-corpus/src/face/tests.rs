@@ -463,32 +463,25 @@ fn curves_are_searched_while_a_token_lasts() {
 }
 
 #[test]
-fn proposals_are_written_as_tiers_and_a_persons_annotation_stays() {
-    let mut case = case(&[("W1", 1.0, 1.0)]);
+fn proposals_are_written_as_tiers_in_one_operation_and_replace_earlier_ones() {
+    // The brows are low for most of the take, so they are raised relative to their median at both of its ends.
+    let mut case = case(&[("W1", -1.0, 1.0)]);
     let mut hear = unheard;
     let progress = &mut Progress::new(&mut hear);
-    let found = case
-        .corpus
-        .propose_nonmanuals(&recording("W1"), false, progress)
-        .expect("found");
-    // The brows are up for most of the take, so relative to their median they are never raised.
-    assert!(
-        found
-            .proposals
-            .iter()
-            .all(|it| it.tier != "nonmanual.lids (proposed)"),
-        "{found:?}"
-    );
+    let mut propose = |store: bool| {
+        let found = case
+            .corpus
+            .propose_nonmanuals(&recording("W1"), store, progress);
+        found.expect("found")
+    };
+    let found = propose(false);
+    let brows: Vec<&str> = found.proposals.iter().map(|it| &*it.value).collect();
+    assert_eq!(brows, ["raised", "raised"], "{found:?}");
+    assert!(found.proposals[0].start_us < 100_000 && found.proposals[0].end_us < 800_000);
     assert_eq!(found.written, 0);
-    let stored = case
-        .corpus
-        .propose_nonmanuals(&recording("W1"), true, progress)
-        .expect("stored");
-    let again = case
-        .corpus
-        .propose_nonmanuals(&recording("W1"), true, progress)
-        .expect("again");
-    assert_eq!(stored.written, again.written);
+    assert_eq!([propose(true).written, propose(true).written], [2, 2]);
+    let log = case.corpus.log(2).expect("a log");
+    assert_eq!([&*log[0].name, &*log[1].name], ["propose"; 2], "{log:?}");
 }
 
 #[test]
