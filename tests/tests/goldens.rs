@@ -1,4 +1,5 @@
-//! Movement pinned down: where hands, fingertips and head are at five moments of recipes on the starter corpus.
+//! Movement pinned down: where hands, fingertips and head are at five moments of recipes on the starter corpus and of
+//! notated signs; and what the transcriber reads from the latter.
 //!
 //! If movement is meant to change, `UPDATE_GOLDENS=1 cargo test --workspace --test goldens` writes the tables again;
 //! their difference then shows how far each sign has moved.
@@ -7,6 +8,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::{env, fs};
 
+use chereme_analysis::transcribe::{Options, transcribe};
 use chereme_corpus::{Corpus, ImportOptions, Progress, Recombination, unheard, unpack_starter};
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Finger, Part, Side};
@@ -95,14 +97,20 @@ fn read(cell: &str) -> Posture {
     }
 }
 
+/// Returns the recipes of a list, one on each line; a line with `#` is a remark.
+fn recipes(list: &str) -> Vec<String> {
+    let lines =
+        fs::read_to_string(folder().join(format!("{list}.txt"))).expect("the list of recipes");
+    let kept = lines
+        .lines()
+        .filter(|line| !line.is_empty() && !line.starts_with('#'));
+    kept.map(str::to_owned).collect()
+}
+
 /// Compares the recipes of a list with their table, or writes the table.
 fn compare(list: &str) {
-    let of = |ending: &str| folder().join(format!("{list}.{ending}"));
-    let recipes = fs::read_to_string(of("txt")).expect("the list of recipes");
-    let recipes: Vec<&str> = recipes
-        .lines()
-        .filter(|line| !line.is_empty() && !line.starts_with('#'))
-        .collect();
+    let recipes = recipes(list);
+    let path = folder().join(format!("{list}.tsv"));
     let scratch = tempfile::tempdir().expect("a folder");
     let mut corpus = starter(scratch.path());
     let mut now = Vec::new();
@@ -119,10 +127,10 @@ fn compare(list: &str) {
     if env::var_os("UPDATE_GOLDENS").is_some() {
         let head = parts().map(|(name, _)| name).join("\t");
         let table = format!("recipe\tmoment\t{head}\n{}\n", lines.join("\n"));
-        fs::write(of("tsv"), table).expect("the table is written");
+        fs::write(&path, table).expect("the table is written");
         return;
     }
-    let table = fs::read_to_string(of("tsv")).expect("the table");
+    let table = fs::read_to_string(&path).expect("the table");
     let known: Vec<&str> = table.lines().skip(1).collect();
     assert_eq!(
         known.len(),
@@ -156,4 +164,54 @@ fn compare(list: &str) {
 #[test]
 fn recipes_move_as_they_did() {
     compare("recipes");
+}
+
+#[test]
+fn notated_signs_move_as_they_did() {
+    compare("notated");
+}
+
+/// Returns the lines of a table: for each recipe the features of its transcription, each with hand and stage.
+fn transcriptions(recipes: &[String]) -> Vec<String> {
+    let scratch = tempfile::tempdir().expect("a folder");
+    let mut corpus = starter(scratch.path());
+    let mut lines = Vec::new();
+    for recipe in recipes {
+        let made = corpus.preview(recipe);
+        let made = made.unwrap_or_else(|error| panic!("{recipe}: {error}"));
+        let read = transcribe(&made.clip, &made.anatomy, &Options::made());
+        let read = read.unwrap_or_else(|error| panic!("{recipe}: {error}"));
+        for feature in &read.features {
+            let hand = feature.hand.map_or("", |hand| match hand {
+                Side::Right => "right",
+                Side::Left => "left",
+            });
+            let action = feature.action.map(|n| n.to_string()).unwrap_or_default();
+            let (kind, value) = (feature.kind, &feature.value);
+            lines.push(format!("{recipe}\t{action}\t{hand}\t{kind:?}\t{value}"));
+        }
+    }
+    lines
+}
+
+#[test]
+fn movement_is_transcribed_as_it_was() {
+    let now = transcriptions(&recipes("notated"));
+    let table = folder().join("transcribed.tsv");
+    if env::var_os("UPDATE_GOLDENS").is_some() {
+        let text = format!("recipe\taction\thand\tfeature\tvalue\n{}\n", now.join("\n"));
+        fs::write(table, text).expect("the table is written");
+        return;
+    }
+    let known = fs::read_to_string(table).expect("the table");
+    let known: Vec<&str> = known.lines().skip(1).collect();
+    let gone = known
+        .iter()
+        .filter(|line| !now.iter().any(|it| it == *line));
+    let new = now.iter().filter(|line| !known.contains(&line.as_str()));
+    let changes: Vec<String> = gone
+        .map(|line| format!("- {line}"))
+        .chain(new.map(|line| format!("+ {line}")))
+        .collect();
+    assert!(changes.is_empty(), "{}", changes.join("\n"));
 }
