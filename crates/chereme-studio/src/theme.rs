@@ -83,8 +83,8 @@ impl Colours {
         match role {
             TierRole::Gloss => self.gloss,
             TierRole::Component { .. } => self.component,
-            TierRole::Translation | TierRole::Comment => self.words,
-            TierRole::Free => self.free,
+            role if role.is_prose() => self.words,
+            _ => self.free,
         }
     }
 }

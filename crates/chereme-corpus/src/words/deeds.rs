@@ -34,7 +34,7 @@ pub fn valued(role: &TierRole) -> [Text; 2] {
     let component = match role {
         TierRole::Gloss => return [ONE_GLOSS, GLOSSES],
         TierRole::Component { component, .. } => component,
-        TierRole::Translation | TierRole::Comment | TierRole::Free => return [ONE_VALUE, VALUES],
+        _ => return [ONE_VALUE, VALUES],
     };
     match component {
         Component::Configuration => [ONE_HANDSHAPE, HANDSHAPES],

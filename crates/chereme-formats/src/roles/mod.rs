@@ -198,16 +198,10 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
     } else {
         (None, 0.0, "no word of its name or type is known".to_owned())
     };
-    let manual = !matches!(
-        role,
-        Some(
-            TierRole::Component {
-                component: Component::NonManual,
-                ..
-            } | TierRole::Translation
-                | TierRole::Comment
-        )
-    );
+    let manual = role.as_ref().is_none_or(|role| {
+        let component = role.component().map(|(component, _)| component);
+        !role.is_prose() && component != Some(Component::NonManual)
+    });
     TierGuess {
         tier: name,
         role,

@@ -30,6 +30,28 @@ pub enum TierRole {
 }
 
 impl TierRole {
+    /// The roles without a component, in the order in which lists offer them.
+    pub const PLAIN: [Self; 4] = [Self::Gloss, Self::Translation, Self::Comment, Self::Free];
+
+    /// Returns the rank by which the tiers of a recording are ordered: signs, what they mean, their components, remarks,
+    /// the rest.
+    #[must_use]
+    pub const fn rank(&self) -> usize {
+        match self {
+            Self::Gloss => 0,
+            Self::Translation => 1,
+            Self::Component { .. } => 2,
+            Self::Comment => 3,
+            Self::Free => 4,
+        }
+    }
+
+    /// Returns whether its annotations are sentences for people: translations and remarks, which no hand makes.
+    #[must_use]
+    pub const fn is_prose(&self) -> bool {
+        matches!(self, Self::Translation | Self::Comment)
+    }
+
     /// Returns the kind of role without its component: `gloss`, `component`, `translation`, `comment` or `free`.
     #[must_use]
     pub fn kind(&self) -> &'static str {

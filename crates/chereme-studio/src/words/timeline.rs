@@ -1,5 +1,9 @@
 //! Texts of the timeline.
 
+use chereme_corpus::TierRole;
+
+use super::Text;
+
 texts! {
     NO_PROPOSAL: "There is no proposal here. {value.propose} reads handshapes, places, movements and orientations from the movement.", "Il n’y a pas de proposition ici. {value.propose} lit configurations, emplacements, mouvements et orientations dans le mouvement.";
     TITLE: "Timeline", "Ligne de temps";
@@ -142,4 +146,14 @@ texts! {
     GO_BEYOND: "The recording ends at {time}.", "L’enregistrement finit à {time}.";
     GO: "Go", "Aller";
     TIER_AT_END: "The tier is the last in that direction.", "L’acteur est le dernier dans ce sens.";
+}
+
+/// Returns the name of a tier's role that has no component.
+pub(crate) fn role(role: &TierRole) -> Text {
+    match role {
+        TierRole::Gloss => ROLE_GLOSS,
+        TierRole::Translation => ROLE_TRANSLATION,
+        TierRole::Comment => ROLE_COMMENT,
+        TierRole::Component { .. } | TierRole::Free => ROLE_FREE,
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::{FileReport, FileStatus, ImportReport, Mapping, TierGuess};
+use chereme_corpus::{FileReport, FileStatus, ImportReport, Mapping, TierGuess, TierRole};
 use chereme_motion::Axes;
 use chereme_motion::anatomy::Roles;
 
@@ -94,14 +94,15 @@ pub(crate) fn columns(file: &FileReport) -> Vec<String> {
         .collect()
 }
 
-/// The roles that the user can give to tiers.
-pub(crate) const ROLES: [&str; 25] = [
-    "gloss",
+/// Returns the roles that the user can give to tiers: those without a component, and those of a hand or a component.
+pub(crate) fn offered_roles() -> impl Iterator<Item = &'static str> {
+    TierRole::PLAIN.iter().map(TierRole::kind).chain(CODED)
+}
+
+/// The roles of a hand or a component that the user can give to tiers.
+const CODED: [&str; 21] = [
     "right.gloss",
     "left.gloss",
-    "translation",
-    "comment",
-    "free",
     "right.configuration",
     "left.configuration",
     "both.configuration",
@@ -336,7 +337,7 @@ mod tests {
         let roles: Vec<String> = tiers(&file).into_iter().map(|it| it.role).collect();
         assert_eq!(roles, ["right.configuration", "gloss", ""]);
         assert!(parts(&file).is_none());
-        for role in ROLES {
+        for role in offered_roles() {
             let chosen = [("A".to_owned(), role.to_owned())].into();
             assert!(mapping(&chosen).tier("A").is_some(), "{role}");
         }

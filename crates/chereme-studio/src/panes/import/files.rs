@@ -141,7 +141,7 @@ fn tier(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>, guess: 
         .selected_text(text)
         .width(0.0);
     let inner = combo.show_ui(ui, |ui| {
-        for role in data::ROLES {
+        for role in data::offered_roles() {
             let text = tier_box::role_text(role, seen);
             if ui.selectable_label(now == role, text).clicked() {
                 said.tiers.insert(guess.name.clone(), role.to_owned());

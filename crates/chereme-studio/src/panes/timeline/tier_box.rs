@@ -103,7 +103,7 @@ impl TierBox {
     /// Proposes parent and name for the role: a component belongs below the selected glosses, and has their hand.
     fn fit(&mut self, scene: &Scene<'_>) {
         let gloss = scene.tier().filter(|it| it.row.role == TierRole::Gloss);
-        let component = !PLAIN.iter().any(|(role, _)| *role == self.role);
+        let component = !TierRole::PLAIN.iter().any(|role| role.kind() == self.role);
         if let Some(gloss) = gloss.filter(|_| component) {
             let below = (gloss.row.name.clone(), Stereotype::IncludedIn);
             self.parent.get_or_insert(below);
@@ -180,14 +180,6 @@ impl TierBox {
     }
 }
 
-/// The roles without components.
-const PLAIN: [(&str, Text); 4] = [
-    ("gloss", words::ROLE_GLOSS),
-    ("translation", words::ROLE_TRANSLATION),
-    ("comment", words::ROLE_COMMENT),
-    ("free", words::ROLE_FREE),
-];
-
 /// Returns the name of a role such as `right.configuration`.
 pub(crate) fn role_text(role: &str, seen: &PaneInput<'_>) -> String {
     let (hand, rest) = match role.split_once('.') {
@@ -195,9 +187,9 @@ pub(crate) fn role_text(role: &str, seen: &PaneInput<'_>) -> String {
         None => (None, role),
     };
     let rest = if hand.is_some() { rest } else { role };
-    let plain = PLAIN.iter().find(|(id, _)| *id == rest);
+    let plain = TierRole::PLAIN.iter().find(|role| role.kind() == rest);
     let what = match (plain, rest.parse::<Field>()) {
-        (Some((_, text)), _) => seen.say(*text).to_owned(),
+        (Some(role), _) => seen.say(words::role(role)).to_owned(),
         (None, Ok(field)) => field_text(&field, seen),
         _ => return role.to_owned(),
     };
@@ -207,11 +199,16 @@ pub(crate) fn role_text(role: &str, seen: &PaneInput<'_>) -> String {
     }
 }
 
-/// Returns the possible roles of a tier: the four without components, then those with inventories.
+/// Returns the possible roles of a tier: those without components, then those with inventories.
 fn roles(seen: &PaneInput<'_>) -> Vec<(String, String)> {
-    let mut all: Vec<(String, String)> = PLAIN
+    let mut all: Vec<(String, String)> = TierRole::PLAIN
         .iter()
-        .map(|(id, text)| ((*id).to_owned(), seen.say(*text).to_owned()))
+        .map(|role| {
+            (
+                role.kind().to_owned(),
+                seen.say(words::role(role)).to_owned(),
+            )
+        })
         .collect();
     for stored in &seen.snapshot.overview.inventories {
         let field = stored.inventory.field();

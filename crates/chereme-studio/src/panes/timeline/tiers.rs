@@ -146,13 +146,7 @@ fn natural(name: &str) -> Vec<(String, u64)> {
 
 /// Returns the rank of a tier by its role: glosses, translations, components hand by hand, the rest.
 fn rank(row: &TierRow) -> (usize, usize, usize) {
-    let role = match row.role {
-        TierRole::Gloss => 0,
-        TierRole::Translation => 1,
-        TierRole::Component { .. } => 2,
-        TierRole::Comment => 3,
-        TierRole::Free => 4,
-    };
+    let role = row.role.rank();
     let hand = match row.hand {
         Some(Hands::Both) => 0,
         Some(Hands::One(HandRef::Right)) => 1,
