@@ -33,6 +33,7 @@
 //! | [`interpolation`] | the transitions from one posture to another |
 //! | [`anatomy`] | the part of each joint, whatever its name; landmarks, measures, finger angles |
 //! | [`hand`] | the posture of a hand as joint angles |
+//! | [`wrist`] | angles of a hand on its forearm, and their limits |
 //! | [`face`] | the posture of a face as a few numbers |
 //! | [`fit`] | a skeleton that follows optical markers |
 //! | [`ik`] | the position of the elbow when the wrist is moved |
@@ -56,6 +57,7 @@ pub mod pose;
 pub mod skeleton;
 pub mod time;
 pub mod times;
+pub mod wrist;
 
 pub use anatomy::{
     Anatomy, ArmChain, Evidence, HandCorrection, HandRange, Part, Roles, RolesError,
@@ -73,3 +75,4 @@ pub use pose::{ModelPose, Pose};
 pub use skeleton::{Joint, Skeleton, SkeletonError};
 pub use time::{Instant, Rate, RateError, Span, SpanError};
 pub use times::{Times, TimesError};
+pub use wrist::{WristAngles, WristLimits};

@@ -10,7 +10,7 @@ use std::cell::OnceCell;
 
 use chereme_motion::{ModelPose, Side as Half};
 use chereme_sign::hamnosys::sites::{
-    Face, HandPoint, Region, TOUCHED_BESIDE, body_site, hand_points,
+    FLESH, Face, HandAt, HandPoint, Region, body_site, hand_points,
 };
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Digit, Handshape, Site};
 use glam::DVec3;
@@ -182,7 +182,7 @@ impl<'a> Body<'a> {
         };
         let out = (DVec3::from(found.out) * flip).normalize_or(DVec3::Z);
         let flesh = match found.region {
-            Region::Arm(_) => out * (0.08 * scene.arm),
+            Region::Arm(_) => out * (FLESH * scene.arm),
             _ => DVec3::ZERO,
         };
         let offset = DVec3::from(found.offset) * flip * scene.shoulders;
@@ -362,50 +362,21 @@ impl<'a> Body<'a> {
     }
 
     fn goal(&self, spot: &Spot, contact: Option<Contact>, n: usize, symmetric: bool) -> DVec3 {
-        let l = self.scene.language;
-        let trunk = spot.region == Region::Trunk;
-        let far = match contact {
-            Some(Contact::ArmExtended) => l.far,
-            Some(Contact::Close) if trunk => l.near_trunk,
-            Some(Contact::Close) => l.near_face,
-            None if trunk => l.medium_trunk,
-            None => l.medium_face,
-            _ if !spot.beside => return spot.at,
-            Some(Contact::Touch) if spot.region == Region::Face => {
-                return spot.at - spot.out * (TOUCHED_BESIDE * self.scene.shoulders);
-            }
-            _ if trunk => l.medium_trunk,
-            _ => l.medium_face,
-        };
-        let near = contact == Some(Contact::Close);
-        self.before(spot, far * self.scene.arm, near, n, symmetric)
-    }
-
-    /// Returns the goal of a hand at a distance before a place.
-    fn before(&self, spot: &Spot, far: f64, near: bool, n: usize, symmetric: bool) -> DVec3 {
         let scene = self.scene;
-        let beside = spot.beside;
-        let lateral = spot.lateral;
-        let apart = if symmetric && lateral == 0.0 {
+        let found = (spot.region, spot.lateral, spot.beside);
+        let hand = HandAt::of(found, contact, scene.language, [scene.arm, scene.shoulders]);
+        let apart = if symmetric && spot.lateral == 0.0 {
             let own = if n == 0 { -1.0 } else { 1.0 };
             own * scene.language.hands_apart * scene.shoulders
         } else {
             0.0
         };
-        if spot.region == Region::Trunk {
-            let far = far * if beside { 0.5 } else { 1.0 };
-            return DVec3::new(
-                lateral * scene.shoulders + apart,
-                spot.at.y,
-                0.33 * scene.shoulders + far,
-            );
+        match hand {
+            HandAt::Place => spot.at,
+            HandAt::Off { out, .. } if out < 0.0 => spot.at + spot.out * out,
+            HandAt::Off { out, left } => spot.at + spot.out * out + DVec3::X * (left + apart),
+            HandAt::Front { left, forward } => DVec3::new(left + apart, spot.at.y, forward),
         }
-        let aside = if near || beside {
-            0.0
-        } else {
-            0.5 * lateral * scene.shoulders
-        };
-        spot.at + spot.out * far + DVec3::X * (aside + apart)
     }
 
     /// Returns the parts of a hand that are at the other hand and at the body.

@@ -5,7 +5,9 @@
 //! helps, and it draws back if the wrist is too near. The hand stays within the limits of its wrist.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Anatomy, ArmChain, ModelPose, Pose, Side, Skeleton};
+use chereme_motion::{
+    Anatomy, ArmChain, ModelPose, Pose, Side, Skeleton, WristAngles, WristLimits,
+};
 use chereme_sign::hamnosys::BodyLanguage;
 
 /// Share of the arm's length before full extension over which the elbow straightens softly.
@@ -56,9 +58,8 @@ struct Clavicle {
 /// Limits of wrist, elbow and collar bone from the body language; angles in radians.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
-    flexion: [f64; 2],
-    deviation: [f64; 2],
-    pronation: [f64; 2],
+    /// Of the wrist and of the forearm's turn.
+    pub(crate) wrist: WristLimits,
     elbow: f64,
     own: f64,
     across: f64,
@@ -75,15 +76,7 @@ impl Limits {
     pub(crate) fn of(language: &BodyLanguage) -> Self {
         let angle = f64::to_radians;
         Self {
-            flexion: [
-                angle(language.limit_extension),
-                angle(language.limit_flexion),
-            ],
-            deviation: [angle(language.limit_ulnar), angle(language.limit_radial)],
-            pronation: [
-                angle(language.limit_pronation),
-                angle(language.limit_supination),
-            ],
+            wrist: language.wrist_limits(),
             elbow: angle(language.limit_elbow),
             own: angle(language.elbow_own_side),
             across: angle(language.elbow_across),
@@ -113,78 +106,6 @@ impl Bearing {
             plane: mix(self.plane, to.plane),
             shrug: mix(self.shrug, to.shrug),
         }
-    }
-}
-
-/// Angles of a hand on its forearm, in radians.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct WristAngles {
-    /// Bend towards the palm.
-    pub(crate) flexion: f64,
-    /// Bend towards the thumb.
-    pub(crate) deviation: f64,
-    /// Turn from thumb up; negative is palm down.
-    pub(crate) turn: f64,
-}
-
-impl WristAngles {
-    /// Returns the bend of the wrist as a multiple of its limit; above 1 it is out of range.
-    pub(crate) fn bend(&self, limits: &Limits) -> f64 {
-        let part = |angle: f64, range: [f64; 2]| angle / range[usize::from(angle > 0.0)];
-        let [a, b] = [
-            part(self.flexion, limits.flexion),
-            part(self.deviation, limits.deviation),
-        ];
-        (a * a + b * b).sqrt()
-    }
-
-    /// Returns the nearest angles within the limits of wrist and forearm; a forearm beyond its limits
-    /// stops at the upper one (palm up) if `high`, at the lower one otherwise.
-    pub(crate) fn allowed(&self, limits: &Limits, high: bool) -> Self {
-        let [flexion, deviation] = match self.bend(limits) > 1.0 {
-            true => {
-                let ends = [
-                    (self.flexion, limits.flexion),
-                    (self.deviation, limits.deviation),
-                ];
-                let ends = ends.map(|(angle, range)| range[usize::from(angle > 0.0)]);
-                nearest_on_ellipse([self.flexion, self.deviation], ends)
-            }
-            false => [self.flexion, self.deviation],
-        };
-        let [less, more] = limits.pronation;
-        let turn = match (-less..=more).contains(&self.turn) {
-            true => self.turn,
-            false if high => more,
-            false => -less,
-        };
-        Self {
-            flexion,
-            deviation,
-            turn,
-        }
-    }
-
-    /// Interpolates linearly; the limits are convex, so the result is within them if both ends are.
-    pub(crate) fn mix(&self, to: &Self, share: f64) -> Self {
-        let mix = |a: f64, b: f64| a + (b - a) * share;
-        Self {
-            flexion: mix(self.flexion, to.flexion),
-            deviation: mix(self.deviation, to.deviation),
-            turn: mix(self.turn, to.turn),
-        }
-    }
-
-    /// Returns the largest difference of an angle.
-    pub(crate) fn apart(&self, other: &Self) -> f64 {
-        let flexion = (self.flexion - other.flexion).abs();
-        let deviation = (self.deviation - other.deviation).abs();
-        flexion.max(deviation).max((self.turn - other.turn).abs())
-    }
-
-    /// Returns the turn of the forearm as a multiple of its limit; above 1 it is out of range.
-    pub(crate) fn turned(&self, limits: &Limits) -> f64 {
-        self.turn.abs() / limits.pronation[usize::from(self.turn > 0.0)]
     }
 }
 
@@ -552,28 +473,6 @@ impl Rig {
             ((forearm * self.between[1]).inverse() * hand).normalize(),
         ]
     }
-}
-
-/// Returns the point of an ellipse about the origin with half axes `ends` that is nearest to a point
-/// outside of it. The normal at that point leads to the given one: `x = e²p / (t + e²)` in either axis,
-/// with the `t` that puts it on the ellipse, found by Newton's method from below (Eberly, *Distance from a
-/// point to an ellipse*).
-fn nearest_on_ellipse(point: [f64; 2], ends: [f64; 2]) -> [f64; 2] {
-    let [a, b] = ends.map(|end| end.max(1e-6));
-    let [x, y] = point;
-    // For larger `t` the sum is convex and falling, and it is at least 1 here.
-    let mut t = (a * x.abs() - a * a).max(b * y.abs() - b * b).max(0.0);
-    for _ in 0..8 {
-        let (u, v) = (a * x / (t + a * a), b * y / (t + b * b));
-        let over = u * u + v * v - 1.0;
-        if over < 1e-7 {
-            break;
-        }
-        t += over / (2.0 * (u * u / (t + a * a) + v * v / (t + b * b)));
-    }
-    let (u, v) = (a * x / (t + a * a), b * y / (t + b * b));
-    let size = (u * u + v * v).sqrt().max(1.0);
-    [a * u / size, b * v / size]
 }
 
 /// Returns the rotation of a right-handed frame of two unit vectors at right angles.

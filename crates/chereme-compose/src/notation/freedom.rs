@@ -7,9 +7,10 @@
 
 use std::sync::LazyLock;
 
+use chereme_motion::WristAngles;
 use chereme_motion::glam::{DQuat, DVec3};
 
-use super::arm::{Bearing, Posed, WristAngles};
+use super::arm::{Bearing, Posed};
 use super::solve::{Arm, BENDING, Want};
 
 /// Candidate planes relative to the rule's: the first, the last and the step, in degrees.
@@ -121,13 +122,13 @@ impl Arm<'_> {
         }
         let asked = rig.wrist(&posed, turned, &self.held);
         let off = |high: bool| {
-            let angles = asked.allowed(self.limits, high);
+            let angles = asked.allowed(&self.limits.wrist, high);
             if angles == asked {
                 return 0.0;
             }
             rig.hung(&posed, &angles, &self.held).angle_between(turned)
         };
-        let over = asked.turned(self.limits) > 1.0;
+        let over = asked.turned(&self.limits.wrist) > 1.0;
         let apart = if over {
             off(false).min(off(true))
         } else {
@@ -212,7 +213,7 @@ impl Arm<'_> {
         let mut choices: Vec<Choice> = Vec::with_capacity(2 * planes().count());
         for high in [false, true] {
             for (n, plane) in planes().enumerate() {
-                if high && choices[n].angles.turned(self.limits) < 0.999 {
+                if high && choices[n].angles.turned(&self.limits.wrist) < 0.999 {
                     let same = choices[n];
                     choices.push(Choice { high, ..same });
                     continue;
@@ -234,7 +235,7 @@ impl Arm<'_> {
         };
         for shrug in SHRUGS {
             for choice in still.iter().filter(hopeful) {
-                if choice.high && choice.angles.turned(self.limits) < 0.999 {
+                if choice.high && choice.angles.turned(&self.limits.wrist) < 0.999 {
                     continue;
                 }
                 let plane = choice.bearing.plane;
@@ -257,8 +258,8 @@ impl Arm<'_> {
         };
         let coarse = Want { outlines, ..*want };
         let hung = self.hang(&coarse, bearing, high, tries);
-        let bend = (hung.angles.bend(self.limits) - 0.6).max(0.0);
-        let twist = (hung.angles.turned(self.limits) - 0.75).max(0.0);
+        let bend = (hung.angles.bend(&self.limits.wrist) - 0.6).max(0.0);
+        let twist = (hung.angles.turned(&self.limits.wrist) - 0.75).max(0.0);
         let apart = hung.rotation.angle_between(want.turned);
         let missed = hung.residual / self.rig().length();
         let amiss = given * self.off(apart) + self.within(&hung.posed) + MISSED * missed * missed;

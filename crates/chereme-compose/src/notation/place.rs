@@ -6,7 +6,7 @@
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::sites::{
-    BodySite, Face, HandPoint, Region, TOUCHED_BESIDE, body_site, coming_first, hand_points,
+    BodySite, FLESH, FRONT, Face, HandAt, HandPoint, Region, body_site, coming_first, hand_points,
 };
 use chereme_sign::hamnosys::{
     BodyLocation, BodyPlace, Constellation, Contact, Digit, HandSite, Place, Site,
@@ -186,34 +186,16 @@ impl Planner<'_> {
         if touching {
             return site.at;
         }
-        if site.site.beside && site.site.region == Region::Face && contact == Some(Contact::Touch) {
-            return site.at - site.out * (TOUCHED_BESIDE * stage.shoulders);
+        let found = (site.site.region, site.site.lateral, site.site.beside);
+        match HandAt::of(found, contact, l, [stage.arm, stage.shoulders]) {
+            HandAt::Place => site.at,
+            HandAt::Off { out, left } => site.at + site.out * out + stage.left * left,
+            HandAt::Front { left, forward } => {
+                let middle = stage.middle();
+                let level = DVec3::Y * (site.at - middle).y;
+                middle + level + stage.left * left + stage.forward * forward
+            }
         }
-        let face = matches!(site.site.region, Region::Face | Region::Arm(_));
-        let far = match contact {
-            Some(Contact::ArmExtended) => l.far,
-            Some(Contact::Close) if face => l.near_face,
-            Some(Contact::Close) => l.near_trunk,
-            _ if face => l.medium_face,
-            _ => l.medium_trunk,
-        } * stage.arm;
-        if site.site.region == Region::Trunk {
-            let middle = stage.middle();
-            let level = site.at - middle;
-            let to_left = site.site.lateral * stage.shoulders;
-            let beside = if site.site.beside { 0.5 } else { 1.0 };
-            let front = 0.33 * stage.shoulders;
-            return middle
-                + DVec3::Y * level.y
-                + stage.left * to_left
-                + stage.forward * (front + far * beside);
-        }
-        let aside = if contact == Some(Contact::Close) || site.site.beside {
-            0.0
-        } else {
-            0.5 * site.site.lateral * stage.shoulders
-        };
-        site.at + site.out * far + stage.left * aside
     }
 
     fn site(&self, n: usize, site: &Site<BodyLocation>, frame: Frame) -> Placed {
@@ -226,7 +208,7 @@ impl Planner<'_> {
         let root = own.map(|(at, _)| at);
         let root = root.or_else(|| stage.landmark(&found.landmark));
         let root =
-            root.unwrap_or_else(|| stage.middle() + stage.forward * (0.33 * stage.shoulders));
+            root.unwrap_or_else(|| stage.middle() + stage.forward * (FRONT * stage.shoulders));
         let out = stage
             .direction(DVec3::from(found.out))
             .normalize_or(stage.forward);
@@ -236,7 +218,7 @@ impl Planner<'_> {
             _ => out,
         };
         let flesh = match found.region {
-            Region::Arm(_) => out * (0.08 * stage.arm),
+            Region::Arm(_) => out * (FLESH * stage.arm),
             _ => DVec3::ZERO,
         };
         let moved = self.language.places.get(&found.landmark);

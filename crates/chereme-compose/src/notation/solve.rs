@@ -5,9 +5,10 @@
 //! around them, as angles of the wrist, so that the wrist stays within its limits. Finally the wrist moves
 //! so that the hand's reference point is at its goal.
 
+use chereme_motion::WristAngles;
 use chereme_motion::glam::{DQuat, DVec3};
 
-use super::arm::{Bearing, HeldDirections, Limits, Posed, Rig, WristAngles};
+use super::arm::{Bearing, HeldDirections, Limits, Posed, Rig};
 use super::freedom::Choice;
 use super::stage::{Hand, Stage};
 use super::track::Wanted;
@@ -197,7 +198,7 @@ impl<'a> Arm<'a> {
             let Some(first) = span.start.checked_sub(1).map(|n| rows[n].angles) else {
                 continue;
             };
-            let ends = |angles: &WristAngles| angles.turned(self.limits) > 0.999;
+            let ends = |angles: &WristAngles| angles.turned(&self.limits.wrist) > 0.999;
             if !span.clone().any(|n| ends(&rows[n].angles)) {
                 continue;
             }
@@ -242,7 +243,7 @@ impl<'a> Arm<'a> {
         loop {
             let posed = rig.reach(wrist, bearing, self.limits);
             let asked = rig.wrist(&posed, turned, &self.held);
-            let angles = asked.allowed(self.limits, high);
+            let angles = asked.allowed(&self.limits.wrist, high);
             let rotation = if angles == asked {
                 turned
             } else {
@@ -305,9 +306,9 @@ impl<'a> Arm<'a> {
         let wrist = row.point + row.push - row.turned * row.offset;
         let posed = self.rig().reach(wrist, row.bearing, self.limits);
         let asked = self.rig().wrist(&posed, row.turned, &self.held);
-        if asked.turned(self.limits) > 1.01 {
+        if asked.turned(&self.limits.wrist) > 1.01 {
             Hindrance::Forearm
-        } else if asked.bend(self.limits) > 1.01 {
+        } else if asked.bend(&self.limits.wrist) > 1.01 {
             Hindrance::Wrist
         } else if got.pushed > 1e-3 {
             Hindrance::Trunk

@@ -33,7 +33,9 @@ impl Arm<'_> {
             let wrist = row.point - row.turned * row.offset;
             let posed = rig.reach(wrist, row.bearing, self.limits);
             let asked = rig.wrist(&posed, row.turned, &self.held);
-            let bent = asked.bend(self.limits).max(asked.turned(self.limits));
+            let bent = asked
+                .bend(&self.limits.wrist)
+                .max(asked.turned(&self.limits.wrist));
             if posed.wrist.distance(wrist) < 1e-4 && bent < 1.0 + 1e-6 {
                 return Got {
                     residual: posed.wrist.distance(wrist),
@@ -117,7 +119,7 @@ impl Arm<'_> {
     /// Returns the nearest orientation of a hand within the limits of wrist and forearm.
     pub(super) fn within_range(&self, posed: &Posed, turned: DQuat) -> DQuat {
         let asked = self.rig().wrist(posed, turned, &self.held);
-        let angles = asked.allowed(self.limits, asked.turn > 0.0);
+        let angles = asked.allowed(&self.limits.wrist, asked.turn > 0.0);
         if angles == asked {
             return turned;
         }

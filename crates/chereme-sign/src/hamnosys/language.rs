@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use chereme_motion::Anatomy;
+use chereme_motion::{Anatomy, WristLimits};
 use serde::{Deserialize, Serialize};
 
 /// The version of body-language files that this program reads.
@@ -272,6 +272,17 @@ impl Default for BodyLanguage {
 }
 
 impl BodyLanguage {
+    /// Returns the limits of wrist and forearm.
+    #[must_use]
+    pub fn wrist_limits(&self) -> WristLimits {
+        let angles = |less: f64, more: f64| [less.to_radians(), more.to_radians()];
+        WristLimits {
+            flexion: angles(self.limit_extension, self.limit_flexion),
+            deviation: angles(self.limit_ulnar, self.limit_radial),
+            turn: angles(self.limit_pronation, self.limit_supination),
+        }
+    }
+
     /// Returns the body language of the program's own file.
     #[must_use]
     pub fn usual() -> &'static Self {

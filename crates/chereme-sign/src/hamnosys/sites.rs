@@ -5,7 +5,8 @@
 
 use chereme_motion::Side as Half;
 
-use super::tree::{BodyLocation, Side, Site};
+use super::language::BodyLanguage;
+use super::tree::{BodyLocation, Contact, Side, Site};
 
 mod points;
 
@@ -39,7 +40,7 @@ pub struct BodySite {
     /// shoulder widths.
     pub lateral: f64,
     /// Whether the place is next to the body. Of these places hands touch only those next to the head,
-    /// nearer by [`TOUCHED_BESIDE`].
+    /// nearer, as [`HandAt`] says.
     pub beside: bool,
 }
 
@@ -52,7 +53,75 @@ const BESIDE: f64 = 0.80;
 
 /// Inward distance from a place next to the head to the point that a hand touches there, in shoulder
 /// widths: at the temple, the cheek, the jaw.
-pub const TOUCHED_BESIDE: f64 = 0.22;
+const TOUCHED_BESIDE: f64 = 0.22;
+/// Distance from the middle of the body to the front of the trunk, in shoulder widths.
+pub const FRONT: f64 = 0.33;
+/// Distance from the bone of an arm to its skin, in lengths of the arm.
+pub const FLESH: f64 = 0.08;
+/// Sideways shift of a hand before a place of head or arm, as a share of the place's own distance from the middle.
+const ASIDE: f64 = 0.5;
+/// Share of the usual distance that a hand next to the trunk is in front of it.
+const BESIDE_NEARER: f64 = 0.5;
+
+/// The position that a place gives to a hand, from the place or from the middle of the body; lengths in metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum HandAt {
+    /// At the place itself.
+    Place,
+    /// Away from the place: along its outward normal, and to the left.
+    Off {
+        /// Along the outward normal; negative inwards.
+        out: f64,
+        /// To the left.
+        left: f64,
+    },
+    /// In front of the trunk at the level of the place: from the middle of the body to the left and forward.
+    Front {
+        /// To the left.
+        left: f64,
+        /// Forward.
+        forward: f64,
+    },
+}
+
+impl HandAt {
+    /// Returns the position of a hand with a contact at a place; `arm` and `shoulders` are the body's lengths in metres.
+    #[must_use]
+    pub fn of(
+        (region, lateral, beside): (Region, f64, bool),
+        contact: Option<Contact>,
+        language: &BodyLanguage,
+        [arm, shoulders]: [f64; 2],
+    ) -> Self {
+        let trunk = region == Region::Trunk;
+        let far = match contact {
+            Some(Contact::ArmExtended) => language.far,
+            Some(Contact::Close) if trunk => language.near_trunk,
+            Some(Contact::Close) => language.near_face,
+            Some(_) if !beside => return Self::Place,
+            Some(Contact::Touch) if region == Region::Face => {
+                let out = -TOUCHED_BESIDE * shoulders;
+                return Self::Off { out, left: 0.0 };
+            }
+            _ if trunk => language.medium_trunk,
+            _ => language.medium_face,
+        } * arm;
+        if trunk {
+            let share = if beside { BESIDE_NEARER } else { 1.0 };
+            return Self::Front {
+                left: lateral * shoulders,
+                forward: FRONT * shoulders + far * share,
+            };
+        }
+        let near = contact == Some(Contact::Close) || beside;
+        let left = if near {
+            0.0
+        } else {
+            ASIDE * lateral * shoulders
+        };
+        Self::Off { out: far, left }
+    }
+}
 
 /// Returns the place that a location of the body means for a hand.
 ///
