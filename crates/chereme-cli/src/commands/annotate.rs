@@ -321,7 +321,7 @@ fn tell(mut report: AnnotateReport, all: bool, output: &mut Output) -> Result<()
         .map(|id| format!("annotation:{id}"))
         .collect();
     let summary = match report.added + report.changed + report.removed {
-        0 => "nothing changed".to_owned(),
+        0 => output.spoken("nothing changed"),
         _ => words::annotated(&report.summary, output.language())
             .unwrap_or_else(|| report.summary.clone()),
     };

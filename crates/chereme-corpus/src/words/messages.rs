@@ -39,6 +39,7 @@ const MESSAGES: &[(&str, &str)] = &[
         "the file is damaged: take a backup, or save what can still be read with {command}",
         "le fichier est abîmé : prenez une sauvegarde, ou sauvez ce qui se lit encore avec {command}",
     ),
+    ("nothing changed", "rien n’a changé"),
     ("the file is damaged: {why}", "le fichier est abîmé : {why}"),
     (
         "left out of {where}, the first {gloss}: {why}",
