@@ -186,7 +186,7 @@ pub(crate) fn up_of(markers: &[Marker]) -> Option<Direction> {
 }
 
 /// Returns the direction from right to left, from pairs of markers whose names differ by L and R. A name of a letter and
-/// a number is none of a pair: L1 and R1 may be the little and the ring finger, or a vertebra.
+/// a number does not count as one of a pair: L1 and R1 may be the little and the ring finger, or a vertebra.
 fn left_of(markers: &[Marker], up: Direction) -> Option<Direction> {
     let mut sum = DVec3::ZERO;
     let up = up.vector();

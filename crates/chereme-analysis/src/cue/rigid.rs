@@ -94,8 +94,8 @@ impl Rigid {
         }
         let (_, vectors) = eigen(&matrix);
         let q = vectors.row(0);
-        // A quaternion and its negative rotate alike; the one with a positive real part has the smaller angle, of which
-        // callers take shares.
+        // A quaternion and its negative rotate alike; the one with a positive real part has the smaller angle;
+        // callers take shares of it.
         let sign = if q[0] < 0.0 { -1.0 } else { 1.0 };
         let rotation = DQuat::from_xyzw(q[1] * sign, q[2] * sign, q[3] * sign, q[0] * sign);
         let rotation = rotation.normalize();

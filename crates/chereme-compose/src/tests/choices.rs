@@ -1,4 +1,4 @@
-//! Tests of which sign a value is taken from, and that stored choices give the same movement again.
+//! Tests of the choice of a sign as the source of a value, and that stored choices give the same movement again.
 
 use super::*;
 

@@ -555,4 +555,12 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "{address} n’a pas d’expression",
     ),
     ("all captured signers", "tous les signeurs captés"),
+    (
+        "a take could not be restored",
+        "une prise n’a pas pu être restaurée",
+    ),
+    (
+        "the visible markers of the {part} are {mm} mm from the model on average, so restored ones are not to be trusted; check the labels and the axes of this recording, or train on takes of the same person",
+        "les marqueurs visibles ({part}) sont en moyenne à {mm} mm du modèle : ne vous fiez pas à ceux qui sont restaurés ; vérifiez les étiquettes et les axes de cet enregistrement, ou apprenez sur des prises de la même personne",
+    ),
 ];
