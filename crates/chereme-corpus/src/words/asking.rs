@@ -163,7 +163,7 @@ pub(super) const ASKING: &[(&str, &str)] = &[
     ),
     (
         "{n} of {all} tokens are coded for {components}; a map needs two",
-        "{n} occurrences sur {all} sont codées pour {components} ; une carte en demande deux",
+        "occurrences codées pour {components} : {n} sur {all} ; une carte en demande deux",
     ),
     (
         "import annotations or a lexicon with these components, or choose others; `chereme list CORPUS tokens` shows the codings",
@@ -279,7 +279,7 @@ pub(super) const ASKING: &[(&str, &str)] = &[
     ),
     (
         "the attributes are: {names} and {n} more",
-        "les attributs sont : {names} et {n} autres",
+        "les attributs sont : {names} et {n} de plus",
     ),
     (
         "the attributes are: {names}",
@@ -307,7 +307,7 @@ pub(super) const ASKING: &[(&str, &str)] = &[
     ),
     (
         "there are: {names} and {n} more",
-        "il y a : {names} et {n} autres",
+        "il y a : {names} et {n} de plus",
     ),
     ("there are: {names}", "il y a : {names}"),
     (

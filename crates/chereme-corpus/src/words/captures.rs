@@ -8,7 +8,7 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
     ),
     (
         "the row has {n} cells, and the header has {expected}",
-        "la ligne a {n} cases, et l’en-tête {expected}",
+        "cases de la ligne : {n}, de l’en-tête : {expected}",
     ),
     (
         "the file holds no numbers",
@@ -261,7 +261,7 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
     ),
     (
         "{n} more people are in the film; only the first was read",
-        "{n} autres personnes sont dans le film ; seule la première a été lue",
+        "autres personnes dans le film : {n} ; seule la première a été lue",
     ),
     (
         "the landmarks in metres were multiplied by the picture's width and height; they are divided by them again",
@@ -337,7 +337,7 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
     ),
     (
         "only {n} of {all} markers have a known label, and {needed} are needed",
-        "{n} marqueurs seulement sur {all} ont une étiquette connue, et il en faut {needed}",
+        "marqueurs d’étiquette connue : {n} sur {all} ; il en faut {needed}",
     ),
     (
         "no frame has {n} markers with a known label at once",
@@ -365,7 +365,7 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
     ),
     (
         "{n} joints tremble from frame to frame, by {angle} at most: they were smoothed",
-        "{n} articulations tremblent d’image en image, de {angle} au plus : elles ont été lissées",
+        "articulations qui tremblent d’image en image, de {angle} au plus, et ont été lissées : {n}",
     ),
     (
         "the {side} hand has too few fingers to define its palm",

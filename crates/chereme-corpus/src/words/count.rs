@@ -3,13 +3,14 @@
 use super::Language;
 
 /// Nouns as plural, singular, French singular and French plural.
-const NOUNS: [(&str, &str, &str, &str); 25] = [
+const NOUNS: [(&str, &str, &str, &str); 26] = [
     ("annotations", "annotation", "annotation", "annotations"),
     ("blocks", "block", "bloc", "blocs"),
     ("changes", "change", "modification", "modifications"),
     ("columns", "column", "colonne", "colonnes"),
     ("conflicts", "conflict", "conflit", "conflits"),
     ("curves", "curve", "courbe", "courbes"),
+    ("edits", "edit", "modification", "modifications"),
     ("files", "file", "fichier", "fichiers"),
     ("frames", "frame", "image", "images"),
     ("inventories", "inventory", "inventaire", "inventaires"),
@@ -73,9 +74,29 @@ pub fn numbered(count: u64, noun: &str, language: Language) -> String {
     }
 }
 
+/// Returns a count in English words, such as `2 tokens`, in French; nothing if the noun is unknown.
+pub(super) fn counted_in_french(text: &str) -> Option<String> {
+    let (count, noun) = text.split_once(' ')?;
+    let count: u64 = count.parse().ok()?;
+    let (plural, ..) = NOUNS.iter().find(|it| noun == it.0 || noun == it.1)?;
+    Some(counted_in(count, plural, Language::French))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn counts_in_messages_are_put_into_french() {
+        for (english, french) in [
+            ("1 token", Some("1 occurrence")),
+            ("12 pairs of frames", Some("12 paires d’images")),
+            ("3 fancies", None),
+            ("tokens", None),
+        ] {
+            assert_eq!(counted_in_french(english).as_deref(), french);
+        }
+    }
 
     #[test]
     fn nouns_go_with_their_numbers() {

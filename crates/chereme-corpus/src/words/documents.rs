@@ -297,7 +297,7 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
     ),
     (
         "{n} cues begin together with the next one and were left out",
-        "{n} sous-titres commencent avec le suivant et ont été laissés de côté",
+        "sous-titres qui commencent avec le suivant, laissés de côté : {n}",
     ),
     (
         "the table has no titles; it was read as ELAN exports it: tier, begin, end, annotation",

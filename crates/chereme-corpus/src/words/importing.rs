@@ -62,7 +62,7 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
     ),
     (
         "{entries} of the lexicon are in no recording",
-        "{entries} du lexique ne sont dans aucun enregistrement",
+        "du lexique, dans aucun enregistrement : {entries}",
     ),
     (
         "write .csv, which pandas, polars and DuckDB read, too",
@@ -148,7 +148,7 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
     ),
     (
         "{what} without notation: left out",
-        "{what} sans notation : laissé de côté",
+        "sans notation, laissé de côté : {what}",
     ),
     ("there is nothing to write", "il n’y a rien à écrire"),
     (
@@ -209,7 +209,7 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
     ),
     (
         "{n} optical markers are beside the skeleton and do not count as joints: {names}",
-        "{n} marqueurs optiques sont à côté du squelette et ne comptent pas comme articulations : {names}",
+        "marqueurs optiques à côté du squelette, qui ne comptent pas comme articulations : {n} ({names})",
     ),
     (
         "say which one in a roles file (--roles)",
@@ -261,11 +261,11 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
     ),
     (
         "it would take back {many} of yours: the recording stays as it is",
-        "il retirerait {many} de vous : l’enregistrement reste tel quel",
+        "il retirerait de vos modifications ({many}) : l’enregistrement reste tel quel",
     ),
     (
         "it was changed since it was imported, and would take back {many} of yours",
-        "il a changé depuis son importation, et retirerait {many} de vous",
+        "il a changé depuis son importation, et retirerait de vos modifications : {many}",
     ),
     (
         "import it again with --merge (your edits and the file's changes; yours where both changed the same annotation), --theirs (the file), or --mine (your edits)",
@@ -409,7 +409,7 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
     ("it is not whole", "il n’est pas entier"),
     (
         "of {all} pictures {n} were coded",
-        "{n} images codées sur {all}",
+        "images codées : {n} sur {all}",
     ),
     (
         "the film cannot be written: {why}",

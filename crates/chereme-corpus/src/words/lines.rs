@@ -7,17 +7,17 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("error: {what}", "erreur : {what}"),
     (
         "and {n} more were not compared",
-        "et {n} autres n’ont pas été comparées",
+        "pas comparées non plus : {n}",
     ),
     (
         "and {n} more of starter/recipes.txt: {names}",
-        "et {n} autres de starter/recipes.txt : {names}",
+        "et {n} de plus de starter/recipes.txt : {names}",
     ),
     (
         "and {n}; --limit shows more",
         "et {n} ; --limit en montre plus",
     ),
-    ("and {n} more", "et {n} autres"),
+    ("and {n} more", "et {n} de plus"),
     (
         "nothing is written; it would be:",
         "rien n’est écrit ; ce serait :",
@@ -56,7 +56,7 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ),
     (
         "each was compared with {n} others",
-        "chacune a été comparée à {n} autres",
+        "comparaisons de chacune avec d’autres : {n}",
     ),
     (
         "not compared: {token}: {why}",
@@ -73,7 +73,7 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("not used: {names}", "pas utilisés : {names}"),
     (
         "{n} frames at {rate} a second; {hidden} hidden places restored",
-        "{n} images à {rate} par seconde ; {hidden} positions cachées restaurées",
+        "{n} images à {rate} par seconde ; positions cachées restaurées : {hidden}",
     ),
     (
         "nothing was stored; --store writes tiers",
@@ -86,7 +86,7 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("nothing was stored", "rien n’a été enregistré"),
     (
         "{what} recognised after training on {other}",
-        "{what} reconnus, appris sur {other}",
+        "reconnu : {what}, appris sur {other}",
     ),
     (
         "the recognisers were tested on the keys from which they learned",
@@ -94,15 +94,15 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ),
     (
         "{n} movements from {recordings}: {found} of {all} pairs of keys; components miss markers by {mm} mm",
-        "{n} mouvements de {recordings} : {found} paires de clés sur {all} ; les composants manquent les marqueurs de {mm} mm",
+        "mouvements de {recordings} : {n} ; paires de clés : {found} sur {all} ; les composants manquent les marqueurs de {mm} mm",
     ),
     (
         "the script: {n} sentences, {pairs} pairs, {share} % of them in the dictionary; {missing} different ones are missing",
-        "le script : {n} phrases, {pairs} paires, dont {share} % dans le dictionnaire ; il en manque {missing} différentes",
+        "le script : {n} phrases, {pairs} paires, dont {share} % dans le dictionnaire ; différentes qui manquent : {missing}",
     ),
     (
         "{n} keys predicted by {code}, {produced} produced ({rate}); {same} as predicted",
-        "{n} clés prévues par {code}, {produced} produites ({rate}) ; {same} comme prévu",
+        "clés prévues par {code} : {n}, produites : {produced} ({rate}), comme prévu : {same}",
     ),
     (
         "{name}: {share} % right; shown in rows, recognised in columns",
@@ -110,7 +110,7 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ),
     (
         "{n} keys in {seconds} s: {exact} exact, {others} stand in for others, {synthetic} synthetic; cost {cost}",
-        "{n} clés en {seconds} s : {exact} exactes, {others} à la place d’autres, {synthetic} synthétiques ; coût {cost}",
+        "clés en {seconds} s : {n}, dont exactes : {exact}, à la place d’autres : {others}, synthétiques : {synthetic} ; coût {cost}",
     ),
     (
         "read back: {shapes} % of shapes, {placements} % of placements",
@@ -128,7 +128,7 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("left out: {what}", "laissé de côté : {what}"),
     (
         "drew {n} signs to {path}: {size} KB",
-        "{n} signes dessinés dans {path} : {size} Ko",
+        "signes dessinés dans {path} : {n}, {size} Ko",
     ),
     (
         "drew {what} to {path}: {n} frames, {size} KB",
@@ -166,7 +166,7 @@ pub(super) const LINES: &[(&str, &str)] = &[
         "frames with bridged gaps: {n}",
         "images à trous comblés : {n}",
     ),
-    ("{n} annotations written", "{n} annotations écrites"),
+    ("{n} annotations written", "annotations écrites : {n}"),
     (
         "stored: from now on these weights apply to all faces of {whose}",
         "enregistré : désormais ces poids valent pour tous les visages de {whose}",
@@ -178,7 +178,7 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("rows: {names}", "lignes : {names}"),
     (
         "{n} more files were imported without a warning; --json lists their notes",
-        "{n} autres fichiers ont été importés sans avertissement ; --json donne leurs notes",
+        "autres fichiers importés sans avertissement : {n} ; --json donne leurs notes",
     ),
     (
         "not read: {what} without an ending ({why})",
@@ -247,18 +247,18 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ),
     (
         "{n} pairs of {signs} signs ({all} compared by {fields}), {certain} of them certain: both values are given",
-        "{n} paires de {signs} signes ({all} comparés par {fields}), dont {certain} certaines : les deux valeurs sont données",
+        "paires : {n}, de {signs} signes ({all} comparés par {fields}), dont certaines : {certain} (les deux valeurs sont données)",
     ),
     (
         "homonyms: {n} pairs in {groups} groups of {signs} signs; {forms} forms",
-        "homonymes : {n} paires en {groups} groupes de {signs} signes ; {forms} formes",
+        "homonymes : paires {n}, groupes {groups}, signes {signs}, formes {forms}",
     ),
     ("by field: {list}", "par champ : {list}"),
     ("in most pairs: {list}", "dans le plus de paires : {list}"),
-    ("{n} accepted", "{n} acceptées"),
+    ("{n} accepted", "accepté : {n}"),
     (
         "{annotations} in {recordings}, for {tokens}; {unread} could not be read from movement",
-        "{annotations} dans {recordings}, pour {tokens} ; {unread} n’ont pas pu se lire dans le mouvement",
+        "{annotations} dans {recordings}, pour {tokens} ; illisible dans le mouvement : {unread}",
     ),
     (
         "{gloss} was there already and stays; --replace {other} instead of --as puts a sign in its place",

@@ -11,6 +11,7 @@ use super::captures::CAPTURES;
 use super::coding::CODING;
 use super::commands::COMMANDS;
 use super::composing::COMPOSING;
+use super::count::counted_in_french;
 use super::documents::DOCUMENTS;
 use super::editing::EDITING;
 use super::findings::FINDINGS;
@@ -453,7 +454,8 @@ fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
 
 fn in_french(text: &str) -> Option<String> {
     let part = |part: &str| in_french(part).unwrap_or_else(|| part.to_owned());
-    all().find_map(|(english, french)| carried(text, english, french, &part))
+    let said = all().find_map(|(english, french)| carried(text, english, french, &part));
+    said.or_else(|| counted_in_french(text))
 }
 
 /// Returns `other` filled with the variable parts of `text`, each converted by `said`; nothing if `text` does not have

@@ -113,7 +113,7 @@ pub(super) const MOVING: &[(&str, &str)] = &[
     ),
     (
         "{n} labels of {name} are known as markers of a cuer's hand or face",
-        "{n} étiquettes de {name} sont des marqueurs connus de la main ou du visage d’un codeur",
+        "étiquettes de {name} connues comme marqueurs de la main ou du visage d’un codeur : {n}",
     ),
     (
         "{name} has {n} frames; at most {most} are followed at once",

@@ -279,7 +279,7 @@ pub(super) const READING: &[(&str, &str)] = &[
     ),
     (
         "{n} places are exactly 0 0 0 though the file calls them seen; some programs write gaps so",
-        "{n} positions sont exactement 0 0 0 alors que le fichier les dit vues ; certains programmes écrivent ainsi les trous",
+        "positions exactement à 0 0 0 que le fichier dit vues : {n} ; certains programmes écrivent ainsi les trous",
     ),
     (
         "the unit of points is {unit}; millimetres are assumed",
