@@ -591,3 +591,36 @@ fn other_peoples_files_change_only_where_they_are_changed() {
         let _: Result<_, eaf::Error> = patched(&bytes, &Transcript::default());
     }
 }
+
+#[test]
+fn a_value_outside_an_old_vocabulary_adds_a_line_to_it() {
+    let old = OLD.replace(
+        "</ANNOTATION_DOCUMENT>",
+        "    <CONTROLLED_VOCABULARY CV_ID=\"POS\" DESCRIPTION=\"Part of Speech\">\n\
+         \x20       <CV_ENTRY DESCRIPTION=\"noun\">n</CV_ENTRY>\n\
+         \x20   </CONTROLLED_VOCABULARY>\n</ANNOTATION_DOCUMENT>",
+    );
+    let add = |it: &mut Transcript, id: &str| {
+        let mut entry = it.vocabularies[0].entries[0].clone();
+        entry.id = id.to_owned();
+        entry.values[0].value = "v & w".into();
+        entry.values[0].description = None;
+        it.vocabularies[0].entries.push(entry);
+        annotation(it, "a1").value = "v & w".into();
+    };
+    let after = changed(&old, |it| add(it, ""));
+    lines(
+        &old,
+        &after,
+        &["<ANNOTATION_VALUE>CHAT</ANNOTATION_VALUE>"],
+        &[
+            "<ANNOTATION_VALUE>v &amp; w</ANNOTATION_VALUE>",
+            "<CV_ENTRY>v &amp; w</CV_ENTRY>",
+        ],
+    );
+    let after = changed(&old, |it| add(it, "cve7"));
+    assert!(after.contains("<CV_ENTRY ID=\"cve7\">"), "{after}");
+    let mut gone = transcript(old.as_bytes());
+    gone.vocabularies[0].entries.clear();
+    assert_eq!(patched(old.as_bytes(), &gone), Ok(None), "more than lines");
+}

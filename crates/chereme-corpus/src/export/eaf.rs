@@ -484,9 +484,13 @@ fn complete(vocabulary: &mut Vocabulary, said: &[AnnotationRow]) {
             continue;
         }
         let taken = |id: &String| vocabulary.entries.iter().any(|entry| entry.id == *id);
-        let id = (vocabulary.entries.len()..)
-            .map(|n| format!("cveid{n}"))
-            .find(|id| !taken(id));
+        // In files of formats before 2.8 entries have no ids.
+        let id = match taken(&String::new()) {
+            true => None,
+            false => (vocabulary.entries.len()..)
+                .map(|n| format!("cveid{n}"))
+                .find(|id| !taken(id)),
+        };
         vocabulary.entries.push(VocabularyEntry {
             id: id.unwrap_or_default(),
             values: vec![EntryValue {

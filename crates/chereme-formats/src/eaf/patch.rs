@@ -23,7 +23,7 @@ use std::collections::{BTreeMap, HashMap};
 /// A changed annotation changes its own lines and time slots; line ends, quotes, entities, the order of
 /// attributes, the encoding, comments and all that EAF does not define stay as they are. The date stays, too, and
 /// `lastUsedAnnotationId` rises if the file counts it. `None` stands for a change that is more than lines, such
-/// as a vocabulary of a format before 2.8 or another order of tiers: then the file has to be
+/// as a new vocabulary in a format before 2.8 or another order of tiers: then the file has to be
 /// [written](raw::write) whole.
 ///
 /// # Errors

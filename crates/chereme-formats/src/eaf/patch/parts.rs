@@ -2,6 +2,7 @@
 
 use super::Work;
 use crate::eaf::layout::Layout;
+use crate::eaf::model::Vocabulary;
 use crate::eaf::output::{Output, written};
 use crate::eaf::raw::{self, Document};
 use crate::eaf::style::Style;
@@ -90,13 +91,61 @@ impl Work<'_, '_> {
             let legacy = (0..self.layout.elements.len())
                 .any(|it| matches!(self.layout.name(it), "CV_ENTRY"));
             if legacy || self.document.version.as_ref() < "2.8" {
-                return None;
+                self.old_vocabularies(root)?;
+            } else {
+                let all = both!(vocabularies, write::vocabulary);
+                self.list(root, ("CONTROLLED_VOCABULARY", "CV_ID"), all, &ORDER[..6])?;
             }
-            let all = both!(vocabularies, write::vocabulary);
-            self.list(root, ("CONTROLLED_VOCABULARY", "CV_ID"), all, &ORDER[..6])?;
         }
         let references = both!(external_refs, write::external_ref);
         self.list(root, ("EXTERNAL_REF", "EXT_REF_ID"), references, &ORDER)
+    }
+
+    /// Adds entries to vocabularies of a format before 2.8, one line for each; other changes are more than lines.
+    fn old_vocabularies(&mut self, root: usize) -> Option<()> {
+        let (before, after) = (&self.before.vocabularies, &self.after.vocabularies);
+        if before.len() != after.len() {
+            return None;
+        }
+        for (old, new) in before.iter().zip(after) {
+            let (first, added) = new.entries.split_at_checked(old.entries.len())?;
+            let without = Vocabulary {
+                entries: first.to_vec(),
+                ..new.clone()
+            };
+            if without != *old {
+                return None;
+            }
+            if added.is_empty() {
+                continue;
+            }
+            let mut all = self.layout.children(root, "CONTROLLED_VOCABULARY");
+            let element = all.find(|it| {
+                let own = self.layout.attribute(*it, "CV_ID");
+                own.is_some_and(|own| self.layout.text[own.value] == *old.id)
+            })?;
+            let last = self.layout.children(element, "CV_ENTRY").last();
+            let indent = self.indent_in(element);
+            let lines: Option<Vec<String>> = added
+                .iter()
+                .map(|entry| {
+                    let [value] = entry.values.as_slice() else {
+                        return None;
+                    };
+                    let pairs = [
+                        ("DESCRIPTION", value.description.as_deref()),
+                        ("EXT_REF", entry.external_ref.as_deref()),
+                        ("ID", Some(entry.id.as_str()).filter(|id| !id.is_empty())),
+                    ];
+                    let kept = raw::Kept::default();
+                    written(self.style, &indent, |xml| {
+                        xml.text("CV_ENTRY", &pairs, &kept, &value.value)
+                    })
+                })
+                .collect();
+            self.insert(element, last, &lines?);
+        }
+        Some(())
     }
 
     /// Adds the stereotypes that tier types need and the file lacks.
