@@ -418,12 +418,13 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
         });
     }
     let markers: Vec<String> = anatomy.markers().iter().map(|&joint| name(joint)).collect();
-    report.understood.body = Some(BodyRead {
+    let body = BodyRead {
         roles: anatomy.found().map(role).collect(),
         joint_names: (0..skeleton.len()).map(name).collect(),
         missing,
         markers: markers.clone(),
-    });
+    };
+    report.understood.body = Some(body.into());
     if !markers.is_empty() {
         let names: Vec<&str> = markers.iter().map(String::as_str).collect();
         report.findings.push(ReportFinding::note(format!(

@@ -88,7 +88,7 @@ pub(super) fn import_as(
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
     let guesses = guess(job, &transcript, &mut report)?;
-    report.understood.tiers = Some(TiersRead::Guessed(guesses.clone()));
+    report.understood.tiers = Some(TiersRead::Guessed(guesses.clone()).into());
     let target = target::find(job, &transcript, &mut report)?;
     let recording = recording(job, &transcript, target.recording, &mut report)?;
     know_participants(job, &transcript)?;

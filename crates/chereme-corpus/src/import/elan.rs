@@ -228,7 +228,7 @@ pub(super) fn import_settings(job: &mut Job<'_>, _: &mut Progress<'_>) -> Result
     report
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
-    report.understood.tiers = Some(TiersRead::Shown(settings));
+    report.understood.tiers = Some(TiersRead::Shown(settings).into());
     job.counts.changed("tiers", changed);
     let bytes = job.unchanged().is_none().then_some(bytes);
     if let Some(bytes) = bytes {

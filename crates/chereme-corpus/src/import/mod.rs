@@ -48,9 +48,10 @@ use report::Counts;
 pub use report::{
     FileReport, FileStatus, ImportReport, Outcome, OwnEdit, ReportFinding, Saying, Unread,
 };
+use understood::Earlier;
 pub use understood::{
-    BodyRead, Changes, ConventionRead, JointRole, MovementRead, RootRead, TiersRead, TrackRead,
-    Understood,
+    BodyRead, Changes, ConventionRead, JointRole, MovementRead, RootRead, Shared, TiersRead,
+    TrackRead, Understood,
 };
 
 /// Returns the time of day for a timecode such as `12:34:56:07` or `12:34:56:07@25`; the number behind `@` is the
@@ -238,6 +239,7 @@ impl Corpus {
                 places: Places::load(connection)?,
                 inventories: None,
                 used: BTreeSet::new(),
+                earlier: Earlier::default(),
                 one_take: one_take(&files),
             };
             import.files(&files, &mut report, progress)?;
@@ -277,6 +279,8 @@ struct Import<'a> {
     inventories: Option<Rc<Vec<StoredInventory>>>,
     /// Names and patterns of the mapping that match a tier or column.
     used: BTreeSet<String>,
+    /// The interpretations of earlier files, to be held once.
+    earlier: Earlier,
     /// Files that are the only one of their kind and name beside a single motion file in their folder.
     one_take: BTreeSet<PathBuf>,
 }
@@ -363,7 +367,8 @@ impl Import<'_> {
                 removed: report.removed.clone(),
             };
             let file = match self.file(path, (reader, *named), counts, progress) {
-                Ok((file, counts)) if file.status != FileStatus::Refused => {
+                Ok((mut file, counts)) if file.status != FileStatus::Refused => {
+                    self.earlier.share(&mut file.understood);
                     connection.execute_batch("RELEASE file")?;
                     let Counts {
                         created,

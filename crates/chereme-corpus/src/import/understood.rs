@@ -1,10 +1,13 @@
 //! How a file was understood, with a struct for each kind of thing that files hold.
 
+use std::ops::Deref;
+use std::sync::Arc;
+
 use chereme_formats::eaf;
 use chereme_formats::lexicon::Column;
 use chereme_formats::roles::TierGuess;
 use chereme_motion::Evidence;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::track::TrackKind;
 
@@ -16,7 +19,7 @@ pub struct Understood {
     pub movement: Option<MovementRead>,
     /// The joints of a body.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
-    pub body: Option<BodyRead>,
+    pub body: Option<Shared<BodyRead>>,
     /// How the root was read, if an option decided that.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub root: Option<RootRead>,
@@ -28,7 +31,7 @@ pub struct Understood {
     pub odd_frames: Option<Vec<String>>,
     /// Tiers of an annotation file, or how ELAN shows them.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub tiers: Option<TiersRead>,
+    pub tiers: Option<Shared<TiersRead>>,
     /// Columns of a lexicon table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub columns: Option<Vec<Column>>,
@@ -56,10 +59,67 @@ impl Understood {
     /// Returns what the tiers were taken for.
     #[must_use]
     pub fn guessed_tiers(&self) -> &[TierGuess] {
-        match &self.tiers {
+        match self.tiers.as_deref() {
             Some(TiersRead::Guessed(tiers)) => tiers,
             Some(TiersRead::Shown(_)) | None => &[],
         }
+    }
+}
+
+/// A part of an interpretation that is held once for all files in which it is the same, since an import of many takes
+/// reports the same body and the same tiers for each of them.
+#[derive(Debug, PartialEq)]
+pub struct Shared<T>(Arc<T>);
+
+impl<T> Clone for Shared<T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}
+
+impl<T> From<T> for Shared<T> {
+    fn from(part: T) -> Self {
+        Self(Arc::new(part))
+    }
+}
+
+impl<T> Deref for Shared<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.0
+    }
+}
+
+impl<T: Serialize> Serialize for Shared<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.serialize(serializer)
+    }
+}
+
+/// The parts of the interpretations of earlier files.
+#[derive(Debug, Default)]
+pub(super) struct Earlier {
+    bodies: Vec<Shared<BodyRead>>,
+    tiers: Vec<Shared<TiersRead>>,
+}
+
+impl Earlier {
+    /// Replaces parts of an interpretation by equal ones of earlier files.
+    pub(super) fn share(&mut self, understood: &mut Understood) {
+        share(&mut self.bodies, understood.body.as_mut());
+        share(&mut self.tiers, understood.tiers.as_mut());
+    }
+}
+
+fn share<T: PartialEq>(earlier: &mut Vec<Shared<T>>, own: Option<&mut Shared<T>>) {
+    /// The largest number of different parts that are compared.
+    const MOST: usize = 16;
+    let Some(own) = own else { return };
+    match earlier.iter().find(|it| **it == *own) {
+        Some(same) => *own = same.clone(),
+        None if earlier.len() < MOST => earlier.push(own.clone()),
+        None => {}
     }
 }
 
@@ -167,4 +227,33 @@ pub struct Changes {
     pub removed: usize,
     /// Annotations that stayed.
     pub unchanged: usize,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_parts_of_many_files_are_held_once() {
+        let of = |name: &str| Understood {
+            body: Some(Shared::from(BodyRead {
+                joint_names: vec![name.to_owned()],
+                ..BodyRead::default()
+            })),
+            ..Understood::default()
+        };
+        let mut all = [of("Hips"), of("Hips"), of("pelvis"), of("Hips")];
+        let before: Vec<String> = all.iter().map(|it| format!("{it:?}")).collect();
+        let mut earlier = Earlier::default();
+        all.iter_mut().for_each(|it| earlier.share(it));
+        let after: Vec<String> = all.iter().map(|it| format!("{it:?}")).collect();
+        assert_eq!(after, before, "they say the same");
+        let held = |at: usize| all[at].body.as_ref().map(|body| Arc::as_ptr(&body.0));
+        assert!(held(0) == held(1) && held(0) == held(3) && held(0) != held(2));
+        let json = serde_json::to_value(&all[1]).expect("JSON");
+        assert_eq!(
+            json["joint_names"][0], "Hips",
+            "side by side with the other parts"
+        );
+    }
 }

@@ -219,7 +219,7 @@ pub(crate) fn created(report: &ImportReport) -> Vec<(Text, u64)> {
 mod tests {
     use super::*;
     use chereme_corpus::{
-        BodyRead, ConventionRead, Hands, JointRole, MovementRead, ReportFinding, TierRole,
+        BodyRead, ConventionRead, Hands, JointRole, MovementRead, ReportFinding, Shared, TierRole,
         TiersRead, Understood,
     };
     use chereme_motion::Evidence;
@@ -241,9 +241,9 @@ mod tests {
         }
     }
 
-    fn body(missing: &[&str], names: &[&str]) -> Option<BodyRead> {
+    fn body(missing: &[&str], names: &[&str]) -> Option<Shared<BodyRead>> {
         let owned = |names: &[&str]| names.iter().map(|&it| it.to_owned()).collect();
-        Some(BodyRead {
+        let body = BodyRead {
             roles: vec![JointRole {
                 part: "right hand".to_owned(),
                 joint: "RHand".to_owned(),
@@ -252,7 +252,8 @@ mod tests {
             joint_names: owned(names),
             missing: owned(missing),
             markers: Vec::new(),
-        })
+        };
+        Some(body.into())
     }
 
     #[test]
@@ -327,11 +328,11 @@ mod tests {
         };
         let right = Some(Hands::One(HandRef::Right));
         let file = file(Understood {
-            tiers: Some(TiersRead::Guessed(vec![
+            tiers: Some(Shared::from(TiersRead::Guessed(vec![
                 guess("Config MD", Some(configuration), right),
                 guess("Gloss", Some(TierRole::Gloss), None),
                 guess("X", None, None),
-            ])),
+            ]))),
             ..Understood::default()
         });
         let roles: Vec<String> = tiers(&file).into_iter().map(|it| it.role).collect();
