@@ -115,7 +115,7 @@ impl Studio {
         Self {
             author,
             folders,
-            keys: Keys::new(settings.keymap, &settings.keys),
+            keys: Keys::new(settings.keymap, &settings.keys, settings.language),
             tree: layout::remembered(settings.layout.as_ref(), (settings.busy, false)),
             small: false,
             saved,

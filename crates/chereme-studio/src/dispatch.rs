@@ -162,7 +162,13 @@ impl Studio {
             Command::Stage(ways) => self.settings.stage = *ways,
             Command::Settings(settings) => {
                 self.settings = *settings;
-                self.keys = Keys::new(self.settings.keymap, &self.settings.keys);
+                let crate::settings::Settings {
+                    keymap,
+                    keys,
+                    language,
+                    ..
+                } = &self.settings;
+                self.keys = Keys::new(*keymap, keys, *language);
             }
             Command::Cannot(text) => {
                 let text = self.keys.named(text.of(self.settings.language));

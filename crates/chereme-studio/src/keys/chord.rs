@@ -6,6 +6,8 @@ use std::str::FromStr;
 use eframe::egui::{Key, Modifiers};
 use serde::{Deserialize, Serialize};
 
+use crate::words::{Language, key_names as words};
+
 /// A key with its modifiers: `Ctrl+Shift+Space`. Ctrl is the command key on a Mac.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
@@ -58,20 +60,32 @@ impl Chord {
         !function && !self.alt
     }
 
-    /// Returns the chord as people read it, with the printed sign of the key if it has one.
-    pub(crate) fn label(self) -> String {
+    /// Returns the chord as people read it, with the printed sign of the key if it has one, and the names that are
+    /// printed on keyboards of the language.
+    pub(crate) fn label(self, language: Language) -> String {
         let name = self.key.name();
         let sign = match self.key {
             Key::Plus => "+",
             key => key.symbol_or_name(),
         };
         // Arrows and the like are easier to read as words.
-        if sign.is_ascii() && sign != name {
-            let text = self.to_string();
-            format!("{}{sign}", text.strip_suffix(name).unwrap_or_default())
-        } else {
-            self.to_string()
+        let key = match words::KEYS.iter().find(|(key, _)| *key == self.key) {
+            Some((_, text)) => text.of(language),
+            None if sign.is_ascii() => sign,
+            None => name,
+        };
+        let mut label = String::new();
+        for (held, name) in [
+            (self.ctrl, words::CTRL),
+            (self.shift, words::SHIFT),
+            (self.alt, words::ALT),
+        ] {
+            if held {
+                label.push_str(name.of(language));
+                label.push('+');
+            }
         }
+        label + key
     }
 
     /// Returns whether a focused handle on the stage uses the chord itself.
@@ -168,15 +182,17 @@ mod tests {
             assert_eq!(text.parse::<Chord>().expect("a chord").to_string(), text);
         }
         for (text, label) in [
-            ("Ctrl+Comma", "Ctrl+,"),
-            ("Ctrl+Plus", "Ctrl++"),
-            ("Alt+Left", "Alt+Left"),
-            ("Period", "."),
-            ("Shift+Slash", "Shift+/"),
-            ("Shift+Enter", "Shift+Enter"),
+            ("Ctrl+Comma", ["Ctrl+,", "Ctrl+,"]),
+            ("Ctrl+Plus", ["Ctrl++", "Ctrl++"]),
+            ("Alt+Left", ["Alt+Left", "Alt+Gauche"]),
+            ("Period", [".", "."]),
+            ("Shift+Slash", ["Shift+/", "Maj+/"]),
+            ("Shift+Enter", ["Shift+Enter", "Maj+Entrée"]),
+            ("Delete", ["Delete", "Suppr"]),
         ] {
             let chord = text.parse::<Chord>().expect("a chord");
-            assert_eq!(chord.label(), label);
+            let labels = [Language::English, Language::French].map(|it| chord.label(it));
+            assert_eq!(labels, label);
         }
         assert_eq!("Ctrl++".parse::<Chord>().map(|it| it.key), Ok(Key::Plus));
         for bad in ["", "Ctrl+", "Hyper+A", "NoKey"] {

@@ -1,7 +1,7 @@
 //! The table of mouse gestures, which the help shows next to the keys.
 
 use crate::action::Menu;
-use crate::words::{Language, Text, gestures as words};
+use crate::words::{Language, Text, gestures as words, key_names as names};
 
 /// A key that is held during the gesture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -102,11 +102,12 @@ impl Gesture {
             Act::Wheel => words::WHEEL,
         };
         let held = match self.held {
-            Some(HeldKey::Ctrl) => "Ctrl+",
-            Some(HeldKey::Shift) => "Shift+",
-            Some(HeldKey::Alt) => "Alt+",
-            None => "",
+            Some(HeldKey::Ctrl) => Some(names::CTRL),
+            Some(HeldKey::Shift) => Some(names::SHIFT),
+            Some(HeldKey::Alt) => Some(names::ALT),
+            None => None,
         };
+        let held = held.map_or(String::new(), |key| format!("{}+", key.of(language)));
         format!("{held}{} · {}", act.of(language), self.on.of(language))
     }
 }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::action::{ACTIONS, Action, Context};
 use crate::panes::PaneKind;
-use crate::words::{Text, shell};
+use crate::words::{Language, Text, shell};
 use chord::Chord;
 
 /// A set of default keys.
@@ -38,6 +38,8 @@ impl Keymap {
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Keys {
     bound: BTreeMap<Action, Vec<Chord>>,
+    /// The language of the keys' names.
+    language: Language,
 }
 
 /// Keys that the user gave to actions, by action id; an empty list removes all keys of the action.
@@ -65,7 +67,7 @@ pub(crate) struct KeyContext {
 impl Keys {
     /// Returns the keys of a keymap with the user's changes; a key that the user gave to one action is taken from the
     /// other actions of the same context.
-    pub(crate) fn new(keymap: Keymap, rebound: &Rebound) -> Self {
+    pub(crate) fn new(keymap: Keymap, rebound: &Rebound, language: Language) -> Self {
         let mut bound = BTreeMap::new();
         for row in ACTIONS {
             let own = rebound.get(row.id).cloned();
@@ -86,7 +88,7 @@ impl Keys {
                 }
             }
         }
-        Self { bound }
+        Self { bound, language }
     }
 
     /// Returns the keys of an action.
@@ -96,7 +98,11 @@ impl Keys {
 
     /// Returns the keys of an action as people read them, such as `Ctrl+Z`; empty if it has no keys.
     pub(crate) fn text(&self, action: Action) -> String {
-        let all: Vec<String> = self.of(action).iter().map(|it| it.label()).collect();
+        let all: Vec<String> = self
+            .of(action)
+            .iter()
+            .map(|it| it.label(self.language))
+            .collect();
         all.join(", ")
     }
 
@@ -107,7 +113,10 @@ impl Keys {
         for row in ACTIONS {
             let place = format!("{{{}}}", row.id);
             if told.contains(&place) {
-                let keys = self.of(row.action).first().map(|it| it.label());
+                let keys = self
+                    .of(row.action)
+                    .first()
+                    .map(|it| it.label(self.language));
                 told = told.replace(&place, &keys.unwrap_or_else(|| row.id.to_owned()));
             }
         }
@@ -197,7 +206,7 @@ mod tests {
     #[test]
     fn no_key_means_two_things_in_one_context() {
         for (keymap, _) in Keymap::ALL {
-            let keys = Keys::new(keymap, &Rebound::new());
+            let keys = Keys::new(keymap, &Rebound::new(), Language::English);
             for (at, row) in ACTIONS.iter().enumerate() {
                 for other in &ACTIONS[at + 1..] {
                     let both = keys
@@ -224,7 +233,7 @@ mod tests {
     #[test]
     fn the_users_keys_go_before_the_keymap() {
         let rebound = Rebound::from([("play.toggle".to_owned(), vec![chord("Ctrl+Z")])]);
-        let keys = Keys::new(Keymap::Elan, &rebound);
+        let keys = Keys::new(Keymap::Elan, &rebound, Language::English);
         assert_eq!(keys.action(chord("Ctrl+Z"), AT), Some(Action::Play));
         assert_eq!(keys.action(chord("Ctrl+Space"), AT), None);
         assert!(keys.of(Action::Undo).is_empty());
@@ -234,7 +243,7 @@ mod tests {
     fn keys_typed_over_an_open_menu_reach_nothing_below_it() {
         let menu = KeyContext { menu: true, ..AT };
         for (keymap, _) in Keymap::ALL {
-            let keys = Keys::new(keymap, &Rebound::new());
+            let keys = Keys::new(keymap, &Rebound::new(), Language::English);
             for row in ACTIONS {
                 let place = match row.context {
                     Context::Pane(pane) => KeyContext {
@@ -249,13 +258,13 @@ mod tests {
                 }
             }
         }
-        let keys = Keys::new(Keymap::Elan, &Rebound::new());
+        let keys = Keys::new(Keymap::Elan, &Rebound::new(), Language::English);
         assert_eq!(keys.action(chord("Ctrl+Z"), menu), Some(Action::Undo));
     }
 
     #[test]
     fn typing_keeps_its_keys() {
-        let keys = Keys::new(Keymap::Editor, &Rebound::new());
+        let keys = Keys::new(Keymap::Editor, &Rebound::new(), Language::English);
         let typing = KeyContext { typing: true, ..AT };
         assert_eq!(keys.action(chord("L"), AT), Some(Action::ShuttleForward));
         assert_eq!(keys.action(chord("L"), typing), None);

@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn every_key_that_is_named_is_an_actions() {
         for (keymap, _) in Keymap::ALL {
-            let keys = Keys::new(keymap, &Rebound::default());
+            let keys = Keys::new(keymap, &Rebound::default(), Language::English);
             let all = STEPS.map(|it| it.1).into_iter().chain([words::MORE]);
             for how in all {
                 for (language, _) in Language::ALL {

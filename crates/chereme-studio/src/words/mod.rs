@@ -30,6 +30,7 @@ pub(crate) mod gestures;
 pub(crate) mod hamnosys;
 pub(crate) mod import;
 pub(crate) mod inspector;
+pub(crate) mod key_names;
 pub(crate) mod library;
 pub(crate) mod map;
 pub(crate) mod pickers;
@@ -45,7 +46,7 @@ pub(crate) mod timeline;
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 19] = [
+    const TABLES: [&[(&str, Text)]; 20] = [
         actions::ALL,
         cue::ALL,
         export::ALL,
@@ -54,6 +55,7 @@ mod tests {
         hamnosys::ALL,
         import::ALL,
         inspector::ALL,
+        key_names::ALL,
         library::ALL,
         map::ALL,
         pickers::ALL,
