@@ -219,9 +219,22 @@ fn cannot(error: chereme_compose::MakeError) -> Error {
         remedy: error.cause.remedy().unwrap_or_else(known),
         meant: error.cause.meant(),
         cause: error.cause.to_string(),
-        step: error.step,
+        step: brief(error.step),
         path: error.path,
     }))
+}
+
+/// Returns the text of a step for a message: its two ends if it is long, such as the text of a fable.
+fn brief(step: String) -> String {
+    const MOST: usize = 160;
+    const END: usize = 40;
+    let letters = step.chars().count();
+    if letters <= MOST {
+        return step;
+    }
+    let first: String = step.chars().take(MOST - END).collect();
+    let last: String = step.chars().skip(letters - END).collect();
+    format!("{first} … {last}")
 }
 
 fn recombination(recipe: &Recipe, gloss: String, made: Generated) -> Recombination {
@@ -614,4 +627,21 @@ fn source_rows(connection: &Connection, address: &str) -> Result<(Option<i64>, O
         Address::Recording(Name::Number(recording)) => (Some(recording), None),
         _ => (None, None),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::brief;
+
+    #[test]
+    fn a_long_step_is_shortened_in_a_message() {
+        let short = "cue \"le chat dort\" dominant".to_owned();
+        assert_eq!(brief(short.clone()), short);
+        let long = brief(format!("cue \"{}\" dominant", "été ".repeat(1000)));
+        assert_eq!(long.chars().count(), 163);
+        assert!(
+            long.starts_with("cue \"été") && long.ends_with("\" dominant"),
+            "{long}"
+        );
+    }
 }

@@ -235,7 +235,12 @@ fn svg(onsets: &Onsets) -> String {
             "<line x1=\"{0:.1}\" y1=\"30\" x2=\"{0:.1}\" y2=\"{bottom}\" stroke=\"#888\" stroke-dasharray=\"3 3\"/>",
             x(0.0)
         );
+        // A label needs this much room beside that of zero.
+        const ROOM: f64 = 34.0;
         for value in [low, 0.0, high] {
+            if value != 0.0 && (x(value) - x(0.0)).abs() < ROOM {
+                continue;
+            }
             let _ = writeln!(
                 text,
                 "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\">{value:.2}</text>",

@@ -7,6 +7,8 @@ texts! {
     TEXT_HINT: "a sentence, such as: le chat dort", "une phrase, par exemple : le chat dort";
     CODE: "Code", "Code";
     RULE: "Timing of the hand", "Rythme de la main";
+    BY_PAPER: "the founding paper", "l’article fondateur";
+    BY_MEASURED: "measured in this corpus", "mesuré dans ce corpus";
     PACE: "Pace", "Allure";
     LIAISON: "Liaisons", "Liaisons";
     SCHWA: "Say every e", "Dire tous les e";

@@ -113,10 +113,17 @@ impl CuePane {
             });
             list.response.labelled_by(label.id);
             let label = ui.label(seen.say(words::RULE));
-            let list = ComboBox::from_id_salt("cue-rule").selected_text(self.choices.rule.name());
+            let name = |rule: PhaseRule| match rule {
+                PhaseRule::Paper => seen.say(words::BY_PAPER),
+                PhaseRule::Attina => "Attina",
+                PhaseRule::Sppas => "SPPAS",
+                PhaseRule::Duchnowski => "Duchnowski",
+                PhaseRule::Measured => seen.say(words::BY_MEASURED),
+            };
+            let list = ComboBox::from_id_salt("cue-rule").selected_text(name(self.choices.rule));
             let list = list.show_ui(ui, |ui| {
                 for rule in PhaseRule::ALL {
-                    ui.selectable_value(&mut self.choices.rule, rule, rule.name());
+                    ui.selectable_value(&mut self.choices.rule, rule, name(rule));
                 }
             });
             list.response.labelled_by(label.id);
