@@ -22,13 +22,12 @@ pub(super) fn show(
     targets: &[Target],
     (shapes, code): (&[(u8, HandPose)], &CueCode),
 ) -> Result<f64, Cause> {
-    fingers(work, side, targets, shapes)?;
+    let reaches = fingers(work, side, targets, (shapes, code))?;
     let turns: Vec<DQuat> = targets
         .iter()
         .map(|target| rotation(work, side, head, &target.spot))
         .collect::<Option<_>>()
         .ok_or(Cause::NoFingers(side))?;
-    let hand = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?.hand;
     let (mut wrists, mut hands) = (Vec::new(), Vec::new());
     for frame in 0..work.frames {
         let (n, share) = along(targets, time(work, frame), |times| (times.m1, times.m2));
@@ -38,9 +37,8 @@ pub(super) fn show(
         let at = targets[n]
             .bow
             .at(&targets[before].spot, &targets[n].spot, share);
-        let model = ModelPose::of(&work.skeleton, &work.pose(frame));
-        let tip = tip(work, &model, side, targets, frame, code).ok_or(Cause::NoFingers(side))?;
-        let reach = model.rotation(hand).inverse() * (tip - model.position(hand));
+        // Fingers that fold and unfold on the path do not pull the hand to the face.
+        let reach = reaches[before].lerp(reaches[n], share);
         wrists.push(head.point(at) - turn * reach);
         hands.push(turn);
     }
@@ -71,12 +69,14 @@ fn along(
     (n, share)
 }
 
+/// Moves the fingers; returns for each target the vector from the wrist to the pointing tip in its shape, in the space of
+/// the hand.
 fn fingers(
     work: &mut Work,
     side: Side,
     targets: &[Target],
-    shapes: &[(u8, HandPose)],
-) -> Result<(), Cause> {
+    (shapes, code): (&[(u8, HandPose)], &CueCode),
+) -> Result<Vec<DVec3>, Cause> {
     let mut known = Vec::with_capacity(shapes.len());
     for (number, pose) in shapes {
         let joints = poses::rotations(&work.skeleton, &work.anatomy, side, pose);
@@ -96,7 +96,18 @@ fn fingers(
             work.channels[*joint].rotations[frame] = COURSE.rotation(*from, *to, share);
         }
     }
-    Ok(())
+    let hand = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?.hand;
+    let reach = |target: &Target| {
+        let mut pose = work.pose(0);
+        for (joint, rotation) in shape(target.shape)? {
+            pose.rotations[*joint] = *rotation;
+        }
+        let model = ModelPose::of(&work.skeleton, &pose);
+        let tip = pointing(work, &model, side, target, code)?;
+        Some(model.rotation(hand).inverse() * (tip - model.position(hand)))
+    };
+    let reaches = targets.iter().map(reach).collect::<Option<_>>();
+    reaches.ok_or(Cause::NoFingers(side))
 }
 
 /// Returns the rotation of the hand at a place: fingers up and towards the face, the back of the hand to the front.
@@ -118,19 +129,27 @@ pub(super) fn tip(
     code: &CueCode,
 ) -> Option<DVec3> {
     let (n, share) = along(targets, time(work, frame), |times| (times.d1, times.d2));
-    let of = |target: &Target| {
-        let landmark = |finger: &str| {
-            let name = format!("{}-{finger}-tip", side.name());
-            work.anatomy.landmark(&work.skeleton, model, &name)
-        };
-        match code.shape(target.shape) {
-            Some(shape) => landmark(&shape.points_with),
-            None => {
-                let knuckle = work.anatomy.joint(Part::Finger(side, Finger::Index, 1))?;
-                Some(model.position(knuckle))
-            }
-        }
-    };
+    let of = |target: &Target| pointing(work, model, side, target, code);
     let (before, after) = (of(&targets[n.saturating_sub(1)])?, of(&targets[n])?);
     Some(before.lerp(after, COURSE.share(share)))
+}
+
+/// Returns the position of the fingertip that points for a target, or of the knuckle of the index finger at rest.
+fn pointing(
+    work: &Work,
+    model: &ModelPose,
+    side: Side,
+    target: &Target,
+    code: &CueCode,
+) -> Option<DVec3> {
+    match code.shape(target.shape) {
+        Some(shape) => {
+            let name = format!("{}-{}-tip", side.name(), shape.points_with);
+            work.anatomy.landmark(&work.skeleton, model, &name)
+        }
+        None => {
+            let knuckle = work.anatomy.joint(Part::Finger(side, Finger::Index, 1))?;
+            Some(model.position(knuckle))
+        }
+    }
 }
