@@ -1,28 +1,32 @@
-//! Counts, sign by sign, the faults that make synthesised movement look unlike a person's, and writes the
-//! table between two marks of a file.
-
-use std::collections::BTreeMap;
-use std::path::Path;
+//! The faults that make synthesised movement look unlike a person's, judged sign by sign.
 
 use chereme_compose::notation::{Settings, animate};
 use chereme_compose::{About, Generated, Material};
 use chereme_motion::glam::DVec3;
-use chereme_motion::{ModelPose, Part, Rate, Side, Span};
+use chereme_motion::{ModelPose, Part, Side, Span};
 use chereme_sign::hamnosys::{Contact, MotionKind, NonmanualPart, Notated, WristMotion};
 use chereme_sign::{Component, Reading};
 
+use crate::Result;
 use crate::bulk::{Hand, Tube, deepest};
 use crate::checks::{Trunk, worst};
-use crate::walk::{each_motion, interlocked, places};
-use crate::{Result, bodies};
+use crate::walk::{each_motion, interlocked, places, with_motions};
 
-/// The marks between which the table stands.
-const MARKS: [&str; 2] = ["<!-- faults -->", "<!-- /faults -->"];
+/// One fault: its name, and how a sign is judged: `None` if the fault cannot occur in it.
+pub(crate) type Judge = (&'static str, fn(&Seen<'_>) -> Option<bool>);
 
-/// One fault: its name, and the function that judges a sign; `None` if the fault cannot occur in it.
-type Judge = (&'static str, fn(&Seen<'_>) -> Option<bool>);
+/// Heights of the wrist above its shoulder, and the height of the elbow that three of four captured ones stay below while
+/// the wrist is there, in shoulder widths of 36 cm, as the example program `signing` measures.
+const CAPTURED: [[f64; 2]; 4] = [
+    [-0.25 / 0.36, -0.24 / 0.36],
+    [-0.15 / 0.36, -0.25 / 0.36],
+    [-0.05 / 0.36, -0.24 / 0.36],
+    [0.05 / 0.36, -0.16 / 0.36],
+];
+/// Heights of the wrist (shoulder widths) between which captured elbows are known.
+const KNOWN: [f64; 2] = [-0.30 / 0.36, 0.10 / 0.36];
 
-const FAULTS: [Judge; 18] = [
+pub(crate) const FAULTS: [Judge; 19] = [
     (
         "a thumb across lies more than 3 mm off its finger or palm",
         thumb_off,
@@ -45,6 +49,10 @@ const FAULTS: [Judge; 18] = [
         standing_out,
     ),
     ("an elbow is more than 3 cm above its shoulder", raised),
+    (
+        "an elbow is 10 cm above three of four captured ones with the hand at its height",
+        lifted,
+    ),
     ("flesh of a hand more than 5 mm in the trunk", buried),
     (
         "at a turned or tilted head, a touch is more than 1.5 cm off its site",
@@ -58,22 +66,25 @@ const FAULTS: [Judge; 18] = [
     ),
     ("a hand is turned more than 45° off, as reported", turned),
     (
-        "fast is no faster than usual would be, slow no slower",
+        "fast peaks at less than 1.2 of the usual speed, slow at more than 0.8 of it",
         untold,
     ),
     ("notation that is dropped with a warning", dropped),
 ];
 
 /// A sign with its movement.
-struct Seen<'a> {
+pub(crate) struct Seen<'a> {
     notated: &'a Notated,
     findings: usize,
     made: Generated,
     /// The same without its non-manuals, if it has some.
     plain: Option<Generated>,
-    /// The posture in each frame, in model space.
+    /// The same with neither fast nor slow movement, if it has some.
+    usual: Option<Generated>,
+    /// The model in each frame.
     models: Vec<ModelPose>,
-    rate: f64,
+    /// Frames per second.
+    pub(crate) rate: f64,
 }
 
 impl Seen<'_> {
@@ -110,7 +121,7 @@ impl Seen<'_> {
         Some(self.models[frame].position(self.made.anatomy.arm(side)?.hand))
     }
 
-    fn dominant(&self) -> Side {
+    pub(crate) fn dominant(&self) -> Side {
         match self.made.handedness {
             chereme_sign::Handedness::Left => Side::Left,
             _ => Side::Right,
@@ -125,8 +136,8 @@ impl Seen<'_> {
             .sum()
     }
 
-    /// Returns the highest speed of a wrist between two frames, in metres per second.
-    fn peak(&self, side: Side, (from, to): (usize, usize)) -> f64 {
+    /// Returns the fastest that a wrist goes between two frames, in metres per second.
+    pub(crate) fn peak(&self, side: Side, (from, to): (usize, usize)) -> f64 {
         let Some(arm) = self.made.anatomy.arm(side) else {
             return 0.0;
         };
@@ -139,7 +150,7 @@ impl Seen<'_> {
         steps.fold(0.0, f64::max) * self.rate
     }
 
-    fn strokes(&self) -> Vec<(usize, usize)> {
+    pub(crate) fn strokes(&self) -> Vec<(usize, usize)> {
         let own = self.dominant();
         let all = self.phases("stroke").into_iter();
         all.filter(|(side, span)| *side == own && span.1 > span.0)
@@ -147,7 +158,7 @@ impl Seen<'_> {
             .collect()
     }
 
-    fn approach(&self) -> Option<(usize, usize)> {
+    pub(crate) fn approach(&self) -> Option<(usize, usize)> {
         let own = self.dominant();
         let all = self.phases("transition").into_iter();
         all.filter(|(side, _)| *side == own)
@@ -156,7 +167,7 @@ impl Seen<'_> {
     }
 
     /// Returns whether the stroke moves the wrist and is not played by fingers or wrist alone.
-    fn moves(&self) -> bool {
+    pub(crate) fn moves(&self) -> bool {
         let own = self.dominant();
         let Some(arm) = self.made.anatomy.arm(own) else {
             return false;
@@ -217,7 +228,7 @@ fn short_stroke(seen: &Seen<'_>) -> Option<bool> {
 }
 
 /// Returns the share of the strokes in the time from the first movement to the end of the sign.
-fn stroke_share(seen: &Seen<'_>) -> Option<f64> {
+pub(crate) fn stroke_share(seen: &Seen<'_>) -> Option<f64> {
     let (from, to) = (seen.approach()?.0, seen.sign()?.1);
     let strokes: usize = seen.strokes().iter().map(|span| span.1 - span.0).sum();
     Some(strokes as f64 / (to - from).max(1) as f64)
@@ -316,6 +327,29 @@ fn standing_out(seen: &Seen<'_>) -> Option<bool> {
 
 fn raised(seen: &Seen<'_>) -> Option<bool> {
     Some(worst(&seen.made).above > 0.03)
+}
+
+fn lifted(seen: &Seen<'_>) -> Option<bool> {
+    let (from, to) = seen.sign()?;
+    let wide = seen.made.anatomy.body_frame(&seen.models[0])?.scale;
+    let usual = |wrist: f64| {
+        let next = CAPTURED.partition_point(|row| row[0] < wrist);
+        let [a, b] = [next.saturating_sub(1), next].map(|n| CAPTURED[n.min(CAPTURED.len() - 1)]);
+        let share = (wrist - a[0]) / (b[0] - a[0]).max(1e-9);
+        a[1] + (b[1] - a[1]) * share.clamp(0.0, 1.0)
+    };
+    let arms = Side::BOTH
+        .into_iter()
+        .filter_map(|side| seen.made.anatomy.arm(side));
+    let high = arms.into_iter().any(|arm| {
+        seen.models[from..=to].iter().any(|model| {
+            let [shoulder, elbow, wrist] =
+                [arm.upper, arm.forearm, arm.hand].map(|j| model.position(j).y / wide);
+            let known = (KNOWN[0]..KNOWN[1]).contains(&(wrist - shoulder));
+            known && elbow - shoulder > usual(wrist - shoulder) + 0.10 / wide
+        })
+    });
+    Some(high)
 }
 
 fn buried(seen: &Seen<'_>) -> Option<bool> {
@@ -515,110 +549,42 @@ fn turned(seen: &Seen<'_>) -> Option<bool> {
 }
 
 fn untold(seen: &Seen<'_>) -> Option<bool> {
+    let usual = seen.usual.as_ref()?;
     let mut manner = None;
     each_motion(seen.notated, &mut |motion| {
-        let small =
-            matches!(&motion.kind, MotionKind::Directed(directed) if directed.zigzag.is_none());
-        if small && (motion.manner.fast || motion.manner.slow) {
+        if motion.manner.fast || motion.manner.slow {
             manner = manner.or(Some(motion.manner.fast));
         }
     });
     let fast = manner?;
-    let side = seen.dominant();
-    let peaks = seen.strokes().into_iter().map(|span| seen.peak(side, span));
-    let peak = peaks.fold(0.0, f64::max);
-    Some(if fast { peak < 1.0 } else { peak > 1.0 })
+    if !seen.moves() {
+        return None;
+    }
+    let peak = |made: &Generated| {
+        let phase = About::Component(Component::Movement, Some("phase".into()));
+        let stroke = Reading::Value("stroke".into());
+        let notes = made.notes.iter();
+        let own = notes.filter(|note| note.about == phase && note.value == stroke);
+        let own = own.filter(|note| note.hand == Some(seen.dominant()));
+        let arm = made.anatomy.arm(seen.dominant())?;
+        let steps = own.flat_map(|note| {
+            let frames = made.clip.rate().frames_in(note.span);
+            let at = |frame: usize| made.clip.model_pose(frame).position(arm.hand);
+            let steps = frames.start..frames.end.min(made.clip.frames()).saturating_sub(1);
+            steps.map(move |frame| at(frame).distance(at(frame + 1)))
+        });
+        Some(steps.fold(0.0, f64::max))
+    };
+    let against = peak(&seen.made)? / peak(usual)?.max(1e-9);
+    Some(if fast { against < 1.2 } else { against > 0.8 })
 }
 
 fn dropped(seen: &Seen<'_>) -> Option<bool> {
     Some(seen.findings > 0)
 }
 
-/// The counts of one fault: signs that have it, and signs in which it could occur.
-#[derive(Debug, Default, Clone)]
-struct Count {
-    found: usize,
-    of: usize,
-    names: Vec<String>,
-}
-
-/// Counts every fault over the signs of a folder on a body. `every` thins the signs out; `into` is a file
-/// whose table between the marks is replaced, its column of earlier counts kept.
-pub(crate) fn count(folder: &Path, body: &str, every: usize, into: Option<&Path>) -> Result<()> {
-    let stage = bodies::stage(Path::new(body))?;
-    let settings = Settings {
-        rate: Rate::new(60, 1)?,
-        ..Settings::default()
-    };
-    let mut counts = vec![Count::default(); FAULTS.len()];
-    let mut times: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
-    let mut signs = 0;
-    for (name, notated, findings) in bodies::signs_with_findings(folder)?.iter().step_by(every) {
-        signs += 1;
-        let seen = see(notated, *findings, &stage, &settings)?;
-        for (count, (_, judge)) in counts.iter_mut().zip(FAULTS) {
-            let Some(found) = judge(&seen) else { continue };
-            count.of += 1;
-            if found {
-                count.found += 1;
-                count.names.push(name.clone());
-            }
-        }
-        if seen.moves() {
-            let own = seen.dominant();
-            let mut add = |what, value| times.entry(what).or_default().push(value);
-            let strokes = seen.strokes().into_iter();
-            add(
-                "peak of the stroke, m/s",
-                strokes.map(|span| seen.peak(own, span)).fold(0.0, f64::max),
-            );
-            if let Some(span) = seen.approach() {
-                add("peak of the approach, m/s", seen.peak(own, span));
-                add(
-                    "duration of the approach, s",
-                    (span.1 - span.0) as f64 / seen.rate,
-                );
-            }
-            if let Some(share) = stroke_share(&seen) {
-                add("share of the strokes", share);
-            }
-        }
-    }
-    println!("{signs} signs on {body}");
-    for ((what, _), count) in FAULTS.iter().zip(&counts) {
-        let some: Vec<&str> = count
-            .names
-            .iter()
-            .step_by(1 + count.names.len() / 8)
-            .map(String::as_str)
-            .collect();
-        println!(
-            "{what}: {} of {}: {}",
-            count.found,
-            count.of,
-            some.join(", ")
-        );
-    }
-    let times: Vec<String> = times.into_iter().map(spread).collect();
-    let times = times.join("; ");
-    println!("{times}");
-    if let Some(path) = into {
-        let text = std::fs::read_to_string(path)?;
-        let said = format!("{signs} signs. Of those whose stroke moves the wrist: {times}.");
-        std::fs::write(path, written(&text, &said, &counts)?)?;
-    }
-    Ok(())
-}
-
-/// Returns the median and the quartiles of some numbers in words.
-fn spread((what, mut all): (&str, Vec<f64>)) -> String {
-    all.sort_by(f64::total_cmp);
-    let at = |share: f64| all[((all.len() - 1) as f64 * share) as usize];
-    let [low, middle, high] = [0.25, 0.5, 0.75].map(at);
-    format!("{what}: {middle:.2} ({low:.2} to {high:.2})")
-}
-
-fn see<'a>(
+/// Makes a sign and what it is judged against.
+pub(crate) fn see<'a>(
     notated: &'a Notated,
     findings: usize,
     stage: &Material,
@@ -632,10 +598,18 @@ fn see<'a>(
             animate(&[&bare], stage, settings)
         })
         .transpose()?;
+    let even = with_motions(notated, &mut |motion| {
+        motion.manner.fast = false;
+        motion.manner.slow = false;
+    });
+    let usual = (even.sign != notated.sign)
+        .then(|| animate(&[&even], stage, settings))
+        .transpose()?;
     let models = (0..made.clip.frames())
         .map(|n| made.clip.model_pose(n))
         .collect();
     Ok(Seen {
+        usual,
         notated,
         findings,
         made,
@@ -643,31 +617,4 @@ fn see<'a>(
         models,
         rate: settings.rate.per_second(),
     })
-}
-
-/// Returns the text with today's counts in the table between the marks, `said` above it.
-fn written(text: &str, said: &str, counts: &[Count]) -> Result<String> {
-    let [open, close] = MARKS;
-    let (head, rest) = text
-        .split_once(open)
-        .ok_or("the file has no mark <!-- faults -->")?;
-    let (old, tail) = rest
-        .split_once(close)
-        .ok_or("the file has no mark <!-- /faults -->")?;
-    let known: BTreeMap<&str, &str> = old
-        .lines()
-        .filter_map(|line| {
-            let mut cells = line.trim_matches('|').split('|').map(str::trim);
-            Some((cells.next()?, cells.next()?))
-        })
-        .collect();
-    let mut table = String::from(
-        "\n| fault | before, of 325 | today | signs in which it can occur |\n|---|--:|--:|--:|\n",
-    );
-    for ((what, _), count) in FAULTS.iter().zip(counts) {
-        let now = count.found.to_string();
-        let before = known.get(what).copied().unwrap_or(now.as_str());
-        table.push_str(&format!("| {what} | {before} | {now} | {} |\n", count.of));
-    }
-    Ok(format!("{head}{open}\n{said}\n{table}\n{close}{tail}"))
 }

@@ -2,16 +2,17 @@
 //!
 //! `cargo run --release -p chereme-tests --example notation -- table FOLDER BODY.bvh...` animates every `.sigml`
 //! file of a folder on each body and prints the result. `... -- draw FOLDER BODY.bvh OUT GLOSS...` draws contact
-//! sheets of some signs, `... -- draw random COUNT SEED FOLDER BODY.bvh OUT` of signs that a seed chooses. `... -- list
-//! FOLDER BODY.bvh` prints a line for each sign: its worst values, and its report.
-//! `... -- faults FOLDER BODY.bvh [FILE.md]` counts faults that make movement look unlike a person's, and writes
-//! the table between the marks of a file; `sample N` after `faults` takes one sign out of N.
+//! sheets of some, `... -- draw random COUNT SEED FOLDER BODY.bvh OUT` of signs that a seed chooses. `... -- list FOLDER BODY.bvh` prints a line for each sign: its worst values, and its report.
+//! `... -- faults FOLDER BODY.bvh [FILE.md [BEFORE]]` counts faults that make movement look unlike a person's, and writes
+//! the table between the marks of a file, with the counts of BEFORE, its output for an earlier animator;
+//! `faults sample N FOLDER BODY.bvh` takes one sign out of N.
 
 #![allow(clippy::print_stdout, reason = "a program prints its table")]
 
 mod bodies;
 mod bulk;
 mod checks;
+mod count;
 mod draw;
 mod faults;
 mod table;
@@ -30,17 +31,15 @@ fn main() -> Result<()> {
             table::print(Path::new(folder), bodies)
         }
         ["faults", "sample", every, folder, body] => {
-            faults::count(Path::new(folder), body, every.parse::<usize>()?.max(1), None)
+            count::faults(Path::new(folder), body, every.parse::<usize>()?.max(1), None)
         }
-        ["faults", "sample", every, folder, body, into] => faults::count(
-            Path::new(folder),
-            body,
-            every.parse::<usize>()?.max(1),
-            Some(Path::new(into)),
-        ),
-        ["faults", folder, body] => faults::count(Path::new(folder), body, 1, None),
-        ["faults", folder, body, into] => {
-            faults::count(Path::new(folder), body, 1, Some(Path::new(into)))
+        ["faults", folder, body] => count::faults(Path::new(folder), body, 1, None),
+        ["faults", folder, body, file, before @ ..] if before.len() < 2 => {
+            let into = count::Table {
+                file: Path::new(file),
+                before: before.first().map(Path::new),
+            };
+            count::faults(Path::new(folder), body, 1, Some(into))
         }
         ["list", folder, body] => table::list(Path::new(folder), body),
         ["draw", "random", count, seed, folder, body, out] => {

@@ -71,3 +71,35 @@ pub(crate) fn each_motion(notated: &Notated, see: &mut impl FnMut(&Motion)) {
         }
     }
 }
+
+/// Returns the sign with every motion changed, inner ones first.
+pub(crate) fn with_motions(notated: &Notated, change: &mut impl FnMut(&mut Motion)) -> Notated {
+    fn walk(motion: &mut Motion, change: &mut impl FnMut(&mut Motion)) {
+        match &mut motion.kind {
+            MotionKind::Split(a, b) => {
+                for motion in [a, b].into_iter().flatten() {
+                    walk(motion, change);
+                }
+            }
+            MotionKind::Sequence { motions, .. } | MotionKind::Parallel(motions) => {
+                for motion in motions {
+                    walk(motion, change);
+                }
+            }
+            MotionKind::Target {
+                motion: Some(motion),
+                ..
+            }
+            | MotionKind::Repeated { motion, .. } => walk(motion, change),
+            _ => {}
+        }
+        change(motion);
+    }
+    let mut changed = notated.clone();
+    for part in &mut changed.sign.parts {
+        for motion in &mut part.actions {
+            walk(motion, change);
+        }
+    }
+    changed
+}

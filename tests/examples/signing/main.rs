@@ -2,13 +2,15 @@
 //! `cargo run --release -p chereme-tests --example signing -- FILE-OR-FOLDER...`.
 //!
 //! Reads every `.pose` and BVH file that is named or lies below a named folder. Prints medians and quartiles of
-//! approaches, strokes, holds and returns of the wrists, and the distance of the courses of formulas from the
-//! strokes. Films are measured on the picture, with shoulders 36 cm wide; movement towards the camera is missing.
+//! approaches, strokes, holds and returns of the wrists, how far the courses that formulas give are from the
+//! strokes, and how high elbows are while hands sign. Films are measured on the picture, shoulders taken as 36 cm wide;
+//! so movement towards the camera is missing.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
 mod course;
+mod elbows;
 mod phases;
 mod take;
 
@@ -33,6 +35,7 @@ fn main() -> Result<()> {
     }
     println!("{}", phases::table(&takes));
     println!("{}", course::table(&takes));
+    println!("{}", elbows::table(&takes));
     Ok(())
 }
 

@@ -192,7 +192,7 @@ fn files(takes: &[Take]) -> usize {
 }
 
 /// Returns the median with the quartiles.
-fn spread(mut values: Vec<f64>, digits: usize) -> String {
+pub(crate) fn spread(mut values: Vec<f64>, digits: usize) -> String {
     if values.is_empty() {
         return "–".to_owned();
     }

@@ -25,6 +25,14 @@ pub(crate) struct Take {
     pub(crate) path: Vec<DVec3>,
     /// Speeds in metres per second.
     pub(crate) speeds: Vec<f64>,
+    /// Heights of elbow and wrist above their own shoulder in each frame that shows all three, in metres.
+    pub(crate) heights: Vec<[f64; 2]>,
+}
+
+/// A wrist as a file has it: its path, and the heights of elbow and wrist above their shoulder.
+struct Wrist {
+    path: Vec<DVec3>,
+    heights: Vec<[f64; 2]>,
 }
 
 /// Reads the wrists of a file.
@@ -37,7 +45,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Take>> {
         skeleton(path)?
     };
     let takes = wrists.into_iter().filter_map(|wrist| {
-        let path = smoothed(&resampled(&wrist, rate));
+        let path = smoothed(&resampled(&wrist.path, rate));
         let last = path.len().checked_sub(1)?;
         let speeds = (0..path.len()).map(|n| {
             let (a, b) = (n.saturating_sub(1), (n + 1).min(last));
@@ -45,13 +53,18 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Take>> {
         });
         let speeds = speeds.collect();
         let file = file.clone().into_owned();
-        (path.len() as f64 > SHORTEST * RATE).then_some(Take { file, path, speeds })
+        (path.len() as f64 > SHORTEST * RATE).then_some(Take {
+            file,
+            path,
+            speeds,
+            heights: wrist.heights,
+        })
     });
     Ok(takes.collect())
 }
 
-/// Returns the frame rate of a film, and the positions of its wrists.
-fn film(path: &Path) -> Result<(f64, Vec<Vec<DVec3>>)> {
+/// Returns the frames a second of a film, and the positions of its wrists.
+fn film(path: &Path) -> Result<(f64, Vec<Wrist>)> {
     let (tracks, _) = chereme_formats::pose::read(&std::fs::read(path)?)?;
     let track = tracks.tracks.first().ok_or("no track")?;
     let Content::Markers(markers) = &track.content else {
@@ -73,16 +86,29 @@ fn film(path: &Path) -> Result<(f64, Vec<Vec<DVec3>>)> {
         return Err("shoulders without width".into());
     }
     let middle = pairs.iter().map(|[a, b]| (*a + *b) / 2.0).sum::<DVec3>() / pairs.len() as f64;
-    let wrists = ["LEFT_WRIST", "RIGHT_WRIST"]
-        .into_iter()
-        .filter_map(|name| {
-            let all = places(markers, name)?;
-            let level = |at: DVec3| {
-                let at = (at - middle) * (SHOULDERS / wide);
-                DVec3::new(at.x, at.y, 0.0)
-            };
-            Some(filled(&all)?.into_iter().map(level).collect())
-        });
+    let wrists = ["LEFT", "RIGHT"].into_iter().filter_map(|side| {
+        let of = |joint: &str| places(markers, &format!("{side}_{joint}"));
+        let all = of("WRIST")?;
+        let level = |at: DVec3| {
+            let at = (at - middle) * (SHOULDERS / wide);
+            DVec3::new(at.x, at.y, 0.0)
+        };
+        let heights = match (of("SHOULDER"), of("ELBOW")) {
+            (Some(shoulders), Some(elbows)) => {
+                let each = shoulders.iter().zip(&elbows).zip(&all);
+                each.filter_map(|((shoulder, elbow), wrist)| {
+                    let above = |at: &Option<DVec3>| Some(at.as_ref()?.y - shoulder.as_ref()?.y);
+                    Some([above(elbow)?, above(wrist)?].map(|it| it * SHOULDERS / wide))
+                })
+                .collect()
+            }
+            _ => Vec::new(),
+        };
+        Some(Wrist {
+            path: filled(&all)?.into_iter().map(level).collect(),
+            heights,
+        })
+    });
     Ok((rate, wrists.collect()))
 }
 
@@ -119,8 +145,8 @@ fn filled(all: &[Option<DVec3>]) -> Option<Vec<DVec3>> {
     Some((0..all.len()).map(at).collect())
 }
 
-/// Returns the frame rate of a captured clip, and its wrists in the space of the trunk.
-fn skeleton(path: &Path) -> Result<(f64, Vec<Vec<DVec3>>)> {
+/// Returns the frames a second of a captured clip, and its wrists in the space of the trunk.
+fn skeleton(path: &Path) -> Result<(f64, Vec<Wrist>)> {
     let whole = crate::take::bodies::movement(path)?;
     let (clip, anatomy): (_, &Anatomy) = (&whole.clip, &whole.anatomy);
     let mut wrists = Vec::new();
@@ -135,7 +161,19 @@ fn skeleton(path: &Path) -> Result<(f64, Vec<Vec<DVec3>>)> {
             let axes = [body.left, body.up, body.forward];
             Some(DVec3::from_array(axes.map(|axis| way.dot(axis))))
         });
-        wrists.extend(at.collect::<Option<Vec<_>>>());
+        let heights = (0..clip.frames()).map(|frame| {
+            let model = clip.model_pose(frame);
+            let [shoulder, elbow, wrist] =
+                [arm.upper, arm.forearm, arm.hand].map(|joint| model.position(joint).y);
+            let wide = anatomy
+                .body_frame(&model)
+                .map_or(SHOULDERS, |body| body.scale);
+            [elbow - shoulder, wrist - shoulder].map(|it| it * SHOULDERS / wide)
+        });
+        let heights = heights.collect();
+        if let Some(path) = at.collect::<Option<Vec<_>>>() {
+            wrists.push(Wrist { path, heights });
+        }
     }
     Ok((clip.rate().per_second(), wrists))
 }
