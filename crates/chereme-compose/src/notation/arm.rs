@@ -19,6 +19,9 @@ const RISES: [f64; 2] = [0.0, 0.45];
 /// length, and not at all from the second share on: a hanging arm pulls no shoulder down.
 const HANGS: [f64; 2] = [0.7, 0.93];
 
+/// The heights of a wrist above its shoulder (arm lengths) for which the body language has a usual elbow.
+const HEIGHTS: [f64; 3] = [-0.3, 0.0, 0.3];
+
 /// The bones of one arm, on a body that stands still.
 pub(crate) struct Rig {
     pub(crate) side: Side,
@@ -68,6 +71,8 @@ pub(crate) struct Limits {
     rise: f64,
     /// Largest rotation of the collar bone that helps the hand (rad), and the share of it that is possible downwards.
     shrug: (f64, f64),
+    /// The usual depths of an elbow below its shoulder (arm lengths) with the hand at each of [`HEIGHTS`].
+    elbows: [f64; 3],
     /// Largest deviation (rad) from the notated orientation at which it still reads as notated.
     pub(crate) tolerance: f64,
 }
@@ -83,8 +88,24 @@ impl Limits {
             help: (language.clavicle_from, angle(language.clavicle_most)),
             rise: angle(language.life_shoulder),
             shrug: (angle(language.shrug), language.shrug_down),
+            elbows: [
+                language.elbow_low,
+                language.elbow_level,
+                language.elbow_high,
+            ],
             tolerance: angle(language.tolerance).max(1e-3),
         }
+    }
+
+    /// Returns the usual depth of an elbow below its shoulder for the wrist's height above that shoulder, both in arm
+    /// lengths.
+    pub(crate) fn below(&self, height: f64) -> f64 {
+        let [low, level, high] = self.elbows;
+        let near = |from: usize| {
+            let share = (height - HEIGHTS[from]) / (HEIGHTS[from + 1] - HEIGHTS[from]);
+            share.clamp(0.0, 1.0)
+        };
+        low + (level - low) * near(0) + (high - level) * near(1)
     }
 }
 

@@ -24,11 +24,19 @@ const ELBOW: f64 = 4.5;
 /// Cost of a hand whose orientation deviates by the whole tolerance. Grows with the cube: half of that costs an eighth,
 /// so that a few degrees do not move the elbow far out.
 const TURNED: f64 = 75.0;
-/// Cost of an elbow one arm's length above the shoulder; grows with the square.
+/// Cost of an elbow one arm's length above the shoulder, or above its usual height if that is higher; grows with the square.
 const RAISED: f64 = 1600.0;
+/// Cost of an elbow one arm's length higher than usual with the hand at its height; grows with the square.
+const LIFTED: f64 = 400.0;
+/// Height of a wrist above its shoulder (arm lengths) at which the rule's elbow is low enough: lower, it could only go
+/// inwards.
+const ABOVE: f64 = 0.2;
 /// Angle (rad) between upper arm and vertical beside a low hand that costs nothing, and the cost per square radian
 /// beyond it.
 const FLARED: (f64, f64) = (0.8, 60.0);
+/// Distance (arm lengths) of an elbow inwards from its shoulder that costs nothing, and the cost of an arm's length beyond
+/// it; grows with the square.
+const CROSSED: (f64, f64) = (0.15, 400.0);
 /// A hand is low if it is this far below its shoulder, in arm lengths.
 const LOW: f64 = 0.2;
 /// Speed (arm lengths per second) by which an elbow exceeds its wrist at the cost [`PUMPED`].
@@ -42,7 +50,7 @@ const WITHIN: f64 = 9e4;
 /// Candidate shrugs if the hand's orientation would suffer, as shares of the largest.
 const SHRUGS: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
 /// Cost of the largest shrug.
-const SHRUGGED: f64 = 2.5;
+const SHRUGGED: f64 = 10.0;
 /// Fastest change of a shrug, in shares of the largest per second.
 const SHRUGGING: f64 = 8.0;
 /// A choice whose cost exceeds this multiple of the best plus this constant is not tried with a shrug.
@@ -58,6 +66,8 @@ pub(crate) struct Choice {
     pub(crate) bearing: Bearing,
     angles: WristAngles,
     pub(crate) high: bool,
+    /// Whether the forearm stops at a limit, so that `high` makes a difference.
+    over: bool,
     /// Positions of the elbow and the wrist, in arm lengths.
     elbow: DVec3,
     wrist: DVec3,
@@ -95,7 +105,8 @@ impl Arm<'_> {
                     return least;
                 }
                 let bearing = Bearing { plane, shrug };
-                least.min(self.strained(wrist, turned, bearing, least - shrugged) + shrugged)
+                let most = least - shrugged;
+                least.min(self.strained(wrist, turned, bearing, most) + shrugged)
             })
         };
         let still = least(0.0, f64::INFINITY);
@@ -113,7 +124,7 @@ impl Arm<'_> {
         let posed = rig.reach(wrist, bearing, self.limits);
         let missed = posed.wrist.distance(wrist) / rig.length();
         let held = 0.3 * off_rule(bearing.plane.to_degrees())
-            + self.raised(&posed)
+            + RAISED * self.height(&posed).max(0.0).powi(2)
             + self.flared(&posed)
             + self.within(&posed)
             + MISSED * missed * missed;
@@ -144,10 +155,25 @@ impl Arm<'_> {
         TURNED * apart.min(1.0).powi(3) + 36.0 * over + 75.0 * over * over
     }
 
-    /// Returns the cost of an elbow above its shoulder.
-    fn raised(&self, posed: &Posed) -> f64 {
-        let above = (posed.elbow.y - posed.shoulder.y) / self.rig().length();
-        RAISED * above.max(0.0).powi(2)
+    /// Returns the usual height of the elbow above its shoulder (arm lengths) for a position of the wrist.
+    fn usual(&self, wrist: DVec3) -> f64 {
+        let posed = self.rig().reach(wrist, Bearing::default(), self.limits);
+        let length = self.rig().length();
+        let [elbow, hand] = [posed.elbow, wrist].map(|at| (at.y - posed.shoulder.y) / length);
+        let usual = -self.limits.below(hand);
+        usual + (elbow - usual).max(0.0) * (hand / ABOVE).clamp(0.0, 1.0)
+    }
+
+    /// Returns the height of an elbow above its shoulder, in arm lengths.
+    fn height(&self, posed: &Posed) -> f64 {
+        (posed.elbow.y - posed.shoulder.y) / self.rig().length()
+    }
+
+    /// Returns the cost of an elbow that is higher than usual, or even above its shoulder.
+    fn raised(&self, posed: &Posed, usual: f64) -> f64 {
+        let height = self.height(posed);
+        let over = [height - usual.max(0.0), height - usual].map(|over| over.max(0.0).powi(2));
+        RAISED * over[0] + LIFTED * over[1]
     }
 
     /// Returns the cost of an elbow that stands out beside a low hand.
@@ -160,6 +186,14 @@ impl Arm<'_> {
             return 0.0;
         }
         FLARED.1 * out * out * (low / LOW).min(1.0)
+    }
+
+    /// Returns the cost of an elbow before the middle of the trunk.
+    fn crossed(&self, posed: &Posed) -> f64 {
+        let outside = self.stage.left * self.rig().side.sign();
+        let inwards = -(posed.elbow - posed.shoulder).dot(outside) / self.rig().length();
+        let over = (inwards - CROSSED.0).max(0.0);
+        CROSSED.1 * over * over
     }
 
     /// Returns the cost of an upper arm inside the trunk.
@@ -211,15 +245,14 @@ impl Arm<'_> {
     /// Returns the candidate planes with their costs, for either limit of the forearm.
     fn choices(&self, want: &Want<'_>, free: bool) -> Vec<Choice> {
         let mut choices: Vec<Choice> = Vec::with_capacity(2 * planes().count());
+        let usual = self.usual(want.wrist());
         for high in [false, true] {
             for (n, plane) in planes().enumerate() {
-                if high && choices[n].angles.turned(&self.limits.wrist) < 0.999 {
-                    let same = choices[n];
-                    choices.push(Choice { high, ..same });
+                if high && !choices[n].over {
                     continue;
                 }
                 let bearing = Bearing { plane, shrug: 0.0 };
-                choices.push(self.choice(want, bearing, high, free));
+                choices.push(self.choice(want, bearing, (high, free), usual));
             }
         }
         choices
@@ -228,6 +261,7 @@ impl Arm<'_> {
     /// Adds shrugged postures for the planes in which the hand suffers.
     fn shrug(&self, choices: &mut Vec<Choice>, want: &Want<'_>, free: bool) {
         let still = choices.clone();
+        let usual = self.usual(want.wrist());
         let least = choices[best(choices)].cost;
         // A shrug turns a forearm by about 20°, which cannot save a far worse candidate.
         let hopeful = |choice: &&Choice| {
@@ -235,26 +269,30 @@ impl Arm<'_> {
         };
         for shrug in SHRUGS {
             for choice in still.iter().filter(hopeful) {
-                if choice.high && choice.angles.turned(&self.limits.wrist) < 0.999 {
-                    continue;
-                }
                 let plane = choice.bearing.plane;
-                choices.push(self.choice(want, Bearing { plane, shrug }, choice.high, free));
+                let bearing = Bearing { plane, shrug };
+                choices.push(self.choice(want, bearing, (choice.high, free), usual));
             }
         }
     }
 
     /// Returns a candidate posture with its cost: deviation from the rule's plane, closeness of wrist and
-    /// forearm to their limits, deviation of the hand's orientation, depth of the upper arm in the trunk,
-    /// and distance from the goal. If the hand is `free`, between two notated orientations, its
+    /// forearm to their limits, deviation of the hand's orientation, height of the elbow above its `usual` one, depth of
+    /// the upper arm in the trunk, and distance from the goal. If the hand is `free`, between two notated orientations, its
     /// orientation hardly counts.
-    fn choice(&self, want: &Want<'_>, bearing: Bearing, high: bool, free: bool) -> Choice {
+    fn choice(
+        &self,
+        want: &Want<'_>,
+        bearing: Bearing,
+        (high, free): (bool, bool),
+        usual: f64,
+    ) -> Choice {
         let given = if free { 0.02 } else { 1.0 };
         // The whole outline of the hand counts only if it touches something.
         let (tries, outlines) = if want.touch > 0.0 {
-            (6, want.outlines)
+            (4, want.outlines)
         } else {
-            (3, [&[][..]; 2])
+            (2, [&[][..]; 2])
         };
         let coarse = Want { outlines, ..*want };
         let hung = self.hang(&coarse, bearing, high, tries);
@@ -266,13 +304,15 @@ impl Arm<'_> {
         let cost = off_rule(bearing.plane.to_degrees())
             + SHRUGGED * bearing.shrug * bearing.shrug
             + 3.0 * (bend * bend + twist * twist)
-            + self.raised(&hung.posed)
+            + self.raised(&hung.posed, usual)
             + self.flared(&hung.posed)
+            + self.crossed(&hung.posed)
             + amiss;
         Choice {
             bearing,
             angles: hung.angles,
             high,
+            over: hung.angles.turned(&self.limits.wrist) >= 0.999,
             elbow: hung.posed.elbow / self.rig().length(),
             wrist: hung.posed.wrist / self.rig().length(),
             cost,
@@ -391,7 +431,7 @@ fn refined(choices: &[Choice], n: usize) -> Bearing {
     let step = PLANES.2.to_radians();
     let neighbour = |plane: f64, shrug: f64| {
         choices.iter().find(|other| {
-            other.high == here.high
+            (other.high == here.high || !other.over)
                 && (other.bearing.plane - here.bearing.plane - plane).abs() < 1e-6
                 && (other.bearing.shrug - here.bearing.shrug - shrug).abs() < 1e-6
         })

@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `plan` | from the tree to events: postures, transitions, acting hands and their frames |
 //! | `transit` | transitions of hands from one state to another |
+//! | `approach` | transitions to movements, no faster than these |
 //! | `place` | positions of hands: on the body, in space, in constellations |
 //! | `touch` | the fit of a hand to the trunk's surface in contact |
 //! | `comfort` | shifts of hands within their place for the comfort of the arm |
@@ -28,6 +29,7 @@
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | annotations of the synthesised movement |
 
+mod approach;
 mod arm;
 mod bulk;
 mod comfort;
@@ -147,12 +149,13 @@ pub fn animate(
 ) -> Result<Generated, NotationError> {
     let body = Stage::of(stage).ok_or_else(|| NotationError::NoArm(stage.address.clone()))?;
     let rate = settings.rate.per_second();
-    let planner = Planner::new(&body, &settings.language, stage.handedness, rate);
+    let paces = Paces::of(&settings.language);
+    let language = (&settings.language, &paces);
+    let planner = Planner::new(&body, language, stage.handedness, rate);
     let limits = planner.limits;
     let sides = planner.sides;
     let mut plan = planner.signs(signs);
     let total = frames(plan.end, rate)?;
-    let paces = Paces::of(&settings.language);
     let timing = track::Timing {
         paces: &paces,
         rate,
@@ -190,8 +193,15 @@ pub fn animate(
     });
     let arms: Vec<&track::SolvedFrames<'_>> = made.iter().flatten().collect();
     let moved: Vec<_> = arms.iter().map(|made| made.moved()).collect();
+    let mut solved = moved.iter().map(Vec::as_slice);
+    let solved = [0, 1].map(|n| made[n].as_ref().and_then(|_| solved.next()));
+    let longest = settings.language.time_approach_most;
+    let least = approach::unhurried(&plan, solved, rate, longest);
+    let anchors = approach::ends(&plan, rate);
     let fastest = fastest(&settings.language, &body);
-    let warp = Warp::of(&moved, rate, &fastest, |arm, n| arms[arm].hasty(n));
+    let warp = Warp::of(&moved, rate, &fastest, (least, &anchors), |arm, n| {
+        arms[arm].hasty(n)
+    });
     let mut tracks = made.map(|made| made.map(|made| made.track(&warp)));
     let most = Fastest {
         joint: fastest.joint / EASY,

@@ -23,7 +23,9 @@ fn alive(sign: &Notated) -> Generated {
 fn phases(sign: &Notated) -> Vec<Phase> {
     let material = stage(Axes::Plain);
     let body = Stage::of(&material).expect("a body");
-    let planner = Planner::new(&body, BodyLanguage::usual(), Handedness::Right, 60.0);
+    let paces = pace::Paces::of(BodyLanguage::usual());
+    let language = (BodyLanguage::usual(), &paces);
+    let planner = Planner::new(&body, language, Handedness::Right, 60.0);
     planner.signs(&[sign]).phases
 }
 

@@ -77,7 +77,8 @@ impl Performer {
     /// [`NotationError`] if the movement would be too long.
     pub fn begins(&self, sign: &Sign) -> Result<Clip, NotationError> {
         let (body, rate) = (&self.body, self.settings.rate.per_second());
-        let planner = Planner::new(body, &self.settings.language, self.stage.handedness, rate);
+        let language = (&self.settings.language, &self.paces);
+        let planner = Planner::new(body, language, self.stage.handedness, rate);
         let (limits, sides) = (planner.limits, planner.sides);
         let plan = planner.signs(&[&notated(sign)]);
         let total = frames(plan.end, rate)?;

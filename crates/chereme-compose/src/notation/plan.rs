@@ -14,8 +14,9 @@ use chereme_sign::hamnosys::{
     Manual, Notated, Place, Posture, Symmetry,
 };
 
+use super::approach::Course;
 use super::arm::Limits;
-use super::pace::Pace;
+use super::pace::{Pace, Paces};
 use super::path::Path;
 use super::stage::{Shape, Stage};
 use super::stretch_time::Warp;
@@ -135,6 +136,8 @@ pub(crate) struct SignPlan {
     pub(crate) signs: Vec<SignSpan>,
     /// Time spans (s, as planned) in which each hand touches something.
     pub(crate) contacts: [Vec<(f64, f64)>; 2],
+    /// The courses of each hand's approaches to movements.
+    pub(crate) courses: [Vec<Course>; 2],
     /// Time spans (s, as planned) in which each hand moves to a named place.
     pub(crate) arrivals: [Vec<(f64, f64)>; 2],
     pub(crate) end: f64,
@@ -145,6 +148,12 @@ pub(crate) struct SignPlan {
 }
 
 impl SignPlan {
+    /// Returns the course of a hand's event, if that is part of an approach to a movement.
+    pub(crate) fn course(&self, n: usize, event: &Event) -> Option<&Course> {
+        let mut courses = self.courses[n].iter().filter(|_| event.pace == Pace::Calm);
+        courses.find(|course| course.from == event.from && course.to == event.to)
+    }
+
     /// Stretches the times of phases and signs; events keep their planned times.
     pub(crate) fn stretch(&mut self, warp: &Warp) {
         if warp.is_none() {
@@ -184,6 +193,7 @@ pub(crate) type Who = [Option<Frame>; 2];
 pub(crate) struct Planner<'a> {
     pub(crate) stage: &'a Stage,
     pub(crate) language: &'a BodyLanguage,
+    pub(crate) paces: &'a Paces,
     pub(crate) limits: Limits,
     /// The dominant side, then the other.
     pub(crate) sides: [Side; 2],
@@ -218,7 +228,7 @@ pub(crate) fn acting(who: Who) -> impl Iterator<Item = (usize, Frame)> {
 impl<'a> Planner<'a> {
     pub(crate) fn new(
         stage: &'a Stage,
-        language: &'a BodyLanguage,
+        (language, paces): (&'a BodyLanguage, &'a Paces),
         handedness: Handedness,
         rate: f64,
     ) -> Self {
@@ -234,6 +244,7 @@ impl<'a> Planner<'a> {
         Self {
             stage,
             language,
+            paces,
             limits: Limits::of(language),
             sides,
             state: start.clone(),
@@ -256,6 +267,7 @@ impl<'a> Planner<'a> {
                 phases: Vec::new(),
                 signs: Vec::new(),
                 contacts: [Vec::new(), Vec::new()],
+                courses: [Vec::new(), Vec::new()],
                 arrivals: [Vec::new(), Vec::new()],
                 end: 0.0,
                 laced: false,
@@ -328,9 +340,13 @@ impl<'a> Planner<'a> {
         let length = (0..2)
             .map(|n| self.length_between(&before[n], &goal[n], n))
             .fold(0.0, f64::max);
-        let length = length.max(self.unhurried(part, who, [&before, &goal]));
+        let approach = self.approach(part, [who, named], [&before, &goal]);
         self.state = before;
-        let reached = self.on_frame(time + length);
+        let reached = self.on_frame(time + length.max(approach.least));
+        let courses = approach.courses(time, reached);
+        for (known, course) in self.plan.courses.iter_mut().zip(courses) {
+            known.extend(course);
+        }
         let touching = touches(&posture);
         let pace = match (moves, touching) {
             (true, _) => Pace::Calm,

@@ -1,6 +1,6 @@
 //! Solves one arm over time: from the goals of its hand to postures without jumps.
 //!
-//! Thirty times a second `freedom` selects the arm's plane and shoulder. In between, the hand of each frame
+//! Twenty times a second `freedom` selects the arm's plane and shoulder. In between, the hand of each frame
 //! gives way to the wrist's limits and to the trunk. Remaining sudden changes are spread over the time
 //! around them, as angles of the wrist, so that the wrist stays within its limits. Finally the wrist moves
 //! so that the hand's reference point is at its goal.
@@ -14,7 +14,9 @@ use super::stage::{Hand, Stage};
 use super::track::Wanted;
 
 /// Seconds between two choices of the arm's plane; it is interpolated smoothly in between.
-const CHOSEN: f64 = 1.0 / 30.0;
+const CHOSEN: f64 = 1.0 / 20.0;
+/// Seconds before and after a notated orientation in which the arm already, or still, suits it.
+const LEAD: f64 = 0.07;
 /// Fastest bend of a wrist and turn of a forearm, in radians per second.
 pub(crate) const BENDING: f64 = 28.0;
 /// Fastest push of a hand out of the trunk, in arm lengths per second.
@@ -105,6 +107,13 @@ pub(crate) struct Want<'a> {
     pub(crate) touch: f64,
 }
 
+impl Want<'_> {
+    /// Returns the position of the wrist that the goal asks for.
+    pub(crate) fn wrist(&self) -> DVec3 {
+        self.point - self.turned * self.offset
+    }
+}
+
 /// A hand after its adaptation to limits and trunk.
 #[derive(Clone, Copy)]
 pub(crate) struct Hung {
@@ -132,8 +141,8 @@ impl<'a> Arm<'a> {
     /// Returns the bearing of the arm in each frame, and the limit at which its forearm stops.
     pub(super) fn ways(&self, wanted: &Wanted<'_>, rate: f64) -> Vec<(Bearing, bool)> {
         let total = wanted.points.len();
-        let step = ((CHOSEN * rate).round() as usize).max(1);
-        let free = wanted.free();
+        let step = ((CHOSEN * rate) as usize).max(1);
+        let free = settled(&wanted.free(), (LEAD * rate).round() as usize);
         // A moment with a notated orientation counts even between two keys.
         let near = |frame: usize| {
             let around = frame.saturating_sub(step / 2)..(frame + step.div_ceil(2)).min(total);
@@ -432,6 +441,14 @@ fn calm(rows: &mut [ArmFrame], free: &[bool], rate: f64) {
             }
         }
     }
+}
+
+/// Returns the `free` frames that are more than `near` frames from one that is not.
+fn settled(free: &[bool], near: usize) -> Vec<bool> {
+    let around = |n: usize| n.saturating_sub(near)..(n + near + 1).min(free.len());
+    (0..free.len())
+        .map(|n| free[around(n)].iter().all(|free| *free))
+        .collect()
 }
 
 /// Interpolates one property of the choices over all frames by a uniform cubic B-spline, which is smoother

@@ -420,6 +420,8 @@ const OUTLINE: [(f64, f64, f64); 11] = [
 
 /// Greatest distance of the trunk's front from its middle, in shoulder widths.
 const FRONT: f64 = 0.335;
+/// Greatest distance of the trunk's side from its middle, in shoulder widths.
+const WIDE: f64 = 0.46;
 /// Distance of the trunk's back from its middle, in shoulder widths.
 const BACK: f64 = 0.22;
 
@@ -473,7 +475,9 @@ impl Torso {
         };
         let v = at - body.origin;
         let z = v.dot(body.forward);
-        if z > FRONT * body.scale + margin {
+        let x = v.dot(body.left);
+        let aside = x.abs() > WIDE * body.scale + margin;
+        if aside || z > FRONT * body.scale + margin || z < -BACK * body.scale - margin {
             return DVec3::ZERO;
         }
         let y = v.dot(body.up) / self.trunk;
@@ -482,8 +486,7 @@ impl Torso {
         };
         let margin = margin / body.scale;
         let (front, wide, back) = (front + margin, wide + margin, BACK.min(front) + margin);
-        let x = v.dot(body.left) / body.scale;
-        let z = z / body.scale;
+        let (x, z) = (x / body.scale, z / body.scale);
         if x.abs() >= wide || z >= front || z <= -back {
             return DVec3::ZERO;
         }

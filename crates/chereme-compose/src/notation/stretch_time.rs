@@ -40,16 +40,19 @@ impl Warp {
     /// Returns the map that keeps arms at `rate` frames per second within the allowed speeds.
     ///
     /// Each step lasts as long as its fastest part needs; steps next to a stretched one last longer, too,
-    /// so that no movement brakes suddenly. `hasty(arm, frame)` returns the rotation (rad) of a joint and
+    /// so that no movement brakes suddenly. Each step lasts at least as long as its factor in `least`, and the planned frames of
+    /// `anchors`, in ascending order, remain frames. `hasty(arm, frame)` returns the rotation (rad) of a joint and
     /// the distance (m) of a wrist until the next frame, extrapolated from the fastest part of the step.
     pub(crate) fn of(
         arms: &[Vec<Moved>],
         rate: f64,
         fastest: &Fastest,
+        (least, anchors): (Vec<f64>, &[usize]),
         hasty: impl Fn(usize, usize) -> [f64; 2],
     ) -> Self {
         let total = arms.iter().map(Vec::len).max().unwrap_or(0);
-        let mut lasts = vec![1.0_f64; total.saturating_sub(1)];
+        let mut lasts = least;
+        lasts.resize(total.saturating_sub(1), 1.0);
         for (which, arm) in arms.iter().enumerate() {
             for (n, pair) in arm.windows(2).enumerate() {
                 let [a, b] = [pair[0], pair[1]];
@@ -75,7 +78,7 @@ impl Warp {
         for arm in arms {
             slow(arm, rate, &mut lasts);
         }
-        Self::lasting(&lasts, rate, fastest)
+        Self::lasting(&lasts, anchors, rate, fastest)
     }
 
     /// Returns the map that keeps finished frames within the allowed speeds, if a joint was faster within
@@ -94,13 +97,15 @@ impl Warp {
                 }
             }
         }
-        Self::lasting(&lasts, rate, fastest)
+        Self::lasting(&lasts, &[], rate, fastest)
     }
 
     /// Returns the map with these factors on each step's duration; neighbouring steps are stretched, too.
-    fn lasting(lasts: &[f64], rate: f64, fastest: &Fastest) -> Self {
+    ///
+    /// Stretched time has a frame at each planned frame of `anchors`, in ascending order.
+    fn lasting(lasts: &[f64], anchors: &[usize], rate: f64, fastest: &Fastest) -> Self {
         let around = ((0.025 * rate).ceil() as usize).max(1);
-        let eased: Vec<f64> = (0..lasts.len())
+        let mut eased: Vec<f64> = (0..lasts.len())
             .map(|n| {
                 let near = n.saturating_sub(around)..(n + around + 1).min(lasts.len());
                 let slope = |m: usize| {
@@ -110,6 +115,18 @@ impl Warp {
                 near.map(slope).fold(lasts[n], f64::max)
             })
             .collect();
+        let mut from = 0;
+        for &to in anchors.iter().filter(|&&to| to <= lasts.len()) {
+            let steps = &mut eased[from..to];
+            let more: f64 = steps.iter().map(|last| last - 1.0).sum();
+            if more > 1e-9 {
+                let whole = (more - 1e-6).ceil();
+                for last in steps {
+                    *last = 1.0 + (*last - 1.0) * (whole / more);
+                }
+            }
+            from = to;
+        }
         let mut now = 0.0;
         let mut times = vec![0.0];
         for last in eased {
@@ -231,6 +248,7 @@ mod tests {
             &[along(&[0.0, 0.01, 0.02, 0.02])],
             100.0,
             &FASTEST,
+            (Vec::new(), &[]),
             |_, _| [0.0; 2],
         );
         assert!(warp.is_none());
@@ -242,7 +260,13 @@ mod tests {
     fn a_step_at_once_takes_as_long_as_it_must() {
         let mut places = vec![0.0; 20];
         places.extend(vec![0.5; 20]);
-        let warp = Warp::of(&[along(&places)], 100.0, &FASTEST, |_, _| [0.0; 2]);
+        let warp = Warp::of(
+            &[along(&places)],
+            100.0,
+            &FASTEST,
+            (Vec::new(), &[]),
+            |_, _| [0.0; 2],
+        );
         assert!(
             (warp.at(0.2) - warp.at(0.19) - 0.16).abs() < 1e-12,
             "0.5 m at 5 m/s, and the bow about the joints"
@@ -258,6 +282,16 @@ mod tests {
         for n in 1..40 {
             assert!(warp.at(f64::from(n) / 100.0) > warp.at(f64::from(n - 1) / 100.0));
         }
+    }
+
+    #[test]
+    fn steps_last_as_long_as_is_asked() {
+        let least = vec![1.0, 2.0, 1.0];
+        let still = [along(&[0.0; 4])];
+        let warp = Warp::of(&still, 100.0, &FASTEST, (least, &[3]), |_, _| [0.0; 2]);
+        assert!(warp.at(0.02) - warp.at(0.01) >= 0.02 - 1e-12);
+        let frames = warp.at(0.03) * 100.0;
+        assert!((frames - frames.round()).abs() < 1e-9, "{frames} frames");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::Limits;
 use super::pace::{Pace, Paces};
-use super::plan::{Act, Event, SignPlan};
+use super::plan::{Act, Event, HandState, SignPlan};
 use super::solve::{Arm, ArmFrame, Got, Hindrance};
 use super::stage::{Hand, Stage};
 use super::stretch_time::{Moved, Warp};
@@ -367,8 +367,53 @@ pub(crate) fn wanted<'a>(
     timing: &Timing<'_>,
 ) -> Wanted<'a> {
     let &Timing { paces, rate, total } = timing;
-    let start = &plan.start[n];
-    let mut order: Vec<&Event> = plan.events[n].iter().collect();
+    let course = |event: &Event, time: f64| {
+        let share = paces.share(event.pace, time);
+        let course = plan.course(n, event);
+        course.map_or(share, |course| course.share(share))
+    };
+    let goals = goals(&plan.start[n], &plan.events[n], rate, total, course);
+    Wanted {
+        points: goals.points,
+        turns: goals.turns,
+        offsets: goals.offsets,
+        wrist: goals.wrist,
+        outlines: outlines(stage, plan, n, timing),
+        touch: touch(&plan.contacts[n], timing),
+        ways: goals.ways,
+    }
+}
+
+/// Where a hand's events lead it, frame by frame.
+pub(crate) struct Goals {
+    pub(crate) points: Vec<DVec3>,
+    pub(crate) turns: Vec<DQuat>,
+    pub(crate) offsets: Vec<DVec3>,
+    /// Rotation of a movement about the wrist, if any.
+    pub(crate) wrist: Vec<Option<DQuat>>,
+    /// Rotations between two orientations: the frames, and the completed share in each.
+    pub(crate) ways: Vec<(Range<usize>, Vec<f64>)>,
+}
+
+impl Goals {
+    /// Returns the positions of the wrist.
+    pub(crate) fn wrists(&self) -> impl Iterator<Item = DVec3> {
+        let hands = self.turns.iter().zip(&self.offsets);
+        let each = self.points.iter().zip(hands);
+        each.map(|(point, (turned, offset))| *point - *turned * *offset)
+    }
+}
+
+/// Returns where events lead a hand from its start in each of `total` frames; `course` returns the completed share of an
+/// event after a share of its time.
+pub(crate) fn goals(
+    start: &HandState,
+    events: &[Event],
+    rate: f64,
+    total: usize,
+    course: impl Fn(&Event, f64) -> f64,
+) -> Goals {
+    let mut order: Vec<&Event> = events.iter().collect();
     order.sort_by(|a, b| a.from.total_cmp(&b.from));
     let mut points = vec![DVec3::ZERO; total];
     let mut ends = vec![DVec3::ZERO; total + 1];
@@ -378,17 +423,17 @@ pub(crate) fn wanted<'a>(
     let mut ways: Vec<(Range<usize>, Vec<f64>)> = Vec::new();
     for event in order {
         let span = frames(event, rate, total);
+        let done = |frame: usize| course(event, share(event, frame, rate));
         match &event.act {
             Act::Move(path) => {
                 for frame in span.clone() {
-                    points[frame] += path.at(paces.share(event.pace, share(event, frame, rate)));
+                    points[frame] += path.at(done(frame));
                 }
                 ends[span.end] += path.end();
             }
             Act::Turn(to) => {
-                let at = |frame| paces.share(event.pace, share(event, frame, rate));
-                ways.push((span.clone(), span.clone().map(at).collect()));
-                turns.go(span, *to, |from, to, s| from.slerp(to, s), at);
+                ways.push((span.clone(), span.clone().map(done).collect()));
+                turns.go(span, *to, |from, to, s| from.slerp(to, s), done);
             }
             Act::Follow { path, corner, to } => turns.go(
                 span,
@@ -397,14 +442,9 @@ pub(crate) fn wanted<'a>(
                     let round = DQuat::IDENTITY.slerp(*corner, (4.0 * s).min(1.0));
                     (path.turned(s) * round * from).normalize()
                 },
-                |frame| paces.share(event.pace, share(event, frame, rate)),
+                done,
             ),
-            Act::Point(to) => offsets.go(
-                span,
-                *to,
-                |from, to, s| from.lerp(to, s),
-                |frame| paces.share(event.pace, share(event, frame, rate)),
-            ),
+            Act::Point(to) => offsets.go(span, *to, |from, to, s| from.lerp(to, s), done),
             Act::Wrist { axes, cycles } => {
                 for frame in span {
                     let time = share(event, frame, rate);
@@ -423,13 +463,11 @@ pub(crate) fn wanted<'a>(
         sum += *end;
         *point += sum;
     }
-    Wanted {
+    Goals {
         points,
         turns: turns.done(),
         offsets: offsets.done(),
         wrist,
-        outlines: outlines(stage, plan, n, timing),
-        touch: touch(&plan.contacts[n], timing),
         ways,
     }
 }

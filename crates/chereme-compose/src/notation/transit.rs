@@ -1,46 +1,11 @@
 //! Transitions of hands from one state to another.
 
-use chereme_sign::hamnosys::Manual;
-
-use super::comfort::Trail;
-use super::motion::Env;
 use super::pace::Pace;
 use super::path::Path;
-use super::plan::{Act, Event, HandState, PhaseKind, Planner, Who};
+use super::plan::{Act, Event, HandState, PhaseKind, Planner};
 
 /// Smallest distance (arm lengths) between a wrist in transition and its shoulder.
 const ROUND: f64 = 0.42;
-
-/// Length of an approach as a multiple of the distance, because hands move around obstacles, rotate, and change their
-/// pivot.
-const ROUNDABOUT: f64 = 1.25;
-/// Top speed (m/s) of a movement below which it does not limit the approach to it: the hand rotates or plays with its
-/// fingers.
-const SLOWEST: f64 = 0.12;
-
-/// Returns the top speed (m/s) of a hand's paths; simultaneous ones add up.
-fn fastest(events: &[Event]) -> f64 {
-    const STEPS: usize = 8;
-    let path = |event: &Event| match &event.act {
-        Act::Move(path) => Some((event.from, event.to, event.pace, path.clone())),
-        _ => None,
-    };
-    let paths: Vec<_> = events.iter().filter_map(path).collect();
-    let each = paths.iter().map(|(from, to, pace, _)| {
-        let same = paths
-            .iter()
-            .filter(|other| (other.0 - from).abs() + (other.1 - to).abs() < 1e-6);
-        let same: Vec<_> = same.collect();
-        let at = |n: usize| -> chereme_motion::glam::DVec3 {
-            same.iter()
-                .map(|(.., path)| path.at(n as f64 / STEPS as f64))
-                .sum()
-        };
-        let length: f64 = (0..STEPS).map(|n| at(n).distance(at(n + 1))).sum();
-        pace.peak() * length / (to - from).max(1e-3)
-    });
-    each.fold(0.0, f64::max)
-}
 
 impl Planner<'_> {
     /// Plans the transition of a hand from its current state to another, within a time span (s).
@@ -101,41 +66,6 @@ impl Planner<'_> {
             pace,
             act: Act::Move(Path::Spring(out * (missing / there))),
         });
-    }
-
-    /// Returns the duration (s) of an approach that is no faster than the movements after it; 0 if these do not move
-    /// the hands, and at most the body language's longest one.
-    pub(super) fn unhurried(
-        &mut self,
-        part: &Manual,
-        who: Who,
-        [before, goal]: [&[HandState; 2]; 2],
-    ) -> f64 {
-        if part.actions.is_empty() || self.trail.is_some() {
-            return 0.0;
-        }
-        let known = [0, 1].map(|n| self.plan.events[n].len());
-        self.trail = Some(Trail::default());
-        let slower = 1.0 / self.speed();
-        let speeds = self.aside(|planner| {
-            let mut now = 0.0;
-            for action in &part.actions {
-                let env = Env {
-                    slower,
-                    ..Env::default()
-                };
-                now = planner.motion(action, who, now, &env);
-            }
-            [0, 1].map(|n| fastest(&planner.plan.events[n][known[n]..]))
-        });
-        self.trail = None;
-        let top = speeds.into_iter().fold(0.0, f64::max);
-        if top < SLOWEST {
-            return 0.0;
-        }
-        let far = (0..2).map(|n| before[n].wrist().distance(goal[n].wrist()));
-        let far = far.fold(0.0, f64::max);
-        (ROUNDABOUT * Pace::Calm.peak() * far / top).min(self.language.time_approach_most)
     }
 
     /// Returns the duration of a transition between two states.

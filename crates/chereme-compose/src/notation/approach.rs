@@ -1,0 +1,281 @@
+//! Approaches to movements: as fast as the movement that follows, and steady.
+
+use chereme_motion::glam::DVec3;
+use chereme_sign::hamnosys::Manual;
+
+use super::comfort::Trail;
+use super::motion::Env;
+use super::pace::Pace;
+use super::plan::{Event, HandState, PhaseKind, Planner, SignPlan, Who, acting};
+use super::stretch_time::Moved;
+use super::track::{Goals, goals};
+
+/// The number of steps in which the way of an approach is measured.
+const STEPS: usize = 40;
+/// Frames per second at which the movements after an approach are measured.
+const RATE: f64 = 100.0;
+/// Way (m) that counts like a rotation of the hand by one radian, so that hands rotate evenly, too.
+const LEVER: f64 = 0.04;
+/// Top speed of an approach as a share of that of the movements after it: the arm adds a little to what is planned.
+const SLOWER: f64 = 0.94;
+/// The same in solved frames, and the time (s) by which an approach may be longer than the body language allows, if the arm
+/// had to make way for something.
+const SOLVED: (f64, f64) = (0.98, 0.15);
+/// Top speed (m/s) of a movement below which it does not limit the approach to it: the hand rotates or plays with its
+/// fingers.
+const SLOWEST: f64 = 0.12;
+
+/// The course of an approach: with it, the wrist's speed changes at the ends only.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Course {
+    /// The time at which the approach begins, in seconds.
+    pub(crate) from: f64,
+    /// The time at which it ends, in seconds.
+    pub(crate) to: f64,
+    /// The done share of its acts after equal shares of the wrist's way.
+    table: Vec<f64>,
+}
+
+impl Course {
+    /// Returns the done share of the acts after a share of the wrist's way.
+    pub(crate) fn share(&self, way: f64) -> f64 {
+        let last = self.table.len() - 1;
+        let at = way.clamp(0.0, 1.0) * last as f64;
+        let first = (at as usize).min(last - 1);
+        self.table[first] + (self.table[first + 1] - self.table[first]) * (at - first as f64)
+    }
+
+    /// Returns the course of a wrist on its way, and the length (m) that the way would have at its top speed; `None` if
+    /// the wrist hardly moves.
+    fn along(way: &Goals) -> Option<(Vec<f64>, f64)> {
+        let wrists: Vec<DVec3> = way.wrists().collect();
+        let steps = wrists.windows(2).zip(way.turns.windows(2));
+        let steps = steps.map(|(at, turned)| {
+            let far = at[0].distance(at[1]);
+            (far, far + LEVER * turned[0].angle_between(turned[1]))
+        });
+        let steps: Vec<(f64, f64)> = steps.collect();
+        let whole: f64 = steps.iter().map(|(_, step)| step).sum();
+        if whole < 1e-3 {
+            return None;
+        }
+        let longest = steps.iter().filter(|(_, step)| *step > 1e-9);
+        let longest = longest.map(|(far, step)| far / step * whole);
+        let longest = longest.fold(0.0, f64::max);
+        let count = steps.len();
+        let (mut n, mut before) = (0, 0.0);
+        let table = (0..=count).map(|share| {
+            let wanted = whole * share as f64 / count as f64;
+            while n + 1 < count && before + steps[n].1 < wanted {
+                before += steps[n].1;
+                n += 1;
+            }
+            let within = (wanted - before) / steps[n].1.max(1e-12);
+            (n as f64 + within.clamp(0.0, 1.0)) / count as f64
+        });
+        Some((table.collect(), longest))
+    }
+}
+
+/// An approach before its time is known.
+#[derive(Debug, Default)]
+pub(super) struct Approach {
+    /// Its least duration (s), so that no hand is faster than in the movements that follow; 0 if these do not move it.
+    pub(super) least: f64,
+    tables: [Option<Vec<f64>>; 2],
+}
+
+impl Approach {
+    /// Returns the courses of both hands in a time span (s).
+    pub(super) fn courses(self, from: f64, to: f64) -> [Option<Course>; 2] {
+        self.tables
+            .map(|table| table.map(|table| Course { from, to, table }))
+    }
+}
+
+/// Returns factors on the durations of the planned steps: hands that make way for the trunk or for each other are faster
+/// than planned, and their approaches last longer. `arms` are the solved frames of both hands, `most` is the longest
+/// approach (s).
+pub(super) fn unhurried(
+    plan: &SignPlan,
+    arms: [Option<&[Moved]>; 2],
+    rate: f64,
+    most: f64,
+) -> Vec<f64> {
+    let total = arms.iter().flatten().map(|arm| arm.len()).max();
+    let mut lasts = vec![1.0_f64; total.unwrap_or(0).saturating_sub(1)];
+    for (n, arm) in arms.into_iter().enumerate() {
+        let Some(arm) = arm.filter(|arm| arm.len() > 1) else {
+            continue;
+        };
+        let speeds = |from: f64, to: f64| {
+            let at = |time: f64| ((time * rate).round() as usize).min(arm.len() - 1);
+            let steps = at(from)..at(to);
+            steps.map(|step| (step, arm[step].wrist.distance(arm[step + 1].wrist) * rate))
+        };
+        for (which, course) in plan.courses[n].iter().enumerate() {
+            let next = plan.courses[n]
+                .get(which + 1)
+                .map_or(plan.end, |next| next.from);
+            let strokes = plan.phases.iter().filter(|phase| {
+                let follows = (course.to - 1e-6..next).contains(&phase.from);
+                phase.hand == n && phase.kind == PhaseKind::Stroke && follows
+            });
+            let top = strokes.flat_map(|phase| speeds(phase.from, phase.to));
+            let top = top.map(|(_, speed)| speed).fold(0.0, f64::max) * SOLVED.0;
+            if top < SLOWEST {
+                continue;
+            }
+            let longer = |top: f64| {
+                let steps = speeds(course.from, course.to);
+                steps
+                    .map(|(_, speed)| (speed / top - 1.0).max(0.0))
+                    .sum::<f64>()
+                    / rate
+            };
+            let allowed = (most - (course.to - course.from)).max(SOLVED.1);
+            let mut top = top;
+            while longer(top) > allowed {
+                top *= 1.03;
+            }
+            for (step, speed) in speeds(course.from, course.to) {
+                lasts[step] = lasts[step].max(speed / top);
+            }
+        }
+    }
+    lasts
+}
+
+/// Returns the planned frames at which approaches end and signs begin, in ascending order.
+pub(super) fn ends(plan: &SignPlan, rate: f64) -> Vec<usize> {
+    let courses = plan.courses.iter().flatten().map(|course| course.to);
+    let signs = plan.signs.iter().map(|sign| sign.from);
+    let mut ends: Vec<usize> = courses
+        .chain(signs)
+        .map(|time| (time * rate).round() as usize)
+        .collect();
+    ends.sort_unstable();
+    ends.dedup();
+    ends
+}
+
+impl Planner<'_> {
+    /// Returns the approach of the `named` hands from their states before a part to its goal. It lasts at most as long
+    /// as the body language allows.
+    pub(super) fn approach(
+        &mut self,
+        part: &Manual,
+        [who, named]: [Who; 2],
+        [before, goal]: [&[HandState; 2]; 2],
+    ) -> Approach {
+        let mut approach = Approach::default();
+        if part.actions.is_empty() || self.trail.is_some() {
+            return approach;
+        }
+        let tops = self.tops(part, who);
+        let top = tops.into_iter().fold(0.0, f64::max);
+        for (n, _) in acting(named) {
+            let way = self.way(n, &before[n], &goal[n]);
+            let Some((table, longest)) = Course::along(&way) else {
+                continue;
+            };
+            approach.tables[n] = Some(table);
+            let own = if tops[n] > SLOWEST { tops[n] } else { top };
+            if own > SLOWEST {
+                let least = Pace::Calm.peak() * longest / (SLOWER * own);
+                approach.least = approach.least.max(least);
+            }
+        }
+        approach.least = approach.least.min(self.language.time_approach_most);
+        approach
+    }
+
+    /// Returns the top speeds (m/s) of both wrists in the movements of a part.
+    fn tops(&mut self, part: &Manual, who: Who) -> [f64; 2] {
+        let known = [0, 1].map(|n| self.plan.events[n].len());
+        let start = self.state.clone();
+        self.trail = Some(Trail::default());
+        let slower = 1.0 / self.speed();
+        let (end, events) = self.aside(|planner| {
+            let mut now = 0.0;
+            for action in &part.actions {
+                let env = Env {
+                    slower,
+                    ..Env::default()
+                };
+                now = planner.motion(action, who, now, &env);
+            }
+            let events = [0, 1].map(|n| planner.plan.events[n].split_off(known[n]));
+            (now, events)
+        });
+        self.trail = None;
+        let total = (end * RATE).ceil() as usize + 1;
+        [0, 1].map(|n| {
+            let course = |event: &Event, share: f64| self.paces.share(event.pace, share);
+            let made = goals(&start[n], &events[n], RATE, total, course);
+            let wrists: Vec<DVec3> = made.wrists().collect();
+            let lax = events[n].iter().filter(|event| event.pace == Pace::Lax);
+            let lax: Vec<(f64, f64)> = lax.map(|event| (event.from, event.to)).collect();
+            let steps = wrists.windows(2).enumerate().filter(|(step, _)| {
+                let time = (*step as f64 + 0.5) / RATE;
+                !lax.iter().any(|(from, to)| (*from..*to).contains(&time))
+            });
+            let speeds = steps.map(|(_, two)| two[0].distance(two[1]) * RATE);
+            speeds.fold(0.0, f64::max)
+        })
+    }
+
+    /// Returns the way of a hand from one state to another, in [`STEPS`] equal shares of its acts.
+    fn way(&mut self, n: usize, before: &HandState, goal: &HandState) -> Goals {
+        let known = self.plan.events[n].len();
+        let now = std::mem::replace(&mut self.state[n], before.clone());
+        self.swing(n, goal, 0.0, 1.0, Pace::Calm);
+        self.go(n, goal, 0.0, 1.0, Pace::Calm);
+        let events = self.plan.events[n].split_off(known);
+        self.state[n] = now;
+        goals(before, &events, STEPS as f64, STEPS + 1, |_, share| share)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_motion::glam::DQuat;
+
+    use super::*;
+
+    #[test]
+    fn a_wrist_that_would_dash_on_half_of_its_way_goes_steadily() {
+        let wrist = |n: usize| DVec3::X * if n < 20 { 0.0 } else { 0.02 * (n - 20) as f64 };
+        let way = Goals {
+            points: (0..=40).map(wrist).collect(),
+            turns: vec![DQuat::IDENTITY; 41],
+            offsets: vec![DVec3::ZERO; 41],
+            wrist: vec![None; 41],
+            ways: Vec::new(),
+        };
+        let (table, longest) = Course::along(&way).expect("it moves");
+        assert!((longest - 0.4).abs() < 1e-9, "{longest}");
+        let course = Course {
+            from: 0.0,
+            to: 1.0,
+            table,
+        };
+        for way in [0.1, 0.5, 0.9] {
+            let share = course.share(way);
+            assert!((share - 0.5 - way / 2.0).abs() < 1e-6, "{way}: {share}");
+        }
+        assert_eq!(course.share(1.0), 1.0);
+    }
+
+    #[test]
+    fn a_wrist_that_stays_has_no_course() {
+        let way = Goals {
+            points: vec![DVec3::ONE; 41],
+            turns: vec![DQuat::IDENTITY; 41],
+            offsets: vec![DVec3::ZERO; 41],
+            wrist: vec![None; 41],
+            ways: Vec::new(),
+        };
+        assert!(Course::along(&way).is_none());
+    }
+}
