@@ -1,5 +1,11 @@
 //! Moves wrists: finds arm postures that bring each wrist to its target, over all frames at once, so that elbows move
 //! steadily.
+//!
+//! Notation has a solver of its own (`notation::freedom`, `notation::solve`), because the two have different givens.
+//! Here a posture exists for every frame, and the elbow stays as near to it as the new wrist allows: a captured elbow is
+//! worth more than any rule. There no posture exists: a rule proposes the arm's plane, and the elbow is chosen by what
+//! it costs the wrist, the hand's orientation and the trunk. Either one in the place of the other loses what its givens
+//! hold: elbows of captured takes would follow a rule, or generated elbows a rest posture.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::ik::{FabrikOptions, TwoBoneOptions, fabrik, two_bone};

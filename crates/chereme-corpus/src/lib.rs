@@ -21,6 +21,7 @@ mod edit;
 mod error;
 mod export;
 mod face;
+mod file_identity;
 mod film;
 mod hands;
 mod import;
@@ -37,7 +38,6 @@ mod notation;
 mod pairs;
 mod paths;
 mod picture;
-mod place;
 mod progress;
 mod propose;
 pub mod recipe;
@@ -122,6 +122,7 @@ pub use face::{
     FaceFit, FaceNumber, FaceProposal, FaceProposals, FaceReport, FaceScore, FittedNumber,
     FoundExpression, MilestoneOptions, OnsetRow, Onsets, Quartiles, Rank, Ranked, ScoredChannel,
 };
+pub use file_identity::FileIdentity;
 pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};
 pub use import::{
     BodyRead, Changes, ConventionRead, FileReport, FileStatus, ImportOptions, ImportReport,
@@ -141,7 +142,6 @@ pub use notation::{Notation, read_notation};
 pub use pairs::{Dense, Empty, FIELD_SETS, Pair, PairOptions, Pairs};
 pub use paths::paths_like;
 pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
-pub use place::FileIdentity;
 pub use progress::{Progress, Step, Unit, unheard};
 pub use propose::{ProposeOptions, ProposeScope, Proposed, proposed_for};
 pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
