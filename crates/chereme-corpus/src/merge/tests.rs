@@ -338,3 +338,26 @@ fn copies_are_merged_again_and_again_in_both_directions() {
     is_whole(&mut mine);
     is_whole(&mut theirs);
 }
+
+#[test]
+fn a_deleted_recording_goes_in_the_other_copy_unless_that_changed_it() {
+    let film = [Address::Recording(Name::Text("film".into()))];
+    let options = crate::DeleteOptions::default();
+    let (desk, mut mine, mut theirs) = Desk::new();
+    theirs.delete(&film, options, progress()).expect("deleted");
+    let report = desk.merge(&mut mine);
+    assert_eq!(report.conflicts, []);
+    assert_eq!(report.removed.get("recording"), Some(&1), "{report:?}");
+    assert!(mine.overview(1).expect("read").recordings.is_empty());
+    is_whole(&mut mine);
+    mine.undo().expect("undone");
+    assert!(!said(&mine).is_empty());
+
+    let (desk, mut mine, mut theirs) = Desk::new();
+    set(&mut mine, "CHAT", Some("NEW"), None);
+    theirs.delete(&film, options, progress()).expect("deleted");
+    let report = desk.merge(&mut mine);
+    assert!(!report.conflicts.is_empty(), "{report:?}");
+    assert!(said(&mine).iter().any(|it| it.ends_with("NEW")));
+    is_whole(&mut mine);
+}

@@ -257,6 +257,18 @@ const MESSAGES: &[(&str, &str)] = &[
         "{what} n’est ni un enregistrement ni un signe",
     ),
     (
+        "a token goes with its annotation: {command}",
+        "une occurrence part avec son annotation : {command}",
+    ),
+    (
+        "remove a tier with {command}",
+        "supprimez un acteur avec {command}",
+    ),
+    (
+        "write recording:3, recording:NAME or sign:GLOSS",
+        "écrivez recording:3, recording:NOM ou sign:GLOSE",
+    ),
+    (
         "write sign:GLOSS, or recording:NAME",
         "écrivez sign:GLOSE ou recording:NOM",
     ),
