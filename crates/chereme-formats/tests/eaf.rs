@@ -262,7 +262,7 @@ fn rings_are_cut() {
         "p: a1 0-100 x\nq:\ns: a2^a1 0-50 x a3^a1 50-100 y\n",
         &[
             "the tier \"q\" hangs below itself",
-            "the tier \"q\" hangs below none",
+            "the tier \"q\" has no parent",
             "annotation \"a1\" does not lie within",
             "annotation \"a4\" has no place",
             "are not one chain",
