@@ -575,5 +575,5 @@ fn a_notation_is_written_from_the_board_of_symbols() {
     press(&mut window, "palml: the palm faces left");
     key(&mut window, Modifiers::NONE, Key::Escape);
     idle(&mut window);
-    assert!(shows(&window, "made in"), "it was made");
+    assert!(shows(&window, "generated in"), "it was generated");
 }
