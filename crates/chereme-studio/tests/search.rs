@@ -89,7 +89,7 @@ fn everyday_words_are_understood_and_what_is_opened_in_a_small_window_is_seen() 
     assert!(has(&window, "Play") && has(&window, "Tier Gloss"));
     assert!(
         window
-            .query_by_label_contains("Ctrl+F goes back to what was found")
+            .query_by_label_contains("Ctrl+F goes back to the results")
             .is_some()
     );
     window.key_press_modifiers(Modifiers::COMMAND, Key::F);
