@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn one_event_on_two_clocks_is_brought_together_within_a_few_milliseconds() {
+    fn one_event_on_two_clocks_is_aligned_to_a_few_milliseconds() {
         let first = seen(0.0, 10.0, 120.0, 0.0, 1.0);
         for (from, to, clock) in [(0.0, 9.5, 0.48), (0.5, 7.0, -1.25), (0.0, 10.0, 0.0)] {
             let second = seen(from, to, 29.97, clock, 300.0);
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn gaps_are_left_out_and_what_repeats_is_not_sure() {
+    fn gaps_are_ignored_and_a_periodic_signal_gets_low_confidence() {
         let first = seen(0.0, 10.0, 100.0, 0.0, 1.0);
         let mut holes = seen(0.0, 10.0, 50.0, 0.3, 1.0);
         holes.points.retain(|(time, _)| !(2.0..2.9).contains(time));
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn what_never_changes_or_is_too_short_has_no_shift() {
+    fn constant_empty_and_very_short_signals_have_no_shift() {
         let still = Signal {
             points: (0..500).map(|n| (f64::from(n) / 100.0, 3.0)).collect(),
         };

@@ -119,7 +119,7 @@ mod tests {
     use crate::strokes::tests::bending;
 
     #[test]
-    fn detectors_are_found_by_name_and_say_nothing_without_what_they_look_at() {
+    fn detectors_are_found_by_name_and_detect_nothing_without_input() {
         for it in DETECTORS {
             let found = detector(it.name()).map(Detector::name);
             assert_eq!(found, Some(it.name()));

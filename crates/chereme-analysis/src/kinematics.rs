@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn an_open_hand_is_one_and_a_bent_one_less() {
+    fn an_open_hand_has_openness_one_and_a_bent_one_less() {
         let (clip, anatomy) = bending(|t| t);
         let [right, left] = kinematics(&clip, &anatomy).hands;
         assert!((right.aperture[0] - 1.0).abs() < 1e-12);

@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_are_those_of_a_comparison_of_all_pairs() {
+    fn neighbours_equal_those_of_a_comparison_of_all_pairs() {
         let things = grid(7);
         let found = neighbours(&things, 6, |_| true).expect("not stopped");
         let cosine = |a: &Features, b: &Features| {
@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn things_that_are_near_each_other_stay_so_on_the_map() {
+    fn near_items_stay_near_on_the_map() {
         let side = 12;
         let near = neighbours(&grid(side), 8, |_| true).expect("not stopped");
         let places = lay_out(&near, |_| true).expect("not stopped");
@@ -349,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_things_give_the_same_map_and_equal_things_lie_together() {
+    fn equal_input_gives_an_equal_map_and_equal_items_lie_together() {
         let mut things = grid(6);
         things.push(things[0].clone());
         let near = neighbours(&things, 8, |_| true).expect("not stopped");
@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn things_without_features_and_no_things_have_a_map_too() {
+    fn items_without_features_and_no_items_at_all_have_a_map() {
         assert_eq!(lay_out(&[], |_| true), Some(vec![]));
         let near = neighbours(&[vec![], vec![(3, 1.0)], vec![]], 4, |_| true).expect("not stopped");
         assert!(near.iter().all(Vec::is_empty));
@@ -371,7 +371,7 @@ mod tests {
     }
 
     #[test]
-    fn work_stops_when_it_should() {
+    fn neighbours_and_layout_stop_on_request() {
         assert_eq!(neighbours(&grid(3), 4, |_| false), None);
         let near = neighbours(&grid(3), 4, |_| true).expect("not stopped");
         assert_eq!(lay_out(&near, |_| false), None);

@@ -351,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn brows_that_rise_are_found_whatever_their_rest() {
+    fn raised_brows_are_found_at_any_resting_height() {
         let raised = curve(4.0, |at| 0.2 + 0.8 * bump(at, 1.0, 2.0));
         let squeeze = curve(4.0, |at| 0.9 * bump(at, 3.0, 3.5));
         let curves = Curves {
@@ -373,7 +373,7 @@ mod tests {
     }
 
     #[test]
-    fn a_blink_is_told_from_closed_eyes_and_pauses_are_bridged() {
+    fn blinks_and_closed_eyes_are_distinguished_and_short_pauses_bridged() {
         let eyes = curve(4.0, |at| {
             bump(at, 0.5, 0.6) + bump(at, 1.0, 2.0) + bump(at, 2.06, 2.5) + 0.2 * bump(at, 3.0, 3.5)
         });
@@ -387,7 +387,7 @@ mod tests {
     }
 
     #[test]
-    fn shakes_and_nods_are_swings_and_a_turn_is_none() {
+    fn repeated_swings_are_shakes_and_nods_and_a_single_turn_is_neither() {
         let swing = |at: f64, from: f64, to: f64, size: f64| {
             bump(at, from, to) * size * ((at - from) * 2.0 * std::f64::consts::TAU).sin()
         };
@@ -417,7 +417,7 @@ mod tests {
     }
 
     #[test]
-    fn gaze_and_mouth_have_ways_and_unknown_curves_give_nothing() {
+    fn gaze_and_mouth_give_values_and_missing_curves_give_none() {
         let gaze = curve(3.0, |at| {
             0.6 * bump(at, 0.5, 1.0) - 0.7 * bump(at, 2.0, 2.5)
         });

@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn a_performance_is_like_itself_and_smaller_is_more_alike() {
+    fn a_performance_scores_zero_with_itself_and_similar_ones_score_lower() {
         let marks = [0, 10, 40, 55, 70];
         let own = Phased::new(&wave(70, 1.0), marks, 70.0 / 30.0).expect("phases");
         let near = Phased::new(&wave(70, 1.05), marks, 70.0 / 30.0).expect("phases");
@@ -336,7 +336,7 @@ mod tests {
 
     /// The expected numbers were computed by a short program that fills the table of the recursion cell by cell.
     #[test]
-    fn scores_equal_those_of_the_recursion_written_out() {
+    fn scores_equal_those_of_the_plain_recursion() {
         let wave = |frames: u32, tempo: f64, shift: f64| -> Vec<Vec<f64>> {
             let value = |channel: u32, frame: u32| {
                 let value = (tempo * f64::from(frame) + f64::from(channel) + shift).sin();
@@ -370,7 +370,7 @@ mod tests {
     }
 
     #[test]
-    fn empty_phases_count_nothing_or_are_left_out_and_told() {
+    fn phases_empty_in_both_cost_nothing_and_in_one_make_the_score_partial() {
         let whole = Phased::new(&wave(30, 1.0), [0, 5, 15, 20, 30], 1.0).expect("phases");
         let one = Phased::new(&wave(30, 1.0), [0, 5, 5, 20, 30], 1.0).expect("phases");
         let both = score(&one, &one, 1.0, &Options::default()).expect("scored");
@@ -389,7 +389,7 @@ mod tests {
     }
 
     #[test]
-    fn a_phase_without_a_path_is_refused_by_name_or_adapted_and_told() {
+    fn a_phase_without_a_path_is_refused_by_name_or_scored_by_another_method() {
         let long = Phased::new(&wave(70, 1.0), [0, 10, 50, 60, 70], 1.0).expect("phases");
         let short = Phased::new(&wave(50, 1.0), [0, 10, 30, 40, 50], 1.0).expect("phases");
         let refuse = Options {
@@ -409,7 +409,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_performance_is_refused() {
+    fn invalid_milestones_durations_and_columns_are_refused() {
         let columns = wave(10, 1.0);
         for marks in [[0, 1, 2, 3, 11], [0, 3, 2, 4, 5]] {
             let error = Phased::new(&columns, marks, 1.0).expect_err("no phases");

@@ -245,13 +245,13 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn what_hardly_moves_is_no_stroke() {
+    fn a_tiny_tremble_is_no_stroke() {
         let (clip, anatomy) = bending(|t| 0.05 * (t * 6.0).sin());
         assert!(strokes(&clip, &anatomy, Side::Right, Mover::Wrist).is_empty());
     }
 
     #[test]
-    fn a_point_is_carried_up_to_its_base() {
+    fn a_point_is_converted_to_the_space_of_its_base_joint() {
         let (clip, anatomy) = bending(|_| std::f64::consts::FRAC_PI_2);
         let arm = anatomy.arm(Side::Right).expect("an arm");
         let at = place_in(&clip, arm.hand, DVec3::ZERO, Some(arm.upper), 3);

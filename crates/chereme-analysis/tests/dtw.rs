@@ -179,7 +179,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn no_path_of_all_is_better(a in rows(1..7, 2), b in rows(1..7, 2)) {
+    fn the_path_found_is_the_cheapest_of_all_paths(a in rows(1..7, 2), b in rows(1..7, 2)) {
         let (n, m) = (a.len(), b.len());
         let d = |i: usize, j: usize| euclid(&a[i], &b[j]);
         let (query, reference) = (Series::from_rows(&a).unwrap(), Series::from_rows(&b).unwrap());
@@ -212,7 +212,7 @@ proptest! {
     }
 
     #[test]
-    fn symmetric_patterns_do_not_mind_the_order(a in rows(1..20, 2), b in rows(1..20, 2)) {
+    fn symmetric_patterns_give_the_same_distance_in_either_order(a in rows(1..20, 2), b in rows(1..20, 2)) {
         let (a, b) = (Series::from_rows(&a).unwrap(), Series::from_rows(&b).unwrap());
         for pattern in [StepPattern::Symmetric1, StepPattern::Symmetric2, StepPattern::SymmetricP1] {
             let options = with(pattern, Window::SakoeChiba(6));
@@ -234,7 +234,7 @@ proptest! {
     }
 
     #[test]
-    fn the_nearest_are_those_of_trying_all(
+    fn the_nearest_candidates_equal_those_of_an_exhaustive_search(
         query in rows(1..20, 2),
         candidates in proptest::collection::vec(rows(1..20, 2), 0..30),
         k in 0usize..6, w in 0usize..12, kind in 0usize..6, window in 0usize..3, squared: bool
@@ -263,7 +263,7 @@ proptest! {
     }
 
     #[test]
-    fn an_open_end_is_the_best_of_all_ends(a in rows(1..8, 1), b in rows(1..12, 1)) {
+    fn an_open_end_gives_the_best_of_all_end_frames(a in rows(1..8, 1), b in rows(1..12, 1)) {
         let (query, reference) = (Series::from_rows(&a).unwrap(), Series::from_rows(&b).unwrap());
         for (_, pattern) in &PATTERNS[1..] {
             let open = Options { open_end: true, ..with(*pattern, Window::None) };
@@ -281,7 +281,7 @@ proptest! {
     }
 
     #[test]
-    fn an_open_begin_finds_a_cut_piece(
+    fn an_open_begin_and_end_locate_an_excerpt(
         b in rows(8..30, 2), from in 1usize..8, take in 1usize..10
     ) {
         let piece = &b[from.min(b.len() - 1)..(from + take).min(b.len())];
@@ -298,7 +298,7 @@ proptest! {
 }
 
 #[test]
-fn equal_ways_are_taken_in_the_order_of_the_pattern() {
+fn equal_steps_are_taken_in_the_order_of_the_pattern() {
     let flat = |n: usize| series(&vec![1.0; n]);
     let path = |pattern, n, m| {
         align(&flat(n), &flat(m), &with(pattern, Window::None))
@@ -320,7 +320,7 @@ fn equal_ways_are_taken_in_the_order_of_the_pattern() {
 }
 
 #[test]
-fn what_has_no_path_is_refused_with_a_remedy_or_remedied_as_the_policy_says() {
+fn a_pair_without_a_path_is_refused_with_a_remedy_or_adapted_by_policy() {
     let ramp = |n: usize| {
         series(
             &(0..n)
@@ -433,7 +433,7 @@ fn meaningless_input_is_refused_by_frame_and_channel() {
 }
 
 #[test]
-fn what_would_fill_memory_is_refused_with_what_would_fit() {
+fn input_that_would_fill_memory_is_refused_with_a_band_that_fits() {
     let hour = series(&vec![0.5; 432_000]);
     let error = align(&hour, &hour, &Options::default()).expect_err("1.9e11 cells");
     assert!(

@@ -102,7 +102,7 @@ fn scored(a: &Clip, b: &Clip) -> Score {
 }
 
 #[test]
-fn a_clip_is_like_itself() {
+fn a_clip_has_distance_zero_to_itself() {
     let clip = performance(signer(1.0, "", true), 180);
     let found = scored(&clip, &clip);
     assert_eq!(
@@ -127,7 +127,7 @@ fn a_clip_is_like_itself() {
 }
 
 #[test]
-fn another_tempo_is_nearly_the_same_and_another_movement_is_not() {
+fn another_tempo_scores_as_nearly_equal_and_another_movement_does_not() {
     let clip = performance(signer(1.0, "", true), 180);
     let end = clip.rate().instant(179).seconds();
     let warped = clip.retimed(clip.rate(), 180, |frame| {
@@ -158,7 +158,7 @@ fn another_tempo_is_nearly_the_same_and_another_movement_is_not() {
 }
 
 #[test]
-fn a_moved_copy_is_as_far_as_it_was_moved_and_otherwise_the_same() {
+fn a_translated_copy_differs_only_by_its_translation() {
     let clip = performance(signer(1.0, "", true), 60);
     let by = DVec3::new(0.3, 0.0, -0.4);
     let poses: Vec<Pose> = (0..60)
@@ -211,7 +211,7 @@ fn only_the_changed_component_differs() {
 }
 
 #[test]
-fn another_body_compares_by_the_parts_both_have() {
+fn two_bodies_are_compared_by_the_parts_that_both_have() {
     let clip = performance(signer(1.0, "", true), 90);
     let child = performance(signer(0.7, "child:", true), 90);
     let found = scored(&clip, &child);
@@ -273,7 +273,7 @@ fn symmetric_patterns_give_the_same_score_both_ways() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_an_error() {
+fn clips_that_cannot_be_compared_are_an_error() {
     let clip = performance(signer(1.0, "", true), 10);
     let options = ScoreOptions::default();
     let empty = score(&clip, &clip.slice(0..0), &options);

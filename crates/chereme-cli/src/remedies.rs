@@ -110,7 +110,7 @@ fn fault(command: &str) -> Option<String> {
 }
 
 #[test]
-fn every_command_that_the_program_names_is_understood() {
+fn every_command_named_in_a_message_parses() {
     let mut found = Vec::new();
     for file in repository::rust_files() {
         if file.path.contains("/src/") && !file.path.ends_with("remedies.rs") {
@@ -130,7 +130,7 @@ fn every_command_that_the_program_names_is_understood() {
 }
 
 #[test]
-fn a_command_that_does_not_exist_is_noticed() {
+fn a_remedy_with_an_unknown_command_is_noticed() {
     assert!(fault("chereme list CORPUS values --no-such-option x").is_some());
     assert!(fault("chereme dance").is_some());
     assert!(fault("chereme check CORPUS --mend").is_none());

@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_is_as_wide_as_it_may_be() {
+    fn a_table_is_cut_to_the_width_given() {
         let header = ["token", "gloss", "components"];
         let wide = lines(&header, &rows(), None);
         assert!(wide[2].ends_with("movement=straight"));

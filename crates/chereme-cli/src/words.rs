@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn nearly_all_of_the_help_is_there_in_french() {
+    fn nearly_all_help_has_a_french_form() {
         let mut all = BTreeSet::new();
         texts(&Cli::command(), &mut all);
         let missing: Vec<&String> = all.iter().filter(|text| help::of(text).is_none()).collect();
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn the_help_is_french_where_french_is_asked_for() {
+    fn the_help_is_french_if_french_is_requested() {
         let mut command = spoken(Cli::command(), Language::French);
         command.clone().debug_assert();
         let help = command.render_help().to_string();

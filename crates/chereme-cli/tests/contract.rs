@@ -29,7 +29,7 @@ fn each_command_keeps_to_its_exit_code_and_its_json() {
 }
 
 #[test]
-fn an_import_that_takes_nothing_leaves_no_corpus() {
+fn an_import_without_readable_files_leaves_no_corpus() {
     let desk = Desk::new();
     for file in ["@more/broken.sigml", "@in/none.bvh", "@in/notes.txt", "-"] {
         let done = desk.run(&desk.words(&format!("import @d/new.chereme {file}")));
@@ -40,7 +40,7 @@ fn an_import_that_takes_nothing_leaves_no_corpus() {
 }
 
 #[test]
-fn carets_stand_below_what_is_wrong() {
+fn carets_stand_below_the_wrong_words() {
     let desk = Desk::new();
     let done = desk.run(&desk.words("search @c placement=chinn"));
     let told = text(&done.stderr);
@@ -52,7 +52,7 @@ fn carets_stand_below_what_is_wrong() {
 }
 
 #[test]
-fn a_made_sign_is_made_anew_in_its_place() {
+fn a_generated_sign_is_replaced_in_place() {
     let desk = Desk::new();
     let corpus = desk.corpus().display().to_string();
     let json = |line: String| -> serde_json::Value {
@@ -70,7 +70,7 @@ fn a_made_sign_is_made_anew_in_its_place() {
 }
 
 #[test]
-fn every_command_has_a_help_that_says_what_it_does() {
+fn every_command_has_help_with_a_description() {
     let desk = Desk::new();
     let help = desk.run("--help");
     assert_eq!(help.status.code(), Some(0));
@@ -111,7 +111,7 @@ fn every_command_has_a_help_that_says_what_it_does() {
 }
 
 #[test]
-fn what_was_done_can_be_undone_and_is_signed() {
+fn changes_are_undone_redone_and_logged_with_their_author() {
     let desk = Desk::new();
     let corpus = desk.corpus();
     let path = corpus.display();
@@ -142,7 +142,7 @@ fn everyday_words_that_find_nothing_are_offered_as_a_query() {
 }
 
 #[test]
-fn a_search_is_kept_asked_again_and_forgotten() {
+fn a_search_is_saved_run_again_and_deleted() {
     let desk = Desk::new();
     let corpus = desk.corpus();
     let path = corpus.display();
@@ -228,7 +228,7 @@ fn documents_go_through_standard_input_and_output() {
 }
 
 #[test]
-fn undoing_more_than_there_is_undoes_all_and_says_so() {
+fn undoing_more_operations_than_exist_undoes_all_and_reports_it() {
     let desk = Desk::new();
     let corpus = desk.corpus();
     let path = corpus.display();
@@ -251,7 +251,7 @@ fn undoing_more_than_there_is_undoes_all_and_says_so() {
 }
 
 #[test]
-fn a_table_of_many_rows_names_no_thousand_ids() {
+fn adding_many_rows_prints_a_short_summary() {
     let desk = Desk::new();
     let corpus = desk.corpus();
     let path = corpus.display();
@@ -283,7 +283,7 @@ fn a_table_of_many_rows_names_no_thousand_ids() {
 }
 
 #[test]
-fn a_change_says_from_what_to_what_and_pushes_others_where_asked() {
+fn a_change_prints_the_old_and_new_value_and_pushes_neighbours_on_request() {
     let desk = Desk::new();
     let corpus = desk.corpus();
     let path = corpus.display();
@@ -312,7 +312,7 @@ fn a_change_says_from_what_to_what_and_pushes_others_where_asked() {
 }
 
 #[test]
-fn the_command_line_speaks_french_where_it_is_asked_to() {
+fn the_command_line_speaks_french_if_requested() {
     let desk = Desk::new();
     let corpus = desk.corpus();
     let path = corpus.display();
@@ -352,7 +352,7 @@ fn the_command_line_speaks_french_where_it_is_asked_to() {
 }
 
 #[test]
-fn an_unknown_action_is_answered_with_those_there_are() {
+fn an_unknown_action_or_role_is_answered_with_the_known_ones() {
     let desk = Desk::new();
     let corpus = desk.corpus();
     let done = desk.run(&format!("annotate {} change a1", corpus.display()));
@@ -391,7 +391,7 @@ fn codings_are_proposed_for_tokens_without_one_and_reports_count_them() {
 }
 
 #[test]
-fn tables_are_as_wide_as_asked_for() {
+fn tables_have_the_requested_width() {
     let desk = Desk::new();
     let corpus = desk.corpus();
     let path = corpus.display();
@@ -423,7 +423,7 @@ fn commands(help: &str) -> Vec<(String, String)> {
 }
 
 #[test]
-fn a_reader_that_leaves_early_is_no_fault() {
+fn a_closed_output_pipe_is_no_error() {
     let desk = Desk::new();
     let mut child = Command::new(env!("CARGO_BIN_EXE_chereme"))
         .args([Path::new("log"), &desk.corpus()])

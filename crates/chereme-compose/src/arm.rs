@@ -545,7 +545,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_soft_end_is_longer_where_the_reach_is_left_fast() {
+    fn the_soft_zone_is_longer_if_the_wrist_leaves_the_reach_fast() {
         let within = softened(&[0.5; 50], 1.0 / 120.0);
         assert_eq!(within, vec![SOFT.0; 50]);
         let leaving = |per_frame: f64| {

@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_are_called_by_what_they_look_like() {
+    fn curves_are_named_by_their_shape() {
         let circle: Vec<[f64; 2]> = (1..=8)
             .map(|n| f64::from(n) * std::f64::consts::FRAC_PI_4)
             .map(|a| [0.1 * a.sin(), 0.1 - 0.1 * a.cos()])
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn points_in_one_place_are_no_trouble() {
+    fn coincident_points_give_a_finite_curve() {
         for all in [
             &[][..],
             &[[0.0, 0.0]],

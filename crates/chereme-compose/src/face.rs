@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_a_face_are_taken_as_they_are() {
+    fn numeric_face_curves_are_used_unchanged() {
         let all = faces(&[
             curve("face.mouth_stretch", &[-0.5, 0.25]),
             curve("face.jaw_open", &[0.3, 0.6]),
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_word_is_spoken_while_there_is_at_least_half_of_it() {
+    fn a_word_is_mouthed_while_its_curve_is_at_least_half() {
         let mut values = vec![0.0; 30];
         values[5..25].fill(1.0);
         (values[4], values[25]) = (0.3, 0.3);
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_word_said_twice_begins_twice() {
+    fn a_word_mouthed_twice_begins_twice() {
         let mut values = vec![1.0; 21];
         values[10] = 0.0;
         let all = faces(&[curve("mouthing.ba", &values)]);

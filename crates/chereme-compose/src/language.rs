@@ -121,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_quiet_body_language_is_the_usual_one_without_life() {
+    fn a_quiet_body_language_is_the_usual_one_without_sway_and_blinks() {
         let quiet = Language::quiet();
         let whole = quiet.whole().expect("known names");
         assert_eq!(whole, BodyLanguage::usual().without_life());
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_measured_is_told_with_its_spread_and_takes_the_place_of_the_usual() {
+    fn measured_values_are_reported_with_their_spread_and_replace_the_usual_ones() {
         let mut language = Language {
             from: "measured".into(),
             ..Language::default()

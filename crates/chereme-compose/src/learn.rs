@@ -178,7 +178,7 @@ mod tests {
     use crate::testing::{Axes, clip, skeleton};
 
     #[test]
-    fn a_course_is_learned_from_what_was_made_by_it() {
+    fn a_speed_profile_is_learned_from_movement_generated_by_it() {
         let captured = clip(&Arc::new(skeleton(Axes::Odd, 1.0)), 120, 0.0);
         let anatomy = chereme_motion::Anatomy::detect(captured.skeleton());
         let joints = anatomy.arm_joints(chereme_motion::Side::Right);
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn what_tells_nothing_is_passed_over() {
+    fn stretches_without_movement_are_skipped() {
         let still = clip(&Arc::new(skeleton(Axes::Plain, 1.0)), 30, 0.0);
         for (joints, frames) in [
             (&[0usize][..], 0..30),

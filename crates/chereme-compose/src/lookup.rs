@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_is_named() {
+    fn unknown_letters_and_alphabets_are_named() {
         for (alphabet, word, want) in [(None, "a1", "\"1\""), (Some("morse"), "a", "\"morse\"")] {
             let error = letters_in(builtin(), alphabet, word)
                 .expect_err(word)

@@ -78,7 +78,7 @@ mod tests {
     use crate::Recipe;
 
     #[test]
-    fn what_does_nothing_is_left_out() {
+    fn steps_without_effect_are_left_out() {
         for (text, simple) in [
             ("A | reverse | reverse", "A"),
             ("A | swap | reverse | reverse | swap", "A"),

@@ -362,7 +362,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn quantities_as_people_write_them() {
+    fn quantities_parse_as_people_write_them() {
         for (text, metres, printed) in [
             ("25cm", 0.25, "25cm"),
             ("250 mm", 0.25, "25cm"),
@@ -396,7 +396,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn lengths_print_to_what_they_were(metres in -3.0f64..3.0, share in any::<bool>()) {
+        fn printed_lengths_parse_to_the_same_length(metres in -3.0f64..3.0, share in any::<bool>()) {
             let length = if share { Length::Arm(metres) } else { Length::Metres(metres) };
             let back: Length = length.to_string().parse().expect("printed");
             prop_assert!((back.metres(1.0) - length.metres(1.0)).abs() < 1e-15);

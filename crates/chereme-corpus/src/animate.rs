@@ -264,7 +264,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn an_odd_string_is_made_of_what_was_understood_and_says_so() {
+    fn an_odd_string_is_animated_as_far_as_understood_with_findings() {
         let whole = "hamfist hamextfingeru hampalml hamchest hamclose";
         assert_eq!(
             understood(whole).expect("whole"),
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sign_of_an_odd_string_is_stored_with_a_recipe_that_can_be_made_again() {
+    fn a_sign_of_an_odd_string_is_stored_with_a_recipe_that_evaluates_again() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("a.chereme");
         let mut corpus = Corpus::create(&path, "A").expect("made");

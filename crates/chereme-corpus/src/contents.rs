@@ -141,7 +141,7 @@ mod tests {
     use chereme_sign::TierRole;
 
     #[test]
-    fn a_recording_is_read_as_its_rows_are_and_every_change_is_noticed() {
+    fn the_contents_of_a_recording_equal_its_rows_and_reflect_every_change() {
         let folder = tempfile::tempdir().expect("a folder");
         let files = folder.path().join("starter");
         let paths = unpack_starter(&files).expect("unpacked");

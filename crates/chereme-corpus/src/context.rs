@@ -31,7 +31,7 @@ mod tests {
     use chereme_motion::Instant;
 
     #[test]
-    fn neighbours_stand_in_the_order_of_time() {
+    fn neighbouring_tokens_are_listed_in_the_order_of_time() {
         let folder = tempfile::tempdir().expect("a folder");
         let paths = unpack_starter(&folder.path().join("s")).expect("unpacked");
         let one = |path: &std::path::PathBuf| path.file_stem().is_some_and(|stem| stem == "bol");

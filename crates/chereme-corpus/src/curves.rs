@@ -167,7 +167,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn curves_come_back_as_they_were_made_and_go_and_return_with_their_sign() {
+    fn curves_read_back_unchanged_and_are_undone_and_redone_with_their_sign() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("vraag.sigml");
         let text = "<sigml><hamgestural_sign gloss=\"VRAAG\"><sign_nonmanual><facialexpr_tier>\

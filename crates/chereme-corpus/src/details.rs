@@ -275,7 +275,7 @@ mod tests {
     use crate::{ImportOptions, Progress, unheard, unpack_starter};
 
     #[test]
-    fn what_was_made_knows_what_from_and_what_was_used_what_for() {
+    fn a_generated_sign_lists_its_sources_and_a_source_its_generated_signs() {
         let folder = tempfile::tempdir().expect("a folder");
         let paths = unpack_starter(&folder.path().join("files")).expect("unpacked");
         let wanted = |path: &std::path::PathBuf| {

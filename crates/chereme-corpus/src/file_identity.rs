@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_deleted_while_it_is_open_is_saved_whole() {
+    fn a_corpus_deleted_while_open_is_saved_whole() {
         let folder = tempfile::tempdir().expect("a folder");
         let corpus = made(folder.path());
         let path = corpus.path().to_owned();

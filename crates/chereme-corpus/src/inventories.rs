@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_joined_has_one_meaning_for_each_spelling() {
+    fn a_merged_inventory_has_one_meaning_for_each_spelling() {
         let before = inventory(&[("B-spread", "open hand"), ("cap", "the cap")]);
         let new = inventory(&[("b-SPREAD", "five"), ("hat", "The Cap"), ("cap", "a cap")]);
         let joined = joined(Some(&before), new);

@@ -90,7 +90,7 @@ mod tests {
     use chereme_motion::Instant;
 
     #[test]
-    fn parts_fit_together() {
+    fn curves_read_in_parts_equal_the_whole() {
         let folder = tempfile::tempdir().expect("a folder");
         let files = unpack_starter(&folder.path().join("files")).expect("unpacked");
         let phrase: Vec<_> = files

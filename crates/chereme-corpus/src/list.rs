@@ -568,7 +568,7 @@ mod tests {
     }
 
     #[test]
-    fn pages_tell_how_many_rows_there_are() {
+    fn pages_report_the_total_number_of_rows() {
         let (_folder, corpus) = corpus();
         let filter = ListFilter {
             limit: Some(2),
@@ -605,7 +605,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_listed_is_told() {
+    fn invalid_columns_and_patterns_are_refused_with_a_remedy() {
         let (_folder, corpus) = corpus();
         for (column, pattern, want) in [
             ("glos", "x", "did you mean \"gloss\"?"),

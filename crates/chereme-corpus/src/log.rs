@@ -409,7 +409,7 @@ mod tests {
     }
 
     #[test]
-    fn an_operation_says_from_what_to_what() {
+    fn an_operation_shows_old_and_new_values() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut corpus = corpus(folder.path());
         assert_eq!(newest(&corpus), ["added tier \"Remarks\" on take"]);

@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn media_are_linked_anew_and_found_and_that_is_undone() {
+    fn a_film_is_relinked_and_found_and_undo_restores_the_old_link() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("c.chereme");
         let mut corpus = Corpus::create(&path, "A").expect("made");

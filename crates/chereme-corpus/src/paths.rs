@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_path_is_completed_by_what_is_there_folders_first() {
+    fn a_path_is_completed_from_existing_names_folders_first() {
         let folder = tempfile::tempdir().expect("a folder");
         for name in ["bol.bvh", "Bol.eaf", "cat.bvh", ".bolt"] {
             fs::write(folder.path().join(name), "").expect("written");

@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn searches_are_kept_renamed_forgotten_and_undone() {
+    fn searches_are_saved_renamed_deleted_and_undone() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
         let keep = |corpus: &mut Corpus, one| corpus.keep_searches(&[one]);
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn the_one_that_was_meant_is_found_among_few() {
+    fn the_intended_search_is_suggested_for_a_misspelled_name() {
         let all = [kept("mine", ""), kept("à la tête", ""), kept("courts", "")];
         for (name, want) in [
             ("@mein", Some("mine")),
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_asked_as_its_query() {
+    fn a_saved_search_is_run_by_its_name() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
         let short = kept("petits gestes", "duration<0.8s");
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn kept_searches_stand_anywhere_in_a_query() {
+    fn saved_searches_are_usable_anywhere_in_a_query() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
         let all = [

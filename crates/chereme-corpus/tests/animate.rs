@@ -53,7 +53,7 @@ fn a_notated_sign_moves_is_found_by_its_components_and_is_taken_back() {
 }
 
 #[test]
-fn what_cannot_be_read_is_told_and_nothing_is_stored() {
+fn unreadable_notation_is_reported_and_nothing_is_stored() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     for (notation, signer, said) in [

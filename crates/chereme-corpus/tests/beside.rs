@@ -227,7 +227,7 @@ fn files_of_single_frames_become_one_track_next_to_the_movement_of_their_name() 
 }
 
 #[test]
-fn an_export_of_signs_is_a_lexicon_though_it_is_called_text() {
+fn an_export_of_signs_is_a_lexicon_despite_its_text_extension() {
     let desk = Desk::new();
     let text = "{\"name\":\"c\",\"signs\":[{\"signlevel\":{\"entryid\":1,\"gloss\":[\"DOG\"]},\"loc modules\":{\"x\":{\"locationtree\":\
                 {\"checkstates\":{\"Body>Chin\":2}}}}}]}";
@@ -241,7 +241,7 @@ fn an_export_of_signs_is_a_lexicon_though_it_is_called_text() {
 const FACE: &str = "Timecode,BlendShapeCount,JawOpen\n10:00:02:00.0,61,0.25\n10:00:02:01.0,61,0.5\n10:00:02:02.0,61,0.5\n";
 
 #[test]
-fn tracks_whose_timecodes_meet_are_of_one_take_and_lie_where_these_say() {
+fn tracks_with_overlapping_timecodes_are_one_take_aligned_by_timecode() {
     let desk = Desk::new();
     let long = MOVEMENT
         .replace("Frames: 2", "Frames: 40")

@@ -29,7 +29,7 @@ fn found(corpus: &mut Corpus, query: &str) -> Vec<String> {
 }
 
 #[test]
-fn made_signs_are_found_by_the_values_that_operators_made_true() {
+fn generated_signs_are_found_by_the_values_that_operators_set() {
     let folder = tempfile::tempdir().expect("a folder");
     let files = starter(folder.path(), "escargot");
     let (mut corpus, _) = corpus(folder.path(), &files);

@@ -159,7 +159,7 @@ fn phones_of_an_alignment_are_the_clock_in_every_alphabet() {
 }
 
 #[test]
-fn alignments_that_are_none_are_refused_or_told() {
+fn invalid_alignments_are_refused_or_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let read = |text: &str, tier: Option<&str>| {
         let path = file(&folder, "x.TextGrid", text);

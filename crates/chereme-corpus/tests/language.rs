@@ -81,7 +81,7 @@ fn animate(corpus: &mut Corpus, language: Option<&str>) -> Recombination {
 }
 
 #[test]
-fn sizes_and_times_of_captured_signs_take_the_place_of_the_usual_ones() {
+fn sizes_and_times_of_captured_signs_replace_the_default_ones() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = captured(folder.path(), "captured");
     let measured = animate(&mut corpus, None);
@@ -123,7 +123,7 @@ fn sizes_and_times_of_captured_signs_take_the_place_of_the_usual_ones() {
 }
 
 #[test]
-fn what_was_generated_tells_nothing_about_anybody() {
+fn generated_signs_are_not_measured() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = captured(folder.path(), "generated");
     assert!(
@@ -134,7 +134,7 @@ fn what_was_generated_tells_nothing_about_anybody() {
 }
 
 #[test]
-fn places_can_be_moved_by_a_file() {
+fn a_language_file_moves_places() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     let file = folder.path().join("mine.json");

@@ -155,7 +155,7 @@ fn a_file_of_notation_becomes_signs_that_are_found_by_their_components() {
 }
 
 #[test]
-fn a_sign_is_meant_where_its_file_has_its_name_and_holds_others() {
+fn a_name_means_the_sign_if_a_file_with_several_signs_has_the_same_name() {
     let mut desk = Desk::new();
     desk.import("MERCI.sigml", TWO);
     for (name, count) in [("MERCI", 1), ("MERCI.sigml", 2), ("OUI", 1)] {
@@ -179,7 +179,7 @@ fn notation_is_undone_and_done_again() {
 }
 
 #[test]
-fn a_file_taken_in_again_renews_its_signs() {
+fn a_file_imported_again_updates_its_signs() {
     let mut desk = Desk::new();
     desk.import("two.sigml", TWO);
     let again = desk.import("two.sigml", TWO);
@@ -208,7 +208,7 @@ fn a_file_taken_in_again_renews_its_signs() {
 }
 
 #[test]
-fn notation_is_given_back_in_each_of_its_forms() {
+fn notation_is_exported_in_each_of_its_forms() {
     let mut desk = Desk::new();
     desk.import("two.sigml", TWO);
     let (whole, notes) = desk.export(&ExportWhat::All, "all.sigml");
@@ -294,7 +294,7 @@ fn a_notation_is_drawn_symbol_by_symbol() {
 }
 
 #[test]
-fn what_files_hold_says_whether_they_are_notation() {
+fn files_are_recognised_as_notation_by_their_contents() {
     let mut desk = Desk::new();
     desk.write("notes.txt", "nothing of the kind");
     desk.write("other.xml", "<html/>");
@@ -317,7 +317,7 @@ fn what_files_hold_says_whether_they_are_notation() {
 }
 
 #[test]
-fn a_table_of_hamnosys_is_told_by_its_title_or_its_characters() {
+fn a_column_of_hamnosys_is_recognised_by_its_title_or_its_characters() {
     let yes = from_names(["hamfist", "hamextfingero", "hampalmd", "hamnodding"]).expect("names");
     let end = from_names(["hamparend"]).expect("a name");
     for title in ["HamNoSys", "x1"] {

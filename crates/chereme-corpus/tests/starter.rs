@@ -45,7 +45,7 @@ fn same(a: &[u8], b: &[u8]) -> bool {
 }
 
 #[test]
-fn the_files_are_what_the_program_makes() {
+fn the_files_equal_those_that_the_program_generates() {
     let remedy = "run: cargo run -p chereme-corpus --example make_starter";
     let files = all::files(&MADE);
     for (name, bytes) in &files {
@@ -161,7 +161,7 @@ fn the_lexicon_reads_and_uses_the_inventories() {
 }
 
 #[test]
-fn the_animator_makes_what_is_written_and_nothing_jumps() {
+fn the_animator_performs_the_notation_and_nothing_jumps() {
     let mut pulled = Vec::new();
     for (take, made) in MADE.iter() {
         let clip = &made.clip;
@@ -284,7 +284,7 @@ fn distance((a, b, thick): &Bone, (c, d, other): &Bone) -> f64 {
 }
 
 #[test]
-fn hands_touch_what_they_are_said_to_touch() {
+fn hands_touch_the_annotated_contacts() {
     let snail = places("escargot", [0.0, 1.0], ["right-palm", "left-hand-back"]);
     for [palm, back] in snail {
         let apart = palm.distance(back);

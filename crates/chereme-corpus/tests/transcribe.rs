@@ -9,7 +9,7 @@ use chereme_corpus::{
 use chereme_sign::hamnosys::{Place, Sign, from_names, parse};
 
 #[test]
-fn what_is_transcribed_can_be_kept_and_taken_back() {
+fn a_transcription_is_stored_and_undone() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut paths = Vec::new();
     for (name, bytes) in starter_files() {
@@ -70,14 +70,14 @@ const LED_AWAY: [&str; 2] = [
 ];
 
 #[test]
-fn what_was_made_of_notation_is_told_to_be_where_it_was_written_to_be() {
+fn animated_notation_is_transcribed_with_its_written_locations() {
     let folder = tempfile::tempdir().expect("a folder");
     let corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     told_where_they_are_led_away(corpus);
 }
 
 #[test]
-fn so_it_is_on_a_body_whose_rest_pose_nobody_takes() {
+fn locations_are_transcribed_on_a_body_with_an_impossible_rest_pose() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("bol.bvh");
     let mut files = starter_files();
@@ -141,7 +141,7 @@ const BEGINNINGS: [&str; 2] = [
 ];
 
 #[test]
-fn how_signs_begin_is_told_as_it_was_written() {
+fn initial_postures_are_transcribed_as_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     for (n, names) in BEGINNINGS.into_iter().enumerate() {

@@ -83,7 +83,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slopes_are_those_of_small_steps() {
+    fn slopes_equal_finite_differences() {
         let terms = Terms::of_a_hand();
         let angles: Vec<f64> = (0..ANGLES).map(|n| (n as f64 * 0.7).sin()).collect();
         let way: Vec<f64> = (0..ANGLES).map(|n| (n as f64 * 1.3).cos()).collect();

@@ -21,7 +21,7 @@ fn clean() -> Settings {
 }
 
 #[test]
-fn labels_are_50_and_63_and_are_found_whatever_the_subject() {
+fn the_50_hand_and_63_face_labels_are_found_under_any_subject_prefix() {
     assert_eq!((labels::hand().len(), labels::face().len()), (HAND, FACE));
     assert_eq!(labels::hand()[finger(1) + 7], "M8");
     let wanted = labels::hand();
@@ -33,7 +33,7 @@ fn labels_are_50_and_63_and_are_found_whatever_the_subject() {
 }
 
 #[test]
-fn a_rigid_motion_is_found_and_what_has_none_is_refused() {
+fn a_rigid_motion_is_recovered_and_points_without_one_are_refused() {
     let mut random = Random::new(5);
     let mut point = |sd: f64| DVec3::new(random.normal(), random.normal(), random.normal()) * sd;
     for noise in [0.0, 0.3] {
@@ -72,7 +72,7 @@ fn a_rigid_motion_is_found_and_what_has_none_is_refused() {
 }
 
 #[test]
-fn components_are_those_of_a_case_made_by_hand() {
+fn principal_components_equal_those_of_a_hand_computed_case() {
     let rows = vec![
         vec![1.0, 1.0],
         vec![-1.0, -1.0],
@@ -123,7 +123,7 @@ fn components_are_those_of_a_case_made_by_hand() {
 }
 
 #[test]
-fn guided_components_recover_those_that_made_the_data() {
+fn guided_components_recover_the_components_that_generated_the_data() {
     let mut random = Random::new(11);
     let subsets: Vec<Vec<usize>> = (0..7).map(|k| vec![3 * k, 3 * k + 1, 3 * k + 2]).collect();
     let true_directions: Vec<Vec<f64>> = (0..7)
@@ -180,7 +180,7 @@ fn errors(model: &HandModel, take: &Take) -> (f64, f64) {
 }
 
 #[test]
-fn hidden_markers_of_a_hand_are_restored_and_never_looked_at() {
+fn hidden_markers_of_a_hand_are_restored_without_being_read() {
     let model = HandModel::learn(&generate::transitions(&clean(), 1).hand, 12).expect("a model");
     let take = generate::sentence(&Settings::default(), 3, 6);
     let (seen, hidden) = errors(&model, &take);
@@ -290,7 +290,7 @@ fn shapes_and_placements_of_unseen_sentences_are_recognised() {
 }
 
 #[test]
-fn targets_found_by_dynamic_programming_are_the_best_of_all() {
+fn targets_found_by_dynamic_programming_equal_an_exhaustive_search() {
     let mut random = Random::new(21);
     let options = TargetOptions {
         window: 0.04,
@@ -349,7 +349,7 @@ fn targets_found_by_dynamic_programming_are_the_best_of_all() {
 }
 
 #[test]
-fn a_movement_of_least_jerk_is_found_in_its_numbers() {
+fn the_start_and_end_of_a_minimum_jerk_movement_are_recovered() {
     let course = chereme_motion::Interpolation::MinimumJerk;
     let (start, end) = (0.31, 0.56);
     let mut random = Random::new(8);

@@ -106,7 +106,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn rows_hold_the_cells_of_the_definition(n in 1usize..30, m in 1usize..30, w in 0usize..12) {
+        fn rows_hold_the_cells_that_the_window_definition_allows(n in 1usize..30, m in 1usize..30, w in 0usize..12) {
             for window in [Window::None, Window::SakoeChiba(w), Window::SlantedBand(w)] {
                 let rows = window.rows(n, m);
                 let columns = transposed(&rows, m);

@@ -300,7 +300,7 @@ mod tests {
     };
 
     #[test]
-    fn every_direction_with_a_symbol_and_its_neighbours_are_found_again() {
+    fn directions_and_pairs_of_directions_are_recovered_from_their_vectors() {
         let all: Vec<Direction> = Direction::all().collect();
         for &a in &all {
             let found = nearest(a.vector().into(), true);
@@ -322,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn palms_are_found_again_for_every_axis_also_a_little_off() {
+    fn palms_are_recovered_for_every_axis_even_with_a_small_tilt() {
         let tilt = DQuat::from_euler(glam::EulerRot::XYZ, 0.05, -0.06, 0.04);
         for direction in Direction::all() {
             for palm_of in Compass::ALL {
@@ -348,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hand_that_stops_at_its_end_is_told_to_be_where_it_was_meant_to_be() {
+    fn a_hand_at_the_limit_of_its_wrist_is_transcribed_with_the_intended_direction() {
         let arm = [
             DVec3::new(-0.2, 0.0, 0.0),
             DVec3::new(-0.25, -0.3, 0.05),

@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn noise_is_measured_beside_movement_which_has_none() {
+    fn noise_is_measured_and_clean_movement_counts_as_none() {
         assert!(noise(&turning(120, 0.0)) < 0.1 * TREMBLES);
         for degrees in [1.0_f64, 2.0, 4.0] {
             let found = noise(&turning(300, degrees.to_radians())).to_degrees();
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_smoothed_is_nearer_to_the_movement_than_what_trembles() {
+    fn smoothed_rotations_are_nearer_to_the_clean_movement_than_noisy_ones() {
         let clean = turning(200, 0.0);
         let shaken = turning(200, 0.035);
         let off = |some: &[DQuat]| {

@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn each_kind_is_told_whatever_its_speed() {
+    fn each_kind_of_path_is_recognised_at_any_speed() {
         let ease = |s: f64| s * s * (3.0 - 2.0 * s);
         let line = fit(&along(30, |s| DVec3::new(0.2, 0.1, 0.0) * ease(s)), EXACT);
         assert_eq!(line.way.kind(), "straight");
@@ -373,7 +373,7 @@ mod tests {
     }
 
     #[test]
-    fn circles_and_ellipses_tell_axis_turns_and_size() {
+    fn circles_and_ellipses_give_their_axis_turns_and_size() {
         for (turns, narrow) in [(1.0, 1.0), (2.0, 1.0), (1.0, 0.5), (3.0, 0.75)] {
             let found = fit(
                 &along(60 * turns as usize, |s| {
@@ -400,7 +400,7 @@ mod tests {
     }
 
     #[test]
-    fn most_of_a_circle_is_part_of_one_and_half_of_it_an_arc() {
+    fn most_of_a_circle_reads_as_a_circle_and_half_of_one_as_an_arc() {
         let turn = |share: f64| {
             fit(
                 &along(40, |s| {
@@ -420,7 +420,7 @@ mod tests {
     }
 
     #[test]
-    fn what_hardly_moves_or_has_no_length_is_fitted_without_harm() {
+    fn paths_of_almost_no_length_are_fitted_without_an_error() {
         for points in [
             vec![DVec3::ONE],
             vec![DVec3::ONE; 9],

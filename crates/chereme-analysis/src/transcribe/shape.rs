@@ -417,7 +417,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_plain_form_is_found_again_or_one_that_looks_the_same() {
+    fn every_plain_form_is_recovered_or_replaced_by_one_that_looks_the_same() {
         let language = BodyLanguage::usual();
         let (forms, known) = (Forms::of(language), Known::whole());
         for form in plain().step_by(7) {
@@ -434,7 +434,7 @@ mod tests {
     }
 
     #[test]
-    fn between_special_digits_and_exceptions_are_found_again() {
+    fn in_between_forms_special_digits_and_exceptions_are_recovered() {
         let language = BodyLanguage::usual();
         let (forms, known) = (Forms::of(language), Known::whole());
         let of = |class, bend| Form {
@@ -472,7 +472,7 @@ mod tests {
     }
 
     #[test]
-    fn without_thumb_or_with_noise_the_class_is_still_told() {
+    fn the_handshape_class_is_recognised_without_the_thumb_and_with_noise() {
         let language = BodyLanguage::usual();
         let forms = Forms::of(language);
         let mut known = Known::whole();

@@ -158,7 +158,7 @@ fn before_chest(class: HandClass) -> Held {
 }
 
 #[test]
-fn a_hand_that_goes_down_is_told_with_its_posture() {
+fn a_downward_movement_is_transcribed_with_its_posture() {
     let own = before_chest(HandClass::Flat);
     let part = read(0.3, |time| {
         [
@@ -187,7 +187,7 @@ fn a_hand_that_goes_down_is_told_with_its_posture() {
 }
 
 #[test]
-fn repeated_and_round_movement_is_folded() {
+fn repeated_strokes_become_one_repeated_movement() {
     let own = before_chest(HandClass::Fist);
     let there = |time: f64| -> f64 {
         // Out, back, and out again, each with its stop.
@@ -230,7 +230,7 @@ fn repeated_and_round_movement_is_folded() {
 }
 
 #[test]
-fn wrists_and_new_shapes_are_told_from_ways() {
+fn wrist_motions_and_handshape_changes_are_distinguished_from_paths() {
     let own = before_chest(HandClass::Fist);
     let part = read(0.56, |time| {
         let nod = 0.5 * (TAU * 2.0 * time).sin();
@@ -258,7 +258,7 @@ fn wrists_and_new_shapes_are_told_from_ways() {
 }
 
 #[test]
-fn hands_that_mirror_each_other_are_told_once() {
+fn mirrored_hands_are_transcribed_once() {
     let own = before_chest(HandClass::Flat);
     let part = read(0.3, |time| {
         let now = own.moved(DVec3::new(-0.1, 0.08, 0.0) * ease(time));
@@ -288,7 +288,7 @@ fn the_left_handed_sign_is_written_as_the_right_handed_one() {
 }
 
 #[test]
-fn the_other_hand_alone_is_told_as_that_though_its_arm_sticks_out() {
+fn the_nondominant_hand_alone_is_recognised_even_with_its_arm_stretched_out() {
     let own = Held::new([0.15, -0.12, 0.30], "or", "dr", HandClass::Finger2);
     let sideways = DVec3::new(0.50, 0.08, -0.27);
     let found = read(0.5, |time| {
@@ -325,7 +325,7 @@ fn a_finger_at_the_chin_touches_it() {
 }
 
 #[test]
-fn what_is_only_touched_on_the_way_is_brushed() {
+fn a_place_touched_only_in_passing_is_brushed() {
     let (clip, anatomy) = clip(0.3, |_| [None, None]);
     let model = clip.model_pose(0);
     let chin = anatomy
@@ -351,7 +351,7 @@ fn what_is_only_touched_on_the_way_is_brushed() {
 }
 
 #[test]
-fn what_gets_bigger_each_time_grows() {
+fn a_repetition_that_grows_each_time_is_increasing() {
     let own = before_chest(HandClass::Fist);
     let growth = |by: f64| {
         let part = read(1.5, |time| {
@@ -378,7 +378,7 @@ fn what_gets_bigger_each_time_grows() {
 }
 
 #[test]
-fn every_feature_and_stage_is_in_symbols_with_its_frames() {
+fn every_feature_and_stage_is_reported_in_symbols_with_its_frames() {
     let own = before_chest(HandClass::Flat);
     let (clip, anatomy) = clip(0.3, |time| {
         [
@@ -419,7 +419,7 @@ fn every_feature_and_stage_is_in_symbols_with_its_frames() {
 }
 
 #[test]
-fn ways_from_and_to_rest_are_left_out() {
+fn transitions_from_and_to_rest_are_left_out() {
     let (sign, anatomy) = clip(0.3, |time| {
         let own = before_chest(HandClass::Flat);
         [Some(own.moved(DVec3::X * (0.13 * ease(time)))), None]
@@ -457,7 +457,7 @@ fn ways_from_and_to_rest_are_left_out() {
 }
 
 #[test]
-fn what_captured_hands_do_besides_is_no_way_of_its_own() {
+fn drift_and_small_bends_of_captured_hands_are_no_separate_movement() {
     let own = before_chest(HandClass::Flat);
     let way = |by: &dyn Fn(f64) -> DVec3| {
         let (made, anatomy) = clip(0.9, |time| [Some(own.moved(by(time))), None]);
@@ -482,7 +482,7 @@ fn what_captured_hands_do_besides_is_no_way_of_its_own() {
 }
 
 #[test]
-fn hands_that_only_rest_are_said_to() {
+fn resting_hands_are_reported_as_a_finding() {
     let (clip, anatomy) = clip(0.4, |_| [None, None]);
     for clip in [clip.slice(0..1), clip] {
         let found = transcribe(&clip, &anatomy, &Options::default()).expect("a posture");
@@ -497,7 +497,7 @@ fn hands_that_only_rest_are_said_to() {
 }
 
 #[test]
-fn a_hand_that_trembles_in_the_lap_does_not_sign() {
+fn a_hand_that_trembles_in_the_lap_is_not_transcribed() {
     let lap = Held::new([0.05, -0.42, 0.2], "r", "d", HandClass::Flat);
     let found = read(1.0, |time| {
         let tremble = DVec3::X * 0.002 * (TAU * 14.0 * time).sin();
@@ -509,7 +509,7 @@ fn a_hand_that_trembles_in_the_lap_does_not_sign() {
 }
 
 #[test]
-fn what_is_no_token_is_refused_and_what_is_missing_is_said() {
+fn clips_that_are_no_token_are_refused_and_missing_joints_reported() {
     let (whole, anatomy) = clip(0.3, |_| [Some(before_chest(HandClass::Flat)), None]);
     let empty = whole.slice(0..0);
     let told = |clip: &Clip, options: &Options| transcribe(clip, &anatomy, options).map(|_| ());
@@ -561,7 +561,7 @@ fn what_is_no_token_is_refused_and_what_is_missing_is_said() {
 }
 
 #[test]
-fn manners_are_told_by_time_and_course() {
+fn manners_are_recognised_by_duration_and_speed_profile() {
     let own = before_chest(HandClass::Fist);
     // A meant movement peaks late.
     let late = |time: f64| ease(time.powf(1.25));
@@ -587,7 +587,7 @@ fn manners_are_told_by_time_and_course() {
 }
 
 #[test]
-fn the_hand_is_no_nearer_to_the_place_told_than_its_residual_says() {
+fn the_residual_of_a_location_is_the_distance_of_the_hand_from_it() {
     let own = before_chest(HandClass::Flat);
     let (clip, anatomy) = clip(0.5, |_| [Some(own.clone()), None]);
     let options = Options::made();
@@ -618,7 +618,7 @@ fn the_hand_is_no_nearer_to_the_place_told_than_its_residual_says() {
 }
 
 #[test]
-fn noise_in_every_joint_makes_no_ways_of_its_own() {
+fn noise_in_every_joint_adds_no_movement() {
     let own = before_chest(HandClass::Flat);
     let (made, anatomy) = clip(0.4, |time| {
         let down = DVec3::NEG_Y * (0.25 * ARM * ease(time));

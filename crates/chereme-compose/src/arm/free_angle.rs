@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn elbows_make_way_before_and_after() {
+    fn fast_elbow_turns_are_spread_over_earlier_and_later_frames() {
         let circles = passing();
         let fixed: Vec<bool> = (0..240).map(|n| n < 5).collect();
         let angles = ease(&circles, &fixed).expect("it turns too far");
@@ -249,13 +249,13 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_turn_too_far_stays() {
+    fn elbows_that_turn_slowly_are_kept() {
         assert_eq!(ease(&passing()[..60], &[false; 60]), None);
         assert_eq!(ease(&[], &[]), None);
     }
 
     #[test]
-    fn excesses_change_as_their_differences_say() {
+    fn derivatives_of_the_excess_equal_finite_differences() {
         let lines = [DVec3::X, DVec3::new(0.6, 0.8, 0.0)];
         let starts = [DVec3::new(0.0, 0.6, 0.8), DVec3::new(0.36, 0.48, 0.8)];
         let circles = [0, 1].map(|n| Circle {

@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn calm_angles_stay() {
+    fn smooth_angles_are_kept() {
         let values: Vec<f64> = (0..200).map(|n| 3.0 + 0.01 * f64::from(n)).collect();
         let wrapped = values
             .iter()
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_jump_is_spread_and_what_must_stay_stays() {
+    fn a_jump_is_spread_and_fixed_frames_are_kept() {
         let jump: Vec<f64> = (0..240).map(|n| if n < 120 { 0.0 } else { 2.0 }).collect();
         let mut trust = vec![1.0; 240];
         trust[..20].fill(2.0);
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_trusted_follows_its_neighbours() {
+    fn untrusted_angles_follow_their_neighbours() {
         let values: Vec<f64> = (0..60)
             .map(|n| if (20..40).contains(&n) { 2.5 } else { 0.3 })
             .collect();

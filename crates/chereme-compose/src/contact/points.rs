@@ -261,7 +261,7 @@ mod tests {
     use crate::testing::Shelf;
 
     #[test]
-    fn tracks_are_where_landmarks_are() {
+    fn contact_tracks_follow_the_landmarks() {
         for gloss in ["ESCARGOT", "LIMACE"] {
             let work = Work::of(&Shelf::new().materials[gloss]);
             let anchors = Anchors::of(&work);

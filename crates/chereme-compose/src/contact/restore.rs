@@ -200,7 +200,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shifts_fade_in_and_out_and_meet() {
+    fn shifts_fade_in_and_out_and_blend_between_contacts() {
         let mut shifts = vec![None; 100];
         shifts[30..40].fill(Some(DVec3::X));
         shifts[50..55].fill(Some(DVec3::X * 3.0));

@@ -477,7 +477,7 @@ mod tests {
     }
 
     #[test]
-    fn the_cheapest_way_is_that_of_trying_all() {
+    fn the_cheapest_sequence_equals_that_of_an_exhaustive_search() {
         let mut seed = 1;
         for _ in 0..200 {
             let keys = [key(1, 1), key(2, 2), key(3, 3), key(4, 4)];
@@ -601,7 +601,7 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_dikey_is_that_of_the_nearest_placement_and_ends_where_the_next_one_starts() {
+    fn a_missing_dikey_is_taken_from_the_nearest_placement_and_joins_the_next() {
         let mut seed = 9;
         let (rows, targets) = take(
             &[key(1, 1), key(2, 2), key(3, 3), key(4, 3), key(1, 1)],
@@ -648,7 +648,7 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_dictionary_and_odd_rows_make_no_trouble() {
+    fn an_empty_dictionary_and_odd_rows_are_accepted() {
         let book = Dictionary::new(Vec::new(), 50.0, &[1.0], places());
         assert!(book.select(&[], &Costs::default()).is_empty());
         assert!(book.render(&[], &[]).is_empty());

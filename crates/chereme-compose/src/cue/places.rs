@@ -252,7 +252,7 @@ mod tests {
     ];
 
     #[test]
-    fn no_path_between_places_comes_near_the_lips() {
+    fn paths_between_places_keep_away_from_the_lips() {
         let open = Face {
             jaw: 0.75,
             wide: 0.8,

@@ -76,7 +76,7 @@ const ALL: &str =
     "bonjour le chat dort sur un beau fauteuil vert et gagne du pain blanc, puis il mange";
 
 #[test]
-fn the_tip_is_at_its_place_at_every_target_whatever_the_axes_and_the_rule() {
+fn the_fingertip_reaches_every_target_on_any_axes_and_under_any_timing_rule() {
     for axes in [Axes::Plain, Axes::Odd] {
         for phase in PhaseRule::ALL {
             let mut work = work(axes, 120);
@@ -118,7 +118,7 @@ fn the_tip_is_at_its_place_at_every_target_whatever_the_axes_and_the_rule() {
 }
 
 #[test]
-fn targets_are_within_a_frame_of_the_rule_and_the_lips_stay_free() {
+fn targets_keep_the_timing_rule_within_a_frame_and_leave_the_lips_free() {
     let mut work = work(Axes::Plain, 120);
     let settings = settings(ALL, PhaseRule::Paper);
     let done = cue(&mut work, &settings, &shapes(), &CuePhases::default()).expect("cued");
@@ -180,7 +180,7 @@ fn targets_are_within_a_frame_of_the_rule_and_the_lips_stay_free() {
 }
 
 #[test]
-fn what_cannot_be_cued_is_refused_with_a_reason() {
+fn sentences_that_cannot_be_cued_are_refused_with_a_reason() {
     let mut work = work(Axes::Plain, 60);
     for (text, message) in [("", "nothing"), ("!!!", "nothing"), ("…", "nothing")] {
         let error = cue(

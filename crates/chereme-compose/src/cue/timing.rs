@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn each_rule_puts_targets_where_its_source_says() {
+    fn each_timing_rule_places_targets_as_its_source_states() {
         let measured = CuePhases {
             pair: 0.25,
             vowel: 0.02,
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn movements_follow_one_another() {
+    fn cued_movements_never_overlap() {
         for rule in PhaseRule::ALL {
             let found = times(&three(), rule, &CuePhases::default());
             for pair in found.windows(2) {

@@ -244,7 +244,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_wrist_that_would_dash_on_half_of_its_way_goes_steadily() {
+    fn a_wrist_that_would_hurry_over_half_of_its_path_moves_steadily() {
         let wrist = |n: usize| DVec3::X * if n < 20 { 0.0 } else { 0.02 * (n - 20) as f64 };
         let way = Goals {
             points: (0..=40).map(wrist).collect(),
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrist_that_stays_has_no_course() {
+    fn a_wrist_that_stays_gets_no_speed_profile() {
         let way = Goals {
             points: vec![DVec3::ONE; 41],
             turns: vec![DQuat::IDENTITY; 41],

@@ -307,7 +307,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hands_go_to_what_is_lowest_in_their_room_and_not_beyond() {
+    fn hands_move_to_the_least_cost_within_their_tolerance() {
         let room = [DVec3::new(0.03, 0.01, 0.03); 2];
         let at = DVec3::new(0.012, 0.0, -0.006);
         let near = lowest(|by, _| by.distance_squared(at) * 1e4, room);

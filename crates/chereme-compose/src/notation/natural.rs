@@ -120,7 +120,7 @@ fn an_approach_is_no_faster_than_the_stroke_it_leads_to() {
 }
 
 #[test]
-fn a_body_lives_and_can_be_kept_still() {
+fn a_body_sways_and_blinks_and_can_be_kept_still() {
     let sign = notated(
         HandsUsed::Dominant,
         flat(Some(at(BodyLocation::Chest, None))),

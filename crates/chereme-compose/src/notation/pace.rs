@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn courses_run_from_nothing_to_all_and_never_back() {
+    fn speed_profiles_rise_from_zero_to_one_without_going_back() {
         let paces = Paces::of(BodyLanguage::usual());
         for pace in ALL {
             assert_eq!(paces.share(pace, 0.0), 0.0, "{pace:?}");
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn peaks_lie_where_the_paper_and_the_measured_tables_have_them() {
+    fn speed_peaks_agree_with_the_paper_and_the_measured_tables() {
         let paces = Paces::of(BodyLanguage::usual());
         let near = |pace: Pace, shares: [f64; 3]| {
             for (time, share) in [0.25, 0.5, 0.75].into_iter().zip(shares) {

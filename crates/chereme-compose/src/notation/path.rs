@@ -178,7 +178,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ways_begin_at_nothing_and_arcs_are_arcs() {
+    fn paths_begin_at_zero_and_arcs_lie_on_a_circle() {
         let (chord, bow) = (DVec3::new(0.2, 0.0, 0.0), DVec3::new(0.0, 0.06, 0.0));
         let arc = Path::Arc { chord, bow };
         assert!(arc.at(0.0).length() < 1e-12 && arc.end().distance(chord) < 1e-12);
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn what_goes_along_a_way_turns_as_it_bends() {
+    fn a_hand_that_follows_a_path_turns_with_its_tangent() {
         let (chord, bow) = (DVec3::X * 0.2, DVec3::Y * 0.1);
         let half = Path::Arc { chord, bow };
         assert!((half.turned(1.0) * DVec3::Y).distance(DVec3::NEG_Y) < 1e-3);
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn circles_close_and_waves_end_on_the_way() {
+    fn circles_close_and_waves_end_on_their_line() {
         let circle = Path::Circle {
             start: DVec3::Y * 0.1,
             quarter: DVec3::X * 0.05,

@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn the_posture_that_a_sign_begins_with_is_the_first_of_its_movement() {
+    fn the_initial_posture_equals_the_first_frame_of_the_movement() {
         let performer = performer(60);
         for names in SIGNS {
             let sign = sign(names);
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_performed_is_the_sign_alone() {
+    fn performing_gives_the_sign_without_approach_and_return() {
         let performer = performer(60);
         let still = performer.performs(&sign(SIGNS[0])).expect("movement");
         let hold = performer.settings().language.time_hold;

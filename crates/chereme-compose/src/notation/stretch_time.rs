@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn slow_arms_keep_their_time() {
+    fn slow_arms_are_not_stretched() {
         let warp = Warp::of(
             &[along(&[0.0, 0.01, 0.02, 0.02])],
             100.0,
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_at_once_takes_as_long_as_it_must() {
+    fn an_instant_jump_takes_the_least_possible_time() {
         let mut places = vec![0.0; 20];
         places.extend(vec![0.5; 20]);
         let warp = Warp::of(
@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_last_as_long_as_is_asked() {
+    fn steps_last_at_least_the_requested_time() {
         let least = vec![1.0, 2.0, 1.0];
         let still = [along(&[0.0; 4])];
         let warp = Warp::of(&still, 100.0, &FASTEST, (least, &[3]), |_, _| [0.0; 2]);

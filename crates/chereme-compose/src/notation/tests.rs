@@ -280,7 +280,7 @@ fn left_handed_signers_mirror_everything() {
 }
 
 #[test]
-fn sequences_begin_and_end_at_rest_and_are_the_same_again() {
+fn sequences_begin_and_end_at_rest_and_are_reproducible() {
     let first = notated(
         HandsUsed::Dominant,
         posture(HandClass::Flat, "u", "d", None),
@@ -333,7 +333,7 @@ fn recipes_take_notation_as_text_and_as_json() {
 }
 
 #[test]
-fn recipes_of_notation_are_made_and_kept() {
+fn recipes_of_notation_are_evaluated_and_stored() {
     let corpus = crate::testing::Shelf::new();
     let flat = chereme_sign::hamnosys::from_names(
         "hamflathand hamextfingeru hampalmd hammover".split(' '),
@@ -370,7 +370,7 @@ fn fastest(made: &Generated) -> [f64; 2] {
 }
 
 #[test]
-fn time_is_stretched_where_arms_would_go_too_fast() {
+fn time_is_stretched_if_arms_would_move_too_fast() {
     let mut flip = directed("l");
     flip.manner.speed = Some(9.0);
     let other = posture(HandClass::Flat, "il", "u", None);
@@ -534,7 +534,7 @@ fn the_thumb_is_on_the_radial_side() {
 }
 
 #[test]
-fn a_palm_of_its_own_leaves_the_direction_mirrored() {
+fn a_separate_palm_for_the_other_hand_keeps_its_direction_mirrored() {
     let mut split = posture(HandClass::Flat, "ol", "d", None);
     split.palm = Each::Split(
         Some(Aim::at("d".parse().expect("a palm"))),
@@ -560,7 +560,7 @@ fn a_palm_of_its_own_leaves_the_direction_mirrored() {
 }
 
 #[test]
-fn the_hand_that_does_nothing_stays_where_the_other_comes_to_it() {
+fn an_idle_hand_stays_in_place_for_the_other_to_touch() {
     let touch = Place::Hands(Constellation {
         contact: Some(Contact::Touch),
         ..Constellation::default()
@@ -587,7 +587,7 @@ fn the_hand_that_does_nothing_stays_where_the_other_comes_to_it() {
 }
 
 #[test]
-fn hands_that_would_go_through_each_other_make_way_and_it_is_told() {
+fn hands_that_would_pass_through_each_other_are_moved_apart_and_reported() {
     let mut across = directed("l");
     if let MotionKind::Directed(directed) = &mut across.kind {
         directed.size.first = Some(Size::Big);
@@ -623,7 +623,7 @@ fn hands_that_would_go_through_each_other_make_way_and_it_is_told() {
 }
 
 #[test]
-fn what_is_relative_turns_as_the_way_does() {
+fn relative_orientations_turn_with_the_path() {
     let chest = Some(at(BodyLocation::Chest, None));
     let mut begun = posture(HandClass::Flat, "o", "l", chest);
     let small = |direction: &str| {
@@ -663,7 +663,7 @@ fn what_is_relative_turns_as_the_way_does() {
 }
 
 #[test]
-fn what_touches_beside_the_head_is_at_the_head() {
+fn a_touch_beside_the_head_meets_the_head() {
     let far = [Contact::Touch, Contact::Close].map(|contact| {
         let mut place = at(BodyLocation::Forehead, Some(contact));
         if let Place::Body(BodyPlace {
@@ -681,7 +681,7 @@ fn what_touches_beside_the_head_is_at_the_head() {
 }
 
 #[test]
-fn a_hand_touches_with_what_stands_before_a_part_that_looks_away() {
+fn a_hand_part_that_faces_away_is_replaced_by_the_part_in_front_of_it() {
     let mut place = at(BodyLocation::Chest, Some(Contact::Touch));
     if let Place::Body(body) = &mut place {
         body.by = Some(HandSite {

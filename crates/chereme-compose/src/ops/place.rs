@@ -530,7 +530,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_displacement_names_the_direction_it_goes() {
+    fn a_displacement_is_named_by_its_direction() {
         let text = directions(DVec3::new(-1.9, 2.0, -0.34));
         assert_eq!(text, "1.9 cm right, 2.0 cm up, 0.3 cm back");
     }

@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn backwards_every_value_is_the_opposite_itself_or_withdrawn() {
+    fn reversed_values_become_opposite_stay_or_are_withdrawn() {
         let movement = Component::Movement;
         for (component, feature, value, want) in [
             (

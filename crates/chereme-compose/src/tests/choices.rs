@@ -54,7 +54,7 @@ fn values_are_replaced_one_by_one_and_joined() {
 }
 
 #[test]
-fn a_value_comes_from_whoever_is_nearest() {
+fn a_value_comes_from_the_nearest_source() {
     use crate::PoseOrigin as From;
     let origin = |recipe: &str| {
         let recipe: crate::Recipe = recipe.parse().expect("recipe");
@@ -93,7 +93,7 @@ fn a_value_comes_from_whoever_is_nearest() {
 }
 
 #[test]
-fn what_was_resolved_is_stored_and_gives_the_same_movement() {
+fn a_resolved_recipe_is_stored_and_gives_the_same_movement() {
     let shelf = Shelf::new();
     for text in [
         "ESCARGOT | configure right U | place right near BOL then BOL via",

@@ -39,7 +39,7 @@ fn names(made: &Generated) -> Vec<&str> {
 }
 
 #[test]
-fn curves_are_as_long_as_the_movement_whatever_is_done_to_it() {
+fn curves_keep_the_length_of_the_movement_through_every_operator() {
     let shelf = shelf();
     for recipe in [
         "BOL",
@@ -69,7 +69,7 @@ fn curves_are_as_long_as_the_movement_whatever_is_done_to_it() {
 }
 
 #[test]
-fn curves_are_turned_back_joined_and_taken_over() {
+fn curves_are_reversed_joined_and_taken_over() {
     let shelf = shelf();
     let plain = made("BOL", &shelf);
     let back = made("BOL | reverse", &shelf);
@@ -149,7 +149,7 @@ impl Sources for Speaking {
 }
 
 #[test]
-fn a_made_sign_keeps_the_body_language_that_it_was_made_with() {
+fn a_generated_sign_keeps_its_body_language() {
     let speaking = |value: f64| {
         let value = LanguageValue {
             value,

@@ -106,7 +106,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn a_draft_gives_what_is_made_from_scratch(
+    fn a_draft_gives_the_same_result_as_a_fresh_evaluation(
         all in prop::collection::vec(
             (0..SOURCES.len(), prop::collection::vec(0..STEPS.len(), 0..4)),
             2..6,
@@ -132,7 +132,7 @@ proptest! {
 }
 
 #[test]
-fn what_stays_is_not_looked_up_again() {
+fn unchanged_sources_are_not_looked_up_again() {
     let sources = Asked::new();
     let mut draft = Draft::default();
     let mut asked = |text: &str| {
@@ -163,7 +163,7 @@ fn what_stays_is_not_looked_up_again() {
 }
 
 #[test]
-fn what_is_not_wanted_any_more_is_stopped_and_what_was_made_by_then_is_kept() {
+fn a_cancelled_evaluation_stops_and_keeps_its_finished_steps() {
     let shelf = Shelf::new();
     let mut draft = Draft::default();
     let text = recipe("ESCARGOT | swap | reverse | amplify both 1.2");

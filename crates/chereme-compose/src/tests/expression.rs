@@ -101,7 +101,7 @@ fn each_milestone_lands_within_a_frame_whatever_the_durations() {
 }
 
 #[test]
-fn head_and_trunk_go_with_it_and_the_hands_keep_their_fingers() {
+fn an_expression_moves_head_and_trunk_and_keeps_the_fingers() {
     let shelf = shelf();
     let recipe = "ESCARGOT | nonmanual from BOL over 0.1s, 0.25s, 0.6s, 0.8s, 0.95s by phases";
     let made = made(recipe, &shelf);

@@ -3,14 +3,14 @@
 use super::*;
 
 #[test]
-fn a_sign_alone_is_what_it_was() {
+fn a_recipe_of_one_sign_returns_it_unchanged() {
     for gloss in ["ESCARGOT", "LIMACE"] {
         assert_eq!(made(gloss).clip, source(gloss));
     }
 }
 
 #[test]
-fn involutions_come_back() {
+fn involutions_applied_twice_change_nothing() {
     for gloss in ["ESCARGOT", "LIMACE"] {
         for twice in [
             "reverse | reverse",
@@ -37,7 +37,7 @@ fn involutions_come_back() {
 }
 
 #[test]
-fn operators_taken_one_by_one_come_back() {
+fn inverse_operators_restore_each_movement() {
     use crate::ops::{mirror, place, reverse};
     use crate::recipe::Solver;
     use crate::work::Work;
@@ -150,7 +150,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn placing_there_and_back_is_nothing(
+    fn placing_there_and_back_changes_nothing(
         left in -8i32..8, up in -8i32..8, forward in -8i32..4, odd in any::<bool>()
     ) {
         let gloss = if odd { "LIMACE" } else { "ESCARGOT" };

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn contacts_that_are_undone_are_told() {
+fn broken_contacts_are_reported() {
     let chin = "ESCARGOT | place right at chin with index";
     let away = made(&format!(
         "{chin} | configure right S | place right by right 10cm"
@@ -54,7 +54,7 @@ fn another_signer_s_sign_follows_on_the_first_one_s_body() {
 }
 
 #[test]
-fn repetitions_are_joined() {
+fn a_repetition_joins_its_copies_smoothly() {
     let made = made("LIMACE | repeat 3 gap 0.1s");
     assert_eq!(made.clip.frames(), 3 * 120 + 2 * 12);
     assert_eq!(made.clip.pose(5), made.clip.pose(5 + 132));
@@ -62,7 +62,7 @@ fn repetitions_are_joined() {
 }
 
 #[test]
-fn paths_are_scaled_carried_and_sent() {
+fn paths_are_amplified_displaced_and_directed() {
     for gloss in ["ESCARGOT", "LIMACE"] {
         let before = wrist(&made(gloss), Side::Right);
         let small = wrist(&made(&format!("{gloss} | amplify right 0.5")), Side::Right);
@@ -148,7 +148,7 @@ fn time_is_stretched_as_a_whole_and_phase_by_phase() {
 }
 
 #[test]
-fn the_head_of_another_sign_on_this_one() {
+fn the_head_movement_of_another_sign_replaces_only_the_head() {
     for donor in ["BOL", "LIMACE"] {
         let made = made(&format!("ESCARGOT | nonmanual from {donor}"));
         assert_eq!(
@@ -306,7 +306,7 @@ fn contacts_are_followed_through_every_operator() {
 }
 
 #[test]
-fn mirrored_hands_that_would_go_through_each_other_are_told() {
+fn mirrored_hands_that_would_pass_through_each_other_are_reported() {
     let crossed = made("ESCARGOT | place right by left 40cm | mirror right");
     let told = crossed.report.to_string();
     assert!(told.contains("go through each other"), "{told}");
@@ -315,7 +315,7 @@ fn mirrored_hands_that_would_go_through_each_other_are_told() {
 }
 
 #[test]
-fn a_curve_is_drawn_smoothly_by_a_hand_that_spells_and_its_shape_is_noted() {
+fn a_spelling_hand_follows_a_smooth_curve_whose_shape_is_reported() {
     let points = "through 3cm,8cm,0cm then 10cm,12cm,0cm then 17cm,8cm,0cm then 20cm,0cm,0cm";
     let made = made(&format!("spell UU | travel right {points}"));
     assert!(
@@ -365,7 +365,7 @@ fn every_operator_of_the_list_has_one_name_and_its_own_words() {
 }
 
 #[test]
-fn a_sign_that_is_called_like_a_word_of_recipes_is_quoted() {
+fn a_sign_named_like_a_recipe_keyword_is_quoted() {
     for word in crate::recipe::Step::words()
         .into_iter()
         .chain(["cue", "scale", "then"])

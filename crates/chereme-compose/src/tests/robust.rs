@@ -36,7 +36,7 @@ fn lacking(without: &str) -> Shelf {
 }
 
 #[test]
-fn bodies_that_lack_something_are_told_what() {
+fn operators_name_the_part_that_a_body_lacks() {
     for (without, step, want) in [
         ("Left", "swap", "no left arm"),
         ("Left", "place both by up 5cm", "no left arm"),
@@ -132,7 +132,7 @@ proptest! {
 }
 
 #[test]
-fn elbows_do_not_jump_where_the_source_s_did_not() {
+fn elbows_do_not_jump_unless_the_source_does() {
     for recipe in [
         "ESCARGOT | place both by left 10cm up 10cm",
         "LIMACE | place both by forward 10cm",

@@ -32,7 +32,7 @@ fn values(recipe: &str, side: Side, component: Component) -> Vec<String> {
 }
 
 #[test]
-fn every_operator_says_what_it_makes_true_and_no_longer_what_it_makes_false() {
+fn every_operator_updates_the_values_that_it_changes() {
     use Component::{Configuration, Movement, Orientation, Placement};
     use Side::{Left, Right};
     for (recipe, side, component, want) in [
@@ -122,7 +122,7 @@ fn every_operator_says_what_it_makes_true_and_no_longer_what_it_makes_false() {
 }
 
 #[test]
-fn a_hand_that_was_still_draws_the_path_it_travels() {
+fn a_still_hand_gets_the_value_of_the_path_it_travels() {
     let recipe = "spell B | travel right down 20cm";
     let want = ["straight", "direction=down"];
     assert_eq!(values(recipe, Side::Right, Component::Movement), want);
@@ -131,7 +131,7 @@ fn a_hand_that_was_still_draws_the_path_it_travels() {
 }
 
 #[test]
-fn a_span_keeps_frames_and_what_is_said_of_them() {
+fn a_span_keeps_its_frames_and_their_values() {
     let cut = made("ESCARGOT | span 0.4s..0.7s");
     assert_eq!(cut.clip.frames(), 36);
     assert_eq!(cut.clip.pose(0), source("ESCARGOT").pose(48));
@@ -154,7 +154,7 @@ fn a_span_keeps_frames_and_what_is_said_of_them() {
 }
 
 #[test]
-fn trim_leaves_what_has_no_rest_as_it_is() {
+fn trim_keeps_movement_without_rest_unchanged() {
     assert_eq!(made("ESCARGOT | trim").clip, source("ESCARGOT"));
 }
 
@@ -208,7 +208,7 @@ fn the_hand_touches_the_place_at_its_contact_and_stays_out_of_the_body() {
 }
 
 #[test]
-fn pieces_that_leap_are_refused_with_what_to_do() {
+fn pieces_that_would_jump_are_refused_with_a_remedy() {
     use crate::resolve;
     let mut shelf = Shelf::new();
     let bol = shelf.materials.get_mut("BOL").expect("a sign");

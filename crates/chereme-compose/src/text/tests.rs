@@ -10,7 +10,7 @@ use crate::recipe::*;
 use crate::units::{Degrees, Direction, Factor, Hands, Length, Seconds};
 
 #[test]
-fn what_people_write_is_read_and_printed() {
+fn recipes_as_people_write_them_are_parsed_and_printed() {
     for (text, printed) in [
         ("ESCARGOT | configure right U", ""),
         ("ESCARGOT|configure U", "ESCARGOT | configure dominant U"),
@@ -110,7 +110,7 @@ fn what_people_write_is_read_and_printed() {
 }
 
 #[test]
-fn errors_point_at_the_character_and_say_what_was_meant() {
+fn errors_point_at_the_character_and_suggest_a_correction() {
     for (text, at, want) in [
         ("", 0, "the text ends where a sign"),
         (

@@ -173,7 +173,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_read_only_behind_their_kind() {
+    fn numbers_are_read_only_after_their_kind() {
         assert_eq!(number("tier:12 x", "tier:"), Some((12, 7)));
         assert_eq!(number("tier:x", "tier:"), None);
         assert_eq!(number("annotation:7", "tier:"), None);

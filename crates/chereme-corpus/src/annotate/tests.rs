@@ -473,7 +473,7 @@ fn tokens_signs_and_search_follow() {
 }
 
 #[test]
-fn components_change_hands_when_the_gloss_beside_changes() {
+fn components_move_to_another_gloss_if_the_glosses_change() {
     for (before, change, want) in [
         // A component that extends beyond the changed time stays with the gloss that contains most of it.
         (
@@ -507,7 +507,7 @@ fn components_change_hands_when_the_gloss_beside_changes() {
 }
 
 #[test]
-fn what_people_change_is_theirs_and_loses_the_times_of_its_file() {
+fn an_edited_annotation_belongs_to_the_user_and_loses_its_file_times() {
     let (_folder, mut corpus) = corpus();
     annotate(
         &mut corpus,
@@ -549,7 +549,7 @@ fn what_people_change_is_theirs_and_loses_the_times_of_its_file() {
 }
 
 #[test]
-fn a_list_is_carried_out_whole_or_not_at_all() {
+fn a_list_of_changes_is_applied_whole_or_not_at_all() {
     let (_folder, mut corpus) = corpus();
     let before = rows(corpus.store.read());
     let text = "add G 0-100 BOL; add G 50-150 CHAT; add G 200-300 OR; add C 0-90 XYZ";
@@ -594,7 +594,7 @@ fn the_history_names_what_was_done() {
 }
 
 #[test]
-fn tables_are_carried_out_or_told_row_by_row() {
+fn tables_are_applied_or_refused_row_by_row() {
     let good = "tier,start,end,value,action,id,parent\n\
                 G,0,1,BOL,,g1,\n\
                 S,,,first,,,g1\n\

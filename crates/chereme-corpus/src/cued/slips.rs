@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn slips_are_what_was_left_out_put_in_or_exchanged() {
+    fn slips_are_omissions_insertions_and_substitutions() {
         let expected: Vec<Expected> = keys("16 16 31 13 24 55")
             .into_iter()
             .map(|(placement, shape)| Expected {

@@ -321,7 +321,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_where_nothing_may_be_written_is_read() {
+    fn a_file_in_a_read_only_folder_is_read() {
         let folder = tempfile::tempdir().expect("a folder");
         let shelf = folder.path().join("50% of #1");
         fs::create_dir(&shelf).expect("made");

@@ -464,7 +464,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(32))]
 
         #[test]
-        fn those_near_are_those_that_touch(
+        fn near_annotations_are_those_that_touch_the_span(
             spans in proptest::collection::vec((-50i64..50, 0i64..40), 0..20),
             (start, length) in (-60i64..60, 0i64..30),
         ) {

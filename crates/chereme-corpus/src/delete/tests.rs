@@ -95,7 +95,7 @@ fn faultless(corpus: &mut Corpus) {
 }
 
 #[test]
-fn a_recording_goes_with_all_it_has_and_undo_restores_every_row() {
+fn a_recording_is_deleted_with_its_rows_and_undo_restores_them_all() {
     let (_folder, mut corpus) = corpus();
     let (before, stored) = (state(&corpus), blocks(&corpus));
     assert_eq!(found(&mut corpus, "gloss=BOL"), 1);
@@ -142,7 +142,7 @@ fn a_recording_goes_with_all_it_has_and_undo_restores_every_row() {
 }
 
 #[test]
-fn a_source_of_a_generated_sign_goes_only_if_it_is_said_what_happens_to_that() {
+fn a_source_is_deleted_only_if_the_fate_of_its_generated_signs_is_given() {
     let (_folder, mut corpus) = corpus();
     let before = state(&corpus);
     let limace: Address = "LIMACE".parse().expect("an address");
@@ -189,7 +189,7 @@ fn a_source_of_a_generated_sign_goes_only_if_it_is_said_what_happens_to_that() {
 }
 
 #[test]
-fn a_sign_goes_with_its_entry_and_its_generated_recording() {
+fn a_sign_is_deleted_with_its_entry_and_its_generated_recording() {
     let (_folder, mut corpus) = corpus();
     let before = state(&corpus);
     let done = delete(&mut corpus, "sign:LIMACE", Dependents::Refuse).expect("deleted");
@@ -203,7 +203,7 @@ fn a_sign_goes_with_its_entry_and_its_generated_recording() {
 }
 
 #[test]
-fn an_annotated_sign_takes_its_annotations_along_only_if_asked() {
+fn an_annotated_sign_is_deleted_with_its_annotations_only_on_request() {
     let (_folder, mut corpus) = corpus();
     let before = state(&corpus);
     let refused = delete(&mut corpus, "sign:BOL", Dependents::Keep).expect_err("it is annotated");
@@ -230,7 +230,7 @@ fn an_annotated_sign_takes_its_annotations_along_only_if_asked() {
 }
 
 #[test]
-fn another_token_becomes_the_citation_form_and_a_described_sign_stays() {
+fn deleting_a_citation_form_promotes_another_token_and_keeps_a_described_sign() {
     let (_folder, mut corpus) = corpus();
     let bol = Name::Text("BOL".into());
     let note = SignChange {

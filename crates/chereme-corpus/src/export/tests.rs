@@ -90,7 +90,7 @@ fn an_annotation_file_comes_back_as_it_was() {
 }
 
 #[test]
-fn changes_go_out_and_the_rest_stays() {
+fn export_writes_changes_and_keeps_the_rest_of_the_file() {
     let mut place = Place::new();
     let file = place.file("Take 1.eaf", EAF.as_bytes());
     let mut corpus = place.corpus(&[file]);
@@ -219,7 +219,7 @@ fn changes_go_out_and_the_rest_stays() {
 }
 
 #[test]
-fn made_recordings_say_so_in_their_file() {
+fn generated_recordings_are_marked_in_their_file() {
     let mut place = Place::new();
     let file = place.file("Take 1.eaf", EAF.as_bytes());
     let mut corpus = place.corpus(&[file]);
@@ -370,7 +370,7 @@ fn find(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 #[test]
-fn tables_of_annotations_leave_them_as_they_are() {
+fn exporting_tables_changes_no_annotation() {
     let mut place = Place::new();
     let file = place.file("Take 1.eaf", EAF.as_bytes());
     let mut corpus = place.corpus(&[file]);

@@ -65,7 +65,7 @@ mod tests {
     use chereme_motion::glam::DVec3;
 
     #[test]
-    fn turns_go_where_they_say_and_come_back() {
+    fn head_turns_have_the_stated_directions_and_convert_back() {
         let (ahead, up) = (DVec3::Z, DVec3::Y);
         assert!(
             (rotation([0.3, 0.0, 0.0]) * ahead).y < -0.2,

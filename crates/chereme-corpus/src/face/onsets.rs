@@ -284,7 +284,7 @@ mod tests {
     use super::{Quartiles, reach};
 
     #[test]
-    fn a_channel_begins_and_ends_half_way() {
+    fn a_channel_begins_and_ends_at_half_its_height() {
         let column: Vec<f64> = (0..100)
             .map(|n: i32| {
                 (f64::from(n - 20) / 10.0)

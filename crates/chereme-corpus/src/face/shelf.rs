@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn kept_performances_come_back_to_the_last_bit_and_damage_is_seen() {
+    fn stored_performances_read_back_bit_for_bit_and_damage_is_detected() {
         let all: Vec<Performance> = (1..6).map(performance).collect();
         let data = encode(&all, 3, 42).expect("bytes");
         let wh = Function::of("wh");

@@ -159,7 +159,7 @@ fn a_face_alone_moves_the_programs_own_body() {
 }
 
 #[test]
-fn milestones_become_a_tier_and_a_correction_stays() {
+fn milestones_become_a_tier_and_corrections_are_kept() {
     let mut case = case(&[("W1", 1.0, 1.0)]);
     let options = MilestoneOptions {
         function: Some(Function::of("wh")),

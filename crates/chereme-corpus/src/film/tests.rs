@@ -174,7 +174,7 @@ fn a_film_looks_like_what_was_drawn() {
 }
 
 #[test]
-fn pictures_are_turned_as_phones_say() {
+fn pictures_are_rotated_as_the_film_of_a_phone_states() {
     let colours = Colours {
         matrix: 1,
         full_range: true,

@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn files_of_a_take_lie_next_to_each_other_whatever_the_case_of_their_names() {
+    fn files_of_a_take_are_grouped_regardless_of_letter_case() {
         let known = places(&[("A/Take2.BVH", 1), ("B/take2.bvh", 2), ("B/TAKE2.bvh", 3)]);
         for (place, found) in [
             ("A/TAKE2.EAF", Some(1)),
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_folder_that_differs_tells_files_apart() {
+    fn files_are_distinguished_by_the_nearest_differing_folder() {
         for (new, old, differs) in [
             ("B/x.eaf", "A/x.eaf", Some("B")),
             ("B/rec/x.eaf", "A/rec/x.eaf", Some("B")),
@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_refused_is_forgotten() {
+    fn a_refused_file_is_forgotten() {
         let mut known = places(&[("A/x.bvh", 1)]);
         known.add(SourceFileRow {
             id: 9,

@@ -275,7 +275,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_ending_is_of_one_kind_and_annotations_are_read_after_movement() {
+    fn every_extension_has_one_kind_and_annotations_are_read_after_movement() {
         let mut all: Vec<&str> = READERS.iter().flat_map(|it| it.endings).copied().collect();
         let many = all.len();
         all.sort_unstable();
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_read_is_named_with_a_remedy() {
+    fn unreadable_files_are_named_with_a_remedy() {
         for (name, said) in [
             ("a.wav", "sound"),
             ("a.docx", "not known"),

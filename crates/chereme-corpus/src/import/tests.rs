@@ -95,7 +95,7 @@ fn recordings_of(corpus: &Corpus) -> Vec<i64> {
 }
 
 #[test]
-fn what_tiers_of_odd_names_are_is_remembered() {
+fn roles_given_to_oddly_named_tiers_are_remembered() {
     let desk = Desk::new();
     let odd = [
         ("QX1", 0, 500, "BOL"),
@@ -146,7 +146,7 @@ fn what_tiers_of_odd_names_are_is_remembered() {
 }
 
 #[test]
-fn a_property_that_is_not_understood_is_told() {
+fn a_malformed_property_is_reported() {
     let desk = Desk::new();
     let text = eaf(&[("Gloss", 0, 500, "BOL")]).replace(
         "TIME_UNITS=\"milliseconds\"/>",
@@ -164,7 +164,7 @@ fn a_property_that_is_not_understood_is_told() {
 }
 
 #[test]
-fn annotations_long_after_the_movement_are_told() {
+fn annotations_long_after_the_movement_are_reported() {
     let desk = Desk::new();
     for (name, end, told) in [("short", 1100, false), ("long", 1300, true)] {
         let mut corpus = desk.corpus(&format!("{name}.chereme"));
@@ -184,7 +184,7 @@ fn annotations_long_after_the_movement_are_told() {
 }
 
 #[test]
-fn phases_of_movement_cut_time_and_are_no_values_of_a_token() {
+fn movement_phases_divide_time_and_are_no_values_of_a_token() {
     let desk = Desk::new();
     let text = eaf(&[
         ("Gloss", 0, 500, "BOL"),
@@ -301,7 +301,7 @@ fn an_edited_file_updates_its_annotations_and_one_undo_takes_it_back() {
 }
 
 #[test]
-fn what_the_corpus_added_is_kept_and_the_file_of_another_take_is_refused() {
+fn own_annotations_are_kept_and_a_file_of_another_take_is_refused() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("a.chereme");
     let first = eaf(&[("Gloss", 0, 500, "BOL")]);
@@ -394,7 +394,7 @@ fn signs_in_json_are_a_lexicon() {
 }
 
 #[test]
-fn a_body_that_faces_away_from_its_toes_is_told() {
+fn a_body_that_faces_away_from_its_toes_is_reported() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
     let whole = include_str!("../../../../corpus/bol.bvh");

@@ -234,7 +234,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_parts_of_many_files_are_held_once() {
+    fn equal_parts_of_many_reports_are_stored_once() {
         let of = |name: &str| Understood {
             body: Some(Shared::from(BodyRead {
                 joint_names: vec![name.to_owned()],

@@ -134,7 +134,7 @@ fn is_whole(corpus: &mut Corpus) {
 }
 
 #[test]
-fn copies_that_went_apart_come_together() {
+fn diverged_copies_are_merged() {
     let (desk, mut mine, mut theirs) = Desk::new();
     set(&mut mine, "CHAT", Some("CHATON"), None);
     add(&mut mine, 600, 700, "M");
@@ -238,7 +238,7 @@ fn conflicts_keep_both_candidates_and_are_decided_one_by_one() {
 }
 
 #[test]
-fn recordings_signs_and_signers_come_along() {
+fn new_recordings_signs_and_signers_are_merged() {
     let (desk, mut mine, mut theirs) = Desk::new();
     let file = desk.path("second.eaf");
     fs::write(&file, EAF.replace("CHAT", "NEUF")).expect("written");
@@ -268,7 +268,7 @@ fn recordings_signs_and_signers_come_along() {
 }
 
 #[test]
-fn corpora_without_a_common_beginning_need_a_base() {
+fn corpora_without_a_common_history_need_a_base() {
     let (desk, mut mine, mut theirs) = Desk::new();
     drop(Corpus::create(&desk.path("else.chereme"), "A").expect("made"));
     let refused = mine.merge(&desk.path("else.chereme"), None, progress());
@@ -340,7 +340,7 @@ fn copies_are_merged_again_and_again_in_both_directions() {
 }
 
 #[test]
-fn a_deleted_recording_goes_in_the_other_copy_unless_that_changed_it() {
+fn a_deletion_is_merged_unless_the_other_copy_changed_the_recording() {
     let film = [Address::Recording(Name::Text("film".into()))];
     let options = crate::DeleteOptions::default();
     let (desk, mut mine, mut theirs) = Desk::new();

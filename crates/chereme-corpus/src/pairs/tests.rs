@@ -23,7 +23,7 @@ fn asked(corpus: &Corpus, fields: &[&str], empty: Empty) -> Pairs {
 }
 
 #[test]
-fn pairs_differ_in_one_field_and_say_which() {
+fn pairs_differ_in_one_field_and_name_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("t.csv");
     let table = "gloss,handshape,handshape weak,location\nA,V + O,,chin\nB,V,,chin\nC,V,V,chin\n\
@@ -70,7 +70,7 @@ fn pairs_differ_in_one_field_and_say_which() {
 }
 
 #[test]
-fn a_lexicon_has_the_pairs_that_were_counted_elsewhere() {
+fn pairs_of_the_shared_lexicon_equal_an_independent_count() {
     let Ok(shared) = std::env::var("CHEREME_SHARED_DATA") else {
         eprintln!("CHEREME_SHARED_DATA is not set: the lexicon was not counted");
         return;

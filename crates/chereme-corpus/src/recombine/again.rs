@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sign_is_made_anew_in_its_place_and_undo_brings_the_former_back() {
+    fn a_sign_is_generated_again_in_place_and_undo_restores_the_former_one() {
         let (_folder, mut corpus) = corpus();
         let (before, old) = (state(&corpus), clip(&corpus));
         let first = address::token(corpus.store.read(), &limace()).expect("a token");
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn what_people_wrote_stays_as_far_as_the_new_sign_goes() {
+    fn own_annotations_are_kept_within_the_length_of_the_new_sign() {
         let (_folder, mut corpus) = corpus();
         corpus
             .recombine_again(&limace(), "ESCARGOT | repeat 2")
@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_sign_was_made_from_is_told_with_its_time() {
+    fn the_sources_of_a_generated_sign_are_listed_with_their_times() {
         let (_folder, mut corpus) = corpus();
         let recipe = "ESCARGOT then spell LSF then LIMACE | repeat 2";
         let made = corpus.recombine(recipe, "MANY").expect("made");
@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sign_does_not_take_its_own_place_nor_that_of_a_captured_one() {
+    fn a_sign_replaces_neither_its_own_source_nor_a_captured_sign() {
         let (_folder, mut corpus) = corpus();
         corpus
             .recombine("LIMACE | reverse", "ECAMIL")

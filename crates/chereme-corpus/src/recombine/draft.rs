@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn a_draft_is_what_a_preview_is_also_after_the_corpus_changed() {
+    fn a_draft_equals_a_preview_even_after_the_corpus_changed() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut corpus = corpus(folder.path());
         let mut hear = unheard;
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_draft_that_is_not_wanted_any_more_is_stopped() {
+    fn a_cancelled_draft_is_stopped() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut corpus = corpus(folder.path());
         let mut stop = |_: Step<'_>| ControlFlow::Break(());

@@ -129,7 +129,7 @@ mod tests {
     use super::{channels, runs};
 
     #[test]
-    fn a_condition_lasts_as_long_as_it_is_to() {
+    fn a_condition_holds_only_in_runs_of_the_requested_length() {
         let passes: Vec<bool> = (0..50).map(|n| (10..15).contains(&n) || n >= 30).collect();
         assert_eq!(runs(&passes, 0), [(200_000, 300_000), (600_000, 1_000_000)]);
         assert_eq!(runs(&passes, 300_000), [(600_000, 1_000_000)]);
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn names_stand_for_numbers() {
+    fn channel_names_map_to_channel_numbers() {
         assert_eq!(channels("head_yaw"), Some(vec![1]));
         assert_eq!(channels("brows"), Some(vec![3, 4]));
         assert_eq!(channels("jaw_open"), Some(vec![11]));

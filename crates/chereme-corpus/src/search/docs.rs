@@ -88,7 +88,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn sets_behave_as_sets() {
+    fn unions_intersections_and_differences_equal_those_of_plain_sets() {
         let set = |numbers: &[u32]| -> Docs {
             let docs = numbers.iter().map(|n| Doc {
                 part: n / 8,

@@ -204,7 +204,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_that_could_match_takes_the_place_of_the_one_that_cannot() {
+    fn a_suggested_name_replaces_the_unknown_one_in_the_query() {
         for (query, at, name, changed) in [
             ("gloss=ESCARGUT", (6, 14), "ESCARGOT", "gloss=ESCARGOT"),
             ("a gloss=X b", (8, 9), "WEEK END", "a gloss=\"WEEK END\" b"),

@@ -156,7 +156,7 @@ fn value_row(text: &str) -> TokenValueRow {
 }
 
 #[test]
-fn a_search_stops_where_it_is_told_to() {
+fn a_search_stops_on_request() {
     use crate::{Error, Progress, Step, unheard};
     use std::ops::ControlFlow;
 

@@ -147,7 +147,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn patterns_fall_into_words() {
+    fn patterns_are_split_into_words() {
         for (pattern, words) in [
             ("MA*SON", "ma.*son"),
             ("slow ani*", "slow ani.*"),

@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_that_is_none_is_refused_with_what_would_be_right() {
+    fn an_invalid_language_file_is_refused_with_a_suggestion() {
         let folder = tempfile::tempdir().expect("a folder");
         let says = |name: &str| read(name).expect_err(name).to_string();
         assert!(says("mesured").contains("measured"));

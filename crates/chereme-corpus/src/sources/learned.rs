@@ -187,7 +187,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn letters_alone_count_where_they_are_enough() {
+    fn durations_of_fingerspelled_letters_alone_are_used_if_there_are_enough() {
         let mut times = Times::default();
         for micros in [900_000, 800_000, 700_000, 600_000] {
             times.add(micros, false);
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn the_starter_corpus_teaches_courses_and_times() {
+    fn speed_profiles_and_durations_are_learned_from_the_starter_corpus() {
         let folder = tempfile::tempdir().expect("a folder");
         let files = folder.path().join("starter");
         crate::unpack_starter(&files).expect("unpacked");

@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn nouns_go_with_their_numbers() {
+    fn nouns_agree_with_their_numbers() {
         for (count, noun, english, french) in [
             (1, "tokens", "1 token", "1 occurrence"),
             (0, "tokens", "0 tokens", "0 occurrence"),

@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_removed_is_restored_by_undoing() {
+    fn undoing_a_removal_reads_as_a_restoration() {
         for (summary, english, french) in [
             (
                 "3 removed in Un",

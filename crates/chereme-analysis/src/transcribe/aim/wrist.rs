@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn what_hangs_within_its_range_hangs_so_and_what_does_not_stops_at_its_end() {
+    fn wrist_angles_within_range_are_kept_and_others_stop_at_the_limit() {
         let wrist = wrist(false);
         for ([flexion, deviation, turn], free) in [
             ([0.3, -0.2, 0.5], true),
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_left_hand_stops_where_the_mirrored_right_one_does() {
+    fn a_left_wrist_has_the_mirrored_limits_of_a_right_one() {
         let flip = DVec3::new(-1.0, 1.0, 1.0);
         let asked = [DVec3::Y, DVec3::Z];
         let right = wrist(false).stopped(asked);
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_arm_does_not_tell_how_it_is_turned() {
+    fn the_wrist_of_a_straight_arm_has_no_angles() {
         let arm = [DVec3::ZERO, DVec3::Z, DVec3::Z * 2.0];
         assert!(Wrist::of(arm, false, BodyLanguage::usual()).is_none());
     }

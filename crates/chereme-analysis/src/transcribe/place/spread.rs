@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn the_farther_off_the_less_likely_and_never_less_so_without_end() {
+    fn penalties_grow_with_distance_up_to_a_bound() {
         for about in [0.004, 0.02] {
             let spread = spread(about);
             for way in [DVec3::X, DVec3::Y, DVec3::NEG_Z] {
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn hands_are_rather_pushed_out_of_the_trunk_than_aside_and_rather_shifted_forward_than_up() {
+    fn shifts_out_of_the_trunk_and_forward_cost_less_than_shifts_aside_and_up() {
         let spread = spread(0.004);
         let touch = |off: DVec3| spread.touching(off, DVec3::Z, true);
         assert!(touch(DVec3::Z * 0.06) + 1.0 < touch(DVec3::X * 0.06));

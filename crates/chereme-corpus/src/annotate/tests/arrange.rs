@@ -20,7 +20,7 @@ fn hang(parent: Option<(&str, Stereotype)>) -> TierChange {
 }
 
 #[test]
-fn a_tier_takes_its_place_among_the_others_and_goes_back() {
+fn a_tier_is_moved_among_the_others_and_undo_moves_it_back() {
     let (_folder, mut corpus) = corpus();
     let before = names(&corpus);
     for (place, want) in [(0, 0), (4, 4), (99, before.len() - 1)] {
@@ -44,7 +44,7 @@ fn a_tier_takes_its_place_among_the_others_and_goes_back() {
 }
 
 #[test]
-fn a_tier_hangs_below_another_only_where_its_annotations_lie_inside() {
+fn a_tier_becomes_a_child_only_if_its_annotations_lie_inside() {
     let (_folder, mut corpus) = corpus();
     annotate(
         &mut corpus,

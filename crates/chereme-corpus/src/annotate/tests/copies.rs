@@ -26,7 +26,7 @@ fn said(corpus: &Corpus, name: &str) -> Vec<(i64, String)> {
 }
 
 #[test]
-fn a_copy_holds_what_is_asked_for_and_hangs_where_the_other_hangs() {
+fn a_copy_holds_the_requested_parts_below_the_same_parent() {
     let (_folder, mut corpus) = corpus();
     let three = "add G 0-1000 MAISON; add G 2000-3000 école; add G 4000-5000 ÉCOLE-2";
     annotate(&mut corpus, three).expect("added");
@@ -73,7 +73,7 @@ fn a_tier_without_gaps_keeps_none_when_it_is_filtered() {
 }
 
 #[test]
-fn tiers_stand_in_the_order_that_is_asked_for() {
+fn tiers_stand_in_the_requested_order() {
     let (_folder, mut corpus) = corpus();
     let before = names(&corpus);
     let mut order: Vec<i64> = tiers(&corpus).iter().map(|it| it.id).collect();

@@ -29,7 +29,7 @@ fn replace(
 }
 
 #[test]
-fn values_are_replaced_as_one_operation_that_a_dry_run_only_tells() {
+fn values_are_replaced_as_one_operation_and_a_dry_run_only_reports_it() {
     let (_folder, mut corpus) = corpus();
     annotate(
         &mut corpus,
@@ -82,7 +82,7 @@ fn values_are_replaced_as_one_operation_that_a_dry_run_only_tells() {
 }
 
 #[test]
-fn what_cannot_be_replaced_is_refused_whole() {
+fn a_replacement_with_one_invalid_value_is_refused_whole() {
     let (_folder, mut corpus) = corpus();
     annotate(&mut corpus, "add C 0-100 U; add G 0-100 U").expect("added");
     let before = shown(&corpus);
@@ -104,7 +104,7 @@ fn what_cannot_be_replaced_is_refused_whole() {
 }
 
 #[test]
-fn tiers_are_shifted_with_what_hangs_below_them() {
+fn tiers_are_shifted_with_their_child_tiers() {
     let (_folder, mut corpus) = corpus();
     annotate(
         &mut corpus,
@@ -158,7 +158,7 @@ fn with_mode(corpus: &mut Corpus, mode: Mode, text: &str) -> Result<AnnotateRepo
 }
 
 #[test]
-fn annotations_in_the_way_are_pushed_or_move_along() {
+fn annotations_in_the_path_are_pushed_or_shifted() {
     let start = "add G 0-100 A; add G 150-250 B; add G 300-400 C; add I 310-390 c";
     for (mode, text, want) in [
         (
@@ -218,7 +218,7 @@ fn annotations_in_the_way_are_pushed_or_move_along() {
 }
 
 #[test]
-fn an_overlap_names_what_is_there_and_what_is_free() {
+fn an_overlap_names_the_other_annotation_and_the_free_time() {
     let (_folder, mut corpus) = corpus();
     annotate(
         &mut corpus,

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn a_recording_gets_the_usual_tiers_or_those_of_another_at_once() {
+fn a_recording_gets_the_usual_tiers_or_those_of_another_in_one_step() {
     let (_folder, mut corpus) = corpus();
     corpus
         .store

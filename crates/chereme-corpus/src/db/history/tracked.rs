@@ -251,7 +251,7 @@ mod tests {
     type Row = (Option<f64>, Option<Vec<u8>>, Option<String>, Option<i64>);
 
     #[test]
-    fn a_row_is_the_same_after_its_image() {
+    fn a_row_restored_from_its_image_is_unchanged() {
         let connection = Connection::open_in_memory().expect("opened");
         let table = "CREATE TABLE t (x REAL, b BLOB, s TEXT, n INTEGER) STRICT";
         connection.execute_batch(table).expect("created");

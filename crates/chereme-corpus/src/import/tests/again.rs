@@ -175,7 +175,7 @@ fn signs_of_one_gloss_in_files_of_one_name_are_two() {
 }
 
 #[test]
-fn edits_that_a_changed_file_would_take_back_are_asked_about() {
+fn own_edits_that_conflict_with_a_changed_file_are_asked_about() {
     let desk = Desk::new();
     let path = desk.file("one.eaf", &four(["A", "B", "C", "D"]));
     let paths = [path];
@@ -248,7 +248,7 @@ fn edits_that_a_changed_file_would_take_back_are_asked_about() {
 }
 
 #[test]
-fn what_was_removed_or_added_here_is_merged_too() {
+fn own_removals_and_additions_are_merged_too() {
     let desk = Desk::new();
     let paths = [desk.file("one.eaf", &four(["A", "B", "C", "D"]))];
     let without = |text: String, id: &str| {
@@ -301,7 +301,7 @@ fn a_colleagues_copy_from_another_folder_is_a_version_of_the_file() {
 }
 
 #[test]
-fn a_mapping_changes_the_tiers_of_a_file_that_is_in_already() {
+fn a_mapping_changes_the_tiers_of_an_imported_file() {
     let desk = Desk::new();
     let tiers = [
         ("QX1", 0, 500, "BOL"),
@@ -341,7 +341,7 @@ fn a_mapping_changes_the_tiers_of_a_file_that_is_in_already() {
 }
 
 #[test]
-fn a_mapping_changes_the_columns_of_a_table_that_is_in_already() {
+fn a_mapping_changes_the_columns_of_an_imported_table() {
     let desk = Desk::new();
     let path = desk.file("lex.tsv", "gloss\tqx\nA\tchin\nC\tchest\n");
     let mut corpus = desk.corpus("c.chereme");
@@ -356,7 +356,7 @@ fn a_mapping_changes_the_columns_of_a_table_that_is_in_already() {
 }
 
 #[test]
-fn one_wrong_file_does_not_keep_the_others_out() {
+fn one_unreadable_file_does_not_block_the_others() {
     let desk = Desk::new();
     let good = desk.file("good.eaf", &eaf(&[("Gloss", 0, 500, "BOL")]));
     let paths = [
@@ -374,7 +374,7 @@ fn one_wrong_file_does_not_keep_the_others_out() {
 }
 
 #[test]
-fn what_is_no_lexicon_makes_nothing_and_is_named() {
+fn files_that_are_no_lexicon_create_nothing_and_are_named() {
     let desk = Desk::new();
     desk.file(
         "package.json",
@@ -408,7 +408,7 @@ fn what_is_no_lexicon_makes_nothing_and_is_named() {
 }
 
 #[test]
-fn signs_without_a_gloss_get_the_name_of_their_file_and_it_is_told() {
+fn signs_without_a_gloss_get_the_name_of_their_file_with_a_finding() {
     let desk = Desk::new();
     let sign = "<hamgestural_sign><sign_manual><handconfig handshape=\"flat\"/></sign_manual></hamgestural_sign>";
     let one = desk.file("one.sigml", &format!("<sigml>{sign}</sigml>"));

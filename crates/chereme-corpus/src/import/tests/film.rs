@@ -85,7 +85,7 @@ fn a_folder_of_films_and_annotations_becomes_recordings_with_their_films() {
 }
 
 #[test]
-fn a_film_that_comes_before_its_annotation_file_is_the_one_that_it_names() {
+fn a_film_imported_before_its_annotation_file_is_linked_to_it() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
     let path = film(&desk, "take.mp4");
@@ -162,7 +162,7 @@ fn a_film_goes_into_a_recording_at_a_time_and_next_to_movement_of_its_name() {
 }
 
 #[test]
-fn what_is_no_film_or_a_broken_one_is_refused() {
+fn files_that_are_no_film_or_damaged_are_refused() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
     let text = desk.file("text.mp4", "no film at all");

@@ -10,7 +10,7 @@ fn total(corpus: &mut Corpus, query: &str) -> usize {
 }
 
 #[test]
-fn rows_of_one_gloss_are_entries_of_one_sign_also_when_the_table_comes_again() {
+fn rows_of_one_gloss_are_entries_of_one_sign_even_on_a_second_import() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
     let rows = "drag\tB\t0.5\ndrag\tS\t2.5\nsee\tU\t1\n";
@@ -65,7 +65,7 @@ fn rows_of_one_gloss_are_entries_of_one_sign_also_when_the_table_comes_again() {
 }
 
 #[test]
-fn spellings_that_differ_in_case_stay_as_they_are() {
+fn spellings_that_differ_only_in_case_are_kept() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
     let table = desk.file(

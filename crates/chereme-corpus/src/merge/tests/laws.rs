@@ -172,7 +172,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(20) })]
 
     #[test]
-    fn an_unchanged_copy_changes_nothing_and_takes_everything(theirs in deeds()) {
+    fn merging_an_unchanged_copy_changes_nothing_and_it_receives_every_change(theirs in deeds()) {
         let copies = Copies::of(start(), &["mine", "theirs"]);
         let (mut mine, mut other) = (copies.open("mine"), copies.open("theirs"));
         work(&mut other, &theirs, "t");
@@ -187,7 +187,7 @@ proptest! {
     }
 
     #[test]
-    fn two_copies_say_the_same_in_either_direction_and_lose_nothing(a in deeds(), b in deeds()) {
+    fn two_copies_merge_to_the_same_contents_in_either_direction_without_loss(a in deeds(), b in deeds()) {
         let copies = Copies::of(start(), &["mine", "theirs", "mine 2"]);
         let (mut mine, mut theirs) = (copies.open("mine"), copies.open("theirs"));
         let base = said(&mine);
@@ -228,7 +228,7 @@ proptest! {
     }
 
     #[test]
-    fn conflicts_decided_for_theirs_leave_what_they_say(a in deeds(), b in deeds()) {
+    fn conflicts_decided_for_theirs_take_the_contents_of_the_other_copy(a in deeds(), b in deeds()) {
         let copies = Copies::of(start(), &["mine", "theirs"]);
         let (mut mine, mut theirs) = (copies.open("mine"), copies.open("theirs"));
         work(&mut mine, &a, "m");

@@ -36,7 +36,7 @@ const COUNTS: &[(&str, usize)] = &[
 ];
 
 #[test]
-fn a_lexicon_has_the_counts_that_were_made_elsewhere() {
+fn counts_in_the_shared_lexicon_equal_independent_ones() {
     let Ok(shared) = std::env::var("CHEREME_SHARED_DATA") else {
         eprintln!("CHEREME_SHARED_DATA is not set: the lexicon was not counted");
         return;

@@ -96,7 +96,7 @@ fn undo_and_redo_walk_the_whole_history_and_survive_reopening() {
 }
 
 #[test]
-fn failed_work_changes_nothing_and_empty_work_is_no_operation() {
+fn a_failed_operation_changes_nothing_and_an_empty_one_is_not_logged() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut store = Store::create(&folder.path().join("c.chereme"), "A", |_| Ok(())).expect("made");
     add(&mut store, "BOL");
@@ -114,7 +114,7 @@ fn failed_work_changes_nothing_and_empty_work_is_no_operation() {
 }
 
 #[test]
-fn rows_changed_behind_the_index_are_noticed() {
+fn rows_changed_without_the_index_are_noticed() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("c.chereme");
     let mut store = Store::create(&path, "A", |_| Ok(())).expect("made");
@@ -138,7 +138,7 @@ fn rows_changed_behind_the_index_are_noticed() {
 }
 
 #[test]
-fn what_is_no_corpus_is_refused_with_advice() {
+fn a_file_that_is_no_corpus_is_refused_with_a_remedy() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("x");
     assert!(Store::open(&path, "A").is_err_and(|e| e.remedy().is_some()));

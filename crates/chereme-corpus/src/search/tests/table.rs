@@ -95,7 +95,7 @@ fn sample() -> Sample {
 }
 
 #[test]
-fn every_construct_finds_what_it_says() {
+fn every_construct_finds_its_listed_tokens() {
     let mut sample = sample();
     let mut failures = Vec::new();
     for line in TABLE.lines().filter(|line| !line.trim().is_empty()) {
@@ -292,7 +292,7 @@ like BOL-2H on final.placement, configuration:2 => BOL-2H ÉCOLE BOL CHAT MAISON
 "#;
 
 #[test]
-fn what_is_not_there_is_pointed_at() {
+fn unknown_values_and_fields_are_pointed_at() {
     let mut sample = sample();
     for (query, character, part) in [
         ("placement=chim", 11, "did you mean chin?"),
@@ -358,7 +358,7 @@ configuration=U placement=chin =>
 "#;
 
 #[test]
-fn an_answer_says_what_its_conditions_found() {
+fn an_answer_reports_widened_matched_and_impossible_conditions() {
     let mut sample = sample();
     let mut failures = Vec::new();
     for line in FOUND.lines().filter(|line| !line.trim().is_empty()) {
@@ -483,7 +483,7 @@ fn the_count_of_a_facet_is_what_its_condition_leaves() {
 }
 
 #[test]
-fn facets_say_how_many_values_they_leave_out() {
+fn facets_count_the_values_that_they_leave_out() {
     let mut sample = sample();
     let mut facets = |most| {
         let options = SearchOptions {
@@ -554,7 +554,7 @@ fn an_answer_is_json_as_scripts_expect_it() {
 }
 
 #[test]
-fn other_orders_and_scores() {
+fn hits_are_ordered_by_the_requested_order_with_scores() {
     let mut sample = sample();
     let mut in_order = |query: &str, order| {
         let options = SearchOptions {
@@ -628,7 +628,7 @@ fn another_program_that_writes_is_noticed() {
 }
 
 #[test]
-fn an_index_that_is_lost_or_of_another_state_is_made_anew() {
+fn a_lost_or_outdated_index_is_rebuilt() {
     let damage = [
         "DELETE FROM search_file",
         "DELETE FROM search_file WHERE path LIKE '%.term'",
@@ -652,7 +652,7 @@ fn an_index_that_is_lost_or_of_another_state_is_made_anew() {
 }
 
 #[test]
-fn work_that_fails_leaves_no_trace_in_the_index() {
+fn a_failed_operation_leaves_no_trace_in_the_index() {
     let mut sample = sample();
     let failed: Result<()> = sample.corpus.store.operation("fail", |connection| {
         let sign_id = signs::sign_glossed(connection, "CHIEN")?;

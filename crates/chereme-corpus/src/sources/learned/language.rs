@@ -408,7 +408,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_needs_eight_movements_and_the_signers_own_go_first() {
+    fn a_measured_number_needs_eight_movements_and_prefers_those_of_the_signer() {
         let many =
             |count: usize| samples("time.arc", (0..count).map(|n| (0, 0.5 + 0.01 * n as f64)));
         assert!(many(7).language(None).is_usual());
@@ -435,7 +435,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_rise_and_those_that_nobody_marked_follow_the_usual_one() {
+    fn sizes_keep_their_order_and_unmarked_ones_scale_with_the_normal_size() {
         let language = samples("move.normal", (0..8).map(|_| (0, 0.5))).language(None);
         assert_eq!(language.values["move.normal"].value, 0.5);
         let big = &language.values["move.big"];
@@ -446,7 +446,7 @@ mod tests {
     }
 
     #[test]
-    fn size_and_manner_go_with_the_movement_that_they_share_time_with() {
+    fn size_and_manner_are_assigned_to_the_movement_of_the_same_time() {
         let span = |feature: Option<&str>, start_us: i64, end_us: i64, value: &str| MovementSpan {
             recording_id: 1,
             hand: Some(Hands::One(HandRef::Right)),
@@ -482,7 +482,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lexicon_tells_what_a_token_is_where_its_entries_agree() {
+    fn a_token_takes_lexicon_values_only_if_its_entries_agree() {
         let row = |token, entry, feature: Option<&str>, value: &str| LexiconMovement {
             token,
             entry,
