@@ -132,7 +132,7 @@ fn dependencies(package: &Value) -> impl Iterator<Item = &str> {
 }
 
 #[test]
-fn crates_know_only_those_that_the_arrows_allow() {
+fn crates_depend_only_on_those_that_the_design_allows() {
     let workspace = metadata(&["--no-deps"]).expect("cargo metadata");
     let mut faults = Vec::new();
     for package in list(&workspace, "packages") {
@@ -180,7 +180,7 @@ fn tests_reach_no_higher_than_their_crate() {
 }
 
 #[test]
-fn every_crate_comes_under_a_licence_that_allows_its_use() {
+fn every_dependency_has_an_accepted_licence() {
     let all = metadata(&[]).or_else(|_| {
         let output = Command::new("rustc")
             .arg("-vV")
@@ -247,7 +247,7 @@ fn one<'a>(words: &'a [&'a str]) -> (bool, &'a [&'a str]) {
 }
 
 #[test]
-fn licence_expressions_are_read_as_they_are_meant() {
+fn licence_expressions_are_evaluated_correctly() {
     for (expression, want) in [
         ("MIT", true),
         ("MIT/Apache-2.0", true),
@@ -275,7 +275,7 @@ fn code(text: &str) -> &str {
 }
 
 #[test]
-fn the_database_room_knows_nothing_above_it() {
+fn the_database_module_depends_on_nothing_above_it() {
     let mut files = repository::rust_files();
     files.retain(|file| file.path.starts_with("crates/chereme-corpus/src/db/"));
     assert!(files.len() > 20, "{} files of the database", files.len());

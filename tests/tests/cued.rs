@@ -78,7 +78,7 @@ fn places(
 }
 
 #[test]
-fn a_session_is_restored_recognised_measured_and_said_again() -> Result<()> {
+fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<()> {
     let folder = tempfile::tempdir()?;
     let mut corpus = corpus_of(folder.path())?;
     let options = CuedOptions::default();
@@ -232,7 +232,7 @@ fn a_session_is_restored_recognised_measured_and_said_again() -> Result<()> {
 }
 
 #[test]
-fn what_shows_no_cuer_is_refused_with_a_remedy() -> Result<()> {
+fn a_recording_without_a_cuer_is_refused_with_a_remedy() -> Result<()> {
     let folder = tempfile::tempdir()?;
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A")?;
     let options = CuedOptions::default();
@@ -280,7 +280,7 @@ fn what_shows_no_cuer_is_refused_with_a_remedy() -> Result<()> {
 }
 
 #[test]
-fn odd_markers_and_tiers_make_findings_or_errors() -> Result<()> {
+fn odd_markers_and_tiers_give_findings_or_errors() -> Result<()> {
     let folder = tempfile::tempdir()?;
     let trc = |markers: usize, cell: &str| {
         let names: Vec<String> = labels::hand().into_iter().take(markers).collect();

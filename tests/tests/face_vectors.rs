@@ -30,7 +30,7 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 #[test]
-fn milestones_are_those_of_the_vectors() {
+fn milestones_equal_those_of_the_test_vectors() {
     for case in vectors("milestones").into_iter().flatten() {
         let millis = |value: &Value| Instant::from_millis(value.as_i64().expect("milliseconds"));
         let span = |it: &Value| Span::between(millis(&it["begin_ms"]), millis(&it["end_ms"]));
@@ -48,7 +48,7 @@ fn milestones_are_those_of_the_vectors() {
 }
 
 #[test]
-fn warps_are_those_of_the_vectors() {
+fn warps_equal_those_of_the_test_vectors() {
     for case in vectors("phase_warp").into_iter().flatten() {
         let marks = |name: &str| {
             let all: Vec<Instant> = numbers(&case[name])
@@ -71,7 +71,7 @@ fn warps_are_those_of_the_vectors() {
 }
 
 #[test]
-fn scores_are_those_of_the_vectors() {
+fn scores_equal_those_of_the_test_vectors() {
     for case in vectors("phased_score").into_iter().flatten() {
         let name = case["name"].as_str().expect("a name");
         let phased = |rows: &str, marks: &str, seconds: f64| {

@@ -107,7 +107,7 @@ fn each_non_manual_differs_from_its_neighbours_and_from_rest() {
 
 /// The sounds that lips distinguish, each next to one that it is not to be taken for.
 #[test]
-fn each_mouth_that_lips_tell_apart_differs_from_its_neighbours() {
+fn each_visually_distinct_mouth_differs_from_its_neighbours() {
     const MOUTHS: [&str; 17] = [
         "a", "@", "e", "i", "E", "O", "o", "u", "p", "f", "S", "s", "T", "l", "t", "w", "r",
     ];

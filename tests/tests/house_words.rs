@@ -54,7 +54,7 @@ fn replaced(text: &str) -> Option<(&'static str, &'static str)> {
 }
 
 #[test]
-fn every_idea_has_the_word_of_the_glossary() {
+fn every_term_is_the_one_of_the_glossary() {
     let mut files = repository::text_files();
     files.retain(|file| {
         let guide = file.path.ends_with("README.md");

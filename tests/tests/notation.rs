@@ -64,7 +64,7 @@ fn holds_on(body: &Path, folder: &Path, first: usize) {
 }
 
 #[test]
-fn signs_hold_on_the_starter_body_and_on_a_captured_one() {
+fn signs_keep_their_contacts_on_the_starter_body_and_a_captured_one() {
     let Some(data) = std::env::var_os("CHEREME_SHARED_DATA").map(PathBuf::from) else {
         eprintln!("CHEREME_SHARED_DATA is not set: real notation is not animated");
         return;

@@ -4,7 +4,7 @@
 mod proposals;
 
 #[test]
-fn proposals_find_what_was_put_in_and_little_else() {
+fn proposals_find_the_inserted_values_and_little_else() {
     let all = proposals::counted(30);
     let found: Vec<String> = all
         .keys()

@@ -146,7 +146,7 @@ fn every_table_and_column_is_described() {
 }
 
 #[test]
-fn every_word_that_a_column_may_hold_is_named() {
+fn every_value_that_a_column_may_hold_is_described() {
     let (_folder, connection) = corpus();
     let readme = readme();
     let mut statement = connection

@@ -34,7 +34,7 @@ fn there_is_a_corpus_of_every_version_of_the_schema() {
 }
 
 #[test]
-fn corpora_of_earlier_versions_open_whole() {
+fn corpora_of_earlier_versions_open_without_loss() {
     for (version, store) in stores() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("old.chereme");
@@ -102,7 +102,7 @@ fn corpora_of_earlier_versions_open_whole() {
 /// Up to version 4 scalar curves were rows next to a skeleton's track; the corpus was made then, with a sign whose
 /// curves were taken away by making it again, and brought back by undo.
 #[test]
-fn curves_next_to_movement_become_tracks_and_their_history_goes_on() {
+fn curves_stored_with_movement_become_tracks_with_their_history() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("old.chereme");
     let packed = fs::read(repository::root().join("tests/stores/0004-curves.chereme.zst"));

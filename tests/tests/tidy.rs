@@ -38,7 +38,7 @@ fn lines_that<'a>(
 }
 
 #[test]
-fn every_rust_file_begins_by_saying_what_it_is() {
+fn every_rust_file_begins_with_a_module_comment() {
     let faults: Vec<String> = rust()
         .iter()
         .filter(|file| !file.text.starts_with("//!") && !file.is_test())
@@ -48,7 +48,7 @@ fn every_rust_file_begins_by_saying_what_it_is() {
 }
 
 #[test]
-fn no_file_is_longer_than_a_person_reads() {
+fn no_file_is_too_long() {
     let files = rust();
     let lengths = files.iter().map(|file| (file, file.text.lines().count()));
     let faults: Vec<String> = lengths
@@ -75,7 +75,7 @@ fn guides_are_short() {
 }
 
 #[test]
-fn nothing_is_left_unfinished_or_switched_off() {
+fn no_code_is_unfinished_or_disabled() {
     let words = ["#[ignore", "todo!(", "unimplemented!(", "dbg!("];
     let files = rust();
     let faults = lines_that(&files, |line| words.iter().any(|word| line.contains(word)));
@@ -83,7 +83,7 @@ fn nothing_is_left_unfinished_or_switched_off() {
 }
 
 #[test]
-fn nothing_speaks_of_one_machine_or_of_how_it_was_made() {
+fn no_file_names_a_machine_or_a_ticket() {
     let paths = ["/home/", "/root/", "/work/", "/Users/", "C:\\Users"];
     let mut files = repository::text_files();
     files.retain(|file| file.path != OWN);
@@ -104,7 +104,7 @@ fn names_a_ticket(line: &str) -> bool {
 }
 
 #[test]
-fn every_crate_takes_the_lints_of_the_workspace() {
+fn every_crate_inherits_the_lints_of_the_workspace() {
     let root = repository::root();
     let mut manifests = vec![root.join("tests/Cargo.toml")];
     for entry in fs::read_dir(root.join("crates"))
@@ -142,7 +142,7 @@ fn lints_are_silenced_only_with_a_reason() {
 }
 
 #[test]
-fn sql_lives_in_one_room() {
+fn sql_stands_only_in_the_database_module() {
     let words = [
         "SELECT ",
         "INSERT INTO",
@@ -171,7 +171,7 @@ fn sql_lives_in_one_room() {
 }
 
 #[test]
-fn models_and_pictures_know_no_machine() {
+fn models_and_drawing_use_no_clock_files_or_network() {
     let words = [
         "std::fs",
         "std::env",

@@ -46,7 +46,7 @@ fn two_write_and_two_read_the_same_file() {
 }
 
 #[test]
-fn a_second_session_sees_what_the_first_one_does() {
+fn a_second_session_sees_the_changes_of_the_first() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path(), "shared.chereme").expect("a corpus");
     let mut first = Corpus::open(&path, "first").expect("opened");
@@ -62,7 +62,7 @@ fn a_second_session_sees_what_the_first_one_does() {
 static WAITS: AtomicUsize = AtomicUsize::new(0);
 
 #[test]
-fn who_reads_never_waits_for_a_writer_and_who_writes_says_that_it_waits() {
+fn readers_never_wait_for_a_writer_and_waiting_writers_report_it() {
     chereme_corpus::on_waiting(|| {
         WAITS.fetch_add(1, Ordering::SeqCst);
     });
@@ -87,7 +87,7 @@ fn who_reads_never_waits_for_a_writer_and_who_writes_says_that_it_waits() {
 }
 
 #[test]
-fn of_two_that_make_the_same_corpus_one_does_and_both_can_work() {
+fn two_processes_that_create_one_corpus_share_it() {
     for round in 0..5 {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("x");

@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_path_is_refused() {
+    fn an_invalid_path_is_refused() {
         let options = ChartOptions::default();
         let error = |path: &[(usize, usize)]| {
             alignment_picture(path, [4, 3], &options)
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_are_round() {
+    fn axis_steps_are_round_numbers() {
         for (length, step) in [(0, 1), (10, 1), (21, 2), (22, 5), (59, 10), (5000, 500)] {
             assert_eq!(round_step(length), step, "{length}");
         }

@@ -271,7 +271,7 @@ mod tests {
     use chereme_motion::Part;
 
     #[test]
-    fn the_hand_s_own_parts_are_all_found() {
+    fn every_part_of_the_built_in_hand_is_found() {
         for side in Side::BOTH {
             let hand = Hand::of(side);
             for finger in Finger::ALL {

@@ -170,7 +170,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_trail_lies_around_its_path_and_faces_outwards() {
+    fn a_trail_surrounds_its_path_and_faces_outwards() {
         let path: Vec<Vec3> = (0..20)
             .map(|i| i as f32 * 0.3)
             .map(|t| Vec3::new(t.cos(), t.sin(), 0.1 * t))

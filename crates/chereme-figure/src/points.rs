@@ -351,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn points_and_limbs_are_where_the_film_has_them_and_gaps_are_left_out() {
+    fn points_and_limbs_have_their_film_positions_and_gaps_are_left_out() {
         let markers = film();
         let cloud = PointCloud::of(&markers, Theme::Light).expect("points");
         assert_eq!(cloud.note(), Some("estimated from film, no depth"));

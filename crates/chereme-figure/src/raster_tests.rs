@@ -128,7 +128,7 @@ fn plate(half: f32, z: f32, group: u8) -> Mesh {
 }
 
 #[test]
-fn lines_are_drawn_between_parts_that_stand_apart_but_not_within_one_or_where_skin_goes_on() {
+fn outlines_separate_parts_at_a_depth_step_but_not_within_one_part() {
     let darkest = |group, step: f32| {
         let mut mesh = plate(0.6, 0.0, 1);
         mesh.append(&plate(0.3, step, group));
@@ -145,7 +145,7 @@ fn lines_are_drawn_between_parts_that_stand_apart_but_not_within_one_or_where_sk
 }
 
 #[test]
-fn what_is_behind_the_eye_or_far_outside_is_left_out() {
+fn triangles_behind_the_camera_or_far_outside_are_left_out() {
     let mut raster = Raster::default();
     for at in [
         Vec3::Z * 9.0,

@@ -82,7 +82,7 @@ fn a_sheet_has_a_cell_a_view_and_frame_and_the_same_bytes_twice() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused_with_the_reason() {
+fn clips_that_cannot_be_drawn_are_refused_with_a_reason() {
     let (clip, anatomy) = clip();
     let refused = |clip: &Clip, options: SheetOptions| {
         let sheet = contact_sheet(clip, &anatomy, &options, &mut go);
@@ -258,7 +258,7 @@ fn every_view_shows_the_signer_and_the_figure_does_not_jump() {
 }
 
 #[test]
-fn legs_are_in_no_picture_however_narrow_it_is() {
+fn legs_are_never_drawn_however_narrow_the_picture() {
     let (clip, anatomy) = clip();
     let framing = Framing::of(&clip, &anatomy).expect("frames");
     let knees: Vec<usize> = Side::BOTH
@@ -356,7 +356,7 @@ fn a_mesh_is_closed_and_follows_its_joints_rigidly() {
 }
 
 #[test]
-fn a_face_moves_only_what_it_should_and_comes_to_rest() {
+fn a_face_value_moves_only_its_own_region_and_returns_to_rest() {
     let (clip, anatomy) = clip();
     let body = Body::new(clip.skeleton(), &anatomy);
     let pose = clip.model_pose(8);
@@ -524,7 +524,7 @@ fn an_animation_at_no_speed_or_of_endless_length_is_refused() {
 }
 
 #[test]
-fn odd_first_frames_are_in_no_picture_and_do_not_move_the_camera() {
+fn odd_first_frames_are_never_drawn_and_do_not_move_the_camera() {
     let (sound, anatomy) = clip();
     let (skeleton, rate) = (sound.skeleton().clone(), sound.rate());
     let mut channels = sound.clone().into_channels();
@@ -567,7 +567,7 @@ fn elsewhere(way: impl Fn(usize) -> DVec3) -> (Clip, Anatomy) {
 }
 
 #[test]
-fn a_figure_far_from_the_origin_or_on_its_way_is_framed_like_one_that_stands() {
+fn a_distant_or_walking_figure_is_framed_like_a_standing_one() {
     let (still, anatomy) = clip();
     let size = |clip: &Clip, frame: usize| {
         let pose = clip.model_pose(frame);

@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_before_the_first_symbol_is_the_gloss() {
+    fn text_before_the_first_symbol_is_the_gloss() {
         let flat = "hamflathand hamextfingeru hampalml";
         for (line, gloss) in [
             (format!("MERCI\t{flat}"), "MERCI"),
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_without_symbols_and_odd_symbols_are_told() {
+    fn lines_without_symbols_and_odd_symbols_are_reported() {
         let (entries, findings) =
             read(b"a title\nA\thamfist hamextfingeru hampalml hamparend\nB\t\n").expect("read");
         assert_eq!(entries.len(), 1);
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_in_a_wrong_encoding_are_mended_and_told() {
+    fn lines_in_a_wrong_encoding_are_mended_and_reported() {
         let text = "MERCI\t\u{e001}\u{e020}\u{e03c}\n";
         let latin: String = text.bytes().map(char::from).collect();
         let (entries, findings) = read(latin.as_bytes()).expect("read");
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_reads_back() {
+    fn written_lines_read_back_unchanged() {
         let text =
             "A\thamflathand hamextfingeru hampalml\nB B\thamfist hamextfingero hampalmd hammoveo\n";
         let (first, _) = read(text.as_bytes()).expect("read");
@@ -287,12 +287,12 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
         #[test]
-        fn no_bytes_make_it_fail(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+        fn the_reader_accepts_any_bytes(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
             let _ = read(&bytes);
         }
 
         #[test]
-        fn no_characters_make_it_fail(text in "[\u{e000}-\u{e0f0} a\t\nhm]{0,80}") {
+        fn the_reader_accepts_any_characters(text in "[\u{e000}-\u{e0f0} a\t\nhm]{0,80}") {
             let _ = read(text.as_bytes());
         }
     }

@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_joint_is_where_its_movement_puts_it_and_still_places_are_dropped() {
+    fn joint_positions_equal_those_of_the_movement_and_constant_ones_are_dropped() {
         let channel = |places: Vec<DVec3>| Channel {
             rotations: vec![DQuat::IDENTITY; places.len()],
             translations: Some(places),

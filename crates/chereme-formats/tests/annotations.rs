@@ -28,7 +28,7 @@ fn shown(text: &str) -> String {
 }
 
 #[test]
-fn rows_in_all_forms() {
+fn rows_are_read_in_every_form() {
     let text = "\u{feff}Recording;Tier;Start;End;Value;Action;ID;Parent\r\n\
         R1;Gloss RH;0.5;1.2s;CHAT;;;\r\n\
         R1;Gloss RH;1500ms;0:02.25;\"a;\"\"b\"\"\";ADD;;\r\n\
@@ -79,7 +79,7 @@ fn faults_name_line_and_column() {
 }
 
 #[test]
-fn what_is_no_table_is_refused() {
+fn text_that_is_no_table_is_refused() {
     assert_eq!(read(b"", None), Err(TableError::Empty));
     assert_eq!(read(b"\n \n", None), Err(TableError::Empty));
     assert_eq!(
@@ -101,7 +101,7 @@ fn what_is_no_table_is_refused() {
 }
 
 #[test]
-fn odd_columns_are_found() {
+fn odd_columns_are_reported() {
     let (_, findings) = read(b"teir,tier,tier\nx,y,z\n", None).expect("a table");
     let messages: Vec<&str> = findings.iter().map(|it| &*it.message).collect();
     assert_eq!(
@@ -171,7 +171,7 @@ fn whole_numbers_too_long_for_seconds_are_refused_and_others_are_not() {
 }
 
 #[test]
-fn what_elan_exports_is_understood() {
+fn elan_exports_are_read() {
     let want = [
         ("Gloss".to_owned(), 1_040, 2_330, "HAUS".to_owned()),
         ("Gloss".to_owned(), 3_200, 5_050, "5".to_owned()),

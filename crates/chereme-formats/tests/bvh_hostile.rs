@@ -79,7 +79,7 @@ fn tiny(rows: &str) -> String {
 }
 
 #[test]
-fn tolerated() {
+fn deviations_from_the_format_are_tolerated_with_findings() {
     let cases: Vec<(&str, String, &str)> = vec![
         ("as it should be", GOOD.into(), "3 frames"),
         (
@@ -304,7 +304,7 @@ fn tolerated() {
 }
 
 #[test]
-fn refused() {
+fn meaningless_files_are_refused() {
     let utf16: Vec<u8> = GOOD.encode_utf16().flat_map(u16::to_le_bytes).collect();
     let utf16_mark: Vec<u8> = [0xff, 0xfe]
         .into_iter()
@@ -520,7 +520,7 @@ fn many(joints: usize, nested: bool) -> String {
 }
 
 #[test]
-fn large_hierarchies() {
+fn large_hierarchies_are_read() {
     let deep = format!("HIERARCHY\nROOT A {{\n{}", "JOINT B {\n".repeat(1_000_000));
     check([
         (
@@ -548,7 +548,7 @@ fn large_hierarchies() {
 }
 
 #[test]
-fn endless_digits_are_bounded() {
+fn numbers_of_endless_digits_are_bounded() {
     let mut text = many(1000, false);
     text.truncate(text.find("1.5 ").unwrap());
     let row = format!("0.{} ", "3".repeat(999)).repeat(999 * 3) + "\n";
@@ -561,7 +561,7 @@ fn endless_digits_are_bounded() {
 }
 
 #[test]
-fn truncated_at_every_byte() {
+fn truncation_at_any_byte_never_panics() {
     let whole = read(GOOD.as_bytes()).unwrap();
     for end in 0..GOOD.len() {
         if let Ok(read) = read(&GOOD.as_bytes()[..end]) {

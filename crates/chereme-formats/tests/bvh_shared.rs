@@ -206,7 +206,7 @@ fn clip_of(read: &Read) -> Clip {
 }
 
 #[test]
-fn clips_turn_back_into_columns_that_turn_alike() {
+fn clips_convert_to_columns_with_equal_rotations() {
     for path in files() {
         let first = read(&fs::read(&path).unwrap(), 256);
         let clip = clip_of(&first);
@@ -249,7 +249,7 @@ fn clips_turn_back_into_columns_that_turn_alike() {
 }
 
 #[test]
-fn equal_to_the_oracle_on_clean_files() {
+fn clean_files_read_as_in_an_independent_reader() {
     let mut compared = 0;
     let mut refused = Vec::new();
     for path in files() {

@@ -164,7 +164,7 @@ fn comes_back(bytes: &[u8]) {
 }
 
 #[test]
-fn slots_shared_unaligned_and_equal() {
+fn shared_unaligned_and_equal_time_slots_are_read() {
     check(
         &eaf(
             "ts1=0 ts2 ts3 ts4=90 ts5=90 ts6=100",
@@ -177,7 +177,7 @@ fn slots_shared_unaligned_and_equal() {
 }
 
 #[test]
-fn shared_slots_stay_shared_on_the_way_back() {
+fn shared_time_slots_stay_shared_when_written() {
     let text = eaf(
         "ts1=0 ts2=40 ts4=90",
         &(tier("p root", "a1:ts1-ts4=x") + &tier("c time p", "a3:ts1-ts2=i a4:ts2-ts4=j")),
@@ -195,7 +195,7 @@ fn shared_slots_stay_shared_on_the_way_back() {
 }
 
 #[test]
-fn four_stereotypes_three_deep() {
+fn four_stereotypes_are_read_three_levels_deep() {
     check(
         &eaf(
             "ts1=0 ts2=100 ts3=10 ts4=60",
@@ -210,7 +210,7 @@ fn four_stereotypes_three_deep() {
 }
 
 #[test]
-fn what_points_nowhere_is_found() {
+fn dangling_references_are_reported() {
     check(
         &eaf(
             "ts1=0 ts2=100",
@@ -232,7 +232,7 @@ fn what_points_nowhere_is_found() {
 }
 
 #[test]
-fn doubles_get_names_of_their_own() {
+fn duplicate_tiers_and_ids_are_renamed_and_reported() {
     check(
         &eaf(
             "ts1=0 ts2=100 ts1=7",
@@ -251,7 +251,7 @@ fn doubles_get_names_of_their_own() {
 }
 
 #[test]
-fn rings_are_cut() {
+fn cyclic_references_are_cut() {
     check_one_way(
         &eaf(
             "ts1=0 ts2=100",
@@ -271,7 +271,7 @@ fn rings_are_cut() {
 }
 
 #[test]
-fn odd_times() {
+fn odd_times_are_corrected_and_reported() {
     check_one_way(
         &eaf(
             "ts1=100 ts2=0 ts3=50 ts4=x ts5=60 ts6=70 ts7",
@@ -292,7 +292,7 @@ fn odd_times() {
 }
 
 #[test]
-fn a_subdivision_with_a_gap_is_told() {
+fn a_subdivision_with_a_gap_is_reported() {
     let above = tier("top root", "a1:ts1-ts4=x");
     for (divided, told) in [
         ("a2:ts1-ts2=p a3:ts2-ts4=q", false),
@@ -350,7 +350,7 @@ fn values_keep_breaks_entities_and_blanks() {
 }
 
 #[test]
-fn everything_the_schema_has_and_more() {
+fn every_element_of_the_schema_and_unknown_ones_are_kept() {
     let more = r#"<LOCALE COUNTRY_CODE="US" LANGUAGE_CODE="en" VARIANT="v"/>
 <LANGUAGE LANG_ID="fra" LANG_LABEL="French"/>
 <CONTROLLED_VOCABULARY CV_ID="v8"><DESCRIPTION LANG_REF="fra">d</DESCRIPTION>
@@ -404,7 +404,7 @@ fn everything_the_schema_has_and_more() {
 }
 
 #[test]
-fn many_tiers_and_long_names() {
+fn many_tiers_and_long_names_are_read() {
     let tiers: String = (0..150)
         .map(|n| {
             tier(
@@ -417,7 +417,7 @@ fn many_tiers_and_long_names() {
 }
 
 #[test]
-fn the_last_id_is_counted_anew_and_stands_last() {
+fn the_last_used_id_is_updated_as_the_last_property() {
     let text = eaf("ts1=0 ts2=10", &tier("p root", "a41:ts1-ts2=v")).replace("<HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"/>", "<HEADER><PROPERTY NAME=\"lastUsedAnnotationId\">7</PROPERTY><PROPERTY NAME=\"URN\">u</PROPERTY></HEADER>");
     let (document, _) = raw::read(text.as_bytes()).expect("a document");
     let back = to_raw(&from_raw(&document).0, &document);
@@ -470,7 +470,7 @@ fn external_vocabularies_are_read() {
 }
 
 #[test]
-fn what_is_no_eaf_is_refused_with_its_line() {
+fn files_that_are_no_eaf_are_refused_with_the_line() {
     let laughs = "<?xml version=\"1.0\"?>\n<!DOCTYPE lolz [<!ENTITY lol \"lol\"><!ENTITY lol2 \"&lol;&lol;&lol;\">]>\n<ANNOTATION_DOCUMENT>&lol2;</ANNOTATION_DOCUMENT>";
     let many: String = (0..1_000_000).map(|n| format!(" a{n}=\"\"")).collect();
     let utf16: Vec<u8> = [0xff, 0xfe]

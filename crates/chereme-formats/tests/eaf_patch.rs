@@ -109,7 +109,7 @@ fn strings(lines: &[&str]) -> Vec<String> {
 }
 
 #[test]
-fn an_untouched_file_comes_back_byte_for_byte() {
+fn an_unchanged_file_is_written_byte_for_byte() {
     for (name, text) in both() {
         for text in [
             text.to_owned(),
@@ -153,7 +153,7 @@ const ENCODINGS: [&str; 6] = [
 ];
 
 #[test]
-fn files_in_other_encodings_come_back_byte_for_byte_and_keep_theirs_when_they_change() {
+fn files_in_other_encodings_keep_their_bytes_and_their_encoding() {
     for (name, text) in both() {
         let text = text.replacen("CHAT", "CH\u{c2}T\u{e9}", 1);
         let text: String = text.chars().filter(|it| u32::from(*it) < 0x100).collect();
@@ -241,7 +241,7 @@ fn a_changed_value_changes_its_own_line() {
 }
 
 #[test]
-fn a_value_is_emptied_and_filled_as_the_file_does_it() {
+fn values_are_emptied_and_filled_in_the_style_of_the_file() {
     let empty = |text| changed(text, |it| annotation(it, "a1").value = String::new());
     let fill = |text| changed(text, |it| annotation(it, "a2").value = "B".into());
     let full = "<ANNOTATION_VALUE>CHAT</ANNOTATION_VALUE>";
@@ -254,7 +254,7 @@ fn a_value_is_emptied_and_filled_as_the_file_does_it() {
 }
 
 #[test]
-fn line_ends_mark_and_quotes_are_kept_when_a_value_changes() {
+fn line_ends_byte_order_mark_and_quotes_are_kept_when_a_value_changes() {
     for (_, text) in both() {
         let text = format!("\u{feff}{}", text.replace('\n', "\r\n"));
         let after = changed(&text, |it| annotation(it, "a1").value = "NEU".into());
@@ -321,7 +321,7 @@ fn a_shared_slot_is_parted_only_if_one_of_its_ends_moves() {
 }
 
 #[test]
-fn a_removed_annotation_takes_its_lines_and_slots_along() {
+fn a_removed_annotation_removes_its_lines_and_time_slots() {
     let after = changed(OLD, |it| drop(tier(it, "Gloss").annotations.pop()));
     lines(
         OLD,
@@ -341,7 +341,7 @@ fn a_removed_annotation_takes_its_lines_and_slots_along() {
 }
 
 #[test]
-fn an_added_annotation_adds_its_lines_as_the_file_would_have_them() {
+fn an_added_annotation_adds_lines_in_the_style_of_the_file() {
     let add = |text| {
         changed(text, |it| {
             let annotations = &mut tier(it, "Gloss").annotations;
@@ -409,7 +409,7 @@ fn a_divided_annotation_shares_slots_with_its_neighbour_and_its_parent() {
 }
 
 #[test]
-fn a_chain_is_linked_again_around_what_was_removed() {
+fn a_chain_is_relinked_around_a_removed_annotation() {
     let after = changed(OLD, |it| {
         let all = &mut tier(it, "Parts").annotations;
         all.remove(0);
@@ -488,7 +488,7 @@ fn a_vocabulary_gets_entries_and_the_header_properties() {
 }
 
 #[test]
-fn a_file_without_line_ends_stays_so() {
+fn a_file_without_line_ends_gets_none() {
     let flat: String = NEW
         .lines()
         .map(str::trim_start)
@@ -506,7 +506,7 @@ fn a_file_without_line_ends_stays_so() {
 }
 
 #[test]
-fn what_cannot_be_changed_in_place_is_said() {
+fn changes_that_cannot_be_made_in_place_are_refused() {
     let mut after = transcript(NEW.as_bytes());
     after.tiers.reverse();
     for tier in &mut after.tiers {
@@ -551,7 +551,7 @@ fn shared_files() -> Vec<PathBuf> {
 }
 
 #[test]
-fn other_peoples_files_change_only_where_they_are_changed() {
+fn shared_files_change_only_in_the_lines_that_were_edited() {
     for path in shared_files() {
         let bytes = std::fs::read(&path).expect("a file");
         let text = std::str::from_utf8(&bytes).expect("UTF-8");

@@ -18,7 +18,7 @@ fn codings(lexicon: &Lexicon, entry: usize) -> Vec<String> {
 }
 
 #[test]
-fn cells_are_kept_apart() {
+fn cells_are_split_into_separate_values() {
     for (title, cell, expected) in [
         ("Location", "neutral space", "placement=neutral space"),
         (
@@ -136,7 +136,7 @@ fn cells_are_kept_apart() {
 }
 
 #[test]
-fn columns_by_title_and_mapping() {
+fn columns_are_recognised_by_title_and_by_mapping() {
     let (lexicon, findings) = read(
         "Annotation ID Gloss (Dutch);Annotation ID Gloss (English);Palm orientation;Remarks;Handshape\nX;Y;up;hm;B\n",
     );
@@ -243,7 +243,7 @@ fn symbols_in_a_wrong_encoding_are_mended_before_blanks_are_cut() {
 }
 
 #[test]
-fn odd_tables() {
+fn odd_tables_are_read_with_findings() {
     let (lexicon, findings) = read(
         "\u{feff}gloss,Location\r\n\"A, \"\"B\"\"\",chin\r\nSHORT\r\n,chin\r\nC,chin,more\r\nC,nose\r\n",
     );
@@ -387,7 +387,7 @@ fn inventories_count_values_of_both_hands_and_all_phases() {
 }
 
 #[test]
-fn slips_are_pointed_out() {
+fn misspelled_values_get_a_suggestion() {
     let mut text = "gloss\tHandshape weak\n".to_owned();
     for n in 0..30 {
         text += &format!("G{n}\tC-spread\n");
@@ -404,7 +404,7 @@ fn slips_are_pointed_out() {
 }
 
 #[test]
-fn a_table_of_2145_signs_comes_back() {
+fn a_table_of_2145_signs_reads_back_unchanged() {
     let Some(data) = std::env::var_os("CHEREME_SHARED_DATA").map(std::path::PathBuf::from) else {
         eprintln!("CHEREME_SHARED_DATA is not set: the table of others was not tried");
         return;
@@ -491,7 +491,7 @@ proptest! {
     }
 
     #[test]
-    fn any_cells_come_back(cells in proptest::collection::vec("[ -~éあ\"\n;\t>+,]{0,12}", 8)) {
+    fn any_cells_read_back_unchanged(cells in proptest::collection::vec("[ -~éあ\"\n;\t>+,]{0,12}", 8)) {
         let header = ["gloss", "Location", "Handshape strong", "Movement direction"].map(str::to_owned);
         let mut table = csv::Writer::from_writer(Vec::new());
         table.write_record(&header).expect("a vector takes everything");

@@ -25,7 +25,7 @@ fn check(names: &[(&str, &str)]) {
 }
 
 #[test]
-fn names_of_several_projects_and_languages() {
+fn tier_names_of_several_projects_and_languages_are_understood() {
     check(&[
         ("Gloss RH", "right.gloss"),
         ("GlossL S1", "left.gloss"),
@@ -102,7 +102,7 @@ fn md_beside_mnd_is_the_dominant_hand() {
 }
 
 #[test]
-fn types_and_parents_help() {
+fn types_and_parents_help_to_infer_a_role() {
     let tiers = [
         TierName {
             name: "RH",
@@ -135,7 +135,7 @@ fn types_and_parents_help() {
 }
 
 #[test]
-fn a_mapping_overrides() {
+fn a_mapping_overrides_inferred_roles() {
     let mapping = Mapping::from_json(r#"{"tiers": {"RH_*": "left.placement", "H1": "free"}}"#)
         .expect("a mapping");
     let tiers = [
@@ -183,7 +183,7 @@ fn a_letter_of_a_type_is_no_hand_and_a_word_is() {
 }
 
 #[test]
-fn glosses_one_to_one_below_glosses_are_another_reading_of_the_same_signs() {
+fn a_gloss_tier_one_to_one_below_another_is_a_second_reading_of_it() {
     let tier = |name, parent| TierName {
         name,
         kind: "",

@@ -23,7 +23,7 @@ fn part(manual: &str) -> (Manual, Vec<String>) {
 }
 
 #[test]
-fn a_sign_is_read_with_all_that_is_said_of_it() {
+fn a_sign_is_read_with_every_attribute() {
     let text = br#"<?xml version="1.0"?><!DOCTYPE sigml SYSTEM "http://example.org/sigml.dtd">
 <sigml><hamgestural_sign gloss="HERE &amp; NOW" speed="1.2" timescale="2" duration="0.5" sign_language="dse" gloss_language="nl">
 <sign_nonmanual>
@@ -82,7 +82,7 @@ fn a_sign_is_read_with_all_that_is_said_of_it() {
 }
 
 #[test]
-fn deviations_are_read_and_told_with_their_line() {
+fn deviations_are_read_and_reported_with_their_line() {
     for (manual, told) in [
         (
             r#"<handconfig extfidir="uuo"/>"#,
@@ -235,7 +235,7 @@ fn deviations_are_read_and_told_with_their_line() {
 }
 
 #[test]
-fn a_place_in_a_motion_is_brushed_along() {
+fn a_location_inside_a_motion_means_brushing() {
     let (part, told) = part(
         r#"<circularmotion axis="o" fast="true"><location_hand location="handback" contact="touch"/></circularmotion>"#,
     );
@@ -301,7 +301,7 @@ fn symbols_are_read_and_written() {
 }
 
 #[test]
-fn what_symbols_cannot_say_is_told() {
+fn losses_of_the_symbol_form_are_reported() {
     let text = document(r#"<directedmotion direction="uol" speed="0.5"/>"#);
     let (signs, _) = sigml::read(text.as_bytes()).expect("it is SiGML");
     let (_, lost) = sigml::write_symbols(signs.iter().map(|entry| &entry.sign));
@@ -309,7 +309,7 @@ fn what_symbols_cannot_say_is_told() {
 }
 
 #[test]
-fn what_is_no_sigml_is_refused() {
+fn files_that_are_no_sigml_are_refused() {
     let deep = format!("<sigml>{}", "<sigmlsection>".repeat(100));
     let bomb = "<!DOCTYPE sigml [<!ENTITY a \"b\"><!ENTITY c \"&a;&a;\">]><sigml/>";
     for (text, expected) in [
@@ -349,7 +349,7 @@ fn what_is_no_sigml_is_refused() {
 }
 
 #[test]
-fn other_encodings_are_read_where_the_document_says_so() {
+fn other_encodings_are_read_if_the_document_declares_them() {
     let sign = "<SiGML>\n<hns_sign gloss=\"ÉTÉ\"><hamnosys_manual><hamfist/></hamnosys_manual></hns_sign></SiGML>";
     let western = format!("<?xml version='1.0'\nencoding='ISO-8859-1'?>{sign}");
     let western: Vec<u8> = western.chars().map(|c| u32::from(c) as u8).collect();
@@ -363,7 +363,7 @@ fn other_encodings_are_read_where_the_document_says_so() {
 }
 
 #[test]
-fn what_is_nested_as_deep_as_is_read_is_read_and_written() {
+fn nesting_up_to_the_limit_is_read_and_written() {
     let depth = 59;
     let motion = format!(
         "{}<directedmotion direction=\"u\"/>{}",

@@ -578,7 +578,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn any_sign_comes_back_from_gestural_sigml(signs in proptest::collection::vec(notated(), 1..=2)) {
+    fn any_sign_reads_back_unchanged_from_gestural_sigml(signs in proptest::collection::vec(notated(), 1..=2)) {
         let text = sigml::write_gestural(&signs);
         let (again, _) = sigml::read(&text).expect("we wrote it");
         let again: Vec<_> = again.into_iter().map(|entry| entry.sign).collect();

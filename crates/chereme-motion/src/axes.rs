@@ -325,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn a_clip_there_and_back_is_the_same_and_places_are_those_of_the_file() {
+    fn a_clip_converted_there_and_back_is_unchanged() {
         let skeleton = Skeleton::new(vec![
             Joint::new("a", None, DVec3::new(1.0, 2.0, 3.0)),
             Joint::new("b", Some(0), DVec3::new(0.0, 10.0, 4.0)).with_tip(DVec3::Z),

@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_is_what_kinematics_give_and_follows_the_circle() {
+    fn a_joint_path_equals_forward_kinematics_on_a_circle() {
         let clip = turning(20);
         for (frame, at) in clip.path(1).into_iter().enumerate() {
             let angle = frame as f64 * 0.1;
@@ -366,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn sampling_between_frames_turns_half_way_and_stays_at_the_ends() {
+    fn sampling_interpolates_between_frames_and_holds_the_ends() {
         let clip = turning(5);
         let half = clip.sample(Instant::from_seconds(0.15)).rotations[0];
         assert!(half.angle_between(DQuat::from_rotation_y(0.15)) < 1e-7);
@@ -396,7 +396,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_clip_is_refused_by_joint_and_frame() {
+    fn an_invalid_clip_is_refused_with_joint_and_frame() {
         let clip = turning(3);
         let mut channels = clip.clone().into_channels();
         channels[1].rotations[2] = DQuat::from_xyzw(0.0, 0.0, 0.0, 2.0);

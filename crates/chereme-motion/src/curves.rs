@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn channels_that_are_no_track_are_refused() {
+    fn channels_that_cannot_form_a_track_are_refused() {
         let curve = |name: &str, frames| Curve::new(name, Column::doubles(vec![0.0; frames]));
         let cases = [
             (vec![], TrackError::Empty),

@@ -120,7 +120,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn angles_give_their_rotation_back_and_stay_near(angles in proptest::array::uniform3(-7.0f64..7.0)) {
+        fn angles_convert_back_to_their_rotation_and_stay_near_the_hint(angles in proptest::array::uniform3(-7.0f64..7.0)) {
             for order in orders() {
                 let q = order.to_quat(angles);
                 let same = order.angles(q, angles);

@@ -217,7 +217,7 @@ mod tests {
     use super::Face;
 
     #[test]
-    fn faces_add_up_and_end_somewhere() {
+    fn faces_add_up_within_limits() {
         let mut face = Face::default();
         assert!(face.is_at_rest());
         let down = Face {
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_have_names_and_ends_and_a_mirror() {
+    fn face_numbers_have_names_limits_and_a_mirror() {
         let numbers: [f64; Face::LEN] = std::array::from_fn(|at| 0.01 * (at + 1) as f64);
         let face = Face::from_numbers(numbers);
         assert_eq!(face.numbers(), numbers);
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn every_number_is_counted_once() {
+    fn the_number_of_face_numbers_is_right() {
         let names = serde_json::to_value(Face::default()).expect("a face is written");
         let fields = names.as_object().expect("with names").values();
         let numbers = fields.map(|field| field.as_array().map_or(1, Vec::len));

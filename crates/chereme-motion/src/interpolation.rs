@@ -75,7 +75,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn shares_meet_their_ends_and_the_printed_values() {
+    fn speed_profiles_equal_their_end_points_and_published_values() {
         for way in Interpolation::ALL {
             assert_eq!(way.share(0.0), 0.0, "{}", way.name());
             assert_eq!(way.share(1.0), 1.0, "{}", way.name());
@@ -100,7 +100,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn rotations_stay_units_on_the_arc_and_are_symmetric(
+        fn interpolated_rotations_stay_normalised_on_the_arc_and_are_symmetric(
             axis in proptest::array::uniform3(-1.0f64..1.0), angle in 0.01f64..3.0, w in 0.0f64..1.0
         ) {
             let axis = glam::DVec3::from(axis);

@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_stands_upright_on_the_floor() {
+    fn points_of_a_picture_are_placed_upright_on_the_floor() {
         let space = Space::Depth(Frame {
             width: 640.0,
             height: 480.0,
@@ -352,7 +352,7 @@ mod tests {
     }
 
     #[test]
-    fn points_that_are_no_track_are_refused() {
+    fn points_that_cannot_form_a_track_are_refused() {
         let room = Space::World(Convention::MODEL);
         let hand = |group: &str| Marker {
             group: group.into(),

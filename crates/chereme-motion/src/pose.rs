@@ -152,7 +152,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn kinematics_agree_with_matrices_and_go_back(angles in proptest::array::uniform12(-3.0f64..3.0)) {
+        fn forward_kinematics_agree_with_matrices_and_are_inverted(angles in proptest::array::uniform12(-3.0f64..3.0)) {
             let skeleton = chain();
             let pose = Pose {
                 rotations: angles.chunks(3)

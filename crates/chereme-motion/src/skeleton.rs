@@ -225,7 +225,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_tree_is_refused_by_name() {
+    fn joints_that_form_no_tree_are_refused_by_name() {
         let joint = |name: &str, parent| Joint::new(name, parent, DVec3::Y);
         for (joints, want) in [
             (vec![], "at least one joint"),
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn a_subtree_holds_what_hangs_below() {
+    fn a_subtree_holds_all_descendants() {
         let parents = [None, Some(0), Some(1), Some(0), Some(2), Some(3)];
         let joints = parents
             .map(|parent| Joint::new("j", parent, DVec3::Y))

@@ -393,7 +393,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn frame_times_as_exporters_write_them() {
+    fn frame_times_of_common_exporters_give_exact_rates() {
         for (seconds, decimals, frames, per) in [
             (0.033333, 6, 30, 1),
             (0.0333333, 7, 30, 1),
@@ -435,13 +435,13 @@ mod tests {
         }
 
         #[test]
-        fn the_frames_of_a_span_of_frames_are_those(first in 0usize..100_000, count in 0usize..1000) {
+        fn frames_to_span_to_frames_is_the_identity(first in 0usize..100_000, count in 0usize..1000) {
             let rate = Rate::new(120_000, 1001).expect("a rate");
             prop_assert_eq!(rate.frames_in(rate.span(first..first + count)), first..first + count);
         }
 
         #[test]
-        fn intersection_is_covered_by_both(a in -50i64..50, b in -50i64..50, c in -50i64..50, d in -50i64..50) {
+        fn an_intersection_is_covered_by_both_spans(a in -50i64..50, b in -50i64..50, c in -50i64..50, d in -50i64..50) {
             let x = Span::between(Instant(a), Instant(b));
             let y = Span::between(Instant(c), Instant(d));
             prop_assert_eq!(x.intersection(y), y.intersection(x));

@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn an_even_rate_is_found_in_times_that_keep_it() {
+    fn an_even_rate_is_detected_in_regular_times() {
         let even = |seconds: &[f64], tolerance| match listed(seconds) {
             Times::Listed(times) => times.even(tolerance).map(Rate::frames),
             Times::Even(_) => None,

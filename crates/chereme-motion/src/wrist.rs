@@ -122,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_ellipse_is_met_where_no_other_point_of_it_is_nearer() {
+    fn the_nearest_point_of_an_ellipse_is_found() {
         for (point, ends) in [
             ([1.0, 1.0], [1.4, 0.4]),
             ([0.1, -0.9], [1.3, 0.7]),
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_within_their_limits_stay_and_others_stop_at_them() {
+    fn angles_within_their_limits_are_kept_and_others_are_clamped() {
         let limits = WristLimits {
             flexion: [1.0, 1.4],
             deviation: [0.6, 0.3],

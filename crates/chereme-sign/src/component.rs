@@ -519,7 +519,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_fields_say_what_is_wrong() {
+    fn invalid_fields_are_refused_with_a_reason() {
         for (text, message) in [
             ("", r#""" is no hand, phase or component"#),
             (
@@ -572,7 +572,7 @@ mod tests {
     }
 
     #[test]
-    fn missing_readings_are_never_the_same_value() {
+    fn missing_readings_never_count_as_equal() {
         let missing = [Reading::Unset, Reading::NotApplicable, Reading::Unclear];
         for a in &missing {
             assert!(missing.iter().all(|b| !a.same_value(b)));

@@ -467,7 +467,7 @@ mod tests {
     }
 
     #[test]
-    fn milestones_land_on_milestones_and_phases_are_stretched_evenly() {
+    fn warping_maps_milestones_to_milestones_and_stretches_phases_evenly() {
         let at = |times: [i64; 5]| Milestones::of_times(times.map(ms));
         let (own, there) = (
             at([0, 300, 800, 1000, 1400]),

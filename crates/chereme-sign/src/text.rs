@@ -141,7 +141,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn folding_keeps_what_people_search_for() {
+    fn folding_ignores_case_and_accents_and_keeps_letters() {
         for (text, folded) in [
             ("ÉCOLE", "ecole"),
             ("E\u{301}cole", "ecole"),
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn slips_are_counted() {
+    fn edit_distances_are_counted() {
         for (a, b, most, distance) in [
             ("", "", 0, Some(0)),
             ("chat", "chat", 0, Some(0)),
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_is_what_was_meant() {
+    fn the_nearest_word_is_suggested() {
         let fields = [
             "configuration",
             "placement",
@@ -238,7 +238,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn the_band_gives_what_the_full_table_gives(
+        fn the_banded_edit_distance_equals_that_of_the_full_table(
             a in "[abc]{0,9}", b in "[abc]{0,9}", most in 0usize..10
         ) {
             let (x, y): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());

@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_that_comes_again_is_that_of_its_own_annotation() {
+    fn a_repeated_value_belongs_to_its_own_annotation() {
         let around = [
             "60-80 movement=out",
             "0-20 movement=out",

@@ -159,7 +159,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rows_are_found_by_their_action_and_ids_are_taken_once() {
+    fn actions_are_found_by_name_and_ids_are_unique() {
         let ids: BTreeSet<&str> = ACTIONS.iter().map(|row| row.id).collect();
         assert_eq!(ids.len(), ACTIONS.len());
         for row in ACTIONS {
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn every_row_has_words_in_both_languages_and_keys_that_are_some() {
+    fn every_action_has_words_in_both_languages_and_valid_keys() {
         for row in ACTIONS {
             assert!(
                 !row.name.en.is_empty() && !row.name.fr.is_empty(),

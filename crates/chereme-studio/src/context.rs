@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn the_selected_time_goes_along_with_what_is_selected() {
+    fn the_selected_time_follows_the_selected_annotations() {
         let moved = snapshot(&[(1, 30, 40), (2, 50, 60)]);
         let undone = snapshot(&[(1, 10, 20), (2, 50, 60)]);
         let shown = |annotations: &[i64], span| DisplayState {

@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn each_corpus_has_its_own_and_it_goes_when_nothing_is_half_done() {
+    fn each_corpus_has_its_own_draft_which_is_deleted_when_nothing_is_unfinished() {
         let folder = tempfile::tempdir().expect("a folder");
         let folders = Folders {
             config: Some(folder.path().to_owned()),

@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_chosen_is_done_and_a_missing_chooser_is_told() {
+    fn a_chosen_file_gives_its_command_and_a_missing_dialog_is_reported() {
         let one: Show = |_, _| Box::pin(async { vec![PathBuf::from("a")] });
         let none: Show = |_, _| Box::pin(async { Vec::new() });
         let is = |what, expected| match ended(one, what, 1.0) {

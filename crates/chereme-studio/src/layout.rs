@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn a_layout_that_lacks_a_pane_is_not_taken() {
+    fn a_layout_that_lacks_a_pane_is_refused() {
         let tree = of(Busy::Annotating, false);
         assert_eq!(as_usual(Some(&tree)), tree);
         let mut lacking = of(Busy::Annotating, false);
@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn panes_keep_their_proportions_when_one_is_put_among_them() {
+    fn panes_keep_their_proportions_when_one_is_added() {
         let mut tree = of(Busy::Annotating, false);
         settle(&mut tree);
         assert_eq!(
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn panes_are_put_away_and_come_back() {
+    fn panes_are_closed_and_opened_again() {
         let mut tree = of(Busy::Annotating, false);
         enlarge(&mut tree, &[PaneKind::Timeline, PaneKind::Stage]);
         let shown = |tree: &Tree<PaneKind>| -> Vec<PaneKind> {
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_opened_is_seen_wherever_the_stage_stands() {
+    fn an_opened_pane_is_visible_wherever_the_stage_is() {
         use PaneKind::{Inspector, Library, Search, Stage, Timeline};
         for busy in [Busy::Annotating, Busy::Searching, Busy::Recombining] {
             for small in [false, true] {
@@ -349,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn in_a_small_window_stage_and_work_are_in_sight_together() {
+    fn a_small_window_shows_stage_and_work_pane_together() {
         for (busy, kind) in [
             (Busy::Annotating, PaneKind::Timeline),
             (Busy::Searching, PaneKind::Search),

@@ -278,7 +278,7 @@ mod tests {
     use crate::Options;
 
     #[test]
-    fn what_may_only_be_read_says_so_and_why_nothing_can_be_changed() {
+    fn a_read_only_corpus_explains_why_nothing_can_be_changed() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("locked.chereme");
         drop(Corpus::create(&path, "A").expect("made"));

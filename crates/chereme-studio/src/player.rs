@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn it_plays_to_the_end_and_begins_again_when_asked() {
+    fn a_player_stops_at_the_end_and_starts_again_on_request() {
         let mut player = player();
         player.toggle();
         player.advance(0.5);
@@ -366,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_is_looped() {
+    fn a_selected_part_is_looped() {
         let mut player = player();
         player.looping = true;
         player.play_part(span(500_000, 1_000_000));
@@ -409,7 +409,7 @@ mod tests {
     }
 
     #[test]
-    fn speeds_and_shuttles_have_ends() {
+    fn playback_and_shuttle_speeds_are_limited() {
         let mut player = player();
         for _ in 0..20 {
             player.step_speed(true);

@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_are_read_as_they_were_written_and_bad_entries_forgotten() {
+    fn settings_read_back_unchanged_and_invalid_entries_are_dropped() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("deep/studio.json");
         assert_eq!(Settings::read(&path), None);
@@ -293,7 +293,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn folders_are_those_of_the_platform() {
+    fn folders_follow_the_platform() {
         let of = |pairs: &'static [(&str, &str)]| {
             Folders::of_platform(move |name| {
                 pairs

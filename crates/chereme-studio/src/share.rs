@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_that_is_there_is_written_over() {
+    fn existing_files_are_never_overwritten() {
         let folder = tempfile::tempdir().expect("a folder");
         let corpus = folder.path().join("c.chereme");
         let name = |expected: &str| {

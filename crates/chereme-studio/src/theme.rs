@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_selected_stands_out_from_every_tier_by_lightness() {
+    fn the_selection_differs_in_lightness_from_every_tier() {
         for dark in [false, true] {
             let colours = Colours::of(dark);
             for role in ["gloss", "configuration", "translation", "free"] {
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_of_the_hands_are_seen_and_told_apart() {
+    fn lines_of_the_two_hands_are_visible_and_distinguishable() {
         for (dark, ground) in [(false, 0xF7), (true, 0x1A)] {
             let [right, left] = hands(dark);
             for hand in [right, left] {
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn phonetic_letters_and_all_that_the_window_says_can_be_drawn() {
+    fn the_fonts_cover_phonetic_letters_and_all_texts_of_the_window() {
         let ctx = Context::default();
         install(&ctx);
         ctx.run_ui(RawInput::default(), |_| {})

@@ -127,7 +127,7 @@ fn every_widget_has_a_name_in_a_window_large_and_small() {
 }
 
 #[test]
-fn every_widget_has_a_name_where_something_is_found_and_made() {
+fn every_widget_has_a_name_with_hits_and_a_generated_sign() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     window.key_press_modifiers(Modifiers::COMMAND, Key::F2);

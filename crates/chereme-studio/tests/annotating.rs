@@ -64,7 +64,7 @@ fn annotations_are_copied_cut_and_pasted_through_the_clipboard() {
 }
 
 #[test]
-fn cells_of_a_spreadsheet_are_pasted_and_what_is_odd_is_told() {
+fn cells_of_a_spreadsheet_are_pasted_and_odd_lines_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = emptied(folder.path());
     let cells = "Tier\tBegin\tEnd\tValue\nGloss\t0,1\t0,2\tUN\nGloss\tsoon\t0.4\tDEUX\n\
@@ -101,7 +101,7 @@ fn cells_of_a_spreadsheet_are_pasted_and_what_is_odd_is_told() {
 }
 
 #[test]
-fn annotations_are_made_duplicated_stretched_and_merged_beside_one() {
+fn annotations_are_added_duplicated_extended_and_merged_with_a_neighbour() {
     const SHIFT: Modifiers = Modifiers::SHIFT;
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = three(folder.path());
@@ -149,7 +149,7 @@ fn annotations_are_made_duplicated_stretched_and_merged_beside_one() {
 }
 
 #[test]
-fn one_goes_to_a_time_that_is_typed_and_round_the_tier() {
+fn the_playhead_goes_to_a_typed_time_and_through_the_tier() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = three(folder.path());
     let old = spans(&window);
@@ -186,7 +186,7 @@ fn one_goes_to_a_time_that_is_typed_and_round_the_tier() {
 }
 
 #[test]
-fn the_other_button_offers_what_can_be_done() {
+fn the_secondary_button_offers_the_possible_actions() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = three(folder.path());
     let before = operations(&window);
@@ -202,7 +202,7 @@ fn the_other_button_offers_what_can_be_done() {
 }
 
 #[test]
-fn short_pieces_are_played_again_and_again_until_they_are_stopped() {
+fn short_pieces_are_repeated_until_stopped() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = three(folder.path());
     let old = spans(&window);
@@ -223,7 +223,7 @@ fn short_pieces_are_played_again_and_again_until_they_are_stopped() {
 }
 
 #[test]
-fn a_key_is_found_in_the_help_by_what_it_does() {
+fn a_key_is_found_in_the_help_by_its_action() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path());
     press(&mut window, NONE, Key::F1);

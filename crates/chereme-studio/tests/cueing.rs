@@ -95,7 +95,7 @@ fn reading_is_practised_with_words_that_look_alike() {
 }
 
 #[test]
-fn slips_of_a_recording_without_phones_are_refused_in_words() {
+fn slips_of_a_recording_without_phones_are_refused_with_an_explanation() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     open_pane(&mut window);

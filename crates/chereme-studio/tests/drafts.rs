@@ -69,7 +69,7 @@ fn typist() {
 }
 
 #[test]
-fn what_was_typed_before_a_kill_is_back_in_its_place() {
+fn text_typed_before_a_kill_is_restored_in_place() {
     for letters in [1, 7] {
         let folder = tempfile::tempdir().expect("a folder");
         let corpus = small_corpus(folder.path());
@@ -118,7 +118,7 @@ fn what_was_typed_before_a_kill_is_back_in_its_place() {
 }
 
 #[test]
-fn what_was_dropped_stays_dropped() {
+fn a_discarded_draft_is_not_restored() {
     let folder = tempfile::tempdir().expect("a folder");
     let corpus = small_corpus(folder.path());
     let stored = glosses(&corpus);

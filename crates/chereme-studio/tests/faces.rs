@@ -130,7 +130,7 @@ fn rows(window: &Window<'_>, kind: ListKind) -> usize {
 }
 
 #[test]
-fn a_face_is_chosen_explained_and_put_on_the_sentence_with_one_click() {
+fn a_face_is_chosen_explained_and_applied_to_the_sentence_with_one_click() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path(), Language::English);
     until(&mut window, "candidates", |it| contains(it, "1. W3: score"));
@@ -165,7 +165,7 @@ fn a_face_is_chosen_explained_and_put_on_the_sentence_with_one_click() {
 }
 
 #[test]
-fn milestones_are_shown_written_as_a_tier_and_a_correction_is_taken() {
+fn milestones_are_shown_written_as_a_tier_and_corrected() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path(), Language::English);
     until(&mut window, "milestones", |it| has(it, "M2 0.700"));

@@ -20,7 +20,7 @@ fn shows(window: &Window<'_>, part: &str) -> bool {
 }
 
 #[test]
-fn files_are_looked_at_before_anything_is_written_and_then_taken_in() {
+fn files_are_inspected_before_they_are_imported() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     let bad = folder.path().join("bad.bvh");
@@ -84,7 +84,7 @@ fn files_are_looked_at_before_anything_is_written_and_then_taken_in() {
 }
 
 #[test]
-fn what_is_shown_is_exported_to_a_place_that_is_typed() {
+fn the_shown_recording_is_exported_to_a_typed_path() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::E);
@@ -121,7 +121,7 @@ fn what_is_shown_is_exported_to_a_place_that_is_typed() {
 }
 
 #[test]
-fn a_folder_of_the_start_page_is_looked_at_first_and_leaves_nothing_where_it_is_not_taken_in() {
+fn a_folder_of_the_start_page_is_inspected_first_and_cancelling_leaves_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let files = folder.path().join("takes");
     chereme_corpus::unpack_starter(&files).expect("unpacked");
@@ -154,7 +154,7 @@ fn a_folder_of_the_start_page_is_looked_at_first_and_leaves_nothing_where_it_is_
 }
 
 #[test]
-fn remedies_name_things_of_the_window_and_a_joint_is_said_by_a_click_on_the_body() {
+fn remedies_name_parts_of_the_window_and_a_click_on_the_body_sets_a_joint() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     let whole = std::fs::read_to_string(folder.path().join("files/escargot.bvh")).expect("there");

@@ -87,7 +87,7 @@ fn offset(path: &Path) -> i64 {
 }
 
 #[test]
-fn a_film_goes_along_with_the_signer_and_is_laid_upon_the_movement() {
+fn a_film_plays_next_to_the_signer_and_as_an_overlay() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, path) = filmed(folder.path());
     until(&mut window, "the film", |window| {
@@ -122,7 +122,7 @@ fn a_film_goes_along_with_the_signer_and_is_laid_upon_the_movement() {
 }
 
 #[test]
-fn the_pane_has_the_film_while_it_is_in_sight() {
+fn the_film_moves_from_the_stage_to_its_pane_while_that_is_visible() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut window, _) = filmed(folder.path());
     until(&mut window, "the film", |window| {
@@ -163,7 +163,7 @@ fn a_film_without_movement_is_on_the_stage_and_stepped_through() {
 }
 
 #[test]
-fn a_film_that_is_missing_or_damaged_says_so() {
+fn a_missing_or_damaged_film_is_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = film_alone(folder.path(), "nowhere.mp4");
     until(&mut window, "word of it", |window| has(window, "Find it…"));

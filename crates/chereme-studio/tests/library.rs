@@ -83,7 +83,7 @@ fn signs_without_recordings_are_listed_animated_and_taken_into_a_recipe() {
 }
 
 #[test]
-fn in_a_small_window_a_notated_sign_that_was_opened_is_seen_and_used() {
+fn a_small_window_shows_and_uses_an_opened_notated_sign() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_notated(folder.path());
     window.set_size(eframe::egui::vec2(800.0, 600.0));
@@ -116,7 +116,7 @@ fn in_a_small_window_a_notated_sign_that_was_opened_is_seen_and_used() {
 }
 
 #[test]
-fn a_coded_sign_says_what_can_be_done() {
+fn a_coded_sign_shows_its_possible_actions() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_notated(folder.path());
     window.get_by_label("Filter").type_text("limace");
@@ -210,7 +210,7 @@ fn a_recording_is_deleted_by_key_and_undone_from_its_notice() {
 }
 
 #[test]
-fn before_the_source_of_a_sign_is_deleted_it_is_asked_what_happens_to_the_sign() {
+fn deleting_the_source_of_a_sign_asks_about_that_sign_first() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path());
     let recordings = || -> Vec<String> {

@@ -66,7 +66,7 @@ fn count(window: &Window<'_>, wanted: impl Fn(&str) -> bool) -> u64 {
 }
 
 #[test]
-fn values_are_proposed_for_a_recording_gone_through_and_accepted() {
+fn values_are_proposed_for_a_recording_reviewed_and_accepted() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window(Options {
         corpus: Some(uncoded(folder.path())),

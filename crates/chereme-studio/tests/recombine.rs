@@ -217,7 +217,7 @@ fn a_stored_recipe_is_opened_again_changed_and_stored_as_another() {
 }
 
 #[test]
-fn a_changed_recipe_takes_the_place_of_the_sign_it_was_and_undo_brings_that_back() {
+fn a_changed_recipe_replaces_its_sign_and_undo_restores_the_former_one() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open(folder.path());
     let path = window.state().corpus().expect("open").clone();
@@ -405,7 +405,7 @@ fn a_path_is_a_curve_that_is_pulled_by_keys_and_drawn_on_the_stage() {
 }
 
 #[test]
-fn a_press_near_a_moving_handle_holds_the_hand_and_takes_its_handle() {
+fn a_press_near_a_moving_handle_pauses_the_hand_and_grabs_the_handle() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open(folder.path());
     key(&mut window, Modifiers::COMMAND, Key::R);
@@ -526,7 +526,7 @@ fn cards_are_switched_moved_and_removed_and_the_text_follows() {
 }
 
 #[test]
-fn what_cannot_be_made_is_told_on_its_card_and_nowhere_else() {
+fn a_failed_step_is_reported_on_its_card_only() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open(folder.path());
     key(&mut window, Modifiers::COMMAND, Key::R);

@@ -46,7 +46,7 @@ fn hits(window: &Window<'_>) -> usize {
 }
 
 #[test]
-fn a_handshape_is_searched_for_by_typing_with_completion_and_its_hit_opened_by_keys() {
+fn a_handshape_is_searched_by_typing_with_completion_and_its_hit_opened_by_keys() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = searching(folder.path());
     type_query(&mut window, "handsh");
@@ -68,7 +68,7 @@ fn a_handshape_is_searched_for_by_typing_with_completion_and_its_hit_opened_by_k
 }
 
 #[test]
-fn everyday_words_are_understood_and_what_is_opened_in_a_small_window_is_seen() {
+fn everyday_words_are_understood_and_an_opened_hit_is_visible_in_a_small_window() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     window.set_size(eframe::egui::vec2(800.0, 600.0));
@@ -103,7 +103,7 @@ fn everyday_words_are_understood_and_what_is_opened_in_a_small_window_is_seen() 
 }
 
 #[test]
-fn what_finds_nothing_is_offered_as_what_it_may_mean() {
+fn a_query_without_hits_is_offered_in_its_likely_meanings() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = searching(folder.path());
     type_query(&mut window, "forehead Y");
@@ -133,7 +133,7 @@ fn a_slip_is_marked_and_mended() {
 }
 
 #[test]
-fn conditions_are_added_by_looking_and_the_text_says_the_same() {
+fn conditions_are_added_by_pictures_and_the_text_matches() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = searching(folder.path());
     click(&mut window, "Add a condition");
@@ -173,7 +173,7 @@ fn conditions_are_added_by_looking_and_the_text_says_the_same() {
 }
 
 #[test]
-fn facets_narrow_and_a_search_is_kept_renamed_and_deleted() {
+fn facets_narrow_and_a_search_is_saved_renamed_and_deleted() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = searching(folder.path());
     enter(&mut window);
@@ -232,7 +232,7 @@ fn facets_narrow_and_a_search_is_kept_renamed_and_deleted() {
 }
 
 #[test]
-fn what_is_like_the_selected_sign_is_found_and_weighed_and_shown_as_a_table() {
+fn signs_like_the_selected_one_are_found_weighted_and_shown_as_a_table() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = searching(folder.path());
     enter(&mut window);
@@ -269,7 +269,7 @@ fn what_is_like_the_selected_sign_is_found_and_weighed_and_shown_as_a_table() {
 }
 
 #[test]
-fn a_facet_and_a_value_of_a_picker_are_told_of_in_the_inspector() {
+fn the_inspector_describes_a_facet_and_a_value_of_a_picker() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = searching(folder.path());
     type_query(&mut window, "gloss=ESCARGOT");
@@ -303,7 +303,7 @@ fn a_facet_and_a_value_of_a_picker_are_told_of_in_the_inspector() {
 }
 
 #[test]
-fn the_kept_search_that_was_meant_is_offered() {
+fn the_intended_saved_search_is_suggested() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path());
     let mut corpus = chereme_corpus::Corpus::open(&path, "A").expect("opened");
@@ -336,7 +336,7 @@ fn the_kept_search_that_was_meant_is_offered() {
 }
 
 #[test]
-fn in_a_narrow_pane_one_line_says_how_hits_are_shown() {
+fn a_narrow_pane_shows_the_display_options_in_one_line() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     window.key_press_modifiers(Modifiers::COMMAND, Key::F);

@@ -31,7 +31,7 @@ fn the_starter_corpus_is_opened_and_a_recording_played() {
 }
 
 #[test]
-fn the_start_page_says_what_is_wrong_and_what_helps() {
+fn the_start_page_shows_errors_with_remedies() {
     let folder = tempfile::tempdir().expect("a folder");
     let rubbish = folder.path().join("no.chereme");
     std::fs::write(&rubbish, "rubbish, rubbish").expect("written");
@@ -64,7 +64,7 @@ fn a_corpus_is_checked_from_the_menu() {
 }
 
 #[test]
-fn a_path_that_was_used_is_not_typed_on() {
+fn a_used_path_is_not_appended_to() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path());
     let mut window = window(options(folder.path()));
@@ -84,7 +84,7 @@ fn a_path_that_was_used_is_not_typed_on() {
 }
 
 #[test]
-fn the_start_page_is_walked_by_keys_and_goes_on_with_what_was_open() {
+fn the_start_page_is_operated_by_keys_and_resumes_the_last_corpus() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path());
     let mut window = open_starter_by_key(folder.path());
@@ -130,7 +130,7 @@ fn open_starter_by_key<'a>(folder: &std::path::Path) -> Window<'a> {
 }
 
 #[test]
-fn what_was_opened_and_chosen_is_remembered() {
+fn opened_corpora_and_choices_are_remembered() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
@@ -199,7 +199,7 @@ fn a_corpus_that_is_deleted_while_it_is_open_is_noticed_and_saved() {
 }
 
 #[test]
-fn a_small_window_has_stage_and_timeline_and_goes_back() {
+fn a_small_window_shows_stage_and_timeline_and_grows_back() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     until(&mut window, "the tiers", |it| has(it, "Tier Gloss"));

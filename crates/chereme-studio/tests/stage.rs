@@ -24,7 +24,7 @@ fn is_chosen<'a>(node: &impl NodeT<'a>) -> bool {
 }
 
 #[test]
-fn the_signer_is_seen_from_seven_places_and_in_up_to_four_views() {
+fn the_signer_is_shown_from_seven_directions_and_in_up_to_four_views() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     assert_eq!(pictures(&window), ["The signer: From the front"]);
@@ -79,7 +79,7 @@ fn hands_are_in_the_corners_and_palms_and_the_face_on_request() {
 }
 
 #[test]
-fn trails_ghosts_grid_and_places_are_shown_and_put_away() {
+fn trails_ghosts_grid_and_places_are_shown_and_hidden() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     for (label, key) in [
@@ -129,7 +129,7 @@ fn the_bar_moves_the_playhead_by_mouse_and_by_keys() {
 }
 
 #[test]
-fn the_stage_is_looked_at_as_it_was_when_the_window_is_opened_again() {
+fn the_view_of_the_stage_is_restored_when_the_window_opens_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     let path = window.state().corpus().expect("open").clone();
@@ -149,7 +149,7 @@ fn the_stage_is_looked_at_as_it_was_when_the_window_is_opened_again() {
 }
 
 #[test]
-fn the_original_of_each_piece_is_shown_and_what_has_none_is_told() {
+fn the_original_of_each_piece_is_shown_or_reported_missing() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     let path = window.state().corpus().expect("open").clone();
@@ -173,7 +173,7 @@ fn the_original_of_each_piece_is_shown_and_what_has_none_is_told() {
 }
 
 #[test]
-fn a_made_sign_stands_beside_what_it_was_made_from() {
+fn a_generated_sign_is_shown_next_to_its_source() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     let path = window.state().corpus().expect("open").clone();

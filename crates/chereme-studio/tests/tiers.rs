@@ -51,7 +51,7 @@ fn tiers_are_dragged_by_their_names_and_sorted() {
 }
 
 #[test]
-fn a_tier_is_copied_with_what_it_is_to_hold() {
+fn a_tier_is_copied_with_the_chosen_contents() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = three(folder.path());
     let before = operations(&window);
@@ -86,7 +86,7 @@ fn a_tier_is_copied_with_what_it_is_to_hold() {
 }
 
 #[test]
-fn hidden_tiers_and_what_was_zoomed_to_are_those_of_the_corpus() {
+fn hidden_tiers_and_zoom_are_remembered_for_each_corpus() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path());
     let path = window.state().corpus().expect("open").clone();
@@ -159,7 +159,7 @@ fn the_box_of_the_overview_is_dragged_and_shows_another_part() {
 }
 
 #[test]
-fn the_curves_of_the_face_have_lanes_where_they_are_stored() {
+fn stored_face_curves_have_lanes() {
     const SIGML: &str = "<sigml><hamgestural_sign gloss=\"VRAAG\"><sign_nonmanual>\
         <facialexpr_tier><eye_brows movement=\"RB\"/></facialexpr_tier></sign_nonmanual>\
         <sign_manual><handconfig handshape=\"flat\" extfidir=\"uo\" palmor=\"l\"/>\
@@ -200,7 +200,7 @@ fn the_curves_of_the_face_have_lanes_where_they_are_stored() {
 }
 
 #[test]
-fn a_component_is_described_by_keys_and_proposes_where_it_belongs() {
+fn a_component_tier_is_added_by_keys_with_a_proposed_parent() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path());
     click(&mut window, "Tier Gloss");
@@ -227,7 +227,7 @@ fn a_component_is_described_by_keys_and_proposes_where_it_belongs() {
 }
 
 #[test]
-fn a_tier_is_described_in_words() {
+fn the_properties_of_a_tier_are_edited_in_words() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = three(folder.path());
     click(&mut window, "Tier Gloss");
@@ -249,7 +249,7 @@ fn a_tier_is_described_in_words() {
 }
 
 #[test]
-fn the_tools_fit_a_narrow_pane_in_longer_words_too() {
+fn the_tools_fit_a_narrow_pane_in_the_longer_language() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = common::window(Options {
         corpus: Some(common::small_corpus(folder.path())),

@@ -101,7 +101,7 @@ fn a_recording_without_tiers_gets_the_usual_ones() {
 }
 
 #[test]
-fn alt_and_drag_makes_one_at_once_and_escape_drops_it() {
+fn alt_drag_adds_an_annotation_and_escape_discards_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = emptied(folder.path());
     let lane = rect(&window, "Lane of Gloss");
@@ -156,7 +156,7 @@ fn a_selected_annotation_is_moved_and_neighbours_are_pushed_in_one_undo() {
 }
 
 #[test]
-fn an_edge_is_dragged_and_escape_lets_it_be() {
+fn an_edge_is_dragged_and_escape_cancels() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = three(folder.path());
     let old = spans(&window);
@@ -234,7 +234,7 @@ fn several_are_selected_by_click_and_frame_and_changed_together() {
 }
 
 #[test]
-fn the_selected_tier_stays_in_sight_where_the_window_gets_lower() {
+fn the_selected_tier_stays_visible_if_the_window_gets_lower() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path());
     for _ in 0..16 {
@@ -253,7 +253,7 @@ fn the_selected_tier_stays_in_sight_where_the_window_gets_lower() {
 }
 
 #[test]
-fn by_keys_alone_one_is_made_split_merged_shifted_and_deleted() {
+fn an_annotation_is_added_split_merged_shifted_and_deleted_by_keys_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = emptied(folder.path());
     press(&mut window, CTRL, Key::B);
@@ -303,7 +303,7 @@ fn by_keys_alone_one_is_made_split_merged_shifted_and_deleted() {
 }
 
 #[test]
-fn the_selection_is_extended_and_an_annotation_brought_to_it() {
+fn the_selection_is_extended_and_an_annotation_snapped_to_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = emptied(folder.path());
     press(&mut window, CTRL, Key::B);
@@ -327,7 +327,7 @@ fn the_selection_is_extended_and_an_annotation_brought_to_it() {
 }
 
 #[test]
-fn tab_keeps_and_goes_on_and_digits_give_values() {
+fn tab_stores_and_continues_and_digits_give_values() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = three(folder.path());
     click(&mut window, "Gloss: a");
@@ -374,7 +374,7 @@ fn a_handshape_is_chosen_from_the_values_of_its_inventory() {
 }
 
 #[test]
-fn lanes_of_movement_are_measured_beside_the_window() {
+fn lanes_of_movement_are_measured_in_the_background() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path());
     press(&mut window, CTRL, Key::F5);
@@ -390,7 +390,7 @@ fn lanes_of_movement_are_measured_beside_the_window() {
 }
 
 #[test]
-fn lanes_are_folded_and_leave_the_tiers_in_sight() {
+fn lanes_are_folded_and_leave_the_tiers_visible() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path());
     for key in [Key::F5, Key::F6, Key::F7, Key::F8] {
@@ -525,7 +525,7 @@ fn a_digit_means_the_same_value_in_the_list_and_among_the_pictures() {
 }
 
 #[test]
-fn the_column_of_names_grows_for_a_name_that_is_scrolled_into_sight_and_rests() {
+fn the_name_column_grows_for_a_name_scrolled_into_view_and_keeps_its_width() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path());
     window.set_size(eframe::egui::vec2(1280.0, 660.0));
@@ -550,7 +550,7 @@ fn the_column_of_names_grows_for_a_name_that_is_scrolled_into_sight_and_rests() 
 }
 
 #[test]
-fn what_was_deleted_is_selected_again_when_it_comes_back() {
+fn a_restored_annotation_is_selected_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = three(folder.path());
     click(&mut window, "Gloss: b");

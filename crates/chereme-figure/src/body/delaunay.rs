@@ -49,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_net_covers_the_points_hull_once() {
+    fn a_triangulation_covers_the_convex_hull_exactly_once() {
         let points: Vec<DVec2> = (0..60)
             .map(|i| {
                 let i = f64::from(i);

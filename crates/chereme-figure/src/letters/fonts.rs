@@ -207,7 +207,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_font_is_read_when_a_character_needs_it_and_what_no_font_has_is_told_once() {
+    fn fonts_are_read_on_demand_and_missing_characters_reported_once() {
         let (_folder, fonts) = noto();
         assert!(fonts.known().loaded.is_empty());
         let cyrillic = fonts.find('Ж').expect("a font");

@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_small_letter_has_looks_as_ever_and_the_rest_as_the_font_has_it() {
+    fn characters_of_the_built_in_font_are_unchanged_and_others_use_system_fonts() {
         let (_folder, fonts) = noto();
         let mut plain = Vec::new();
         font::draw("ÉCOLE-2H", |x, y| {
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_that_no_font_has_show_their_number_from_the_right_where_they_are_read_so() {
+    fn letters_without_a_font_show_their_code_in_reading_order() {
         let (_folder, fonts) = noto();
         let line = lay_out("كتاب X", &fonts);
         let codes: Vec<char> = line

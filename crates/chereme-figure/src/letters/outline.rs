@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_filled_has_the_area_of_the_shape() {
+    fn a_filled_outline_has_the_area_of_its_shape() {
         for (points, area) in [
             (&[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]][..], 12.0),
             (

@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_joint_is_where_its_movement_puts_it() {
+    fn joint_positions_equal_those_of_the_movement() {
         for frames in [1, 700, 5000] {
             let text = file(frames);
             let mut reader = Reader::open(text.as_bytes()).expect("a file");

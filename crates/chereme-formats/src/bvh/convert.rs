@@ -420,7 +420,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_come_back() {
+    fn converted_columns_read_back_unchanged() {
         let (hierarchy, block, clip) = read();
         assert_eq!(widened(&hierarchy, &clip), hierarchy);
         let back = columns(&clip, &hierarchy, 6).expect("columns");
@@ -435,7 +435,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_channels_cannot_say_widens_them() {
+    fn channels_are_widened_for_movement_that_they_cannot_hold() {
         let (hierarchy, _, clip) = read();
         let (skeleton, rate) = (clip.skeleton().clone(), clip.rate());
         let mut channels = clip.into_channels();
@@ -458,7 +458,7 @@ mod tests {
     }
 
     #[test]
-    fn no_frame_time_is_thirty_a_second() {
+    fn a_missing_frame_time_means_30_frames_a_second() {
         let thirty = Rate::new(30, 1).expect("rate");
         for time in [
             None,
@@ -480,7 +480,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_not_read_stays_at_rest() {
+    fn joints_without_columns_stay_at_rest() {
         let (hierarchy, block, _) = read();
         let mut builder = ClipBuilder::new(&hierarchy, None).expect("a tree");
         builder.push(1..3, |at| block.columns.get(at).filter(|_| at >= 6));

@@ -111,7 +111,7 @@ fn both(bytes: &[u8]) -> (Markers, Curves) {
 }
 
 #[test]
-fn six_layouts_say_the_same() {
+fn six_byte_layouts_read_to_equal_data() {
     for kind in [84, 85, 86] {
         for is_real in [false, true] {
             let (markers, analog) = both(&file(kind, is_real));
@@ -151,7 +151,7 @@ fn events_are_moments_of_a_tier() {
 }
 
 #[test]
-fn damaged_files_are_refused_or_read_as_far_as_they_go() {
+fn damaged_files_are_refused_or_read_up_to_the_damage() {
     let whole = file(84, false);
     assert_eq!(read(b""), Err(Error::NoC3d));
     assert_eq!(read(&whole[..600]), Err(Error::Short("data")));
@@ -280,7 +280,7 @@ fn files_of_others_hold_the_known_values() {
 }
 
 #[test]
-fn markers_come_back_from_c3d() {
+fn markers_read_back_unchanged_from_c3d() {
     let places = |shift: f32| -> Vec<Column> {
         (0..3)
             .map(|axis| {

@@ -162,7 +162,7 @@ fn documents_without_common_ids_are_matched_by_time() {
 }
 
 #[test]
-fn changes_of_different_things_are_all_taken() {
+fn changes_of_different_annotations_are_all_merged() {
     merges(
         "G: a1 0-100 A, a2 200-300 B, a3 400-500 C",
         "G: a1 0-120 A, a2 200-300 B2, a3 400-500 C",
@@ -222,7 +222,7 @@ fn documents_without_a_common_state_are_united() {
 }
 
 #[test]
-fn chains_grow_on_both_sides() {
+fn chains_of_annotations_grow_on_both_sides() {
     merges(
         "G: a1 0-100 A\nP <G: a2 ^a1 x, a3 ^a1 y",
         "G: a1 0-100 A\nP <G: a2 ^a1 x, a4 ^a1 m, a3 ^a1 y",
@@ -233,7 +233,7 @@ fn chains_grow_on_both_sides() {
 }
 
 #[test]
-fn tiers_come_and_go() {
+fn added_removed_and_renamed_tiers_are_merged() {
     merges(
         "G: a1 0-100 A\nH: a2 0-50 h\nI: a3 0-50 i",
         "G: a1 0-100 A\nH: a2 0-50 h\nI: a3 0-50 i2",
@@ -366,7 +366,7 @@ impl Seeded {
 }
 
 #[test]
-fn an_hour_of_two_annotators_comes_together_without_loss() {
+fn an_hour_of_work_by_two_annotators_is_merged_without_loss() {
     let mut seeded = Seeded(7);
     let mut base = document("Right:\nLeft:\nMouth:");
     let mut id = 0;

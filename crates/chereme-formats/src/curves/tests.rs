@@ -42,7 +42,7 @@ fn live_link_has_the_times_of_its_timecodes() {
 }
 
 #[test]
-fn degrees_are_told_from_radians_by_their_size() {
+fn degrees_and_radians_are_distinguished_by_their_size() {
     let text = "Timecode,BlendshapeCount,HeadRoll\n00:00:00:00.0,52,12.5\n00:00:00:01.0,52,1\n";
     assert_eq!(curves(text).0.curves()[1].unit, "deg");
 }
@@ -102,7 +102,7 @@ fn fap_text_holds_what_its_masks_name() {
 }
 
 #[test]
-fn plain_tables_come_back_as_they_were() {
+fn plain_tables_read_back_unchanged() {
     let text = "time [s],force [N],\"a,b\"\n0.500000,1.50,\n0.510000,,2e-3\n";
     let (curves, offset, _) = curves(text);
     assert_eq!(offset.millis(), 500);
@@ -268,7 +268,7 @@ fn hostile_faces_are_refused_or_read_and_fill_no_memory() {
 }
 
 #[test]
-fn names_with_blanks_and_a_mask_too_many_are_read() {
+fn names_with_blanks_are_read_and_an_unknown_parameter_is_refused() {
     let masks = |on: usize| {
         let bits = (1..=69).map(|at| if at == on { "1" } else { "0" });
         bits.collect::<Vec<_>>().join(" ")

@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cut_short_or_something_else_is_refused() {
+    fn truncated_and_foreign_settings_are_refused() {
         for cut in [0, 10, 60, 200, FILE.len() - 20] {
             assert!(read(&FILE.as_bytes()[..cut]).is_err(), "{cut}");
         }

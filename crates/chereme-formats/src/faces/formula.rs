@@ -202,7 +202,7 @@ mod tests {
     use super::Formula;
 
     #[test]
-    fn formulas_compute_what_they_say() {
+    fn formulas_compute_their_documented_values() {
         let (a, b) = ([0.5, 1.0, f64::NAN], [0.25, -1.0, 1.0]);
         let channel = |name: &str| match name {
             "A" => Some(&a[..]),
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_formula_is_refused() {
+    fn an_invalid_formula_is_refused() {
         let deep = "(".repeat(100_000);
         for bad in [
             "",

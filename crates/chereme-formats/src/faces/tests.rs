@@ -23,7 +23,7 @@ fn says(view: &View, text: &str) -> bool {
 }
 
 #[test]
-fn every_system_is_whole() {
+fn every_face_system_is_complete() {
     let ids: Vec<&str> = System::all().iter().map(|it| it.id.as_str()).collect();
     assert_eq!(
         ids,
@@ -171,7 +171,7 @@ fn scores_of_mediapipe_leave_cheeks_nose_and_tongue_unknown() {
 }
 
 #[test]
-fn gaps_are_bridged_and_counted_and_a_still_head_is_told() {
+fn gaps_are_bridged_and_counted_and_a_still_head_is_reported() {
     let gap = f64::NAN;
     let it = view(&[
         ("brow_raise_right", &[0.0, gap, 1.0, gap]),

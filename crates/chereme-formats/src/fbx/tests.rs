@@ -89,7 +89,7 @@ fn a_take_without_end_is_refused_or_ends_with_its_keys() {
 }
 
 #[test]
-fn what_is_no_fbx_is_refused() {
+fn files_that_are_no_fbx_are_refused() {
     let cases: [&[u8]; 4] = [
         b"",
         b"HIERARCHY\nROOT Hips",

@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn rotations_go_the_short_way_at_an_even_speed() {
+    fn rotations_take_the_shortest_arc_at_an_even_speed() {
         let turns = [0.0, 0.9].map(|angle| DQuat::from_rotation_y(angle).as_quat().to_array());
         let flipped = turns[1].map(|it| -it);
         for last in [turns[1], flipped] {
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn a_spline_is_that_of_the_appendix() {
+    fn a_cubic_spline_follows_the_formula_of_the_standard() {
         // In-tangent, value, out-tangent of two keys: the line 2 t has the tangent 2 everywhere.
         let line = [2.0, 2.0, 2.0, 2.0, 6.0, 2.0];
         let keys = keys(Interpolation::Cubic, 1, &line);

@@ -70,7 +70,7 @@ fn apart(a: &Clip, b: &Clip) -> f64 {
 }
 
 #[test]
-fn movement_comes_back_to_a_hundredth_of_a_millimetre() {
+fn movement_reads_back_to_a_hundredth_of_a_millimetre() {
     let clip = clip();
     let about = About {
         name: "CHAT".into(),
@@ -92,7 +92,7 @@ fn movement_comes_back_to_a_hundredth_of_a_millimetre() {
 }
 
 #[test]
-fn annotations_stand_where_blender_and_three_keep_them() {
+fn annotations_are_stored_where_blender_and_three_js_keep_them() {
     let note = Note {
         tier: "gloss".into(),
         begin: 0.0,
@@ -264,7 +264,7 @@ fn documents_that_mean_nothing_are_refused() {
 }
 
 #[test]
-fn text_form_reads_buffers_in_it_and_next_to_it() {
+fn the_text_form_reads_embedded_and_neighbouring_buffers() {
     let text = r#"{"asset":{"version":"2.0"},"nodes":[{"name":"a"}],"skins":[{"joints":[0]}],"buffers":[{"byteLength":4,"uri":"URI"}]}"#;
     let inside = text.replace("URI", "data:application/octet-stream;base64,AAAAAA==");
     assert!(parse(inside.as_bytes()).is_ok());

@@ -24,7 +24,7 @@ fn points(track: &FileTrack) -> &chereme_motion::Markers {
 }
 
 #[test]
-fn names_of_files_of_frames_are_a_prefix_and_a_number() {
+fn frame_files_are_named_by_a_prefix_and_a_number() {
     let name = "my_take_000000000012_keypoints.json";
     assert_eq!(frame_of_name(name), Some(("my_take", 12)));
     for other in [
@@ -38,7 +38,7 @@ fn names_of_files_of_frames_are_a_prefix_and_a_number() {
 }
 
 #[test]
-fn people_are_followed_when_they_change_their_order_and_frames_that_lack_are_gaps() {
+fn people_are_tracked_if_their_order_changes_and_missing_frames_are_gaps() {
     let mut reader = Reader::default();
     for (number, people) in [
         (7, vec![100.0, 500.0]),
@@ -125,7 +125,7 @@ fn landmarks_of_mediapipe_are_shares_of_the_picture_and_metres() {
 }
 
 #[test]
-fn what_holds_no_points_is_refused() {
+fn files_without_points_are_refused() {
     for text in [
         "{",
         "[]",

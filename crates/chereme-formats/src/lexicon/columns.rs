@@ -455,7 +455,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_shipped_table_is_whole_and_each_title_has_one_meaning() {
+    fn the_built_in_table_is_complete_and_each_title_has_one_meaning() {
         let text = include_str!("../../../../schema/column_words.json");
         let file: BTreeMap<String, Vec<String>> = serde_json::from_str(text).expect("a table");
         let titles: Vec<&String> = file.values().flatten().collect();

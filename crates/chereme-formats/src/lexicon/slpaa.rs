@@ -415,7 +415,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_export_stays_other_json() {
+    fn json_that_is_no_export_is_left_to_other_readers() {
         for text in [
             "{}",
             "[]",

@@ -182,7 +182,7 @@ fn colours_are_read_from_the_stream_and_from_the_container() {
 }
 
 #[test]
-fn phones_turn_their_films() {
+fn the_rotation_of_phone_films_is_read() {
     let one = 0x1_0000_u32;
     let minus = one.wrapping_neg();
     for (matrix, turn, size) in [
@@ -204,7 +204,7 @@ fn phones_turn_their_films() {
 }
 
 #[test]
-fn pictures_are_shown_when_their_composition_times_say() {
+fn pictures_are_shown_at_their_composition_times() {
     // Decoded in the order 0 1 2 3, shown in the order 0 2 3 1, one frame later than decoded; the edit list removes
     // that delay.
     let ctts = [0, 4, 1, 3600, 1, 10_800, 1, 0, 1, 0];
@@ -245,7 +245,7 @@ fn an_edit_list_may_delay_and_cut_a_film() {
 }
 
 #[test]
-fn films_in_pieces_are_read() {
+fn fragmented_films_are_read() {
     let whole = film(8);
     let described = opened(&whole);
     // The same film without its table, followed by two fragments of four frames each.
@@ -274,7 +274,7 @@ fn films_in_pieces_are_read() {
 }
 
 #[test]
-fn what_is_no_film_is_refused_in_words() {
+fn files_that_are_no_film_are_refused_with_an_explanation() {
     let said = |bytes: &[u8]| {
         let refused = read(&mut Cursor::new(bytes)).expect_err("refused");
         refused.to_string()
@@ -295,7 +295,7 @@ fn what_is_no_film_is_refused_in_words() {
 }
 
 #[test]
-fn a_film_that_was_cut_short_shows_what_is_there() {
+fn a_truncated_film_shows_the_pictures_it_still_has() {
     let bytes = film(10);
     let cut = &bytes[..bytes.len() - 20];
     let (film, findings) = read(&mut Cursor::new(cut)).expect("a film");

@@ -63,7 +63,7 @@ fn markers(bytes: &[u8]) -> Markers {
 }
 
 #[test]
-fn three_versions_say_the_same() {
+fn three_versions_read_to_equal_data() {
     let expected = markers(&file(0.2));
     assert_eq!(markers(&file(0.1)), expected);
     assert_eq!(markers(&file(0.0)), expected);

@@ -220,7 +220,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn entries_by_name_and_pattern() {
+    fn entries_match_by_name_and_by_pattern() {
         let mapping = Mapping::from_json(
             r#"{"tiers": {"*": "free", "config ?D*": "right.configuration", "Été": "both.gloss"}, "columns": {"EN*": "translation.en"}}"#,
         )
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mapping_goes_before_the_one_that_completes_it() {
+    fn own_entries_take_precedence_over_those_of_the_completing_mapping() {
         let mapping = |text| Mapping::from_json(text).expect("a mapping");
         let own = mapping(r#"{"tiers": {"K*": "left.configuration"}}"#);
         let other = mapping(r#"{"tiers": {"K1": "right.gloss", "L1": "right.gloss"}}"#);
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn patterns() {
+    fn patterns_match_with_stars_and_question_marks() {
         for (pattern, name, fits) in [
             ("", "", true),
             ("*", "", true),
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_name_the_entry_and_suggest() {
+    fn errors_name_the_entry_and_suggest_a_correction() {
         for (text, message) in [
             (
                 "{\"tiers\": {",

@@ -183,7 +183,7 @@ mod tests {
     use chereme_sign::HandRef;
 
     #[test]
-    fn the_shipped_table_is_whole_and_each_word_has_one_meaning() {
+    fn the_built_in_table_is_complete_and_each_word_has_one_meaning() {
         let text = include_str!("../../../../schema/tier_words.json");
         let file: File = serde_json::from_str(text).expect("a table");
         let words: Vec<&String> = file

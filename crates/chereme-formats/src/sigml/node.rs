@@ -403,7 +403,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bends_are_words_digits_or_decimals() {
+    fn bends_are_read_from_words_digits_and_decimals() {
         let joints = |a, b, c| Some(Bend::Joints([a, b, c]));
         for (text, expected) in [
             ("bent", Some(Bend::Bent)),

@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn every_word_is_its_values_own() {
+    fn every_value_has_a_word_of_its_own() {
         check::<HandClass>(12);
         check::<ThumbPosition>(3);
         check::<Opening>(2);

@@ -57,7 +57,7 @@ fn both_kinds_and_their_dialects_are_read() {
 }
 
 #[test]
-fn what_is_left_out_is_reported() {
+fn skipped_lines_are_reported() {
     let text = "WEBVTT\n\nNOTE\nx\n\n00:00.000 --> 00:01.000 line:0\na\n\nsoon --> later\nb\n";
     let (_, findings) = read(text.as_bytes()).expect("subtitles");
     let lines: Vec<Option<u64>> = findings.iter().map(|finding| finding.line).collect();
@@ -78,7 +78,7 @@ fn files_without_a_cue_are_refused() {
 }
 
 #[test]
-fn subtitles_come_back_as_they_were() {
+fn subtitles_read_back_unchanged() {
     let text = "WEBVTT\n\n00:00:01.000 --> 00:00:02.000\n<v Anna>R&amp;D &lt;3\n\n00:00:02.000 --> 01:00:03.000\n<v Bo>x\ny\n\n";
     let (transcript, _) = read(text.as_bytes()).expect("subtitles");
     assert_eq!(write(&transcript, Form::Vtt), text);

@@ -86,7 +86,7 @@ const EXPECTED: &str = "IntervalTier phones\n  1000000 1250000 \"say \\\"a\\\"\\
 TextTier clicks\n  500000 540000 \"x\"\n";
 
 #[test]
-fn all_forms_and_encodings_say_the_same() {
+fn all_forms_and_encodings_read_to_equal_data() {
     let cases = [
         LONG.as_bytes().to_vec(),
         SHORT.as_bytes().to_vec(),
@@ -104,7 +104,7 @@ fn all_forms_and_encodings_say_the_same() {
 }
 
 #[test]
-fn a_text_grid_comes_back_as_it_was() {
+fn a_text_grid_reads_back_unchanged() {
     let (transcript, _) = read(LONG.as_bytes()).expect("a TextGrid");
     let (long, findings) = write(&transcript, Form::Long, Instant::from_millis(2500));
     assert_eq!(findings, []);

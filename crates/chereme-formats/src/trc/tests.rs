@@ -32,7 +32,7 @@ fn the_plain_form_is_read_with_its_exact_numbers_and_gaps() {
 }
 
 #[test]
-fn dialects_say_the_same() {
+fn dialects_read_to_equal_data() {
     let shifted = PLAIN
         .replace("Frame#\tTime\tLSHO", "Frame#\tTime\t\tLSHO")
         .replace("\t\tX1", "\t\t\tX1");
@@ -84,7 +84,7 @@ fn damaged_files_are_refused_with_the_line() {
 }
 
 #[test]
-fn markers_come_back_as_they_were() {
+fn markers_read_back_unchanged() {
     let (expected, _) = markers(PLAIN);
     let text = write("a.trc", &expected, Instant::ZERO).expect("TRC");
     assert_eq!(markers(&text).0, expected);

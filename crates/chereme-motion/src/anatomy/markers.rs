@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn markers_beside_a_skeleton_play_no_part() {
+    fn markers_next_to_a_skeleton_are_no_body_parts() {
         for (wrapped, space) in [(true, ""), (true, "Anna:"), (false, ""), (false, "NS:")] {
             let skeleton = with_markers(wrapped, space);
             let anatomy = Anatomy::detect(&skeleton);

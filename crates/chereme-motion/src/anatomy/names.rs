@@ -391,7 +391,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_many_conventions_say_what_they_mean() {
+    fn joint_names_of_many_conventions_are_understood() {
         let index = "left Digit(Finger(Index), ";
         for (name, want) in [
             ("mixamorig:LeftForeArm", "left Forearm".to_owned()),
@@ -437,7 +437,7 @@ mod tests {
     }
 
     #[test]
-    fn a_character_s_own_prefix_is_seen_through() {
+    fn a_character_prefix_is_ignored() {
         let names = [
             "Armature",
             "Anna_Hips",

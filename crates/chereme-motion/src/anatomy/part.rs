@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn people_s_spellings_are_understood_and_errors_suggest() {
+    fn common_spellings_are_understood_and_errors_suggest_a_correction() {
         for (text, want) in [
             ("Right-Hand", "right hand"),
             ("left_index_base", "left index base"),

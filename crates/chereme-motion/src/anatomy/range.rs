@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn good_angles_stay_and_a_hand_that_is_always_bent_is_no_straight_one() {
+    fn good_angles_are_kept_and_an_always_bent_hand_is_not_straightened() {
         let same = |angle: f64| angle;
         for (shares, worst) in [(0..=100, 3.5), (60..=90, 0.1), (45..=55, 0.1)] {
             let correction = range(same, shares.clone());
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn one_frame_of_noise_is_no_straight_finger() {
+    fn one_noisy_frame_does_not_set_the_straight_angle() {
         let mut range = HandRange::default();
         for _ in 0..200 {
             range.add(&bent(0.6));

@@ -162,7 +162,7 @@ mod tests {
     use glam::DVec3;
 
     #[test]
-    fn faults_name_line_part_and_what_was_meant() {
+    fn faults_name_the_line_and_part_and_suggest_a_correction() {
         let skeleton = Skeleton::new(vec![
             Joint::new("pelvis", None, DVec3::ZERO),
             Joint::new("wrist_7", Some(0), DVec3::X),
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn roles_override_names_and_take_parts_away() {
+    fn roles_override_names_and_remove_parts() {
         let skeleton = Skeleton::new(vec![
             Joint::new("hips", None, DVec3::ZERO),
             Joint::new("RightHand", Some(0), DVec3::X),

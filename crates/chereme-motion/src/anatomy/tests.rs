@@ -45,7 +45,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
     #[test]
-    fn hand_angles_set_are_hand_angles_read(weights in proptest::array::uniform21(0.0f64..1.0)) {
+    fn hand_angles_read_back_as_set(weights in proptest::array::uniform21(0.0f64..1.0)) {
         for (name, wear) in wears() {
             let (skeleton, anatomy) = worn(wear);
             for side in Side::BOTH {
@@ -64,7 +64,7 @@ proptest! {
     }
 
     #[test]
-    fn equal_angles_look_alike_on_every_body(weights in proptest::array::uniform21(0.0f64..1.0)) {
+    fn equal_angles_give_equal_finger_directions_on_every_body(weights in proptest::array::uniform21(0.0f64..1.0)) {
         let angles = without_end_joints(plausible(weights));
         let bones = |wear: Wear, side: Side| {
             let (skeleton, anatomy) = worn(wear);
@@ -98,7 +98,7 @@ proptest! {
 }
 
 #[test]
-fn angles_mean_what_the_hand_module_says() {
+fn angles_have_the_signs_documented_in_the_hand_module() {
     let (skeleton, anatomy) = worn(Wear {
         frames: any_turn,
         bent: 0.1,
@@ -160,7 +160,7 @@ fn angles_mean_what_the_hand_module_says() {
 }
 
 #[test]
-fn only_the_fingers_change_and_a_hand_without_any_is_refused() {
+fn setting_hand_angles_changes_only_fingers_and_refuses_a_hand_without_any() {
     let (skeleton, anatomy) = worn(PLAIN);
     let rest = skeleton.rest_pose();
     let mut pose = rest.clone();
@@ -268,7 +268,7 @@ fn every_part_is_found_in_every_convention_without_doubt() {
 }
 
 #[test]
-fn names_that_tell_nothing_leave_it_to_topology_and_sides() {
+fn joints_with_meaningless_names_are_identified_by_topology_and_side() {
     for (wear_name, wear) in wears() {
         let plain = body(wear);
         let skeleton = renamed(&plain, |n, _| format!("joint_{n}"));
@@ -305,7 +305,7 @@ fn doubled_and_missing_parts_are_reported() {
 }
 
 #[test]
-fn mirrored_joints_are_those_of_the_other_side_also_without_a_part() {
+fn mirrored_joints_are_found_even_if_they_are_no_known_part() {
     let skeleton = Skeleton::new(vec![
         Joint::new("Hips", None, DVec3::ZERO),
         Joint::new("LHipJoint", Some(0), DVec3::X),
@@ -341,7 +341,7 @@ fn mirrored_joints_are_those_of_the_other_side_also_without_a_part() {
 }
 
 #[test]
-fn units_and_axes_are_found_whichever_way_the_body_is_written() {
+fn units_and_axes_are_detected_in_every_orientation() {
     for up in ["+X", "-X", "+Y", "-Y", "+Z", "-Z"] {
         for left in ["+X", "-X", "+Y", "-Y", "+Z", "-Z"] {
             let Ok(axes) = format!("{up},{left}").parse::<crate::Axes>() else {
@@ -394,7 +394,7 @@ fn units_and_axes_are_found_whichever_way_the_body_is_written() {
 }
 
 #[test]
-fn measures_are_those_of_the_made_body_and_a_person_s() {
+fn body_measures_equal_the_built_body_and_are_those_of_a_person() {
     let (_, anatomy) = worn(PLAIN);
     let m = anatomy.measures().expect("measures");
     let near = |a: f64, b: f64, by: f64| assert!((a - b).abs() < by, "{a} {b}");
@@ -407,7 +407,7 @@ fn measures_are_those_of_the_made_body_and_a_person_s() {
 }
 
 #[test]
-fn every_landmark_is_placed_near_where_people_have_it_and_turns_with_body_and_head() {
+fn every_landmark_is_plausibly_placed_and_turns_with_body_and_head() {
     for (wear_name, wear) in wears() {
         let (skeleton, anatomy) = worn(wear);
         let turn = DQuat::from_rotation_z(0.4) * any_turn(5);
@@ -459,7 +459,7 @@ fn every_landmark_is_placed_near_where_people_have_it_and_turns_with_body_and_he
 }
 
 #[test]
-fn body_space_goes_there_and_back_and_knows_left_from_right() {
+fn body_space_converts_both_ways_and_distinguishes_left_from_right() {
     let (skeleton, anatomy) = worn(PLAIN);
     let mut pose = skeleton.rest_pose();
     pose.rotations[0] = DQuat::from_rotation_y(std::f64::consts::PI);
@@ -473,7 +473,7 @@ fn body_space_goes_there_and_back_and_knows_left_from_right() {
 }
 
 #[test]
-fn a_hand_turned_by_direction_and_palm_has_them() {
+fn a_hand_turned_to_a_direction_and_palm_reads_back_both() {
     let (skeleton, anatomy) = worn(Wear {
         frames: any_turn,
         ..PLAIN
@@ -494,7 +494,7 @@ fn a_hand_turned_by_direction_and_palm_has_them() {
 }
 
 #[test]
-fn thousands_of_joints_are_gone_through_whatever_they_are_called() {
+fn thousands_of_joints_are_processed_under_any_names() {
     for name in ["x", "LeftHand", "Hand", "LeftHandIndex1", "Spine", "A_x"] {
         for parent in [
             |n: usize| n - 1,
@@ -559,7 +559,7 @@ const REAL: [(&str, &str, &str, &str, bool); 19] = [
 ];
 
 #[test]
-fn real_files_have_bodies() {
+fn bodies_are_detected_in_shared_files() {
     for path in shared("motion/bvh") {
         let shown = path.display();
         let (skeleton, poses, _) = read_bvh(&path, 1).unwrap_or_else(|| panic!("{shown}"));

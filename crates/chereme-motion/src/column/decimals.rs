@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_put_together_again_are_the_whole() {
+    fn joined_parts_equal_the_whole() {
         let texts = [
             "1.5",
             "2",

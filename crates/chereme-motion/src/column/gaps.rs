@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn runs_are_joined_cut_and_put_together_again() {
+    fn runs_are_merged_sliced_and_joined_again() {
         let gaps = Gaps::of([7..9, 2..4, 4..5, 3..4, 6..6]);
         assert_eq!(gaps.runs(), [2..5, 7..9]);
         assert_eq!(gaps, Gaps::at([8, 7, 2, 4, 3]));

@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gap_has_neither_value_nor_text_and_numbers_are_what_they_were() {
+    fn gaps_have_no_value_or_text_and_numbers_are_unchanged() {
         let values: [[f64; 3]; 4] = [
             [1.5, -0.002, 7.0],
             [f64::from(0.1f32), -0.0, f64::from(f32::MAX)],
@@ -382,7 +382,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_put_together_again_are_the_whole() {
+    fn joined_parts_equal_the_whole() {
         for whole in forms() {
             for cut in 0..=5 {
                 let mut both = whole.slice(0..cut);
@@ -394,7 +394,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_make_no_column_are_refused() {
+    fn numbers_that_cannot_form_a_column_are_refused() {
         assert!(matches!(
             Column::integers(vec![1], 0.0, 0.0),
             Err(ColumnError::Scale { .. })

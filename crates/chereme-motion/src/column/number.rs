@@ -415,7 +415,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_as_decimals() {
+    fn numbers_are_compared_as_decimals() {
         let equal = [
             ("1.50", "1.5"),
             ("-0", "0"),
@@ -446,7 +446,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_of_twenty_digits_are_what_they_say() {
+    fn numbers_of_twenty_digits_are_exact() {
         for text in [
             "0.99999999999999988898",
             "-0.92233720368547758079",
@@ -464,7 +464,7 @@ mod tests {
     }
 
     #[test]
-    fn text_keeps_its_look() {
+    fn the_text_of_a_number_is_kept() {
         for text in [
             "1.50",
             "0",
@@ -483,7 +483,7 @@ mod tests {
     }
 
     #[test]
-    fn refusals_say_why() {
+    fn refusals_name_the_reason() {
         let cases = [
             ("nan", NotANumber::NotFinite),
             ("-NaN", NotANumber::NotFinite),
@@ -509,7 +509,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn value_is_that_of_the_standard_library(mantissa in -MANTISSA_LIMIT + 1..MANTISSA_LIMIT, scale in 0u8..40) {
+        fn the_value_equals_that_of_the_standard_library(mantissa in -MANTISSA_LIMIT + 1..MANTISSA_LIMIT, scale in 0u8..40) {
             let text = format!("{mantissa}e-{scale}");
             let decimal = Decimal { mantissa, scale };
             prop_assert_eq!(decimal.to_f64(), text.parse::<f64>().unwrap());

@@ -32,7 +32,7 @@ fn keeps_lengths(source: [DVec3; 3], solved: &TwoBone) {
 }
 
 #[test]
-fn odd_targets_have_an_answer_that_keeps_the_lengths() {
+fn odd_targets_are_solved_with_unchanged_bone_lengths() {
     let [first, second] = lengths(ARM);
     let straight = [DVec3::ZERO, DVec3::X * 0.3, DVec3::X * 0.55];
     let folded = [DVec3::ZERO, DVec3::X * 0.3, DVec3::ZERO];
@@ -73,7 +73,7 @@ fn odd_targets_have_an_answer_that_keeps_the_lengths() {
 }
 
 #[test]
-fn numbers_that_are_none_and_bones_without_length_are_errors() {
+fn non_finite_numbers_and_zero_length_bones_are_errors() {
     let nan = DVec3::new(0.1, f64::NAN, 0.0);
     let options = TwoBoneOptions::default();
     let bad = |source, target| two_bone(source, target, &options).expect_err("bad");
@@ -102,7 +102,7 @@ fn numbers_that_are_none_and_bones_without_length_are_errors() {
 }
 
 #[test]
-fn the_end_falls_softly_behind_a_target_that_leaves() {
+fn the_end_lags_smoothly_behind_a_target_out_of_reach() {
     let [first, second] = lengths(ARM);
     let length = first + second;
     let way = DVec3::new(0.6, 0.1, 0.3).normalize();
@@ -151,7 +151,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn the_end_meets_what_it_can_and_lengths_and_swivel_stay(
+    fn the_end_meets_reachable_targets_and_lengths_and_swivel_are_kept(
         source in arms(), way in vector(), share in 0.02f64..1.0
     ) {
         let target = reachable(source, way, share);
@@ -168,7 +168,7 @@ proptest! {
     }
 
     #[test]
-    fn turned_mirrored_and_scaled_arms_reach_alike(
+    fn rotated_mirrored_and_scaled_arms_are_solved_alike(
         source in arms(), way in vector(), share in 0.02f64..1.2, axis in vector(), pole in vector()
     ) {
         let target = reachable(source, way, share);
@@ -216,7 +216,7 @@ proptest! {
     }
 
     #[test]
-    fn iteration_and_formula_agree_in_the_plane(
+    fn iterative_and_analytic_solutions_agree_in_the_plane(
         source in arms(), share in 0.15f64..0.95, turn in -0.8f64..0.8
     ) {
         let [root, middle, end] = source;
@@ -254,7 +254,7 @@ fn a_wavering_straight_source_does_not_flip_the_elbow() {
 }
 
 #[test]
-fn fabrik_bends_a_straight_chain_and_stretches_to_what_is_far() {
+fn fabrik_bends_a_straight_chain_and_stretches_towards_far_targets() {
     let line: Vec<DVec3> = (0..5).map(|n| DVec3::X * f64::from(n)).collect();
     let bent = fabrik(&line, DVec3::X * 2.0, &FabrikOptions::default()).expect("finite");
     assert!(bent.residual < 1e-5, "{bent:?}");
@@ -303,7 +303,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn a_moved_wrist_is_there_and_only_the_arm_changes(by in vector(), spin in vector(), help in proptest::bool::ANY) {
+    fn a_moved_wrist_reaches_its_target_and_only_the_arm_changes(by in vector(), spin in vector(), help in proptest::bool::ANY) {
         for (name, wear) in wears().into_iter().filter(|(_, wear)| wear.unit == 1.0) {
             let (skeleton, anatomy) = worn(wear);
             let source = posture(&skeleton, &anatomy, 0.0);
@@ -343,7 +343,7 @@ proptest! {
     }
 
     #[test]
-    fn there_and_back_is_the_same_arm(by in vector()) {
+    fn moving_a_wrist_there_and_back_restores_the_arm(by in vector()) {
         let (skeleton, anatomy) = worn(Wear { frames: any_turn, ..PLAIN });
         let source = posture(&skeleton, &anatomy, 0.0);
         let hand = anatomy.joint(Part::Hand(Side::Left)).expect("a hand");
@@ -376,7 +376,7 @@ proptest! {
 }
 
 #[test]
-fn a_moving_arm_carried_aside_moves_as_smoothly_as_it_did() {
+fn a_displaced_moving_arm_stays_as_smooth_as_before() {
     let (skeleton, anatomy) = worn(Wear {
         frames: any_turn,
         ..PLAIN
@@ -463,7 +463,7 @@ fn the_collar_bone_helps_past_the_stated_reach_and_no_further_than_it_may() {
 }
 
 #[test]
-fn a_skeleton_without_the_arm_and_a_target_that_is_none_are_refused() {
+fn a_skeleton_without_the_arm_and_an_invalid_target_are_refused() {
     let (skeleton, anatomy) = worn(PLAIN);
     let mut pose = skeleton.rest_pose();
     let before = pose.clone();
@@ -500,7 +500,7 @@ fn a_skeleton_without_the_arm_and_a_target_that_is_none_are_refused() {
 /// source moves calmly, no joint of a signer's arm jumps by five degrees more than in the source at 120 Hz. Blows, and
 /// arms that pass through full extension, jump more.
 #[test]
-fn real_arms_carried_aside_stay_smooth() {
+fn captured_arms_displaced_aside_stay_smooth() {
     for path in shared("motion/bvh") {
         let shown = path.display();
         let (skeleton, poses, frame_time) =

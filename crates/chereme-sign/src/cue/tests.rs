@@ -16,7 +16,7 @@ fn keys_of(code_name: &str, sampa: &str) -> String {
 }
 
 #[test]
-fn every_code_that_comes_with_the_program_is_read_whole() {
+fn every_built_in_code_is_read_completely() {
     let ids: Vec<&str> = codes().iter().map(|code| code.id.as_str()).collect();
     assert_eq!(ids, ["french", "english-us", "english-gb"]);
     for code in codes() {
@@ -66,7 +66,7 @@ fn consonants_and_vowels_share_keys_as_charts_print_them() {
 }
 
 #[test]
-fn three_alphabets_say_the_same_keys() {
+fn three_alphabets_give_the_same_keys() {
     let french = code("fr").expect("French");
     let say = |text: &str, alphabet| {
         let phones: Vec<Phone> = text.split_whitespace().map(Phone::new).collect();
@@ -84,7 +84,7 @@ fn three_alphabets_say_the_same_keys() {
 }
 
 #[test]
-fn variants_move_what_they_name_and_nothing_else() {
+fn a_variant_changes_only_the_keys_that_it_names() {
     let french = code("french").expect("French");
     let usual = |code: &CueCode, phone: &str| {
         let (keys, _) = code.keys(&[Phone::new(phone)], Alphabet::Sampa);
@@ -185,7 +185,7 @@ fn french_spelling_is_read_by_rules_lists_and_neighbours() {
 }
 
 #[test]
-fn what_is_no_french_word_is_reported() {
+fn words_that_are_not_french_are_reported() {
     let spoken = french::phones("12 чат", french::Options::default());
     let reported: Vec<String> = spoken.findings.iter().map(ToString::to_string).collect();
     assert_eq!(reported[0], "\"12\" was left out; write it in words");
@@ -205,7 +205,7 @@ fn rows(table: &str) -> impl Iterator<Item = Vec<&str>> {
 }
 
 #[test]
-fn every_published_key_comes_out_exact_in_sampa_and_ipa() {
+fn every_published_key_is_reproduced_from_sampa_and_ipa() {
     let mut wrong = Vec::new();
     for row in rows(include_str!("vectors.tsv")) {
         let [name, _, sampa, ipa, expected] = row[..] else {
@@ -233,7 +233,7 @@ fn every_published_key_comes_out_exact_in_sampa_and_ipa() {
 }
 
 #[test]
-fn words_are_spelled_out_as_the_rules_say() {
+fn words_are_converted_to_phones_by_the_rules() {
     let mut wrong = Vec::new();
     for row in rows(include_str!("spelling.tsv")) {
         let found = said(row[0], french::Options::default());
@@ -245,7 +245,7 @@ fn words_are_spelled_out_as_the_rules_say() {
 }
 
 #[test]
-fn sentences_from_text_have_almost_the_keys_of_a_careful_hand() {
+fn keys_of_sentences_agree_closely_with_keys_written_by_hand() {
     let french = code("french").expect("French");
     let (mut errors, mut all, mut lines) = (0, 0, Vec::new());
     for row in rows(include_str!("vectors.tsv")) {
@@ -292,7 +292,7 @@ fn edits(a: &[String], b: &[&str]) -> usize {
 }
 
 #[test]
-fn british_keys_say_that_their_vowels_are_unchecked_and_aligners_agree() {
+fn british_keys_warn_of_unchecked_vowels_and_agree_with_aligners() {
     let british = code("en-GB").expect("British");
     let keys = |labels: &str, alphabet: Alphabet| {
         let phones: Vec<Phone> = labels.split(' ').map(Phone::new).collect();
@@ -318,7 +318,7 @@ fn british_keys_say_that_their_vowels_are_unchecked_and_aligners_agree() {
 }
 
 #[test]
-fn fables_have_almost_the_keys_of_a_careful_hand() {
+fn keys_of_fables_agree_closely_with_keys_written_by_hand() {
     let french = code("french").expect("French");
     let cigale = include_str!("../../../../tests/examples/cued/fable.txt").lines();
     let corbeau = include_str!("../../../../tests/examples/cued/corbeau.txt").lines();

@@ -284,7 +284,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn phones_with_durations_come_back_as_they_were_written() {
+    fn phones_with_durations_read_back_unchanged() {
         let reading = Reading {
             phones: Some(Alphabet::Sampa),
             ..Reading::default()

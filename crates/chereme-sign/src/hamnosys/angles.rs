@@ -455,7 +455,7 @@ mod tests {
     }
 
     #[test]
-    fn between_is_the_mean_and_single_digits_go_first() {
+    fn an_in_between_form_is_the_mean_and_single_digits_take_precedence() {
         let between = of(HandClass::Flat, |shape| {
             shape.between = Some(Form {
                 bend: Some(Bend::Bent),

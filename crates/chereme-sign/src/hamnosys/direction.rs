@@ -286,7 +286,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_direction_reads_what_it_writes_and_is_nearest_to_itself() {
+    fn every_direction_reads_back_and_is_its_own_nearest_direction() {
         assert_eq!(Direction::all().count(), 26);
         assert_eq!(Direction::all().filter(|d| d.has_symbol()).count(), 18);
         for direction in Direction::all() {

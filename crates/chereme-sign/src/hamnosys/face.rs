@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn a_word_goes_from_mouth_to_mouth() {
+    fn a_mouthed_word_opens_and_closes_the_mouth() {
         let word = Expression::of("mouthing", "ma:p").expect("a word");
         let open = |share| word.at(share).jaw;
         assert_eq!((open(0.0), open(1.0)), (0.0, 0.0), "closed at both ends");

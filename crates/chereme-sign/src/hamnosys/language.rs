@@ -430,7 +430,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_own_file_names_exactly_the_values_with_their_units() {
+    fn the_built_in_file_names_exactly_the_known_values_with_their_units() {
         let text = include_str!("../../../../schema/notation/body_language.json");
         let file = read(text).expect("the own file");
         assert_eq!(file.values.len(), BodyLanguage::NAMES.len());

@@ -12,7 +12,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn what_is_printed_reads_back(parts in vec(manual(), 1..3)) {
+    fn a_printed_sign_reads_back_unchanged(parts in vec(manual(), 1..3)) {
         let sign = Sign { parts };
         let printed = print(&sign);
         let read = parse(&printed.text);

@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn listed_codes_are_told_from_others() {
+    fn listed_codes_are_distinguished_from_unlisted_ones() {
         let listed = |part: NonmanualPart, tag: &str| Act::new(part, tag).is_listed();
         assert!(listed(NonmanualPart::Head, "SH_shaking_left_and_right"));
         assert!(listed(NonmanualPart::MouthGesture, "T17"));
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn every_tier_and_part_goes_through_json() {
+    fn every_tier_and_part_reads_back_from_json() {
         let mut said = Nonmanual::default();
         for part in NonmanualPart::ALL {
             said.push(part.tier(), vec![Act::new(part, "X")]);

@@ -56,7 +56,7 @@ mod tests {
     use crate::hamnosys::{Compass, Direction};
 
     #[test]
-    fn letters_face_where_transcribers_mean_them() {
+    fn palm_symbols_face_as_transcribers_use_them() {
         let half = 0.5f64.sqrt();
         for (direction, letter, faces) in [
             ("o", "d", [0.0, -1.0, 0.0]),
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn palms_lie_across_the_hand_and_angles_come_back() {
+    fn palms_are_perpendicular_to_the_hand_and_angles_convert_back() {
         for direction in Direction::all() {
             let pointing = direction.vector();
             for letter in Compass::ALL {

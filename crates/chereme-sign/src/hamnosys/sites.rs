@@ -318,7 +318,7 @@ mod tests {
     ];
 
     #[test]
-    fn every_location_has_a_landmark_and_its_mirror_image_is_that_of_the_other_hand() {
+    fn every_location_has_a_landmark_and_mirrors_to_the_other_side() {
         let landmarks = Anatomy::landmarks();
         let sides = [
             None,

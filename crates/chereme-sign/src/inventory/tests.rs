@@ -45,7 +45,7 @@ fn values_are_found_by_any_spelling() {
 }
 
 #[test]
-fn features_are_wanted_or_not() {
+fn values_match_required_and_excluded_features() {
     let inventory = small();
     let value = inventory.get("V").expect("V");
     for (wanted, matches) in [
@@ -220,7 +220,7 @@ fn writing_and_reading_gives_the_inventory_back() {
 }
 
 #[test]
-fn the_house_inventories_are_complete() {
+fn the_built_in_inventories_are_complete() {
     let mut ids = BTreeSet::new();
     for inventory in builtin() {
         assert!(ids.insert(&inventory.id), "{}", inventory.id);

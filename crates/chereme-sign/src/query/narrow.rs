@@ -163,7 +163,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn a_condition_narrows_the_whole_query_and_leaves_it_again() {
+    fn an_added_condition_narrows_the_whole_query_and_is_removed_again() {
         for (query, condition, narrowed) in [
             ("", "placement==chin", "placement==chin"),
             (
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_must_hold_is_taken_out() {
+    fn only_a_required_condition_is_removed() {
         for (query, condition, left) in [
             ("a placement=chin b", "placement=chin", "a b"),
             ("a and placement=chin and b", "placement=chin", "a b"),
@@ -287,7 +287,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_added_can_be_taken_out(query in query()) {
+        fn an_added_condition_can_be_removed(query in query()) {
             let narrowed = narrow(&query, "hand==weak");
             let parsed = Query::parse(&narrowed).expect("a query");
             let own = Query::parse(&query).expect("a query");
@@ -298,7 +298,7 @@ mod tests {
         }
 
         #[test]
-        fn any_text_is_survived(query in ".{0,40}", condition in ".{0,20}") {
+        fn any_text_is_accepted(query in ".{0,40}", condition in ".{0,20}") {
             let narrowed = narrow(&query, &condition);
             let _ = without(&narrowed, &condition);
             let _ = wants(&query, &condition);

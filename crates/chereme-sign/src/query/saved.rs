@@ -103,7 +103,7 @@ mod tests {
     use std::convert::Infallible;
 
     #[test]
-    fn saved_searches_are_put_in_anywhere() {
+    fn saved_searches_are_expanded_anywhere() {
         for (text, wanted) in [
             ("@a", "gloss=A or gloss=B"),
             ("not @a", "not (gloss=A or gloss=B)"),

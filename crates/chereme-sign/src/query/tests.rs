@@ -188,7 +188,7 @@ fn queries_print_canonically() {
 }
 
 #[test]
-fn every_part_knows_its_place() {
+fn every_part_of_a_query_has_its_text_position() {
     let text = r#"é not (right.configuration=U,[index -thumb]) overlaps tier("Gaze")=left like token:4 on placement:2"#;
     let cut = |at: At| {
         text.chars()
@@ -236,7 +236,7 @@ fn every_part_knows_its_place() {
 }
 
 #[test]
-fn readings_pass_or_not() {
+fn comparisons_accept_or_reject_each_kind_of_reading() {
     let readings = [
         Reading::from("U"),
         Reading::from("S"),
@@ -304,7 +304,7 @@ fn readings_pass_or_not() {
 }
 
 #[test]
-fn every_comparison_is_found() {
+fn every_comparison_of_a_query_is_listed() {
     let text = "a not (gloss=A or overlaps gloss=B) like CHAT on placement duration<1s";
     let query = Query::parse(text).expect(text);
     let found: Vec<String> = query.tests().iter().map(|test| test.to_string()).collect();
@@ -343,7 +343,7 @@ fn long_and_deep_queries_are_refused() {
 }
 
 #[test]
-fn every_query_of_the_help_is_one() {
+fn every_query_in_the_help_parses() {
     let examples = HELP
         .lines()
         .filter(|line| line.starts_with("  ") && line.contains(['=', ':', '~', '<']));

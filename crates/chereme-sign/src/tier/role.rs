@@ -354,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_role_says_what_would_be() {
+    fn an_unknown_role_is_refused_with_the_known_ones() {
         for (text, message) in [
             ("right.configurtion", "did you mean \"configuration\"?"),
             ("rigth.gloss", "is no role; write gloss, translation"),

@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_stay_are_pushed_or_move_along() {
+    fn neighbours_limit_are_pushed_or_shift_by_mode() {
         use Grip::{End, Start, Whole};
         use Mode::{Bulldozer, Normal, Shift};
         let all = items(&[(0, 100), (150, 250), (300, 400)]);
@@ -394,7 +394,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_one_gets_the_longest_part_that_is_free() {
+    fn a_new_annotation_gets_the_longest_free_part() {
         let all = items(&[(0, 100), (150, 250), (300, 400)]);
         for (wanted, want) in [
             ((110, 140), Some((110, 140))),
@@ -408,7 +408,7 @@ mod tests {
     }
 
     #[test]
-    fn those_after_a_new_one_make_room_for_it() {
+    fn annotations_after_a_new_one_make_room_for_it() {
         let all = items(&[(0, 100), (150, 250), (300, 400)]);
         for (wanted, mode, want) in [
             ((120, 200), Mode::Normal, None),
@@ -485,7 +485,7 @@ mod tests {
         }
 
         #[test]
-        fn what_goes_there_and_back_is_where_it_was(all in any_items(), by in 0..200_i64) {
+        fn an_annotation_shifted_there_and_back_is_unchanged(all in any_items(), by in 0..200_i64) {
             let picked = BTreeSet::from([1]);
             let limits = Limits { to: 100_000, ..LIMITS };
             let gone = dragged(&all, &picked, (Grip::Whole, by), Mode::Shift, limits);

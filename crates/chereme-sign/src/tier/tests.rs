@@ -233,7 +233,7 @@ fn changes_bring_their_consequences() {
 }
 
 #[test]
-fn refusals_name_the_rule_and_what_would_be_right() {
+fn refusals_name_the_rule_and_the_remedy() {
     let reorder = Change::Reorder {
         annotation: AnnotationId(10),
         order: 0,
@@ -453,7 +453,7 @@ fn a_long_chain_of_tiers_is_refused() {
 }
 
 #[test]
-fn stereotypes_go_by_elans_names() {
+fn stereotypes_have_the_names_of_elan() {
     for stereotype in Stereotype::ALL {
         assert_eq!(
             Stereotype::from_elan_name(stereotype.elan_name()),
@@ -468,7 +468,7 @@ fn stereotypes_go_by_elans_names() {
 }
 
 #[test]
-fn settling_gives_symbolic_annotations_their_time() {
+fn settling_gives_symbolic_annotations_times_and_orders() {
     let example = example();
     let broken = example.annotations().cloned().map(|mut note| {
         if [LIST, ASSOCIATED, BELOW_TIME, BELOW_LIST].contains(&note.tier.0) {

@@ -276,7 +276,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn films_stand_as_they_are_largest() {
+    fn films_are_arranged_to_be_as_large_as_possible() {
         assert_eq!(columns(1, vec2(400.0, 300.0)), 1);
         assert_eq!(columns(2, vec2(1200.0, 400.0)), 2);
         assert_eq!(columns(2, vec2(400.0, 900.0)), 1);
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn files_are_called_by_the_end_of_their_path() {
+    fn film_files_are_named_by_the_end_of_their_path() {
         assert_eq!(name("file:///D:/films/a b.mp4"), "a b.mp4");
         assert_eq!(name("D:\\films\\take.mov"), "take.mov");
     }

@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_gesture_means_one_thing() {
+    fn each_gesture_has_one_meaning() {
         for (at, one) in GESTURES.iter().enumerate() {
             let text = one.text(Language::English);
             let same = |it: &&Gesture| it.text(Language::English) == text;

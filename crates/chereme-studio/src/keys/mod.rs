@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn the_users_keys_go_before_the_keymap() {
+    fn keys_of_the_user_take_precedence_over_the_keymap() {
         let rebound = Rebound::from([("play.toggle".to_owned(), vec![chord("Ctrl+Z")])]);
         let keys = Keys::new(Keymap::Elan, &rebound, Language::English);
         assert_eq!(keys.action(chord("Ctrl+Z"), AT), Some(Action::Play));
@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn typing_keeps_its_keys() {
+    fn a_text_field_keeps_its_own_keys() {
         let keys = Keys::new(Keymap::Editor, &Rebound::new(), Language::English);
         let typing = KeyContext { typing: true, ..AT };
         assert_eq!(keys.action(chord("L"), AT), Some(Action::ShuttleForward));

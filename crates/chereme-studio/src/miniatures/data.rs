@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_drawn_picture_before_is_shown() {
+    fn the_latest_picture_drawn_before_the_moment_is_shown() {
         let drawn = |index: usize| [2, 6].contains(&index);
         let at = |wanted| nearest(drawn, wanted, 8);
         assert_eq!([at(2), at(5), at(7), at(1)], [2, 2, 6, 6].map(Some));
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn a_film_is_cut_to_the_form_of_its_cell() {
+    fn a_film_is_cropped_to_the_shape_of_its_cell() {
         let wide = middle([200, 100], [50.0, 50.0]);
         assert!((wide.width() - 0.5).abs() < 1e-6 && (wide.height() - 1.0).abs() < 1e-6);
         let tall = middle([100, 400], [200.0, 200.0]);
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_wanted_longest_ago_goes_and_nothing_that_is_seen() {
+    fn the_least_recently_wanted_pictures_are_dropped_but_no_visible_ones() {
         let kept = [('a', 10, 5), ('b', 10, 1), ('c', 10, 9), ('d', 10, 3)];
         let leaving = |limit| super::leaving(kept.into_iter(), 9, limit);
         assert!(leaving(40).is_empty());

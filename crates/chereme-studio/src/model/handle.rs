@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn values_are_read_from_every_goal_and_written_back() {
+    fn the_position_of_every_placement_is_read_and_written_back() {
         for (text, value) in [
             ("place both by left 25cm", [0.25, 0.0, 0.0]),
             ("place right by down 5cm forward 10%", [0.0, -0.05, 0.06]),

@@ -144,7 +144,7 @@ mod tests {
     use chereme_corpus::{Overview, SignGlance};
 
     #[test]
-    fn tokens_stand_in_texts_by_their_glosses() {
+    fn texts_name_tokens_by_their_glosses() {
         let sign = SignGlance {
             gloss: "AIMER".into(),
             citation: Some(15),

@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn the_posture_is_that_of_the_moment() {
+    fn the_posture_matches_the_moment() {
         let joint = Joint::new("root", None, DVec3::ZERO);
         let skeleton: Arc<Skeleton> = Skeleton::new(vec![joint]).expect("a skeleton").into();
         let rate = Rate::new(100, 1).expect("a rate");

@@ -369,7 +369,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_are_named_after_what_is_in_them_and_safely() {
+    fn exported_files_get_safe_names_from_their_contents() {
         let corpus = Path::new("/a/corpus.chereme");
         for (what, format, want) in [
             (What::Token(1, "QUOI?".into()), Some("bvh"), "QUOI-.bvh"),

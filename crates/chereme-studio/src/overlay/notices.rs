@@ -447,7 +447,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_check_found_stays_with_its_places() {
+    fn faults_found_by_a_check_stay_visible_with_their_locations() {
         let mut notices = Notices::default();
         let well = CheckReport {
             ok: true,
@@ -473,7 +473,7 @@ mod tests {
     }
 
     #[test]
-    fn trouble_comes_with_what_helps_and_is_told_once() {
+    fn an_error_is_shown_once_with_its_remedy() {
         let mut notices = Notices::default();
         let error = || Error::wrong("no").advise("yes");
         notices.trouble(&error(), None, Language::French);
@@ -489,7 +489,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_done_is_named_and_each_kind_is_told_from_the_others() {
+    fn notices_name_the_operation_and_differ_by_kind() {
         let mut notices = Notices::default();
         let row = |summary: &str| chereme_corpus::OperationRow {
             id: 2,

@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_helps_names_things_of_the_window() {
+    fn remedies_are_rephrased_for_the_window() {
         for (remedy, english) in [
             (
                 "say which one in a roles file (--roles)",

@@ -176,7 +176,7 @@ mod tests {
     use crate::keys::{Keymap, Rebound};
 
     #[test]
-    fn every_key_that_is_named_is_an_actions() {
+    fn every_key_named_in_a_step_belongs_to_an_action() {
         for (keymap, _) in Keymap::ALL {
             let keys = Keys::new(keymap, &Rebound::default(), Language::English);
             let all = STEPS.map(|it| it.1).into_iter().chain([words::MORE]);
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn hands_differ_from_step_to_step() {
+    fn the_hand_picture_differs_from_step_to_step() {
         assert_ne!(bent(0), bent(1));
         assert_ne!(bent(1), bent(2));
     }

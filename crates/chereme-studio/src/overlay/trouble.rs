@@ -118,7 +118,7 @@ mod tests {
     use crate::words::shell;
 
     #[test]
-    fn a_failure_is_told_in_the_language_of_the_window_with_what_was_said() {
+    fn a_failure_is_shown_in_the_language_of_the_window_with_the_original_message() {
         let error = Error::wrong("no such tier").advise("add it");
         let english = told(&error, Some(shell::TASK_EDIT), Language::English);
         assert_eq!(english.text, "no such tier");

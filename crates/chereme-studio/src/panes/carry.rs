@@ -154,7 +154,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_tab_opens_after_a_while_and_not_in_passing() {
+    fn a_tab_opens_after_hovering_and_not_in_passing() {
         let mut sprung = Sprung::default();
         let pane = Some(PaneKind::Recombine);
         assert_eq!(sprung.follow(pane, 1.0), None);

@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_letter_goes_to_the_next_that_begins_with_it() {
+    fn a_letter_selects_the_next_entry_that_begins_with_it() {
         let names = ["anything", "Éventail", "eyes", "Ears"];
         assert_eq!(next_with(&names, None, 'e'), Some(2));
         assert_eq!(next_with(&names, Some(2), 'E'), Some(3));

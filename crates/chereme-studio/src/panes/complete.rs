@@ -219,7 +219,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn enter_takes_the_only_candidate_that_goes_on_with_what_is_typed() {
+    fn enter_takes_the_only_candidate_that_continues_the_typed_text() {
         let mut window = egui_kittest::Harness::new_ui_state(
             |ui, text: &mut String| {
                 let all = ["ESCARGOT", "BOL", "BON"];
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn what_begins_with_the_letters_comes_before_what_holds_them() {
+    fn candidates_that_begin_with_the_letters_come_before_those_that_contain_them() {
         let all = ["Écureuil", "recul", "CURE", "bol"];
         assert_eq!(
             fitting(all.into_iter(), "cu"),

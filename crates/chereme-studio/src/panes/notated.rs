@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn signs_are_made_one_at_a_time_and_what_cannot_be_made_is_not_asked_for_again() {
+    fn signs_are_animated_one_at_a_time_and_failures_are_not_requested_again() {
         let (mut notated, mut out) = (Notated::default(), Outbox::default());
         assert!(notated.get(3, "A", &mut out).is_none());
         assert!(notated.get(4, "B", &mut out).is_none());

@@ -244,7 +244,7 @@ mod tests {
     use chereme_sign::inventory::builtin_by_id;
 
     #[test]
-    fn every_place_in_sight_has_an_area_of_its_own_that_the_pointer_finds() {
+    fn every_visible_place_has_its_own_area_under_the_pointer() {
         let inventory = builtin_by_id("placements").expect("of the house");
         for (panel, turned) in [
             (Panel::Head, false),

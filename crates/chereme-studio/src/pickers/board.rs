@@ -168,7 +168,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn symbols_are_added_as_the_text_is_written_and_taken_back() {
+    fn symbols_are_added_to_the_text_and_removed_again() {
         let [fist, up] =
             ["fist", "extfingeru"].map(|name| Symbol::from_name(name).expect("a symbol"));
         for (before, after) in [

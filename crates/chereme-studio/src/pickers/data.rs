@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_are_english_words_are_said_in_french() {
+    fn values_that_are_english_words_have_french_names() {
         for (id, english, french, want) in [
             (
                 "hand-back",
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_called_so_comes_first_then_what_begins_so_then_what_holds_every_word() {
+    fn exact_names_come_first_then_prefixes_then_values_with_every_word() {
         assert_eq!(ids("configurations", "u")[0], "U");
         assert_eq!(ids("configurations", "")[0], "A");
         assert!(ids("configurations", "index middle bent").contains(&"U-bent"));
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn every_inventory_of_the_house_is_shown_as_what_it_is() {
+    fn every_built_in_inventory_has_its_own_picker() {
         let kinds: Vec<(String, PickerForm)> = builtin()
             .iter()
             .map(|it| (it.id.clone(), kind(it)))
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_hold_id_and_name() {
+    fn labels_contain_id_and_name() {
         let label = |inventory, id| {
             let inventory = builtin_by_id(inventory).expect("of the house");
             label(inventory.get(id).expect("a value"), Language::English)
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn one_walks_to_what_lies_that_way_and_never_out() {
+    fn arrow_keys_go_to_the_neighbour_in_that_direction_and_stay_inside() {
         // A table of three columns with five cells.
         let cell = |n: usize| {
             let at = pos2((n % 3) as f32 * 10.0, (n / 3) as f32 * 10.0);

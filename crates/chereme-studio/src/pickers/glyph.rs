@@ -206,7 +206,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_movement_of_the_house_has_a_glyph_of_its_own_inside_its_square() {
+    fn every_built_in_movement_has_a_distinct_glyph_inside_its_square() {
         let movements = chereme_sign::inventory::builtin_by_id("movements").expect("of the house");
         let mut seen: Vec<Vec<Line>> = Vec::new();
         for value in &movements.values {

@@ -154,7 +154,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn symbols_stand_beside_each_other_and_below_where_there_is_no_room() {
+    fn symbols_are_placed_in_rows_that_wrap() {
         let names = to_names("hamfinger2 hamextfingeru hampalml hamchest").expect("symbols");
         let symbols: Vec<Symbol> = names.into_iter().filter_map(Symbol::from_name).collect();
         let two = laid(&symbols, 20.0, 60.0);

@@ -341,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_in_the_panel_that_shows_them_best() {
+    fn each_place_is_in_the_panel_that_shows_it_best() {
         let panel_of = |id: &str| {
             let value = placements().get(id).expect("a place");
             panel(value.landmark.as_ref().expect("a landmark"))

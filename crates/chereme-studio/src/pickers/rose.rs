@@ -137,7 +137,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn every_direction_has_a_place_of_its_own() {
+    fn every_direction_has_a_distinct_position() {
         for name in ["palm", "fingers", "directions"] {
             let inventory = builtin_by_id(name).expect("of the house");
             let places: BTreeSet<_> = inventory.values.iter().filter_map(place).collect();

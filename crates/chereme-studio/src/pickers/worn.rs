@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_hand_reaches_its_shape_in_a_fifth_of_a_second_and_rests() {
+    fn a_hand_reaches_its_shape_in_a_fifth_of_a_second_and_stays() {
         let fist = [1.5; HandAngles::LEN];
         let mut now = Some([0.0; HandAngles::LEN]);
         let mut frames = 0;

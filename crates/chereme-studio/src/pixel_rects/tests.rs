@@ -93,7 +93,7 @@ fn triangles(shapes: &[ClippedShape]) -> Vec<usize> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
     #[test]
-    fn rectangles_look_as_egui_has_them(
+    fn rectangles_equal_those_drawn_by_egui(
         place in (2.0_f32..12.0, 2.0_f32..12.0),
         size in (10.0_f32..24.0, 10.0_f32..24.0),
         sharp in any::<bool>(),
@@ -118,7 +118,7 @@ proptest! {
     }
 
     #[test]
-    fn lines_look_as_egui_has_them(
+    fn lines_equal_those_drawn_by_egui(
         from in (5.0_f32..10.0, 5.0_f32..10.0),
         length in 3.0_f32..20.0,
         width in prop::sample::select(vec![1.0_f32, 1.5, 2.0, 2.5, 3.0]),
@@ -133,7 +133,7 @@ proptest! {
 }
 
 #[test]
-fn what_is_drawn_at_once_is_pairs_and_not_too_many() {
+fn only_bounded_runs_of_triangle_pairs_are_drawn_as_rectangles() {
     let mut long = Mesh::default();
     for at in 0..500 {
         let place = Rect::from_min_size(pos2(at as f32, 0.0), vec2(1.0, 2.0));

@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn the_cursor_goes_from_right_to_left_and_text_stays_as_it_is_read() {
+    fn the_cursor_moves_right_to_left_and_the_text_keeps_its_reading_order() {
         let mut window = typed("");
         window.run();
         window.get_by_label("gloss").focus();
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn each_line_of_a_text_is_read_from_its_own_side() {
+    fn each_line_of_a_text_has_its_own_direction() {
         let text = "ab كتاب\nשלום עולם אב\nend";
         let draw = move |ui: &mut Ui, seen: &mut Option<(Arc<Galley>, usize)>| {
             if ui.ctx().cumulative_pass_nr() == 0 {

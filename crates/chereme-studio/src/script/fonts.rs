@@ -127,7 +127,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn scripts_without_a_font_are_told_once_by_their_names() {
+    fn scripts_without_a_font_are_reported_once_by_name() {
         let mut untold = Untold::default();
         let letters = BTreeSet::from(['ع', 'غ', 'Ж', '\u{e000}']);
         let (text, _) = untold.of(&letters, Language::English).expect("news");
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_letter_without_a_font_is_drawn_as_its_number() {
+    fn a_letter_without_a_font_is_drawn_as_its_code() {
         let request = |cluster| GlyphRasterizerRequest {
             cluster,
             family: &eframe::egui::FontFamily::Proportional,

@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn words_stand_where_they_are_read() {
+    fn words_are_placed_in_reading_order() {
         for (line, wanted) in [
             ("AIMER", "AIMER"),
             ("كتاب is notated.", "<كتاب> is notated."),
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_broken_where_they_were_and_each_is_put_in_order() {
+    fn line_breaks_are_kept_and_each_line_is_ordered() {
         let ctx = context();
         let text = "كتاب كبير is a sign that was notated كتاب كبير and is not stored yet";
         for width in [60.0, 120.0, 180.0, 400.0] {
@@ -354,7 +354,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(96))]
 
         #[test]
-        fn no_text_is_lost_or_breaks(text in "[a-c \u{5d0}-\u{5d4}\u{627}-\u{62b}\u{64b}\u{202b}\u{202c}\u{200d}(1\n\t漢]{0,24}", width in 5.0f32..200.0, rows in 0usize..3) {
+        fn no_text_is_lost_or_panics(text in "[a-c \u{5d0}-\u{5d4}\u{627}-\u{62b}\u{64b}\u{202b}\u{202c}\u{200d}(1\n\t漢]{0,24}", width in 5.0f32..200.0, rows in 0usize..3) {
             let ctx = context();
             let mut job = job(&text, width);
             if rows > 0 {

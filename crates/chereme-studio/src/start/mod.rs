@@ -304,7 +304,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_path_offers_what_can_be_done_with_it() {
+    fn a_path_offers_its_possible_actions() {
         assert_eq!(uses("", false, true), [false; 3]);
         assert_eq!(uses("a.chereme", true, false), [true, false, false]);
         assert_eq!(uses("new", false, false), [false, true, false]);

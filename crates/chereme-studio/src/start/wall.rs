@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_wall_fills_its_room_with_pictures_that_are_large_enough() {
+    fn the_wall_fills_its_space_with_pictures_of_sufficient_size() {
         for (room, count, least) in [
             (vec2(640.0, 700.0), 10, 10),
             (vec2(400.0, 560.0), 10, 6),

@@ -247,7 +247,7 @@ mod tests {
     use chereme_sign::hamnosys::Symbol;
 
     #[test]
-    fn every_symbol_is_told_in_both_languages() {
+    fn every_symbol_has_a_description_in_both_languages() {
         for symbol in Symbol::all() {
             let name = symbol.name().strip_prefix("ham").expect("as all names");
             for language in [Language::English, Language::French] {

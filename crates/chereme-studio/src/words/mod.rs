@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn every_text_is_there_in_both_languages_with_the_same_blanks() {
+    fn every_text_exists_in_both_languages_with_the_same_blanks() {
         for (name, text) in TABLES.into_iter().flatten() {
             assert!(
                 !text.en.trim().is_empty() && !text.fr.trim().is_empty(),

@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_corpus_gets_its_ending_and_is_never_written_over() {
+    fn a_new_corpus_gets_its_extension_and_is_never_overwritten() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = begin(Begin::New(folder.path().join("v1.2"))).expect("made");
         assert_eq!(path, folder.path().join("v1.2.chereme"));
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_and_files_are_looked_at_before_anything_is_taken_in() {
+    fn a_folder_and_files_are_inspected_before_the_import() {
         let folder = tempfile::tempdir().expect("a folder");
         let files = folder.path().join("mine");
         unpack_starter(&files).expect("unpacked");

@@ -359,7 +359,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_read_while_or_after_this_window_works_is_its_own() {
+    fn changes_read_during_or_after_own_work_count_as_own() {
         for (before, now, own) in [
             (0, 0, false),
             (0, 1, true),

@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn most_numbers_fit_and_none_is_lost() {
+    fn numbers_that_do_not_fit_the_compact_form_are_kept_exactly() {
         let texts = [
             "123.4",
             "2.82958e-15",

@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_tokens_take_the_slow_road() {
+    fn odd_tokens_take_the_slow_path() {
         for token in [
             "", "-", ".", "-.", "+1", "1e3", "1.5e3", "12345678", "1..2", "1.2.3", "1,5", "nan",
             "1x", "1.5x",
@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn plain_tokens_take_the_fast_road() {
+    fn plain_tokens_take_the_fast_path() {
         for token in [
             "0",
             "-0",
@@ -298,7 +298,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn both_roads_agree(token in "-?[0-9]{0,9}(\\.[0-9]{0,18})?([eEx,.-][0-9]?)?") {
+        fn fast_and_slow_path_agree(token in "-?[0-9]{0,9}(\\.[0-9]{0,18})?([eEx,.-][0-9]?)?") {
             let fast = number_at(&padded(&token)).map(|(mantissa, scale, _)| Number::from(Decimal { mantissa, scale }));
             if let Some(fast) = fast {
                 prop_assert_eq!(Ok(fast), Number::parse(token.as_bytes()));

@@ -138,7 +138,7 @@ fn points_of_a_face_become_brows_lids_mouth_and_turns() {
 }
 
 #[test]
-fn points_without_a_face_are_none_and_gaps_are_bridged() {
+fn points_that_are_no_face_are_ignored_and_gaps_are_bridged() {
     let hand = [("RIGHT_HAND_LANDMARKS", "WRIST"), ("POSE_LANDMARKS", "33")];
     assert_eq!(FaceMesh::find(hand.into_iter()), None);
     let odd = [
@@ -161,7 +161,7 @@ fn points_without_a_face_are_none_and_gaps_are_bridged() {
 }
 
 #[test]
-fn weights_are_fitted_so_that_one_is_as_far_as_a_person_goes() {
+fn weights_are_scaled_so_that_one_is_the_largest_movement_of_the_person() {
     let rest = Face {
         brows: [0.1, 0.1],
         ..Face::default()

@@ -236,7 +236,7 @@ mod tests {
     use crate::inventory::builtin_by_id;
 
     #[test]
-    fn every_builtin_handshape_is_nearest_to_itself() {
+    fn every_built_in_handshape_is_its_own_nearest_value() {
         let inventory = builtin_by_id("configurations").expect("built in");
         let shapes = Shapes::of(inventory);
         assert_eq!(shapes.0.len(), inventory.values.len());

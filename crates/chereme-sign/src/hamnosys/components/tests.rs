@@ -237,7 +237,7 @@ fn places_without_contact_at_the_trunk_are_in_space() {
 }
 
 #[test]
-fn handshapes_that_no_value_is_fall_to_the_nearest() {
+fn handshapes_without_a_value_get_the_nearest_one() {
     for (shape, expected) in [
         (
             shape(HandClass::Flat, Some(ThumbPosition::Across), None),
@@ -282,7 +282,7 @@ fn handshapes_that_no_value_is_fall_to_the_nearest() {
 }
 
 #[test]
-fn face_and_body_have_values_too_and_what_is_not_known_is_told() {
+fn face_and_body_get_values_and_unknown_ones_are_reported() {
     let mut notated = Notated::default();
     for (part, tag) in [
         (NonmanualPart::Brows, "RB_both_eyebrows_raised"),

@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn the_chart_beside_the_code_shows_every_symbol_as_it_is_drawn() {
+    fn the_stored_chart_shows_every_symbol_as_it_is_drawn() {
         let chart = chart();
         assert_eq!(chart.matches("<title>").count(), Symbol::all().len());
         let beside = include_str!("../../../pictures/symbols.svg");

@@ -26,7 +26,7 @@ fn remembers(sign: &Sign) -> bool {
 }
 
 #[test]
-fn what_is_written_as_printed_reads_and_prints_without_loss() {
+fn canonical_text_reads_and_prints_without_loss() {
     for names in [
         // symmetry
         "symmpar flathand extfingero palmd moveo",
@@ -195,7 +195,7 @@ fn other_spellings_read_as_the_same_sign_and_are_remembered() {
 }
 
 #[test]
-fn the_smallest_part_remembers() {
+fn the_smallest_part_keeps_its_original_spelling() {
     let part = first("finger2 fingerstraightmod thumboutmod extfingeru palmd moveo");
     let Each::Shared(shape) = &part.posture.shape else {
         panic!("a shape for both hands");
@@ -252,7 +252,7 @@ fn hand(part: &Manual) -> &HandSite {
 }
 
 #[test]
-fn overloaded_symbols_mean_what_their_place_says() {
+fn overloaded_symbols_are_read_by_their_position() {
     let meanings: &[Meaning] = &[
         ("symmlr fingerstraightmod fist", |p| {
             both(p).out_in && shape(p).form.bend.is_none()
@@ -492,7 +492,7 @@ fn refusals_name_the_symbol_and_what_was_expected() {
 }
 
 #[test]
-fn what_the_tree_cannot_hold_is_a_finding_and_stays_in_the_text() {
+fn symbols_outside_the_tree_are_findings_and_kept_in_the_text() {
     for (names, index, part) in [
         ("fist extfingeru palmd query", 3, "kept in the text"),
         (
@@ -535,7 +535,7 @@ fn what_the_tree_cannot_hold_is_a_finding_and_stays_in_the_text() {
 }
 
 #[test]
-fn odd_text_still_yields_what_was_understood() {
+fn odd_text_still_yields_its_readable_part() {
     let text = format!(
         "{}?!x{}",
         text("finger2 smallmod extfingeru palmd"),
@@ -611,7 +611,7 @@ fn nesting_is_bounded() {
 }
 
 #[test]
-fn losses_are_said() {
+fn losses_in_printing_are_reported() {
     let mut part = first("fist extfingeru palmd moveo");
     part.actions[0].manner.speed = Some(0.5);
     let Each::Shared(shape) = &mut part.posture.shape else {

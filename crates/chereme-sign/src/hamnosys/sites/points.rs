@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn what_comes_first_is_what_is_turned_that_way() {
+    fn the_foremost_point_is_the_one_that_faces_the_direction() {
         let flat = Handshape {
             form: Form {
                 class: HandClass::Flat,
@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn points_on_the_bone_have_no_distance_from_it() {
+    fn only_surface_points_have_a_distance_from_the_bone() {
         for digit in Digit::ALL {
             assert_eq!(from_bone(HandPoint::Tip(digit, Face::Middle)), [0.0; 2]);
             assert!(from_bone(HandPoint::Tip(digit, Face::Palmar))[1] > 0.0);

@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn a_cursor_knows_what_could_stand_there() {
+fn a_cursor_gets_the_possible_continuations() {
     for (text, expected, prefix, replaced) in COMPLETIONS {
         let cursor = text.chars().position(|c| c == '|').expect("a cursor");
         let query = text.replace('|', "");

@@ -30,7 +30,7 @@ fn check_any(text: &str) {
 }
 
 #[test]
-fn no_soup_of_words_makes_it_panic() {
+fn no_sequence_of_words_panics() {
     const SOUP: &[&str] = &[
         " ",
         " ",

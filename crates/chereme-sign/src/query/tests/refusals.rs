@@ -318,7 +318,7 @@ const WRONG: &[(&str, &str)] = &[
 ];
 
 #[test]
-fn errors_point_at_the_place_and_suggest() {
+fn errors_point_at_the_position_and_suggest_a_correction() {
     for (text, wrong) in WRONG {
         let error = Query::parse(text).expect_err(text);
         let meant = error.suggestion.iter();
@@ -392,7 +392,7 @@ fn suggestions_mend_the_query() {
 }
 
 #[test]
-fn values_nobody_knows_are_pointed_at() {
+fn unknown_values_are_pointed_at() {
     let text = "placement=nutral";
     let query = Query::parse(text).expect("a query");
     let Expr::Test(Test {

@@ -196,7 +196,7 @@ proptest! {
     }
 
     #[test]
-    fn the_neighbourhood_is_enough_to_plan(dice in dice()) {
+    fn planning_on_the_neighbourhood_equals_planning_on_the_whole(dice in dice()) {
         run(&dice, |set, change, edits| {
             let part = neighbourhood(set, change);
             let first = edits.iter().filter_map(|edit| match edit {

@@ -368,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn a_corrected_word_is_cued_by_its_phones_and_only_while_it_is_there() {
+    fn a_correction_applies_only_while_its_word_is_in_the_text() {
         let choices = Choices::default();
         let mut corrections = Corrections::new();
         let plain = read("la maison", &choices, &corrections);
@@ -397,7 +397,7 @@ mod tests {
     }
 
     #[test]
-    fn english_takes_phones() {
+    fn english_text_is_read_as_phones() {
         let english = Choices {
             code: 1,
             ..Choices::default()
@@ -431,7 +431,7 @@ mod tests {
     }
 
     #[test]
-    fn an_exercise_counts_the_first_answer() {
+    fn an_exercise_counts_only_the_first_answer() {
         let items = own_set("papa, maman; bébé").expect("three words");
         let mut exercise = Exercise::of(items, 5);
         for _ in 0..20 {

@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_loop_holds_its_end_and_candidates_go_in_step_or_at_their_own_tempo() {
+    fn a_loop_holds_its_end_and_candidates_play_in_step_or_at_their_own_tempo() {
         let target = marks([1000, 1200, 1800, 2000, 2400]);
         let slow = marks([0, 400, 1600, 2000, 2800]);
         assert!((loop_moment(&target, 0.5) - 1.5).abs() < 1e-9);
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn an_expression_is_seen_from_the_begin_of_its_recording_on() {
+    fn an_expression_is_shown_no_earlier_than_its_recording_begins() {
         let early = marks([-300, 200, 900, 1000, 1500]);
         let span = seen_span(&early);
         assert_eq!((span.start().micros(), span.end().micros()), (0, 1_500_000));

@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_lead_to_every_operation_that_can_be_reached() {
+    fn step_counts_lead_to_every_reachable_operation() {
         let own = |id| row(id, OperationKind::Do, None, "import", "a");
         let undo = |id, of| row(id, OperationKind::Undo, Some(of), "import", "a");
         let redo = |id, of| row(id, OperationKind::Redo, Some(of), "import", "a");
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_new_names_what_was_done_and_who_else_did_it() {
+    fn new_operations_are_named_with_the_other_author() {
         let before = [row(1, OperationKind::Do, None, "import", "a.bvh")];
         let summary = "3 handshapes changed to U in Un";
         let did = row(2, OperationKind::Do, None, "annotate", summary);
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn the_list_is_filtered_by_who_and_what() {
+    fn the_list_is_filtered_by_author_and_operation() {
         let all = [
             row(2, OperationKind::Do, None, "import", "chat.bvh"),
             row(1, OperationKind::Do, None, "import", "bol.bvh"),

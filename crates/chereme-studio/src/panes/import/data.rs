@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motion_file_says_its_unit_and_the_parts_of_the_body() {
+    fn a_motion_file_shows_its_unit_and_body_parts() {
         let file = file(Understood {
             movement: Some(MovementRead {
                 joints: 3,
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn joints_are_shown_with_the_missing_ones_and_said_otherwise() {
+    fn joint_rows_include_missing_joints_and_corrections() {
         let file = file(Understood {
             body: body(&["jaw"], &["Hips", "RHand", "Chin"]),
             ..Understood::default()
@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_can_be_said_in_every_way() {
+    fn every_choice_of_axes_is_offered() {
         let all: Vec<String> = all_axes().map(|axes| axes.to_string()).collect();
         assert_eq!((all.len(), all[0].as_str()), (24, "+Y,+X"));
         let axes = "+Z,-X".parse().expect("axes");
@@ -314,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn tiers_say_what_they_are_taken_for_and_every_role_can_be_chosen() {
+    fn tiers_show_their_inferred_role_and_every_role_is_offered() {
         let guess = |tier: &str, role: Option<TierRole>, hand: Option<Hands>| TierGuess {
             tier: tier.to_owned(),
             role,

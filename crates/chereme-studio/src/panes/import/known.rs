@@ -196,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_becomes_of_own_edits_is_said_to_the_corpus() {
+    fn the_choice_about_own_edits_reaches_the_import_options() {
         assert_eq!(
             ImportCorrections::default().options(true).own_edits,
             OwnEdits::Ask

@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_are_a_sentence() {
+    fn axes_are_described_by_a_sentence() {
         let said = |text: &str, language| axes(text.parse().expect("axes"), language);
         assert_eq!(
             said("+Y,+X", Language::English),
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn remarks_name_parts_as_people_do() {
+    fn remarks_name_parts_in_everyday_words() {
         for (message, english, french) in [
             (
                 "not found in the skeleton: jaw, right middle base and 3 more",

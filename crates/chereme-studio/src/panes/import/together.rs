@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_merge_brought_is_counted_by_kind() {
+    fn changes_brought_by_a_merge_are_counted_by_kind() {
         let mut report = MergeReport::default();
         let say = |text: crate::words::Text| text.of(crate::words::Language::French);
         assert_eq!(lines(&report, &say), ["Rien de nouveau."]);

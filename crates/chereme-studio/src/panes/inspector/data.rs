@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn lengths_have_the_digits_that_count() {
+    fn lengths_have_only_significant_digits() {
         for (length, text) in [
             (0.01, "0.01 m"),
             (0.056_444_444_4, "0.05644 m"),
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn fields_are_said_component_first() {
+    fn fields_are_named_component_first() {
         let (texts, rest) = field_words("initial.right.placement");
         assert_eq!(texts, [words::PLACEMENT, words::INITIAL, words::RIGHT]);
         assert!(rest.is_empty());

@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn a_notation_is_told_part_by_part() {
+    fn a_notation_is_described_part_by_part() {
         let simple = said("hamfinger2 hamextfingeru hampalml hamchin hamtouch hammoveo");
         let want = [
             (words::CONFIGURATION, "finger2"),

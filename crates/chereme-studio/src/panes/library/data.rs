@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sign_that_was_made_was_not_recorded() {
+    fn a_generated_sign_is_not_listed_as_recorded() {
         let span = Span::between(Instant::ZERO, Instant::from_micros(9));
         let sign = SignGlance {
             gloss: "LIMACE".into(),
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn signs_say_whether_there_is_something_to_see() {
+    fn signs_show_whether_they_have_movement_or_notation() {
         let sign = |gloss: &str, tokens, citation| SignGlance {
             gloss: gloss.into(),
             tokens,

@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn the_whole_map_is_in_sight_at_first_and_the_place_under_the_pointer_stays() {
+    fn the_whole_map_is_visible_at_first_and_zooming_keeps_the_point_under_the_pointer() {
         let mut view = View::default();
         for corner in [
             pos2(0.0, 0.0),
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lasso_holds_what_it_goes_around() {
+    fn a_lasso_selects_the_signs_inside_it() {
         let line = [
             (0.0, 0.0),
             (10.0, 0.0),

@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_report_says_is_told_on_its_card() {
+    fn each_step_report_is_shown_on_its_card() {
         let stack = stack("A | swap then B");
         let step = |path: &str, did: &str, residual| StepReport {
             path: path.into(),
@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_overtaken_is_stopped_once_and_an_equal_recipe_can_be_looked_up_anew() {
+    fn an_outdated_evaluation_is_stopped_once_and_an_equal_recipe_can_be_repeated() {
         let (mut live, mut out) = (Live::default(), Outbox::default());
         let stack = stack("A");
         let stops = |out: &mut Outbox| {
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn one_is_made_at_a_time_and_the_newest_next() {
+    fn one_recipe_is_evaluated_at_a_time_and_the_newest_next() {
         let (mut live, mut out) = (Live::default(), Outbox::default());
         let stack = stack("A");
         live.follow(&stack, "A", (1, 0.0), &mut out);

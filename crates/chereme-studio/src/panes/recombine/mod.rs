@@ -577,7 +577,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_and_cards_follow_each_other() {
+    fn text_and_cards_stay_synchronised() {
         let mut pane = Recombine::default();
         pane.type_in("BOL|reverse".into());
         assert_eq!(pane.stack.cards().len(), 2);

@@ -398,7 +398,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn offsets_are_ways_along_the_axes_and_back() {
+    fn offsets_convert_to_legs_along_the_axes_and_back() {
         let legs = legs_of([0.25, -0.05, 0.0]);
         let texts: Vec<String> = legs.iter().map(Leg::to_string).collect();
         assert_eq!(texts, ["left 25cm", "down 5cm"]);
@@ -448,7 +448,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_of_legs_goes_through_their_ends() {
+    fn a_path_of_legs_passes_through_their_ends() {
         let legs = legs_of([0.25, -0.05, 0.0]);
         let points = points_of(&straight(legs), 0.6);
         assert_eq!(points.len(), 2);

@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_of_recipe_and_corpus_are_taken_back_in_their_order() {
+    fn undo_takes_back_steps_of_recipe_and_corpus_in_order() {
         use OperationKind::{Do, Redo, Undo};
         let mut steps: Steps<&str> = Steps::default();
         steps.follow(&operations(&[Do]));

@@ -178,7 +178,7 @@ mod tests {
     use chereme_corpus::Partner;
 
     #[test]
-    fn partners_without_movement_come_first_and_lend_their_gloss() {
+    fn partners_without_movement_come_first_and_give_their_gloss() {
         let partner = |gloss: &str, origin: Origin, recipe: Option<&str>| Partner {
             token: 1,
             gloss: gloss.into(),

@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_builder_shows_is_the_query() {
+    fn the_rows_of_the_builder_give_the_query() {
         for text in [
             "",
             "right.configuration=U placement=chin",
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_say_what_they_can_change() {
+    fn rows_show_which_parts_are_editable() {
         let of = |text: &str| rows(&text.parse().expect(text));
         let [Condition::Values(Subject::Component(field), How::IsNot, values)] =
             &of("right.placement!=chin,\"neutral space\"")[..]
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn how_alike_hits_are_at_least_is_part_of_a_row() {
+    fn the_minimum_similarity_is_part_of_a_row() {
         let all = rows(&"like CHAT above 60%".parse().expect("a query"));
         let [Condition::Like(_, _, Some(above))] = all[..] else {
             panic!("it is by example");

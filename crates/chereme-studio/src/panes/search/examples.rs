@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_tokens_that_a_query_names_are_looked_up() {
+    fn tokens_named_in_a_query_are_looked_up() {
         assert_eq!(tokens("like token:41 on placement gloss=A"), [41]);
         assert!(tokens("like CHAT").is_empty());
         assert!(tokens("token:").is_empty());

@@ -320,7 +320,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_wrong_is_marked_where_it_is() {
+    fn errors_are_marked_at_their_position() {
         let text = "right.confguration=U placement=chinn";
         let error = Query::parse(text).expect_err("a slip");
         assert_eq!(mark(text, Some(&error), None), Some(6..18));

@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn hits_say_where_they_are_and_how_long() {
+    fn hits_show_their_recording_time_and_duration() {
         let mut bol = hit(1, "BOL");
         assert_eq!(place_text(&bol, "lexicon"), "Un · 0:01.250");
         assert_eq!(duration_text(&bol), "0.75 s");
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn pages_are_asked_for_as_they_come_in_sight() {
+    fn pages_are_requested_as_they_become_visible() {
         let mut found = found(100_000);
         assert_eq!(found.missing(0..40), None);
         assert_eq!(found.missing(480..520), Some(1));
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_put_hits_in_order_and_those_without_come_last() {
+    fn hits_are_sorted_by_their_neighbours_with_unknown_ones_last() {
         let mut found = found(3);
         assert_eq!(found.lonely(0..3), [0, 1, 2]);
         let around = |token, before: &[&str]| Around {
@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn arrows_stay_within() {
+    fn arrow_keys_stay_within_the_hits() {
         assert_eq!(walk(0, 7, 3, [1, 0]), 1);
         assert_eq!(walk(0, 7, 3, [-1, 0]), 0);
         assert_eq!(walk(4, 7, 3, [0, 1]), 6);

@@ -499,7 +499,7 @@ mod tests {
     use chereme_corpus::SignGlance;
 
     #[test]
-    fn examples_are_named_by_their_gloss_where_that_means_them() {
+    fn examples_are_named_by_their_gloss_if_it_is_unambiguous() {
         let sign = |gloss: &str, token| SignGlance {
             gloss: gloss.to_owned(),
             citation: Some(token),

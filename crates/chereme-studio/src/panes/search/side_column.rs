@@ -365,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn components_that_a_query_wants_a_value_of_are_those_that_may_not_be_coded() {
+    fn components_with_a_required_value_are_listed_as_possibly_uncoded() {
         let of = |query: &str| Vec::from_iter(components(query));
         assert_eq!(
             of("right.configuration=U gloss=A"),

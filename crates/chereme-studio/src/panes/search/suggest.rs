@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn kept_searches_are_offered_by_their_name_as_what_they_ask() {
+    fn saved_searches_are_offered_by_name_with_their_query() {
         assert_eq!(first("@TETE").as_deref(), Some("placement=head"));
         let snapshot = snapshot();
         assert_eq!(kept_query("@a la tete", &snapshot), Some("placement=head"));
@@ -350,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn origins_are_asked_for_as_the_window_calls_them() {
+    fn origins_are_accepted_under_their_names_in_the_window() {
         for (query, wanted) in [
             ("origin=notated", "origin=lexicon"),
             (
@@ -373,7 +373,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_already_is_not_offered_and_nothing_is_offered_twice() {
+    fn suggestions_repeat_neither_the_query_nor_each_other() {
         assert_eq!(first("placement=chin"), None);
         let snapshot = snapshot();
         let all = offers("placement=", 10, &snapshot, Language::French).all;

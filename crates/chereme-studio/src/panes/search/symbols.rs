@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_notation_asks_for_what_it_means() {
+    fn a_notation_becomes_a_query_for_its_components() {
         let all = chereme_sign::inventory::builtin();
         let found = query("hamfinger23 hamextfingeru hampalml hamchin", all.iter());
         assert!(found.contains("configuration=U"), "{found}");

@@ -138,7 +138,7 @@ mod tests {
     use chereme_sign::inventory::builtin_by_id;
 
     #[test]
-    fn each_tile_has_values_of_the_house_to_show() {
+    fn each_tile_has_built_in_values_to_show() {
         let ids = ["configurations", "placements", "movements"];
         for ((_, _, values), id) in TILES.iter().zip(ids) {
             let inventory = builtin_by_id(id).expect("of the house");

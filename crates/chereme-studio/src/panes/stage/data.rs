@@ -340,14 +340,14 @@ mod tests {
     };
 
     #[test]
-    fn an_untouched_eye_is_the_preset() {
+    fn an_unchanged_camera_equals_the_preset() {
         let camera = Eye::default().camera(PRESET);
         assert!(camera.eye.distance(PRESET.eye) < 1e-5 && camera.up.distance(PRESET.up) < 1e-5);
         assert_eq!((camera.half_height, camera.near), (1.0, 3.0));
     }
 
     #[test]
-    fn what_is_dragged_follows_the_pointer() {
+    fn dragged_points_follow_the_pointer() {
         let point = Vec3::new(0.1, 1.2, 0.0);
         let before = PRESET.projection(400, 400).project(point);
         let mut eye = Eye::default();
@@ -371,7 +371,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_fill_the_stage_and_each_eye_has_its_own() {
+    fn views_fill_the_stage_and_each_has_its_own_camera() {
         let whole = Rect::from_min_size(
             eframe::egui::pos2(10.0, 20.0),
             eframe::egui::vec2(802.0, 502.0),
@@ -395,7 +395,7 @@ mod tests {
     }
 
     #[test]
-    fn close_ups_lie_in_the_corners_and_never_on_each_other() {
+    fn close_ups_are_in_the_corners_and_never_overlap() {
         use chereme_motion::Side;
         let part = |wide: f32, high: f32| StagePart {
             rect: Rect::from_min_size(Pos2::new(10.0, 20.0), Vec2::new(wide, high)),
@@ -445,7 +445,7 @@ mod tests {
     }
 
     #[test]
-    fn nearer_shows_less() {
+    fn zooming_in_shows_less_within_limits() {
         let mut eye = Eye::default();
         eye.nearer(2.0);
         assert_eq!(eye.camera(PRESET).half_height, 0.5);
@@ -454,7 +454,7 @@ mod tests {
     }
 
     #[test]
-    fn the_wheel_goes_nearer_to_what_the_pointer_is_at() {
+    fn the_wheel_zooms_towards_the_pointer() {
         let at = [0.3, -0.2];
         // The point under the pointer, to the right of the target and above it.
         let under = |eye: &Eye| {

@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_of_sight_goes_through_what_is_seen_there() {
+    fn a_line_of_sight_passes_through_the_point_seen_there() {
         let projection = front();
         for at in [
             DVec3::new(0.3, 1.2, 0.4),
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_dragged_stays_below_the_pointer() {
+    fn a_dragged_handle_stays_under_the_pointer() {
         let projection = front();
         let origin = DVec3::new(-0.2, 1.1, 0.3);
         for (part, way) in [
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_go_where_the_picture_goes() {
+    fn arrow_keys_move_a_handle_as_seen_in_the_picture() {
         let one = |from: Vec3, to: Vec3, up: Vec3, keys: [f64; 3]| {
             let camera = Camera {
                 eye: from,
@@ -367,7 +367,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn the_nearest_place_is_seen_at_a_right_angle(
+        fn the_nearest_point_of_an_axis_is_at_a_right_angle_to_it(
             from in prop::array::uniform3(-3.0f64..3.0),
             to in prop::array::uniform3(-1.0f64..1.0),
             axis in prop::array::uniform3(-1.0f64..1.0),

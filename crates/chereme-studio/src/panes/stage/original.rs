@@ -132,7 +132,7 @@ mod tests {
     use chereme_motion::Span;
 
     #[test]
-    fn the_piece_that_is_played_is_the_one_there_or_the_nearest() {
+    fn the_played_piece_is_the_one_at_the_playhead_or_the_nearest() {
         let micros = Instant::from_micros;
         let part = |start, end| MadePart {
             span: Span::between(micros(start), micros(end)),

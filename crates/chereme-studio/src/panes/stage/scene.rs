@@ -421,7 +421,7 @@ mod tests {
     }
 
     #[test]
-    fn ghosts_are_past_and_future_and_not_before_the_beginning() {
+    fn ghosts_show_past_and_future_within_the_movement() {
         let (subject, clip) = subject();
         let count = |at| {
             subject
@@ -432,7 +432,7 @@ mod tests {
     }
 
     #[test]
-    fn trails_reach_as_far_as_asked_for_and_not_beyond_the_movement() {
+    fn trails_have_the_requested_length_within_the_movement() {
         let (mut subject, clip) = subject();
         let end = clip.span().end();
         let mut trails = |at: i64, reach: f64| {

@@ -372,7 +372,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn annotations_too_near_to_be_told_apart_are_one_tick() {
+    fn annotations_too_close_to_distinguish_share_one_tick() {
         let whole = Span::between(Instant::ZERO, Instant::from_micros(1_000_000));
         assert_eq!(
             ticks(&[0, 500_000], &[250_000, 750_000], whole, 100.0),

@@ -94,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_stage_is_looked_at_as_it_was() {
+    fn view_settings_of_the_stage_are_restored() {
         let mut stage = Stage::default();
         assert_eq!(StageWays::of(&stage), StageWays::default());
         stage.split(4);

@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn what_goes_with_its_parent_is_not_removed_twice() {
+    fn children_removed_with_their_parent_are_not_removed_twice() {
         let removed = remove(&recording(), &BTreeSet::from([1, 3, 4]));
         let ids: Vec<_> = removed
             .iter()
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn merging_goes_to_the_next_or_to_the_last_that_is_chosen() {
+    fn merging_extends_to_the_next_or_to_the_last_selected_annotation() {
         let all = recording();
         let values = |chosen: &[i64], closed| {
             let chosen = chosen.iter().copied().collect();

@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read() {
+    fn copied_annotations_read_back_unchanged() {
         let all = [
             ("Gloss", 1_250_000, 1_500_001, "MAISON"),
             ("Free", 2_000_000, 3_000_000, "two\nlines\tand \"more\""),
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn tables_of_others_are_understood_with_and_without_names() {
+    fn foreign_tables_are_read_with_and_without_column_names() {
         let one = |tier: Option<&str>, line| said(line, tier, (1_500_000, 2_000_000), "A");
         for (text, want) in [
             ("1.5\t2\tA", one(None, 1)),
@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_are_no_annotations_are_told() {
+    fn lines_that_are_no_annotations_are_reported() {
         let text = "start\tend\tvalue\nsoon\t2\tA\n3\t2\tB\n\t\t\n\tx\ty\nf500\tf600\tC\n1\t2\tD";
         let (found, odd) = rows(text);
         assert_eq!(found, [said(7, None, (1_000_000, 2_000_000), "D")]);
@@ -334,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn a_column_is_values() {
+    fn a_single_column_is_read_as_values() {
         for (text, want) in [
             ("MAISON", vec![(1, "MAISON")]),
             ("A\r\n\r\nB\n", vec![(1, "A"), (3, "B")]),

@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn bars_are_those_in_sight_and_the_narrow_ones_are_one() {
+    fn only_visible_bars_are_drawn_and_narrow_ones_are_merged() {
         let all = columns(&[(0, 100), (100, 110), (110, 112), (112, 300), (400, 500)]);
         let shown = |from, to, narrow| -> Vec<(usize, usize)> {
             bars(&all, from, to, narrow)
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_take_begins_with_what_can_be_read_around_the_playhead() {
+    fn a_long_recording_opens_at_a_readable_zoom_around_the_playhead() {
         let tiers = |length: i64, count: i64| -> Vec<TierContents> {
             let spans: Vec<(i64, i64)> =
                 (0..count).map(|n| (n * length, (n + 1) * length)).collect();
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ruler_has_texts_wide_enough_apart() {
+    fn labels_of_the_ruler_never_overlap() {
         for scale in [150.0, 1_000.0, 77_777.0, 1e6, 3e9] {
             let window = Window {
                 start: 123_456.0,

@@ -61,7 +61,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn children_stay_inside_and_go_along_with_parents_that_are_held_too() {
+    fn children_stay_inside_and_move_with_a_dragged_parent() {
         let all = contents(&[
             (
                 1,
@@ -109,7 +109,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn room_for_a_new_one_follows_the_kind_of_tier() {
+    fn the_free_time_for_a_new_annotation_depends_on_the_tier_kind() {
         let parents: &[_] = &[(1, 0, 400_000, None), (2, 500_000, 900_000, None)];
         let below: &[_] = &[(3, 100_000, 200_000, Some(1))];
         let tiled: &[_] = &[(4, 0, 400_000, Some(1))];

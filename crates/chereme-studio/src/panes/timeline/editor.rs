@@ -487,7 +487,7 @@ mod tests {
     }
 
     #[test]
-    fn arrows_go_through_what_fits_and_back_to_the_text() {
+    fn arrow_keys_move_through_the_candidates_and_back_to_the_text() {
         let mut it = editing();
         let fitting = [4, 2, 7];
         for (up, down, want) in [
@@ -508,7 +508,7 @@ mod tests {
     }
 
     #[test]
-    fn a_draft_reads_as_it_was_written() {
+    fn a_draft_reads_back_unchanged() {
         let mut it = editing();
         it.text = "école".into();
         let text = serde_json::to_string(&it).expect("written");
@@ -517,7 +517,7 @@ mod tests {
     }
 
     #[test]
-    fn what_opens_leaves_the_signer_in_sight() {
+    fn an_opened_editor_leaves_the_signer_visible() {
         let screen = Rect::from_min_size(pos2(0.0, 0.0), vec2(1280.0, 800.0));
         let stage = Rect::from_min_max(pos2(340.0, 60.0), pos2(1000.0, 390.0));
         let clear = |(left, width): (f32, f32)| left + width <= 520.0 || left >= 820.0;

@@ -332,7 +332,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn edges_are_held_where_there_is_room_for_a_middle() {
+    fn edges_can_be_grabbed_if_the_bar_has_room_for_a_middle() {
         for (right, x, want) in [
             (100.0, 2.0, Grip::Start),
             (100.0, 98.0, Grip::End),
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn shift_and_a_click_bring_the_nearer_side() {
+    fn shift_click_moves_the_nearer_edge() {
         let micros = Instant::from_micros;
         let span = Span::between(micros(10), micros(20));
         assert_eq!(

@@ -146,7 +146,7 @@ mod tests {
     use chereme_motion::Rate;
 
     #[test]
-    fn times_frames_shares_and_ways_from_here_are_understood() {
+    fn times_frames_percentages_and_relative_times_are_read() {
         let whole = Span::between(Instant::ZERO, Instant::from_micros(100_000_000));
         let frames = Frames {
             rate: Rate::new(50, 1).expect("a rate"),

@@ -141,7 +141,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tiers_stay_in_sight_however_many_lanes_there_are() {
+    fn tiers_stay_visible_with_any_number_of_lanes() {
         // Heights of the rows below the ruler at 1280x800 and 1024x640, and in a very low pane.
         for height in [250.0_f32, 180.0, 150.0] {
             for open in 0..5 {
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scale_says_round_numbers_with_their_unit() {
+    fn a_scale_shows_round_numbers_with_their_unit() {
         for (lane, largest, english, french) in [
             (Lane::Speed, 1.27, ["0", "1.5 m/s"], ["0", "1.5 m/s"]),
             (Lane::Speed, 0.1, ["0", "0.5 m/s"], ["0", "0.5 m/s"]),

@@ -453,7 +453,7 @@ mod tests {
     }
 
     #[test]
-    fn wide_frames_are_a_line_with_a_gap_where_nothing_is_measured() {
+    fn wide_frames_form_a_line_with_gaps_at_missing_values() {
         let mut curves = measured(5_000, |frame| frame as f64);
         let window = |start: f64, scale: f64| Window { start, scale };
         // 10 milliseconds are 5 points.
@@ -472,7 +472,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_in_sight_is_measured_from_the_playhead_outwards() {
+    fn visible_pieces_are_measured_from_the_playhead_outwards() {
         let mut curves = Curves::default();
         let all = source(12_000);
         let mut out = Outbox::default();
@@ -485,7 +485,7 @@ mod tests {
     }
 
     #[test]
-    fn stored_curves_are_shown_where_they_are_something() {
+    fn stored_curves_are_listed_if_they_are_not_zero() {
         let mut curves = measured(3_000, |_| 1.0);
         let piece = curves.pieces.get_mut(&1).expect("a piece");
         let brows = Series::new((0..PIECE).map(|frame| if frame < 600 { 0.0 } else { 0.5 }));
@@ -505,7 +505,7 @@ mod tests {
     }
 
     #[test]
-    fn minima_are_those_between_two_times() {
+    fn minima_are_limited_to_the_requested_time() {
         let curves = measured(5_000, |_| 1.0);
         assert_eq!(curves.minima(1, 25_000_000), [12_000_000, 24_000_000]);
         assert_eq!(direction([0.1, -0.9, 0.2]), words::TO_DOWN);

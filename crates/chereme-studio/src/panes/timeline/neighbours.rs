@@ -273,7 +273,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_missing_below_is_made_all_the_way_down() {
+    fn missing_child_annotations_are_added_on_every_level() {
         let all = contents(&[
             (1, None, "", &[(1, 0, 100, None), (2, 500, 600, None)]),
             (2, Some(1), "Included_In", &[(3, 10, 20, Some(1))]),

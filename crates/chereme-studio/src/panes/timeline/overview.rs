@@ -266,7 +266,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_count_what_lies_in_them() {
+    fn columns_count_the_annotations_inside_them() {
         let all = contents(&[
             (1, None, "", &[(1, 0, 100, None), (2, 100, 300, None)]),
             (2, None, "", &[(3, 250, 260, None), (4, 900, 1000, None)]),

@@ -456,7 +456,7 @@ mod tests {
     }
 
     #[test]
-    fn offsets_are_kept_and_one_tier_goes_where_one_is() {
+    fn offsets_are_kept_and_a_single_tier_is_pasted_into_the_selected_one() {
         let two = || {
             vec![
                 said(Some("tier 1"), 500, 600),
@@ -484,7 +484,7 @@ mod tests {
     }
 
     #[test]
-    fn children_come_after_the_parents_that_are_pasted_with_them() {
+    fn pasted_children_follow_their_pasted_parents() {
         let group = vec![
             said(Some("tier 2"), 10, 20),
             said(Some("tier 3"), 0, 40),
@@ -505,7 +505,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_parent_or_one_already_is_told() {
+    fn missing_and_occupied_parents_are_reported() {
         assert_eq!(
             planned(1, vec![said(None, 110, 120)], None).1,
             [words::ODD_PARENT]

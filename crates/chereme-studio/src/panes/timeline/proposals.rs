@@ -158,7 +158,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_next_proposal_is_a_doubtful_one_and_goes_round() {
+    fn the_next_proposal_is_an_uncertain_one_and_wraps_around() {
         let proposal = |start, id, doubtful| Proposal {
             start,
             end: start + 5,

@@ -246,7 +246,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_end_that_the_playhead_lies_on_goes_along() {
+    fn the_selection_end_at_the_playhead_moves_with_it() {
         let at = |old: Option<(i64, i64)>, playhead, to| {
             extended(old.map(|it| span(it.0, it.1)), playhead, to)
                 .map(|it| (it.start().micros(), it.end().micros()))
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn a_range_goes_from_the_first_that_is_selected() {
+    fn a_range_extends_from_the_first_selected_annotation() {
         let all = contents(&[(
             1,
             None,

@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn a_boundary_or_minimum_nearby_goes_before_the_frame() {
+    fn a_nearby_boundary_or_minimum_takes_precedence_over_the_frame() {
         let tiers = [tier(&[(100_000, 233_000), (400_000, 500_000)])];
         let except = BTreeSet::from([2]);
         let guides = |snaps| Guides {

@@ -488,7 +488,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_is_different_is_asked_for() {
+    fn only_changed_fields_of_a_tier_are_requested() {
         let all = contents(&[(1, None, "", &[]), (2, Some(1), "Included_In", &[])]);
         let before = TierBox::of(&all, &all.tiers[1], What::Change(2));
         assert_eq!(
@@ -513,7 +513,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tier_cannot_hang_below_itself() {
+    fn a_tier_cannot_be_its_own_parent() {
         let all = contents(&[
             (1, None, "", &[]),
             (2, Some(1), "Included_In", &[]),

@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_sorted_as_people_count_and_kinds_as_signs_are_told() {
+    fn names_sort_in_natural_order_and_kinds_in_the_order_of_the_components() {
         let mut names = ["Mo10", "école", "Mo2", "Eau", "Mo"];
         names.sort_by_key(|it| natural(it));
         assert_eq!(names, ["Eau", "école", "Mo", "Mo2", "Mo10"]);

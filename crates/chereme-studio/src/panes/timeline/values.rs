@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_used_most_comes_first_and_typing_filters() {
+    fn most_used_values_come_first_and_typing_filters_them() {
         let free = choices(
             &tier("gloss", &["BOL", "CHAT", "CHAT", "ÉCOLE"]),
             None,
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_digit_keeps_its_value_for_the_sitting() {
+    fn a_digit_keeps_its_value_during_an_editing_session() {
         let mut digits = Digits::default();
         let at = |digits: &mut Digits, values: &[&str]| {
             digits

@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn switches_go_on_and_off_and_modes_exclude_each_other() {
+    fn switches_toggle_and_modes_exclude_each_other() {
         let mut ways = TimelineSettings::default();
         for action in [Action::SnapMinima, Action::LaneSpeed, Action::ModeShift] {
             assert!(!ways.is_on(action));

@@ -37,7 +37,7 @@ fn a_recipe_is_a_card_for_each_source_and_operator() {
 }
 
 #[test]
-fn cards_that_are_off_stay_where_they_are_and_out_of_the_text() {
+fn disabled_cards_keep_their_position_and_are_left_out_of_the_text() {
     let mut stack = stack("BOL | reverse | repeat 2");
     let reverse = stack.cards()[1].id;
     stack.switch(reverse);
@@ -57,7 +57,7 @@ fn cards_that_are_off_stay_where_they_are_and_out_of_the_text() {
 }
 
 #[test]
-fn what_is_not_filled_in_yet_is_left_out() {
+fn incomplete_cards_are_left_out_of_the_text() {
     let mut stack = stack("BOL");
     let value = Choice::Value(String::new());
     let empty = What::Step(Step::Configure(chereme_corpus::recipe::Configure {
@@ -78,7 +78,7 @@ fn what_is_not_filled_in_yet_is_left_out() {
 }
 
 #[test]
-fn cards_move_and_sources_take_along_what_is_done_to_them() {
+fn sources_move_together_with_their_operators() {
     let mut stack = stack("A | reverse | swap then B | mirror then C");
     let id = |stack: &Stack, at: usize| stack.cards()[at].id;
     let swap = id(&stack, 2);
@@ -165,7 +165,7 @@ proptest! {
     }
 
     #[test]
-    fn whatever_is_moved_and_switched_the_text_is_that_of_the_cards(
+    fn the_text_matches_the_cards_after_any_moves_and_switches(
         text in texts(),
         moves in prop::collection::vec((0usize..12, 0usize..14, 0u8..4), 0..8),
     ) {
