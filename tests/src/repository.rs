@@ -15,7 +15,7 @@ pub fn root() -> PathBuf {
 pub struct TextFile {
     /// The path from the workspace's folder, with `/`.
     pub path: String,
-    /// What is in it.
+    /// The contents.
     pub text: String,
 }
 

@@ -67,19 +67,19 @@ impl Worker {
         }
     }
 
-    /// Kills the worker where it stands, and returns what it had said.
+    /// Kills the worker at once, and returns its output up to then.
     ///
     /// # Errors
-    /// Where the system does not let it be killed.
+    /// Fails if the system does not allow the kill.
     pub fn kill(mut self) -> io::Result<Said> {
         self.child.kill()?;
         self.hear()
     }
 
-    /// Waits for the worker's end, and returns what it said.
+    /// Waits until the worker ends, and returns its output.
     ///
     /// # Errors
-    /// Where its words cannot be read.
+    /// Fails if its output cannot be read.
     pub fn hear(mut self) -> io::Result<Said> {
         let mut text = String::new();
         self.lines.read_to_string(&mut text)?;

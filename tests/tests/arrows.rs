@@ -6,7 +6,7 @@ use std::process::Command;
 use chereme_tests::repository;
 use serde_json::Value;
 
-/// Every crate of the workspace with the crates of it that it may know.
+/// Every crate of the workspace, with the crates of the workspace that it may depend on.
 const ARROWS: [(&str, &[&str]); 10] = [
     ("chereme-motion", &[]),
     ("chereme-sign", &["motion"]),
@@ -266,7 +266,7 @@ fn licence_expressions_are_evaluated_correctly() {
     }
 }
 
-/// The modules of the corpus on which its database room stands.
+/// The modules of the corpus that its database module may use.
 const BELOW_THE_DATABASE: [&str; 3] = ["db", "error", "progress"];
 
 /// Returns the code of a file without its tests.

@@ -251,7 +251,7 @@ fn a_recording_without_a_cuer_is_refused_with_a_remedy() -> Result<()> {
             .cue_phases(&[], &wrong)
             .is_err_and(|error| error.to_string().contains("klingon"))
     );
-    // Without captured takes the program's own movement stands for the dictionary, and says so.
+    // Without captured takes, movement that the program generates replaces the dictionary, with a finding.
     let (how, costs) = (CueOptions::default(), CueCosts::default());
     let done = corpus.cue_from_dictionary(
         "le chat",

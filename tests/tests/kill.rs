@@ -29,10 +29,10 @@ impl Numbers {
     }
 }
 
-/// Kills workers at the task, most after they are ready, every eighth while it still begins.
+/// Kills workers during the task: most after they are ready, every eighth while it is still starting.
 ///
 /// The moments lie anywhere in the first operations, however long these take here: they come later
-/// where none was done, and sooner where several were.
+/// if no operation was finished before a kill, and sooner if several were.
 fn kill_at(task: &str, seed: u64, kills: usize) {
     let folder = tempfile::tempdir().expect("a folder");
     let template = small_corpus(folder.path(), "template").expect("a corpus");

@@ -15,7 +15,7 @@ const FASTEST: f64 = 6.0;
 const TURNING: f64 = 45.0;
 /// How deep a hand or an elbow is in the trunk at most, in metres.
 const DEEPEST: f64 = 0.01;
-/// Every so many signs are made on each body.
+/// One sign out of this many is animated on each body.
 const EVERY: usize = 12;
 
 fn holds_on(body: &Path, folder: &Path, first: usize) {

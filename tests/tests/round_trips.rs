@@ -26,7 +26,7 @@ enum Meaning {
     Transcript(Transcript),
 }
 
-/// Reads a file as its ending says; nothing for other endings, and for files that are refused.
+/// Reads a file by its extension. Returns `None` for other extensions and for files that the reader refuses.
 fn read(path: &Path) -> Option<Meaning> {
     let bytes = fs::read(path).ok()?;
     let ending = path.extension()?.to_string_lossy().to_lowercase();
@@ -68,7 +68,7 @@ fn corpus_of(folder: &Path, file: &Path) -> Result<Corpus> {
     }
 }
 
-/// Compares a clip with that of the store, whose rotations are the same turns.
+/// Compares a clip with the stored one; quaternions of opposite sign count as the same rotation.
 fn same_clip(is: &Clip, want: &Clip) -> bool {
     let joints = is.skeleton().joints().iter().zip(want.skeleton().joints());
     let names = joints
@@ -144,7 +144,7 @@ fn check(path: &Path) -> Result<bool> {
     Ok(true)
 }
 
-/// Tier, times and value of every annotation that says something.
+/// Returns tier, times and value of every annotation that is not empty.
 fn said(transcript: &Transcript) -> Vec<(String, i64, i64, String)> {
     let mut all: Vec<_> = transcript
         .tiers

@@ -99,8 +99,8 @@ fn corpora_of_earlier_versions_open_without_loss() {
     }
 }
 
-/// Up to version 4 scalar curves were rows next to a skeleton's track; the corpus was made then, with a sign whose
-/// curves were taken away by making it again, and brought back by undo.
+/// Up to version 4, scalar curves were rows next to a skeleton's track. The corpus is of that version; it holds a sign
+/// that lost its curves when it was generated again, and got them back by undo.
 #[test]
 fn curves_stored_with_movement_become_tracks_with_their_history() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -410,7 +410,7 @@ fn tables_have_the_requested_width() {
     assert_eq!(widest("--width 0"), widest(""));
 }
 
-/// Returns the commands that the help lists, with what it says of them.
+/// Returns the commands that the help lists, with their descriptions.
 fn commands(help: &str) -> Vec<(String, String)> {
     let lines = help.lines().skip_while(|line| *line != "Commands:").skip(1);
     lines

@@ -351,7 +351,7 @@ mod tests {
         damage(&bytes, 100, 3);
     }
 
-    /// Cuts and changes every byte; nothing may panic, and what is cut short is noticed.
+    /// Truncates at every byte and changes every byte: nothing may panic, and truncation must be detected.
     fn damage(bytes: &[u8], frames: usize, count: usize) {
         for length in 0..bytes.len() {
             assert!(

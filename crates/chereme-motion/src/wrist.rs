@@ -1,5 +1,5 @@
-//! Angles of a hand on its forearm, and their limits: what an animator may pose, and what a transcriber expects of a
-//! hand that cannot turn farther.
+//! Angles of a hand on its forearm, and their limits. The animator poses no hand beyond the limits; the transcriber
+//! expects that a hand at a limit was meant to turn farther.
 
 /// Angles of a hand on its forearm, in radians.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -114,7 +114,7 @@ fn errors(model: &HandModel, takes: &[Take]) -> Errors {
     found
 }
 
-/// Training of both models, beside numpy if `CHEREME_PYTHON` names a Python that has it.
+/// Trains both models, and compares them with numpy if `CHEREME_PYTHON` names a Python that has it.
 fn training(table: &mut Table) -> (HandModel, FaceModel) {
     let free = generate::transitions(&Settings::default(), 2);
     let whole: Vec<_> = takes(&clean(), 0..12)

@@ -14,7 +14,7 @@ pub(crate) struct Transition {
     pub(crate) clip: Clip,
     /// The joints that move in it.
     pub(crate) joints: Vec<usize>,
-    /// The joints whose ends are compared, and the joint in whose space they are.
+    /// The joints whose ends are compared; `base` is the joint in whose space they are compared.
     pub(crate) points: Vec<usize>,
     pub(crate) base: Option<usize>,
 }

@@ -110,8 +110,8 @@ fn spread((what, mut all): (&str, Vec<f64>)) -> String {
     format!("{what}: {middle:.2} ({low:.2} to {high:.2})")
 }
 
-/// Returns the text with today's counts in the table between the marks, `said` above it. Counts of an earlier animator
-/// come from the output of this program then, or else from the text.
+/// Returns the text with today's counts in the table between the marks, and `said` above it. Counts of an earlier
+/// animator come from `before`, the output of this program then, or else from the table in the text.
 fn written(text: &str, said: &str, counts: &[Count], before: Option<&str>) -> Result<String> {
     let [open, close] = MARKS;
     let (head, rest) = text

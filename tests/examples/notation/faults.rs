@@ -12,7 +12,7 @@ use crate::bulk::{Hand, Tube, deepest};
 use crate::checks::{Trunk, worst};
 use crate::walk::{each_motion, interlocked, places, with_motions};
 
-/// One fault: its name, and how a sign is judged: `None` if the fault cannot occur in it.
+/// One fault: its name, and a function that reports whether a sign has it; `None` if it cannot occur in the sign.
 pub(crate) type Judge = (&'static str, fn(&Seen<'_>) -> Option<bool>);
 
 /// Heights of the wrist above its shoulder, and the height of the elbow that three of four captured ones stay below while
@@ -136,7 +136,7 @@ impl Seen<'_> {
             .sum()
     }
 
-    /// Returns the fastest that a wrist goes between two frames, in metres per second.
+    /// Returns the highest speed of a wrist between two frames, in metres per second.
     pub(crate) fn peak(&self, side: Side, (from, to): (usize, usize)) -> f64 {
         let Some(arm) = self.made.anatomy.arm(side) else {
             return 0.0;
@@ -583,7 +583,7 @@ fn dropped(seen: &Seen<'_>) -> Option<bool> {
     Some(seen.findings > 0)
 }
 
-/// Makes a sign and what it is judged against.
+/// Animates a sign and collects the data by which its faults are judged.
 pub(crate) fn see<'a>(
     notated: &'a Notated,
     findings: usize,

@@ -264,7 +264,7 @@ pub(crate) struct Again {
     /// The sign without the movements from and to rest.
     pub(crate) clip: Clip,
     pub(crate) anatomy: Arc<Anatomy>,
-    /// Whether the body fell short of what is written.
+    /// Whether the body could not perform the notation completely.
     pub(crate) short: bool,
     /// The frame in which the animator reaches the first posture, if the transcriber had to find it.
     pub(crate) begins: Option<usize>,

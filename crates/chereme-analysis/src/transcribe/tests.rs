@@ -563,7 +563,7 @@ fn clips_that_are_no_token_are_refused_and_missing_joints_reported() {
 #[test]
 fn manners_are_recognised_by_duration_and_speed_profile() {
     let own = before_chest(HandClass::Fist);
-    // A meant movement peaks late.
+    // A deliberate movement reaches its highest speed late.
     let late = |time: f64| ease(time.powf(1.25));
     let even = |time: f64| time;
     let manner = |seconds: f64, course: &dyn Fn(f64) -> f64| {

@@ -12,7 +12,7 @@ const NEAR: usize = 30;
 
 impl Corpus {
     /// Returns a picture of the first film of a recording that can be decoded, at most as large as `within` (width,
-    /// height); `None` if there is none. It shows `at` of the recording's clock, or the last frame before it at which
+    /// height); `None` without such a film. It shows `at` of the recording's clock, or the last frame before it at which
     /// decoding can begin if that is more than 30 frames earlier.
     ///
     /// # Errors

@@ -15,7 +15,7 @@ use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::tiers::{AnnotationRow, TierRow, insert_annotation, insert_tier};
 use crate::error::Result;
 
-/// A corpus in a folder that goes away with it.
+/// A corpus in a temporary folder that is deleted with it.
 struct Sample {
     corpus: Corpus,
     folder: tempfile::TempDir,

@@ -328,7 +328,7 @@ fn unknown_values_and_fields_are_pointed_at() {
     }
 }
 
-/// Queries with what is found of their conditions, each as kind, condition and names.
+/// Queries with the expected findings about their conditions, each as kind, condition and names.
 const FOUND: &str = r#"
 placement=head => widened placement=head: chin
 placement==head =>
