@@ -7,7 +7,7 @@ use clap::builder::StyledStr;
 use clap::{Arg, ArgAction, Command};
 
 /// The phrases of clap, as English and French.
-const FRAME: [(&str, &str); 17] = [
+const FRAME: [(&str, &str); 20] = [
     ("error: ", "erreur : "),
     ("  tip: ", "  conseil : "),
     ("unexpected argument ", "argument inattendu : "),
@@ -35,6 +35,12 @@ const FRAME: [(&str, &str); 17] = [
     ("a value is required for ", "il faut une valeur pour "),
     (" but none was supplied", ", et il n’y en a pas"),
     ("[possible values: ", "[valeurs possibles : "),
+    ("[default: ", "[défaut : "),
+    ("[subcommands: ", "[sous-commandes : "),
+    (
+        " requires a subcommand but one was not provided",
+        " demande une sous-commande",
+    ),
     ("Usage: ", "Utilisation : "),
     (
         "For more information, try '--help'.",

@@ -114,7 +114,9 @@ pub(super) fn tell(
         ))?,
     }
     if explain {
-        output.line(done.explanation.trim_end())?;
+        for line in done.explanation.trim_end().lines() {
+            output.line(line)?;
+        }
     } else {
         for warning in &done.report.warnings {
             output.line(format!("warning: {warning}"))?;

@@ -3,8 +3,9 @@
 use super::Language;
 
 /// Nouns as plural, singular, French singular and French plural.
-const NOUNS: [(&str, &str, &str, &str); 26] = [
+const NOUNS: [(&str, &str, &str, &str); 30] = [
     ("annotations", "annotation", "annotation", "annotations"),
+    ("attributes", "attribute", "attribut", "attributs"),
     ("blocks", "block", "bloc", "blocs"),
     ("changes", "change", "modification", "modifications"),
     ("columns", "column", "colonne", "colonnes"),
@@ -13,6 +14,12 @@ const NOUNS: [(&str, &str, &str, &str); 26] = [
     ("edits", "edit", "modification", "modifications"),
     ("files", "file", "fichier", "fichiers"),
     ("frames", "frame", "image", "images"),
+    (
+        "index documents",
+        "index document",
+        "document de l’index",
+        "documents de l’index",
+    ),
     ("inventories", "inventory", "inventaire", "inventaires"),
     ("joints", "joint", "articulation", "articulations"),
     ("media", "media file", "média", "médias"),
@@ -24,6 +31,7 @@ const NOUNS: [(&str, &str, &str, &str); 26] = [
         "paire d’images",
         "paires d’images",
     ),
+    ("points", "point", "point", "points"),
     ("recipes", "recipe", "recette", "recettes"),
     (
         "recordings",
@@ -35,6 +43,7 @@ const NOUNS: [(&str, &str, &str, &str); 26] = [
     ("searches", "search", "recherche", "recherches"),
     ("signers", "signer", "signeur", "signeurs"),
     ("signs", "sign", "signe", "signes"),
+    ("skeletons", "skeleton", "squelette", "squelettes"),
     ("symbols", "symbol", "symbole", "symboles"),
     ("tiers", "tier", "acteur", "acteurs"),
     ("tokens", "token", "occurrence", "occurrences"),

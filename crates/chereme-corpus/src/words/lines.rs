@@ -203,6 +203,64 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("tier {name}: {role}", "acteur {name} : {role}"),
     ("column {name}: {meaning}", "colonne {name} : {meaning}"),
     (
+        "added annotation {name} on {tier} of {recording}, {start} to {end}",
+        "annotation {name} ajoutée sur {tier} de {recording}, de {start} à {end}",
+    ),
+    (
+        "added tier {name} on {recording}",
+        "acteur {name} ajouté sur {recording}",
+    ),
+    ("added recording {name}", "enregistrement {name} ajouté"),
+    ("added signer {name}", "signeur {name} ajouté"),
+    ("added sign {name}", "signe {name} ajouté"),
+    (
+        "added translation {name} on {sign}",
+        "traduction {name} ajoutée sur {sign}",
+    ),
+    ("added inventory {name}", "inventaire {name} ajouté"),
+    (
+        "added value {name} on {inventory}",
+        "valeur {name} ajoutée dans {inventory}",
+    ),
+    ("added search {name}", "recherche {name} ajoutée"),
+    (
+        "added recipe {name} on {recording}",
+        "recette {name} ajoutée sur {recording}",
+    ),
+    (
+        "added notation {name} on {sign}",
+        "notation {name} ajoutée sur {sign}",
+    ),
+    (
+        "removed annotation {name} on {tier} of {recording}, {start} to {end}",
+        "annotation {name} supprimée sur {tier} de {recording}, de {start} à {end}",
+    ),
+    (
+        "removed tier {name} on {recording}",
+        "acteur {name} supprimé sur {recording}",
+    ),
+    ("removed recording {name}", "enregistrement {name} supprimé"),
+    ("removed signer {name}", "signeur {name} supprimé"),
+    ("removed sign {name}", "signe {name} supprimé"),
+    (
+        "removed translation {name} on {sign}",
+        "traduction {name} supprimée sur {sign}",
+    ),
+    ("removed inventory {name}", "inventaire {name} supprimé"),
+    (
+        "removed value {name} on {inventory}",
+        "valeur {name} supprimée dans {inventory}",
+    ),
+    ("removed search {name}", "recherche {name} supprimée"),
+    (
+        "removed recipe {name} on {recording}",
+        "recette {name} supprimée sur {recording}",
+    ),
+    (
+        "removed notation {name} on {sign}",
+        "notation {name} supprimée sur {sign}",
+    ),
+    (
         "added {value} to {inventory}",
         "{value} ajouté à {inventory}",
     ),
@@ -371,4 +429,137 @@ pub(super) const LINES: &[(&str, &str)] = &[
         "the corpus is built first",
         "le corpus est d’abord construit",
     ),
+    (
+        "annotation {name} on {tier} of {recording}: {changes}",
+        "annotation {name} sur {tier} de {recording} : {changes}",
+    ),
+    (
+        "start from {old} to {new}; end from {before} to {after}",
+        "début : {old} → {new} ; fin : {before} → {after}",
+    ),
+    ("start from {old} to {new}", "début : {old} → {new}"),
+    ("end from {old} to {new}", "fin : {old} → {new}"),
+    ("value from {old} to {new}", "valeur : {old} → {new}"),
+    ("name from {old} to {new}", "nom : {old} → {new}"),
+    ("gloss from {old} to {new}", "glose : {old} → {new}"),
+    ("notes from {old} to {new}", "remarques : {old} → {new}"),
+    ("its order or form", "son ordre ou sa forme"),
+    (
+        "{file} -> recording {name}",
+        "{file} -> enregistrement {name}",
+    ),
+    ("1 token: {query}", "1 occurrence : {query}"),
+    ("0 tokens: {query}", "0 occurrence : {query}"),
+    ("{n} tokens: {query}", "{n} occurrences : {query}"),
+    (
+        "{n} tokens, {shown} shown: {query}",
+        "{n} occurrences, dont {shown} affichées : {query}",
+    ),
+    ("character {n}", "caractère {n}"),
+    ("by handshape", "par configuration"),
+    ("by placement", "par emplacement"),
+    (
+        "the slug is the snail with another handshape",
+        "la limace est l’escargot avec une autre configuration",
+    ),
+    ("the bowl stands on the left", "le bol est à gauche"),
+    (
+        "dark is light played backwards",
+        "foncé est clair joué à l’envers",
+    ),
+    (
+        "steps (residual: the largest distance of a wrist from its goal)",
+        "étapes (écart : la plus grande distance d’un poignet à son but)",
+    ),
+    ("steps", "étapes"),
+    ("channels", "canaux"),
+    ("joins", "raccords"),
+    ("contacts undone", "contacts défaits"),
+    ("{step}   (residual {mm} mm)", "{step}   (écart {mm} mm)"),
+    (
+        "one change cannot be made, and none was:",
+        "une modification est impossible, et aucune n’a été faite :",
+    ),
+    (
+        "{n} changes cannot be made, and none was:",
+        "{n} modifications sont impossibles, et aucune n’a été faite :",
+    ),
+    (
+        "its version is {version}, and this program reads {one} and {other}",
+        "sa version est {version}, et ce programme lit {one} et {other}",
+    ),
+    (
+        "it holds {n} columns of {frames} frames, not {count} of {others}",
+        "il contient {n} colonnes de {frames} images, et non {count} de {others}",
+    ),
+    (
+        "bytes follow its last column",
+        "des octets suivent sa dernière colonne",
+    ),
+    (
+        "the form {form} of numbers is unknown",
+        "la forme {form} de nombres est inconnue",
+    ),
+    (
+        "the coding {form} is unknown",
+        "le codage {form} est inconnu",
+    ),
+    ("its gaps are out of order", "ses lacunes sont en désordre"),
+    ("a number is not finite", "un nombre n’est pas fini"),
+    (
+        "an exception is about frame {n}",
+        "une exception concerne l’image {n}",
+    ),
+    (
+        "the exception {text} is no number",
+        "l’exception {text} n’est pas un nombre",
+    ),
+    (
+        "a constant is not as long as its numbers",
+        "une constante n’est pas aussi longue que ses nombres",
+    ),
+    ("a column has {n} numbers", "une colonne a {n} nombres"),
+    (
+        "its changeset is empty",
+        "son jeu de modifications est vide",
+    ),
+    ("it is missing", "absent"),
+    ("it is no text", "ce n’est pas du texte"),
+    (
+        "it names the unknown table {table}",
+        "il nomme la table inconnue {table}",
+    ),
+    (
+        "it holds the unknown change {kind}",
+        "il contient la modification inconnue {kind}",
+    ),
+    (
+        "its kind {kind} is unknown to this program",
+        "ce programme ne connaît pas son genre {kind}",
+    ),
+    ("its {what} cannot be read", "illisible : {what}"),
+    (
+        "its numbers are {form}, not decimals",
+        "ses nombres sont {form}, et non des décimaux",
+    ),
+    (
+        "a scalar channel has several columns",
+        "un canal scalaire a plusieurs colonnes",
+    ),
+    ("its file has no place", "son fichier n’a pas d’emplacement"),
+    (
+        "changeset {operation}, part {part}",
+        "jeu de modifications {operation}, partie {part}",
+    ),
+    ("changeset {operation}", "jeu de modifications {operation}"),
+    ("row {row} of {table}", "ligne {row} de {table}"),
+    (
+        "the new sign got no token",
+        "le nouveau signe n’a pas reçu d’occurrence",
+    ),
+    (
+        "{recording} has no track {name}",
+        "{recording} n’a pas de piste {name}",
+    ),
+    ("a tier that is gone", "un acteur qui n’existe plus"),
 ];
