@@ -77,8 +77,15 @@ impl Output {
         Ok(())
     }
 
-    /// Writes a table for people, shortened to the largest width.
-    pub(crate) fn table(&mut self, header: &[&str], rows: &[Vec<String>]) -> Result<()> {
+    /// Writes a table for people, with its titles in the language of the output.
+    pub(crate) fn table(&mut self, titles: &[&str], rows: &[Vec<String>]) -> Result<()> {
+        let language = self.language;
+        let titles = titles.iter().map(|title| words::title(title, language));
+        self.columns(&titles.collect::<Vec<_>>(), rows)
+    }
+
+    /// Writes a table for people under names that are the same in every language, shortened to the largest width.
+    pub(crate) fn columns(&mut self, header: &[&str], rows: &[Vec<String>]) -> Result<()> {
         if self.json {
             return Ok(());
         }

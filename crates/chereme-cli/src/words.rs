@@ -1,10 +1,13 @@
 //! The help of the command line in French, found by its English form.
 
 mod help;
+mod titles;
 
 use chereme_corpus::words::{Language, guide};
 use clap::builder::StyledStr;
 use clap::{Arg, ArgAction, Command};
+
+pub(crate) use titles::title;
 
 /// The phrases of clap, as English and French.
 const FRAME: [(&str, &str); 20] = [

@@ -460,7 +460,7 @@ fn confusion(name: &str, of: &CueConfusion, output: &mut Output) -> Result<()> {
                 .collect()
         })
         .collect();
-    output.table(&titles, &rows)
+    output.columns(&titles, &rows)
 }
 
 fn tell(said: &FromDictionary, output: &mut Output) -> Result<()> {

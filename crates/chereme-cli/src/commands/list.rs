@@ -74,7 +74,7 @@ pub(super) fn list(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 .collect()
         })
         .collect();
-    output.table(&columns, &rows)?;
+    output.columns(&columns, &rows)?;
     let shown = if (rows.len() as u64) < found.total {
         format!(", {} shown", rows.len())
     } else {

@@ -219,7 +219,7 @@ fn tally(corpus: &mut Corpus, args: &Args, fields: &[String], output: &mut Outpu
     let rows: Vec<Vec<String>> = tally.rows.iter().map(row).collect();
     match args.table {
         TableFormat::Text => {
-            output.table(&header, &rows)?;
+            output.columns(&header, &rows)?;
             output.line(format!("{} tokens: {}", tally.total, tally.query))?;
         }
         separated => {
