@@ -3,7 +3,7 @@
 mod help;
 mod titles;
 
-use chereme_corpus::words::{Language, guide};
+use chereme_corpus::words::{Language, guide, message};
 use clap::builder::StyledStr;
 use clap::{Arg, ArgAction, Command};
 
@@ -147,7 +147,17 @@ pub(crate) fn usage(text: &str) -> String {
     for (english, french) in FRAME {
         said = said.replace(english, french);
     }
-    said.trim_end().to_owned()
+    let lines: Vec<String> = said.trim_end().lines().map(with_reason).collect();
+    lines.join("\n")
+}
+
+/// Puts the reason for which a value was refused, at the end of a line of clap, into French.
+fn with_reason(line: &str) -> String {
+    let said = line.rsplit_once("': ").and_then(|(head, reason)| {
+        let reason = message(reason, Language::French)?;
+        Some(format!("{head}' : {reason}"))
+    });
+    said.unwrap_or_else(|| line.to_owned())
 }
 
 #[cfg(test)]

@@ -334,7 +334,7 @@ mod tests {
     }
 
     #[test]
-    fn blocks_come_back_as_they_were_and_damage_is_named() {
+    fn blocks_read_back_unchanged_and_damage_is_named() {
         let columns = columns();
         let bytes = encode(100, &columns.iter().collect::<Vec<_>>());
         let back = decode(&bytes, 100, 3).expect("whole");
@@ -408,7 +408,7 @@ mod tests {
     }
 
     #[test]
-    fn every_form_comes_back_bit_for_bit_with_its_gaps() {
+    fn every_form_reads_back_bit_for_bit_with_its_gaps() {
         let columns = of_every_form();
         let bytes = encode_any(100, &columns);
         let back = decode(&bytes, 100, columns.len()).expect("whole");
@@ -445,7 +445,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(48))]
 
         #[test]
-        fn any_floats_and_integers_come_back(
+        fn any_floats_and_integers_read_back_unchanged(
             bits in proptest::collection::vec(any::<u64>(), 0..80),
             zero in -1e6..1e6f64,
             unit in 1e-6..10f64,

@@ -17,7 +17,7 @@ fn glosses(corpus: &mut Corpus, query: &str) -> Vec<String> {
 }
 
 #[test]
-fn a_notated_sign_moves_is_found_by_its_components_and_is_taken_back() {
+fn a_notated_sign_is_animated_found_by_its_components_and_undone() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     let file = folder.path().join("merci.sigml");

@@ -64,7 +64,7 @@ fn generated_signs_are_found_by_the_values_that_operators_set() {
 }
 
 #[test]
-fn a_recording_without_a_sign_goes_by_its_bare_name() {
+fn a_recording_without_a_sign_is_addressed_by_its_bare_name() {
     let folder = tempfile::tempdir().expect("a folder");
     let files = starter(folder.path(), "escargot");
     let capture = files

@@ -47,7 +47,7 @@ fn covered(raster: &Raster) -> usize {
 }
 
 #[test]
-fn a_ball_covers_the_disc_that_geometry_says() {
+fn a_ball_covers_the_disc_of_its_projection() {
     // Seen from distance d, the outline of a ball of radius r has the radius d·r/√(d²-r²) in the
     // plane through its middle.
     let mut raster = Raster::default();

@@ -133,7 +133,7 @@ fn clips_that_cannot_be_drawn_are_refused_with_a_reason() {
 }
 
 #[test]
-fn a_gif_decodes_to_the_pictures_it_was_made_of() {
+fn a_gif_decodes_to_its_source_pictures() {
     let (clip, anatomy) = clip();
     let clip = clip.slice(20..30);
     let options = AnimationOptions {

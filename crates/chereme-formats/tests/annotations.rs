@@ -130,7 +130,7 @@ fn added(text: &str, unit: Option<TimeUnit>) -> Vec<(String, i64, i64, String)> 
 }
 
 #[test]
-fn units_stand_in_titles_or_come_with_the_table() {
+fn units_are_read_from_titles_or_given_with_the_table() {
     let want = [("A".to_owned(), 35_100, 35_200, "x".to_owned())];
     for text in [
         "tier,start_ms,end_ms,value\nA,35100,35200,x\n",

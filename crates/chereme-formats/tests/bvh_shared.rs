@@ -118,7 +118,7 @@ fn numbers_of_text(bytes: &[u8]) -> Vec<Option<chereme_formats::bvh::raw::Number
 }
 
 #[test]
-fn fixed_point_rows_come_back_byte_for_byte() {
+fn fixed_point_rows_are_written_byte_for_byte() {
     for path in files()
         .iter()
         .filter(|path| path.ends_with("AV_8Walk_Meredith_HVHA_Rep1.bvh"))

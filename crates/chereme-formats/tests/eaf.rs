@@ -589,7 +589,7 @@ fn files(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
 }
 
 #[test]
-fn files_of_others_come_back() {
+fn shared_files_read_back_unchanged() {
     let Some(data) = std::env::var_os("CHEREME_SHARED_DATA").map(PathBuf::from) else {
         eprintln!("CHEREME_SHARED_DATA is not set: the files of others were not tried");
         return;

@@ -348,7 +348,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn an_inverse_holds_the_other_way_round(a in any_span(), b in any_span()) {
+        fn an_inverse_relation_holds_for_the_swapped_pair(a in any_span(), b in any_span()) {
             for relation in columns() {
                 if let Some(inverse) = relation.inverse() {
                     prop_assert_eq!(relation.holds(a, b), inverse.holds(b, a), "{}", relation);

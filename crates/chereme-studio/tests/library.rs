@@ -51,7 +51,7 @@ fn says(window: &Window<'_>, part: &str) -> bool {
 }
 
 #[test]
-fn signs_without_recordings_are_listed_animated_and_taken_into_a_recipe() {
+fn signs_without_recordings_are_listed_animated_and_used_in_a_recipe() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_notated(folder.path());
     assert!(says(&window, "This corpus has no recordings"));

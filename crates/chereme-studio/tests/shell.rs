@@ -154,7 +154,7 @@ fn opened_corpora_and_choices_are_remembered() {
 }
 
 #[test]
-fn another_programs_change_is_noticed() {
+fn a_change_by_another_program_is_noticed() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     let path = window.state().corpus().expect("open").clone();

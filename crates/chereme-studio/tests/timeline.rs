@@ -14,7 +14,7 @@ fn named<'w>(window: &'w Window<'_>) -> egui_kittest::Node<'w> {
 }
 
 #[test]
-fn a_gloss_is_made_on_a_dragged_selection_and_typed() {
+fn a_gloss_is_added_on_a_dragged_selection_and_typed() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = emptied(folder.path());
     let lane = rect(&window, "Lane of Gloss");

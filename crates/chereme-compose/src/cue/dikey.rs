@@ -565,7 +565,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sentence_of_the_dictionary_comes_back_as_it_was() {
+    fn a_sentence_of_the_dictionary_is_reproduced_exactly() {
         let mut seed = 5;
         let keys = [
             key(0, 0),

@@ -217,7 +217,7 @@ fn a_movement_with_a_target_starts_in_its_direction_and_ends_there() {
 }
 
 #[test]
-fn a_hand_at_the_face_goes_with_the_head() {
+fn a_hand_at_the_face_follows_the_head() {
     let touch = at(BodyLocation::Chin, Some(Contact::Touch));
     let mut sign = notated(
         HandsUsed::Dominant,

@@ -468,7 +468,7 @@ fn nothing_of_a_hand_enters_the_trunk() {
 }
 
 #[test]
-fn head_and_trunk_move_as_the_tiers_say() {
+fn head_and_trunk_move_as_their_tiers_state() {
     use chereme_sign::hamnosys::{Act, NonmanualPart, TierKind};
     let mut sign = notated(
         HandsUsed::Dominant,

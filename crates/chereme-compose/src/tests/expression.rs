@@ -206,7 +206,7 @@ fn an_expression_composes_with_other_operators() {
 }
 
 #[test]
-fn what_has_no_milestones_is_refused_by_name() {
+fn an_expression_without_milestones_is_refused_by_name() {
     let recipe: Recipe = "BOL | nonmanual from CHAT by phases"
         .parse()
         .expect("a recipe");

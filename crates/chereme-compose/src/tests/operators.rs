@@ -259,7 +259,7 @@ fn the_finger_points_at_the_target() {
 }
 
 #[test]
-fn letters_take_the_time_that_the_recipe_or_else_the_corpus_says() {
+fn letters_take_the_time_from_the_recipe_or_else_from_the_corpus() {
     let seconds = |recipe: &str| {
         let made = made(recipe);
         let told = made.report.steps[0].did.join("\n");

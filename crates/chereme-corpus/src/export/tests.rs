@@ -71,7 +71,7 @@ fn address(text: &str) -> ExportWhat {
 }
 
 #[test]
-fn an_annotation_file_comes_back_as_it_was() {
+fn an_annotation_file_is_exported_unchanged() {
     let mut place = Place::new();
     let file = place.file("Take 1.eaf", EAF.as_bytes());
     let corpus = place.corpus(&[file]);
@@ -321,7 +321,7 @@ fn the_shared_lexicon_gives_the_same_codings() {
 }
 
 #[test]
-fn shared_annotation_files_come_back_as_they_were() {
+fn shared_annotation_files_are_exported_unchanged() {
     let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {
         eprintln!("CHEREME_SHARED_DATA is not set");
         return;

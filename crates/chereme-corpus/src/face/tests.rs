@@ -350,7 +350,7 @@ fn equal_scores_are_ordered_by_name_and_strict_lengths_are_refused_by_name() {
 }
 
 #[test]
-fn a_face_is_like_itself_and_scores_agree_with_the_ranking() {
+fn a_face_scores_zero_with_itself_and_scores_agree_with_the_ranking() {
     let case = case(&[("W1", 1.0, 1.0), ("W2", 0.2, 1.0), ("W3", 0.9, 1.3)]);
     let options = ChooseOptions::default();
     let of = |a: &str, b: &str| {

@@ -139,7 +139,7 @@ fn frames_are_the_same_in_whatever_order_they_are_asked_for() {
 }
 
 #[test]
-fn decoding_stops_when_asked_and_goes_on() {
+fn decoding_stops_on_request_and_continues() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = film(folder.path(), [128, 96], 60);
     let mut film = Film::open(&path).expect("opened");
@@ -204,7 +204,7 @@ fn pictures_are_rotated_as_the_film_of_a_phone_states() {
 }
 
 #[test]
-fn colours_come_back_through_every_matrix() {
+fn colours_survive_every_colour_matrix() {
     for matrix in [1, 6, 9] {
         for colour in [
             [0, 0, 0],

@@ -175,7 +175,7 @@ fn bits(column: &Column) -> Vec<Option<u64>> {
 }
 
 #[test]
-fn every_number_of_every_form_comes_back_with_its_gaps() {
+fn every_number_of_every_form_reads_back_with_its_gaps() {
     let (_folder, mut corpus, take) = corpus();
     let new = every_kind();
     let rows = corpus.add_tracks(&take, &new).expect("stored");

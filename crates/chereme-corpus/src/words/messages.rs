@@ -525,7 +525,7 @@ mod tests {
     }
 
     #[test]
-    fn common_failures_are_said_in_french() {
+    fn common_failures_have_french_messages() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("c.chereme");
         let mut corpus = crate::Corpus::create(&path, "A").expect("made");

@@ -180,7 +180,7 @@ fn changes_of_different_annotations_are_all_merged() {
 }
 
 #[test]
-fn what_both_changed_is_a_conflict_with_both_candidates() {
+fn an_annotation_that_both_changed_is_a_conflict_with_both_candidates() {
     let merged = merges(
         "G: a1 0-100 A",
         "G: a1 0-100 M",
@@ -206,7 +206,7 @@ fn what_both_changed_is_a_conflict_with_both_candidates() {
 }
 
 #[test]
-fn documents_without_a_common_state_are_united() {
+fn documents_without_a_common_ancestor_are_united() {
     let [mine, theirs] = [
         "G: a1 0-100 A, a2 200-300 M",
         "G: a1 0-100 T, a3 400-500 C\nN: a4 0-9 n",
@@ -329,7 +329,7 @@ proptest! {
     }
 
     #[test]
-    fn a_merge_is_the_same_both_ways_round(
+    fn a_merge_gives_the_same_result_in_either_direction(
         a in proptest::collection::vec((0usize..20, 0u8..4, -50i64..50), 0..6),
         b in proptest::collection::vec((0usize..20, 0u8..4, -50i64..50), 0..6),
     ) {

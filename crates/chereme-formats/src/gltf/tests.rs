@@ -162,7 +162,7 @@ fn animated(interpolation: &str, output: serde_json::Value, binary: &[u8]) -> Re
 }
 
 #[test]
-fn a_scale_above_the_joints_goes_into_their_offsets() {
+fn a_scale_above_the_joints_is_applied_to_their_offsets() {
     let (scene, findings) = parse(&document(json!({}), &[])).expect("a skeleton");
     let pose = scene.clip.model_pose(0);
     assert!(pose.position(1).distance(DVec3::new(1.0, 0.0, 0.0)) < 1e-9);

@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn moments_lie_in_the_span_and_the_clock_goes_around() {
+    fn moments_lie_in_the_span_and_the_clock_wraps_around() {
         let whole = span(1_000_000, 3_000_000);
         assert_eq!(moment(whole, 0, 2).micros(), 1_500_000);
         assert_eq!(moment(whole, 1, 2).micros(), 2_500_000);

@@ -132,7 +132,7 @@ fn a_film_far_from_the_corpus_is_found_where_it_was_imported_from() {
 }
 
 #[test]
-fn a_film_goes_into_a_recording_at_a_time_and_next_to_movement_of_its_name() {
+fn a_film_is_added_to_a_recording_at_a_time_or_to_the_movement_of_its_name() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
     let movement = desk.file("take.bvh", MOVEMENT);

@@ -364,7 +364,7 @@ fn expected(at: i64) -> (Vec<(i64, i64, String)>, bool) {
 }
 
 #[test]
-fn an_hour_of_two_annotators_in_two_corpora_comes_together_without_loss() {
+fn an_hour_of_two_annotators_in_two_corpora_is_merged_without_loss() {
     let copies = Copies::of(&corpus_of(&hour()), &["mine", "theirs"]);
     let (mut mine, mut theirs) = (copies.open("mine"), copies.open("theirs"));
     let own = actions(&mine, "M", 1700, mine_does);

@@ -416,7 +416,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drawn_line_becomes_a_curve_that_lies_on_it() {
+    fn a_drawn_line_becomes_a_curve_along_it() {
         let loops: Vec<Vec2> = (0..=80)
             .map(|n| n as f32 / 80.0 * std::f32::consts::TAU)
             .map(|a| vec2(0.1 * a.sin(), 0.1 * a.cos() - 0.1))

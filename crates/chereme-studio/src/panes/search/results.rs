@@ -604,7 +604,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_are_made_wider_at_the_cost_of_the_next_and_none_vanishes() {
+    fn widening_a_column_narrows_the_next_and_none_vanishes() {
         let mut shares = Shares::default();
         for (column, by) in [(0, 0.1), (1, -0.9), (3, 5.0), (2, f32::MAX), (0, -3.0)] {
             shares.widen(column, by);

@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_meet_axes_and_planes_where_closed_forms_say() {
+    fn rays_meet_axes_and_planes_at_the_points_of_closed_forms() {
         // The ray from (1, 2, 5) straight back is nearest to the x axis at x = 1, and meets z = 0 at (1, 2, 0).
         let ray = Ray {
             from: DVec3::new(1.0, 2.0, 5.0),
