@@ -192,7 +192,7 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
     assert_eq!(script.sentences, 2);
     assert!(script.covered < 1.0 && !script.worth.is_empty());
 
-    // A sentence of the dictionary comes back out of itself.
+    // A sentence from which the dictionary was cut is reproduced from it.
     let (how, costs) = (CueOptions::default(), CueCosts::default());
     let again = corpus.cue_from_dictionary(
         &text,

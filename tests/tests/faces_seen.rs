@@ -90,7 +90,7 @@ fn each_non_manual_differs_from_its_neighbours_and_from_rest() {
             })
             .collect();
         faults.extend(alike(&codes, &drawn));
-        // Looking at the addressee is how the eyes rest.
+        // A gaze at the addressee equals the resting gaze, so it is left out.
         for (code, drawn) in codes
             .iter()
             .zip(&drawn)

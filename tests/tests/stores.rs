@@ -148,7 +148,7 @@ fn curves_stored_with_movement_become_tracks_with_their_history() {
 }
 
 fn lists(corpus: &Corpus, version: usize) {
-    // From version 2 on there are two signs of notation.
+    // Corpora from version 2 on hold two signs with notation.
     let notated = if version >= 2 { 2 } else { 0 };
     for (kind, total) in [
         (ListKind::Recordings, 2),

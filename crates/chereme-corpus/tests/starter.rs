@@ -165,8 +165,8 @@ fn the_animator_performs_the_notation_and_nothing_jumps() {
     let mut pulled = Vec::new();
     for (take, made) in MADE.iter() {
         let clip = &made.clip;
-        // Wrists have limits, and some letters point beyond them. A joint on the back of the other hand is as deep in
-        // it as a finger is thick; hands that hit move apart.
+        // Two warnings are expected: some letters point beyond the limits of the wrist, and hands that touch lie in each
+        // other by the thickness of a finger, or are moved apart.
         let missed = |warning: &&String| {
             !warning.contains("turned up to") && !warning.contains("each other")
         };

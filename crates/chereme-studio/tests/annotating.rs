@@ -86,7 +86,7 @@ fn cells_of_a_spreadsheet_are_pasted_and_odd_lines_reported() {
         says(&window, "Configuration RH"),
         [(120, 180, "flat".to_owned())]
     );
-    // Values alone go to the selected annotations, from the first on.
+    // A column of values alone is assigned to the selected annotations, beginning with the first.
     click(&mut window, "Gloss: UN");
     window.event(Event::Paste("MAISON\n".into()));
     stored(&mut window, before + 1);

@@ -50,7 +50,7 @@ fn pairs_differ_in_one_field_and_name_it() {
     assert_eq!((homonyms, value.forms), ((1, 1, 2), 5));
     let unknown = asked(&corpus, &titles, Empty::Unknown);
     assert_eq!((unknown.total, unknown.entries), (0, 1));
-    // By what was coded, "V + O" differs from "V", too.
+    // If cells are compared as they were coded, "V + O" differs from "V", too.
     let coded = asked(
         &corpus,
         &["configuration", "weak.configuration", "placement"],

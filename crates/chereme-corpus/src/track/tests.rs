@@ -123,7 +123,7 @@ fn skeleton(frames: usize) -> SkeletonTrack {
     let mut channels = Clip::still(skeleton.clone().into(), rate(30), frames).into_channels();
     for (joint, channel) in channels.iter_mut().enumerate() {
         for (frame, rotation) in channel.rotations.iter_mut().enumerate() {
-            // As a file of 32-bit numbers has them.
+            // Rounded to 32-bit numbers, as in files that store those.
             let q = DQuat::from_rotation_x((frame as f64 * 0.01 + joint as f64) % PI).as_quat();
             *rotation = q.as_dquat();
         }

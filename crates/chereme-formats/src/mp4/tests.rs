@@ -13,16 +13,17 @@ fn sequence() -> Vec<u8> {
         format!("{}{bits}", "0".repeat(bits.len() - 1))
     };
     let mut all = format!("{:08b}{:08b}{:08b}", 100, 0, 30);
-    // Its number; 4:2:0 in eight bits; no lists; 16 numbers of frames, order of type 2, one reference; no gaps.
+    // seq_parameter_set_id 0; 4:2:0 in eight bits; no scaling lists; 16 frame numbers, picture order type 2, one
+    // reference frame; no gaps in frame numbers.
     let codes = |values: &[u32]| -> String { values.iter().map(|value| code(*value)).collect() };
     all += &codes(&[0, 1, 0, 0]);
     all += "00";
     all += &codes(&[0, 2, 1]);
     all += "0";
-    // Two by two squares; frames, direct_8x8, no cropping; then how it is used.
+    // Two by two macroblocks; frames only, direct_8x8, no cropping; video usability information follows.
     all += &codes(&[1, 1]);
     all += "1101";
-    // Neither aspect nor overscan; a format, the full range, and a description of colours; nothing else; the end.
+    // No aspect ratio and no overscan; a video format, the full range and a description of the colours; nothing else.
     all += "00110111";
     all += &format!("{:08b}{:08b}{:08b}", 1, 1, 1);
     all += "0000001";

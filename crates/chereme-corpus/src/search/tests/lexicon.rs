@@ -71,7 +71,7 @@ fn counts_in_the_shared_lexicon_equal_independent_ones() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    // Nothing is offered as a minimal pair that the table codes otherwise in a second column.
+    // No sign is offered as a minimal pair if a second column of the table differs, too.
     let found = corpus
         .suggest(&"JAM-A".parse().expect("an address"))
         .expect("a sign");
