@@ -21,14 +21,15 @@ use crate::streams::{self, Stand};
 ///
 /// Files: .bvh, .fbx, .glb, .gltf, .vrm (movement), .c3d, .trc (markers), .pose, .json of OpenPose or MediaPipe (points
 /// from film), .mp4 and other films (linked to the recording with their name, or whose .eaf names them), .csv of face
-/// captures, .fap (faces), .eaf, .textgrid, .srt, .vtt (annotations), .ecv, .pfsx, .etf (ELAN's vocabularies, settings,
-/// templates), .csv or .tsv (a lexicon of codings, of HamNoSys, or both; also .json that holds signs), .sigml or
-/// .hsigml (signs as notation; also .xml that is SiGML), .hns (HamNoSys with one sign on each line: the gloss, a tab,
-/// the text; also .txt with such lines), .json (an inventory), or folders of these. Files of the same name in one
-/// folder become one recording, and so do files with overlapping timecodes; files of the same name in two folders
-/// become two recordings. The report shows how each file was interpreted. Options override this, also later: --map
-/// gives an imported file other tiers or columns. A corpus that does not exist yet is created. If a file cannot be
-/// read, the others are imported.
+/// captures, .fap (faces), .eaf, .textgrid, .srt, .vtt, and .txt, .csv or .tsv that ELAN exported (annotations), .ecv,
+/// .pfsx, .etf (ELAN's vocabularies, settings, templates), .csv or .tsv (a lexicon of codings, of HamNoSys, or both;
+/// also .json that holds signs), .sigml or .hsigml (signs as notation; also .xml that is SiGML), .hns (HamNoSys with
+/// one sign on each line: the gloss, a tab, the text; also .txt with such lines), .json (an inventory), or folders of
+/// these. Files of the same name in one folder become one recording, and so do files with overlapping timecodes; files
+/// of the same name in two folders become two recordings, except for annotations that fit into a take of their name.
+/// The report shows how each file was interpreted. Options override this, also later: --map gives an imported file
+/// other tiers or columns. A corpus that does not exist yet is created. If a file cannot be read, the others are
+/// imported.
 ///
 /// An annotation file that was imported before and edited since updates its recording, annotation by annotation. If
 /// that would take back edits made in the corpus, the file is refused and the edits are listed; then --merge, --theirs
@@ -152,8 +153,9 @@ fn unit(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCode> {
-    let options = options(args)?;
-    let (files, _stands) = files(args)?;
+    let mut options = options(args)?;
+    let (files, stands) = files(args)?;
+    options.standard_input = stands.first().map(|it| it.path.clone());
     let scratch = tempfile_for(args)?;
     let path = scratch.as_ref().map_or(&args.corpus, |scratch| &scratch.1);
     let fresh = !path.exists();
@@ -276,6 +278,7 @@ fn options(args: &Args) -> Result<ImportOptions> {
         clock: args.timecode,
         rate: args.rate,
         dry_run: args.dry_run,
+        standard_input: None,
     })
 }
 
@@ -371,6 +374,11 @@ fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
             "  {} joints, {}, unit {}, axes up,left = {}",
             movement.joints, movement.frame_rate, movement.unit, movement.axes
         ))?;
+    }
+    for track in file.understood.tracks.iter().flatten() {
+        if let Some(line) = track.line() {
+            output.line(format!("  {line}"))?;
+        }
     }
     for guess in file.understood.guessed_tiers() {
         let topic = guess.topic().map(|topic| topic.to_string());

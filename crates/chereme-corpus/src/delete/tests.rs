@@ -287,3 +287,87 @@ fn only_recordings_and_signs_are_deleted_here() {
         assert!(said.contains(remedy), "{what}: {said}");
     }
 }
+
+/// Returns a corpus with a recording of each kind of track.
+fn kinds() -> (tempfile::TempDir, Corpus) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path
+    };
+    let files = [
+        file(
+            "body.bvh",
+            "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\n\
+             OFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n0 0 1\n",
+        ),
+        file(
+            "points.trc",
+            "PathFileType\t4\t(X/Y/Z)\tpoints.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n\
+             100\t100\t2\t1\tmm\nFrame#\tTime\tLWRA\n\t\tX1\tY1\tZ1\n\n1\t0.00\t1.5\t9\t3\n2\t0.01\t1.6\t\t3\n",
+        ),
+        file(
+            "face.csv",
+            "Timecode,BlendShapeCount,JawOpen\n00:00:00:00.0,61,0.25\n00:00:00:01.0,61,0.5\n",
+        ),
+        crate::film::tests::film(folder.path(), [64, 48], 25),
+    ];
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("created");
+    corpus
+        .import(
+            &files,
+            &ImportOptions::default(),
+            &mut Progress::new(&mut unheard),
+        )
+        .expect("imported");
+    (folder, corpus)
+}
+
+#[test]
+fn tracks_of_every_kind_are_listed_counted_exported_deleted_and_restored() {
+    let (folder, mut corpus) = kinds();
+    let all = ["curves", "markers", "media", "skeleton"];
+    let counted = |corpus: &Corpus| {
+        let info = corpus.info().expect("information");
+        let counts = all.map(|kind| info.tracks.get(kind).copied().unwrap_or_default());
+        let listed = corpus.list(crate::ListKind::Tracks, &crate::ListFilter::default());
+        assert_eq!(
+            listed.expect("a list").total as u64,
+            counts.iter().sum::<u64>()
+        );
+        counts
+    };
+    assert_eq!(counted(&corpus), [1; 4]);
+    faultless(&mut corpus);
+    let out = folder.path().join("all");
+    let options = crate::ExportOptions::default();
+    corpus
+        .export(
+            &crate::ExportWhat::All,
+            &out,
+            &options,
+            &mut Progress::new(&mut unheard),
+        )
+        .expect("exported");
+    for name in ["body.bvh", "points.markers.csv", "face.face.csv"] {
+        assert!(out.join("recordings").join(name).is_file(), "{name}");
+    }
+    let before = state(&corpus);
+    let rows = crate::db::recordings::recordings(corpus.store.read()).expect("recordings");
+    let names: Vec<i64> = rows.iter().map(|it| it.id).collect();
+    for id in &names {
+        let done = delete(&mut corpus, &format!("recording:{id}"), Dependents::Refuse);
+        assert_eq!(done.expect("deleted").recordings[0].belongings.tracks, 1);
+        faultless(&mut corpus);
+    }
+    assert_eq!(counted(&corpus), [0; 4]);
+    for _ in &names {
+        corpus.undo().expect("undone");
+    }
+    same(&corpus, &before, "restored");
+    faultless(&mut corpus);
+    corpus.undo().expect("the import undone");
+    assert_eq!(counted(&corpus), [0; 4]);
+    faultless(&mut corpus);
+}

@@ -5,6 +5,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 use chereme_formats::eaf::Transcript;
+use chereme_formats::table::annotations;
 use chereme_formats::tracks::{Content, Tracks};
 use chereme_formats::{
     Finding, Scene, c3d, curves, gltf, keypoints, pose, subtitles, textgrid, trc,
@@ -50,11 +51,12 @@ pub(super) fn import_curves(job: &mut Job<'_>, progress: &mut Progress<'_>) -> R
     })
 }
 
-/// Reads a table: curves if its first column is a time, otherwise a lexicon.
+/// Reads a table: curves if its first column is a time, tiers if ELAN exported it, otherwise a lexicon.
 pub(super) fn import_table(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    match holds_curves(job.path)? {
-        true => import_curves(job, progress),
-        false => lexicon::import(job, progress),
+    match head(job.path)? {
+        head if curves::CurveFile::of(&head).is_some() => import_curves(job, progress),
+        head if annotations::is_export(&head) => import_tiers(job, progress),
+        _ => lexicon::import(job, progress),
     }
 }
 
@@ -70,26 +72,51 @@ pub(super) fn import_json(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Res
     }
 }
 
-/// Reads a text file: signs that another program exported as JSON, otherwise lines of HamNoSys.
+/// Reads a text file: signs that another program exported as JSON, tiers that ELAN exported, otherwise lines of HamNoSys.
 pub(super) fn import_text(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    match is_export_of_signs(job.path) {
-        true => lexicon::import(job, progress),
-        false => notated::import_lines(job, progress),
+    match head(job.path)? {
+        head if is_export_of_signs(&head) => lexicon::import(job, progress),
+        head if annotations::is_export(&head) => import_tiers(job, progress),
+        _ => notated::import_lines(job, progress),
     }
 }
 
-/// Returns whether a text file is an export of signs as JSON, which SLP-AA names `.txt`.
-pub(super) fn is_export_of_signs(path: &Path) -> bool {
+/// Returns whether a text file is an export of another program: signs of SLP-AA as JSON, or tiers of ELAN.
+pub(super) fn is_export(path: &Path) -> bool {
     let head = head(path).unwrap_or_default();
-    let text = String::from_utf8_lossy(&head);
+    is_export_of_signs(&head) || annotations::is_export(&head)
+}
+
+/// The kind of a table of annotations in `source_file.kind`.
+pub(super) const TIERS: &str = "annotation table";
+
+/// Reads the tiers that ELAN exported as a table; refuses those of an annotation file beside it, which says more.
+fn import_tiers(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    job.kind = TIERS;
+    for ending in [".eaf", ".elan"] {
+        if let Some(stem) = job.stem.strip_suffix(ending) {
+            job.stem = stem.to_owned();
+        }
+    }
+    let whole = job.path.with_file_name(format!("{}.eaf", job.stem));
+    if whole.is_file() {
+        let name = whole.file_name().unwrap_or_default().to_string_lossy();
+        return Err(Error::wrong(format!("it is an export of {name}, which says more"))
+            .at(job.path.display().to_string())
+            .advise("if it holds changes of its own: `chereme annotate CORPUS --in RECORDING from FILE`"));
+    }
+    eaf::import_as(job, progress, |bytes| {
+        annotations::transcript(bytes).map_err(|it| it.to_string())
+    })
+}
+
+/// Returns whether a text is an export of signs as JSON, which SLP-AA names `.txt`.
+fn is_export_of_signs(head: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(head);
     text.trim_start_matches('\u{feff}')
         .trim_start()
         .starts_with(['{', '['])
         && text.contains("\"signlevel\"")
-}
-
-fn holds_curves(path: &Path) -> Result<bool> {
-    Ok(curves::CurveFile::of(&head(path)?).is_some())
 }
 
 /// Returns the first bytes of a file.

@@ -99,6 +99,8 @@ pub struct ImportOptions {
     pub rate: Option<Rate>,
     /// Whether the import only reports what it would do, and writes nothing.
     pub dry_run: bool,
+    /// The temporary file that holds standard input; the corpus and the report know it as `-`.
+    pub standard_input: Option<PathBuf>,
 }
 
 /// The treatment of edits in the corpus that a file would revert when it is imported again.
@@ -389,6 +391,11 @@ impl Import<'_> {
             self.places.forget(known);
             report.files.push(file);
         }
+        if let Some(path) = &self.options.standard_input {
+            let stands = path.display().to_string();
+            let shown = report.files.iter_mut().filter(|it| it.path == stands);
+            shown.for_each(|it| "-".clone_into(&mut it.path));
+        }
         report.complete = true;
         Ok(())
     }
@@ -414,7 +421,10 @@ impl Import<'_> {
             path,
             stem: text(path.file_stem()),
             file_name: text(path.file_name()),
-            place: place(&absolute(path), self.base),
+            place: match self.options.standard_input.as_deref() == Some(path) {
+                true => format!("-/{}", text(path.file_name())),
+                false => place(&absolute(path), self.base),
+            },
             kind: READERS[reader].kind,
             hash: match READERS[reader].kind {
                 film::KIND => film::hash(path)?,

@@ -97,7 +97,7 @@ pub(super) static READERS: &[Reader] = &[
     Reader {
         endings: &["csv", "tsv"],
         kind: "lexicon",
-        holds: "lexicons",
+        holds: "lexicons, annotations that ELAN exported",
         looks: always,
         keeps_inventories: false,
         read: captured::import_table,
@@ -114,7 +114,7 @@ pub(super) static READERS: &[Reader] = &[
         endings: &["hns", "txt"],
         kind: "lexicon",
         holds: "notation",
-        looks: |path| Form::of(path) == Some(Form::Lines) || captured::is_export_of_signs(path),
+        looks: |path| Form::of(path) == Some(Form::Lines) || captured::is_export(path),
         keeps_inventories: false,
         read: captured::import_text,
     },
@@ -299,6 +299,6 @@ mod tests {
             assert!(error.to_string().contains(said), "{error}");
             assert!(error.remedy().is_some(), "{name}");
         }
-        assert!(endings().contains(".csv, .tsv (lexicons)"), "{}", endings());
+        assert!(endings().contains(".csv, .tsv (lexicons"), "{}", endings());
     }
 }

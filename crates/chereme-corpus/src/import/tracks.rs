@@ -4,7 +4,7 @@ use super::report::ReportFinding;
 use super::understood::TrackRead;
 use super::{FileReport, Job, bvh, clock};
 use crate::db::recordings;
-use crate::db::tracks::{self, TrackRow};
+use crate::db::tracks;
 use crate::error::Result;
 use crate::movement::{self, BLOCK_FRAMES};
 use crate::track::{NewTrack, Track, store};
@@ -47,22 +47,26 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
         ids.push(store::store(job.connection, recording, &track)?);
     }
     clock::place(job, recording, &ids, report)?;
-    let mut rows: Vec<TrackRow> = Vec::with_capacity(ids.len());
-    for id in ids {
-        rows.push(tracks::track(job.connection, id)?);
-    }
-    job.count("tracks", rows.len());
-    let shown = |row: &TrackRow| TrackRead {
-        kind: row.kind,
-        name: row.name.clone(),
-        rate: row.rate.map(chereme_motion::Rate::per_second),
-        frames: row.frames,
-        offset_us: row.offset_us,
-        duration_us: row.duration_us,
-        channels: row.channels,
+    job.count("tracks", ids.len());
+    let shown = |id: &i64| -> Result<TrackRead> {
+        let (row, form) = (
+            tracks::track(job.connection, *id)?,
+            tracks::form(job.connection, *id)?,
+        );
+        Ok(TrackRead {
+            kind: row.kind,
+            name: row.name,
+            rate: row.rate.map(chereme_motion::Rate::per_second),
+            frames: row.frames,
+            offset_us: row.offset_us,
+            duration_us: row.duration_us,
+            channels: row.channels,
+            metres_per_unit: form.metres_per_unit,
+            axes: form.axes,
+        })
     };
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
-    report.understood.tracks = Some(rows.iter().map(shown).collect());
+    report.understood.tracks = Some(ids.iter().map(shown).collect::<Result<_>>()?);
     Ok(recording)
 }
 

@@ -214,6 +214,48 @@ pub struct TrackRead {
     pub duration_us: Option<i64>,
     /// How many joints, points or scalar channels it has.
     pub channels: u64,
+    /// The unit of places in metres, if it has places in space.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub metres_per_unit: Option<f64>,
+    /// The axes of its places that point up and to the left.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axes: Option<String>,
+}
+
+impl TrackRead {
+    /// Describes the track in a line for people; nothing for media.
+    #[must_use]
+    pub fn line(&self) -> Option<String> {
+        let (name, channels, frames) = (&self.name, self.channels, self.frames?);
+        let seconds = self.duration_us.unwrap_or_default() as f64 / 1e6;
+        let rate = match self.rate {
+            Some(rate) => format!("{} fps", rounded(rate)),
+            None => format!("~{} fps", rounded(frames as f64 / seconds.max(1e-6))),
+        };
+        let what = match self.kind {
+            TrackKind::Markers => "points",
+            TrackKind::Curves => "curves",
+            _ => return None,
+        };
+        let head = format!("track {name}: {channels} {what}, {frames} frames, {rate}");
+        Some(match (self.metres_per_unit, &self.axes) {
+            (Some(metres), Some(axes)) => {
+                let unit = match metres {
+                    1.0 => "m".to_owned(),
+                    0.01 => "cm".to_owned(),
+                    0.001 => "mm".to_owned(),
+                    other => format!("{other} m"),
+                };
+                format!("{head}, unit {unit}, axes up,left = {axes}")
+            }
+            _ => head,
+        })
+    }
+}
+
+/// Rounds a rate to three decimals.
+fn rounded(rate: f64) -> f64 {
+    (rate * 1000.0).round() / 1000.0
 }
 
 /// How many annotations a file that was imported before has changed.

@@ -296,6 +296,18 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "le sous-titre {text} finit après le début du suivant ; il finit maintenant à {time}",
     ),
     (
+        "the annotation {text} ends after the next begins; it ends at {time} now",
+        "l’annotation {text} finit après le début de la suivante ; elle finit maintenant à {time}",
+    ),
+    (
+        "{n} annotations begin together with the next one and were left out",
+        "annotations qui commencent avec la suivante, laissées de côté : {n}",
+    ),
+    (
+        "a row was left out: {why}",
+        "une ligne a été laissée de côté : {why}",
+    ),
+    (
         "{n} cues begin together with the next one and were left out",
         "sous-titres qui commencent avec le suivant, laissés de côté : {n}",
     ),

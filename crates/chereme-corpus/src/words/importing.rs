@@ -280,6 +280,22 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "les rôles des acteurs sont déduits de leurs noms",
     ),
     (
+        "it is no part of the recording {name} of this name in another folder, whose movement ends before its annotations",
+        "il ne fait pas partie de l’enregistrement {name} de ce nom dans un autre dossier, dont le mouvement finit avant ses annotations",
+    ),
+    (
+        "if it is: `chereme undo`, then import it with --into recording:N",
+        "s’il en fait partie : `chereme undo`, puis importez-le avec --into recording:N",
+    ),
+    (
+        "it is an export of {name}, which says more",
+        "il est un export de {name}, qui en dit plus",
+    ),
+    (
+        "if it holds changes of its own: `chereme annotate CORPUS --in RECORDING from FILE`",
+        "s’il a ses propres modifications : `chereme annotate CORPUS --in RECORDING from FILE`",
+    ),
+    (
         "its annotations end at {end}, but the movement of the recording {name} at {length}",
         "ses annotations finissent à {end}, mais le mouvement de l’enregistrement {name} à {length}",
     ),

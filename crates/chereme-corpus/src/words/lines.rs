@@ -192,6 +192,18 @@ pub(super) const LINES: &[(&str, &str)] = &[
         "{n} articulations, {rate}, unité {unit}, axes haut,gauche = {axes}",
     ),
     (
+        "track {name}: {n} points, {all} frames, {rate}, unit {unit}, axes up,left = {axes}",
+        "piste {name} : {n} points, {all} images, {rate}, unité {unit}, axes haut,gauche = {axes}",
+    ),
+    (
+        "track {name}: {n} points, {all} frames, {rate}",
+        "piste {name} : {n} points, {all} images, {rate}",
+    ),
+    (
+        "track {name}: {n} curves, {all} frames, {rate}",
+        "piste {name} : {n} courbes, {all} images, {rate}",
+    ),
+    (
         "tier {name}: {role} (before: {old})",
         "acteur {name} : {role} (avant : {old})",
     ),

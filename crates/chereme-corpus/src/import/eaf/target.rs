@@ -1,8 +1,10 @@
 //! Determines the recording of an annotation file, and the earlier file that it is a new version of.
 
 use chereme_formats::eaf::convert::Transcript;
+use chereme_formats::table::annotations;
 use chereme_formats::{eaf, subtitles, textgrid};
 
+use super::super::captured;
 use super::update;
 use super::{FileReport, Job, OwnEdits};
 use crate::db::recordings::{self, SourceFileRow};
@@ -38,6 +40,7 @@ fn read(job: &Job<'_>, file: &SourceFileRow) -> Result<Option<Transcript>> {
     let bytes = recordings::source_bytes(job.connection, file.id)?;
     let parsed = |bytes: Vec<u8>| match file.kind.as_str() {
         "textgrid" => Some(textgrid::read(&bytes).ok()?.0),
+        captured::TIERS => Some(annotations::transcript(&bytes).ok()?.0),
         "subtitles" => Some(subtitles::read(&bytes).ok()?.0),
         _ => Some(eaf::read(&bytes).ok()?.0),
     };
@@ -90,6 +93,23 @@ pub(super) fn find(
         }
     }
     for id in candidates {
+        // A take of this name in another folder, in which these annotations do not fit, is another take.
+        if earlier(job, id)?.is_none() && job.options.into.is_none() && !fits(job, id, transcript)?
+        {
+            let other = recordings::recording(job.connection, id)?.name;
+            report.findings.push(ReportFinding {
+                severity: "note",
+                line: None,
+                message: format!(
+                    "it is no part of the recording {other:?} of this name in another folder, whose movement ends \
+                     before its annotations"
+                ),
+                remedy: Some(
+                    "if it is: `chereme undo`, then import it with --into recording:N".to_owned(),
+                ),
+            });
+            continue;
+        }
         if earlier(job, id)?.is_none() {
             return Ok(Target {
                 recording: Some(id),
@@ -98,6 +118,15 @@ pub(super) fn find(
         }
     }
     Ok(Target::default())
+}
+
+/// Returns whether annotations fit into the movement of a recording, if it has any.
+fn fits(job: &Job<'_>, recording: i64, transcript: &Transcript) -> Result<bool> {
+    if recordings::body_track(job.connection, recording)?.is_none() {
+        return Ok(true);
+    }
+    let length = recordings::recording(job.connection, recording)?.duration_us;
+    Ok(transcript.end().micros() <= length.saturating_add(super::BEYOND))
 }
 
 /// Returns the newest annotation file of a recording: the one at this path, otherwise one of this name.

@@ -175,3 +175,126 @@ fn an_import_of_tracks_of_every_kind_is_undone_and_done_again() {
         .expect("checked");
     assert!(check.ok, "{:?}", check.faults);
 }
+
+/// Imports files into a new corpus; returns it with the report.
+fn imported(folder: &Path, files: &[PathBuf], options: &ImportOptions) -> (Corpus, ImportReport) {
+    let count = fs::read_dir(folder).expect("a folder").count();
+    let mut corpus =
+        Corpus::create(&folder.join(format!("{count}.chereme")), "A").expect("a corpus");
+    let report = corpus
+        .import(files, options, &mut Progress::new(&mut unheard))
+        .expect("an import");
+    (corpus, report)
+}
+
+const EXPORT: &str = "Gloss\t\t0.0\t0.1\t0.1\tCHAT\nGloss\t\t0.12\t0.2\t0.08\tCHIEN\n";
+
+#[test]
+fn a_table_that_elan_exported_becomes_the_tiers_of_its_take() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let inbox = folder.path().join("in");
+    fs::create_dir_all(&inbox).expect("a folder");
+    for (name, text) in [
+        ("take.bvh", MOVEMENT),
+        ("take.elan.txt", EXPORT),
+        ("alone.tsv", EXPORT),
+        ("signs.csv", "gloss,handshape\nBOL,U\n"),
+    ] {
+        fs::write(inbox.join(name), text).expect("written");
+    }
+    let options = ImportOptions::default();
+    let (mut corpus, report) = imported(folder.path(), &[inbox.clone()], &options);
+    assert!(!report.has_refusals(), "{report:?}");
+    assert_eq!(report.created.get("recordings"), Some(&2));
+    assert_eq!(report.created.get("annotations"), Some(&4));
+    let found = corpus.search("CHAT", &SearchOptions::default());
+    assert_eq!(found.expect("an answer").total, 2);
+    let again = corpus
+        .import(&[inbox], &options, &mut Progress::new(&mut unheard))
+        .expect("an import");
+    assert_eq!(
+        again.created.get("annotations"),
+        None,
+        "nothing comes twice"
+    );
+    assert_whole(&mut corpus);
+}
+
+#[test]
+fn the_export_of_an_annotation_file_beside_it_is_left_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let inbox = folder.path().join("in");
+    fs::create_dir_all(&inbox).expect("a folder");
+    let whole = eaf(&[("Gloss", 0, 100, "CHAT")]);
+    for (name, text) in [("take.eaf", &*whole), ("take.eaf.tsv", EXPORT)] {
+        fs::write(inbox.join(name), text).expect("written");
+    }
+    let (_, report) = imported(folder.path(), &[inbox], &ImportOptions::default());
+    assert_eq!(report.created.get("recordings"), Some(&1));
+    assert_eq!(report.created.get("annotations"), Some(&1));
+    let table = report.files.iter().find(|it| it.path.ends_with("tsv"));
+    let table = table.expect("its report");
+    let told = |it: &ReportFinding| it.message.contains("an export of take.eaf");
+    assert!(table.findings.iter().any(told), "{table:?}");
+}
+
+#[test]
+fn annotations_go_to_a_take_of_their_name_elsewhere_only_if_they_fit() {
+    for (end, recordings) in [(200, 1), (9000, 2)] {
+        let folder = tempfile::tempdir().expect("a folder");
+        for (name, text) in [
+            ("bvh/take.bvh", MOVEMENT.to_owned()),
+            ("eaf/take.eaf", eaf(&[("Gloss", 0, end, "CHAT")])),
+        ] {
+            let path = folder.path().join("in").join(name);
+            fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+            fs::write(path, text).expect("written");
+        }
+        let inbox = [folder.path().join("in")];
+        let (_, report) = imported(folder.path(), &inbox, &ImportOptions::default());
+        assert_eq!(report.created.get("recordings"), Some(&recordings), "{end}");
+        let told = report.files.iter().flat_map(|it| &it.findings);
+        let told = told.filter(|it| it.message.contains("in another folder"));
+        assert_eq!(told.count() as u64, recordings - 1);
+    }
+}
+
+#[test]
+fn standard_input_has_no_path_of_this_machine() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("take.eaf");
+    fs::write(&path, eaf(&[("Gloss", 0, 100, "CHAT")])).expect("written");
+    let options = ImportOptions {
+        standard_input: Some(path.clone()),
+        ..ImportOptions::default()
+    };
+    let (corpus, report) = imported(folder.path(), &[path], &options);
+    assert_eq!(report.files[0].path, "-");
+    let files = recordings::source_files(corpus.store.read(), 1).expect("files");
+    assert_eq!(files[0].path.as_deref(), Some("-/take.eaf"));
+}
+
+#[test]
+fn points_and_curves_are_described_in_a_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = [("take.trc", TRC), ("face.csv", FACE)].map(|(name, text)| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).expect("written");
+        path
+    });
+    let (_, report) = imported(folder.path(), &files, &ImportOptions::default());
+    let tracks = report
+        .files
+        .iter()
+        .flat_map(|it| it.understood.tracks.iter().flatten());
+    let lines: Vec<String> = tracks.filter_map(|it| it.line()).collect();
+    assert!(
+        lines[0].starts_with("track markers: 1 points, 2 frames"),
+        "{lines:?}"
+    );
+    assert!(lines[0].contains("unit mm, axes up,left = "), "{lines:?}");
+    assert!(
+        lines[1].starts_with("track face: 2 curves, 2 frames"),
+        "{lines:?}"
+    );
+}

@@ -9,8 +9,10 @@
 //! ```
 
 mod columns;
+mod export;
 mod moment;
 
+pub use export::{is_export, transcript};
 pub use moment::{Moment, MomentError, TimeUnit};
 
 use super::cells::{Cells, Row as RawRow, TableError};

@@ -1,0 +1,193 @@
+//! Reads the tab-delimited text that ELAN exports as tiers.
+
+use chereme_motion::Span;
+
+use super::super::cells::{Cells, TableError};
+use super::columns::Columns;
+use super::{Moment, read};
+use crate::eaf::convert::{Annotation, Tier, Timing, Transcript};
+use crate::finding::Finding;
+use crate::roles::normal;
+use crate::tally::Findings;
+
+/// The name of the tier type of all tiers; ELAN exports no types.
+const KIND: &str = "annotation";
+
+/// Reports whether a text begins as ELAN's tab-delimited export does: without titles, each row a tier and its times; or
+/// with ELAN's title of the begin. Other tables of annotations are changes of recordings that exist.
+#[must_use]
+pub fn is_export(head: &[u8]) -> bool {
+    let head = whole_lines(without_comments(head));
+    let Ok(table) = Cells::read(head, &mut Findings::default()) else {
+        return false;
+    };
+    let titled = |name: &str| table.header.iter().any(|it| normal(it).starts_with(name));
+    Columns::of_export(&table).is_some() || titled("begin time") && !titled("recording")
+}
+
+/// Reads tiers with their annotations; of annotations that overlap on a tier the first ends earlier.
+///
+/// # Errors
+/// [`TableError`] if the bytes are no such table.
+pub fn transcript(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), TableError> {
+    let (table, read) = read(without_comments(bytes), None)?;
+    let mut findings = Findings::default();
+    for fault in &table.faults {
+        findings.add("rows without an annotation", || {
+            let why = &fault.message;
+            Finding::warning(fault.line, format!("a row was left out: {why}"))
+        });
+    }
+    let mut transcript = Transcript::default();
+    for row in table.rows {
+        let (Some(name), Some(Moment::Time(start)), Some(Moment::Time(end))) =
+            (row.tier, row.start, row.end)
+        else {
+            findings.add("rows without a time", || {
+                Finding::warning(row.line, "a row was left out: it has no tier, or no time")
+            });
+            continue;
+        };
+        let known = transcript.tiers.iter().position(|it| it.name == name);
+        let tier = known.unwrap_or_else(|| {
+            transcript.tiers.push(Tier {
+                name,
+                kind: KIND.to_owned(),
+                ..Tier::default()
+            });
+            transcript.tiers.len() - 1
+        });
+        transcript.tiers[tier].annotations.push(Annotation {
+            id: format!("a{}", row.line),
+            span: Span::between(start, end),
+            timing: Timing::Own,
+            parent: None,
+            order: 0,
+            value: row.value.unwrap_or_default(),
+            entry: None,
+            language: None,
+            external_ref: None,
+            millis: None,
+        });
+    }
+    for (at, tier) in transcript.tiers.iter_mut().enumerate() {
+        apart(tier, &mut findings);
+        for annotation in &mut tier.annotations {
+            // A row holds an annotation of each tier if tiers are columns.
+            annotation.id = format!("{}t{at}", annotation.id);
+        }
+    }
+    let mut all = read;
+    all.extend(findings.finish());
+    Ok((transcript, all))
+}
+
+/// Sorts the annotations of a tier, ends each before the next begins, and leaves those out for which no time remains.
+fn apart(tier: &mut Tier, findings: &mut Findings) {
+    tier.annotations.sort_by_key(|it| it.span.start());
+    for at in 1..tier.annotations.len() {
+        let start = tier.annotations[at].span.start();
+        let before = &mut tier.annotations[at - 1];
+        if before.span.end() > start {
+            findings.add("overlapping annotations", || {
+                let value = &before.value;
+                Finding::warning(
+                    None,
+                    format!("the annotation {value:?} ends after the next begins; it ends at {start} now"),
+                )
+            });
+            before.span = Span::between(before.span.start(), start);
+        }
+    }
+    let all = tier.annotations.len();
+    tier.annotations.retain(|it| !it.span.is_empty());
+    let left = all - tier.annotations.len();
+    if left > 0 {
+        findings.push(Finding::warning(
+            None,
+            format!("{left} annotations begin together with the next one and were left out"),
+        ));
+    }
+}
+
+/// Returns a text without the lines at its beginning that name ELAN's media files.
+fn without_comments(mut bytes: &[u8]) -> &[u8] {
+    while bytes.starts_with(b"#") || bytes.starts_with(b"\"#") {
+        let end = bytes.iter().position(|&it| it == b'\n');
+        bytes = end.map_or(&[], |end| &bytes[end + 1..]);
+    }
+    bytes
+}
+
+/// Returns a text up to the end of its last whole line, or all of it if it is a single line.
+fn whole_lines(bytes: &[u8]) -> &[u8] {
+    let end = bytes.iter().rposition(|&it| it == b'\n');
+    end.map_or(bytes, |end| &bytes[..=end])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(text: &str) -> Vec<String> {
+        let (transcript, _) = transcript(text.as_bytes()).expect("a table");
+        let tier = |it: &Tier| {
+            let all = it.annotations.iter().map(|it| {
+                let (start, end) = (it.span.start().micros(), it.span.end().micros());
+                format!("{} {}-{} {}", it.id, start / 1000, end / 1000, it.value)
+            });
+            format!("{}: {}", it.name, all.collect::<Vec<_>>().join(", "))
+        };
+        transcript.tiers.iter().map(tier).collect()
+    }
+
+    #[test]
+    fn rows_with_and_without_titles_become_tiers() {
+        let bare = "\"Gloss\"\t\"P1\"\t\"0.5\"\t\"1.0\"\t\"0.5\"\t\"BOL\"\n\
+                    \"Mouth\"\t\"P1\"\t\"0.5\"\t\"0.75\"\t\"0.25\"\t\"\"\n";
+        assert_eq!(
+            told(bare),
+            ["Gloss: a1t0 500-1000 BOL", "Mouth: a2t1 500-750 "]
+        );
+        let titled = "#film.mp4\nTier\tBegin Time - msec\tEnd Time - msec\tAnnotation\nGloss\t500\t1000\tBOL\n";
+        assert_eq!(told(titled), ["Gloss: a2t0 500-1000 BOL"]);
+        let columns = "Begin Time - msec\tEnd Time - msec\tGloss\tMouth\n500\t1000\tBOL\tpa\n";
+        assert_eq!(
+            told(columns),
+            ["Gloss: a2t0 500-1000 BOL", "Mouth: a2t1 500-1000 pa"]
+        );
+    }
+
+    #[test]
+    fn only_the_form_of_elan_is_an_export() {
+        for (text, is) in [
+            ("Gloss\t\t0.5\t1.0\tBOL\nGloss\t\t2.0\t2.5\tCHAT\nGl", true),
+            ("Begin Time - ss.msec\tEnd Time - ss.msec\tGloss\n", true),
+            (
+                "\"#file:///film.mp4\"\nTier\tBegin Time - msec\tEnd Time - msec\n",
+                true,
+            ),
+            (
+                "recording,tier,start,end,value\nA,Gloss,0.5,1.0,BOL\n",
+                false,
+            ),
+            ("gloss,handshape,frequency\nBOL,B,0.5\n", false),
+            (
+                "token,gloss,recording,start_s,end_s\n1,BOL,A,0.5,1.0\n",
+                false,
+            ),
+            ("", false),
+        ] {
+            assert_eq!(is_export(text.as_bytes()), is, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn overlaps_end_earlier_and_are_named() {
+        let text = "G\t\t0.5\t1.0\tA\nG\t\t0.8\t1.2\tB\nG\t\t0.8\t1.3\tC\n";
+        let (_, findings) = transcript(text.as_bytes()).expect("a table");
+        assert_eq!(told(text), ["G: a1t0 500-800 A, a3t0 800-1300 C"]);
+        let says = |what: &str| findings.iter().any(|it| it.message.contains(what));
+        assert!(says("ends after the next begins") && says("1 annotations begin together"));
+    }
+}
