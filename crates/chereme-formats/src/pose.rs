@@ -153,10 +153,11 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
                 .push(FileTrack::new(name, Content::Markers(markers)));
         }
     }
-    let mut note = "the points are estimated from film".to_owned();
-    if !header.components.iter().any(|it| it.has_depth) {
-        note.push_str("; they have no depth");
-    }
+    let is_flat = !header.components.iter().any(|it| it.has_depth);
+    let note = match is_flat {
+        true => "the points are estimated from film; they have no depth",
+        false => "the points are estimated from film",
+    };
     findings.push(Finding::note(None, note));
     Ok((tracks, findings.finish()))
 }

@@ -64,6 +64,22 @@ fn a_corpus_is_checked_from_the_menu() {
 }
 
 #[test]
+fn the_tools_of_the_map_leave_room_for_it_in_a_narrow_pane() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_starter(folder.path());
+    click(&mut window, "Map");
+    let there = |window: &Window<'_>| {
+        let mut count = window.query_all_by_label_contains("Signs on the map");
+        count.next().is_some()
+    };
+    until(&mut window, "the map", there);
+    window.run_steps(3);
+    let top = window.get_by_label("Similar by").rect().top();
+    let lowest = window.get_by_label("Whole map").rect().bottom();
+    assert!(lowest - top < 110.0, "{top} to {lowest}");
+}
+
+#[test]
 fn a_used_path_is_not_appended_to() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path());

@@ -332,10 +332,7 @@ fn tracks_of_every_kind_are_listed_counted_exported_deleted_and_restored() {
         let info = corpus.info().expect("information");
         let counts = all.map(|kind| info.tracks.get(kind).copied().unwrap_or_default());
         let listed = corpus.list(crate::ListKind::Tracks, &crate::ListFilter::default());
-        assert_eq!(
-            listed.expect("a list").total as u64,
-            counts.iter().sum::<u64>()
-        );
+        assert_eq!(listed.expect("a list").total, counts.iter().sum::<u64>());
         counts
     };
     assert_eq!(counted(&corpus), [1; 4]);

@@ -101,9 +101,13 @@ fn import_tiers(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileRe
     let whole = job.path.with_file_name(format!("{}.eaf", job.stem));
     if whole.is_file() {
         let name = whole.file_name().unwrap_or_default().to_string_lossy();
-        return Err(Error::wrong(format!("it is an export of {name}, which says more"))
+        let why = Error::wrong(format!("it is an export of {name}, which says more"))
             .at(job.path.display().to_string())
-            .advise("if it holds changes of its own: `chereme annotate CORPUS --in RECORDING from FILE`"));
+            .advise("if it holds changes of its own: `chereme annotate CORPUS --in RECORDING from FILE`");
+        return match job.named {
+            true => Err(why),
+            false => Ok(FileReport::skipped(job.path, &why)),
+        };
     }
     eaf::import_as(job, progress, |bytes| {
         annotations::transcript(bytes).map_err(|it| it.to_string())

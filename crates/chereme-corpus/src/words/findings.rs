@@ -11,6 +11,10 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "importez-le avec --rate, comme --rate 50 ou --rate 30000/1001",
     ),
     (
+        "the points are estimated from film; they have no depth",
+        "les points sont estimés d’après un film ; ils n’ont pas de profondeur",
+    ),
+    (
         "the points are estimated from film",
         "les points sont estimés d’après un film",
     ),

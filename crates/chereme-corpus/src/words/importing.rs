@@ -280,8 +280,8 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "les rôles des acteurs sont déduits de leurs noms",
     ),
     (
-        "it is no part of the recording {name} of this name in another folder, whose movement ends before its annotations",
-        "il ne fait pas partie de l’enregistrement {name} de ce nom dans un autre dossier, dont le mouvement finit avant ses annotations",
+        "it is no part of the recording {name} of this name in another folder, which ends before its annotations",
+        "il ne fait pas partie de l’enregistrement {name} de ce nom dans un autre dossier, qui finit avant ses annotations",
     ),
     (
         "if it is: `chereme undo`, then import it with --into recording:N",

@@ -154,6 +154,10 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("wrote {path}, {size} KB", "écrit : {path}, {size} Ko"),
     ("wrote {n} to {path}", "écrit : {n} dans {path}"),
     ("made {path}", "créé : {path}"),
+    ("made: {list}", "créés : {list}"),
+    ("removed: {list}", "retirés : {list}"),
+    ("would make: {list}", "créerait : {list}"),
+    ("would remove: {list}", "retirerait : {list}"),
     (
         "{recording}: {n} frames of {system} in the track {name}",
         "{recording} : {n} images de {system} dans la piste {name}",

@@ -8,6 +8,7 @@ use super::super::captured;
 use super::update;
 use super::{FileReport, Job, OwnEdits};
 use crate::db::recordings::{self, SourceFileRow};
+use crate::db::tracks;
 use crate::error::Result;
 use crate::import::report::ReportFinding;
 
@@ -92,41 +93,46 @@ pub(super) fn find(
             });
         }
     }
+    let mut unfit = None;
     for id in candidates {
-        // A take of this name in another folder, in which these annotations do not fit, is another take.
-        if earlier(job, id)?.is_none() && job.options.into.is_none() && !fits(job, id, transcript)?
-        {
-            let other = recordings::recording(job.connection, id)?.name;
-            report.findings.push(ReportFinding {
-                severity: "note",
-                line: None,
-                message: format!(
-                    "it is no part of the recording {other:?} of this name in another folder, whose movement ends \
-                     before its annotations"
-                ),
-                remedy: Some(
-                    "if it is: `chereme undo`, then import it with --into recording:N".to_owned(),
-                ),
-            });
+        if earlier(job, id)?.is_some() {
             continue;
         }
-        if earlier(job, id)?.is_none() {
-            return Ok(Target {
-                recording: Some(id),
-                base: None,
-            });
+        // A take of this name in another folder, in which these annotations do not fit, is another take.
+        if job.options.into.is_none() && !fits(job, id, transcript)? {
+            unfit = unfit.or(Some(id));
+            continue;
         }
+        return Ok(Target {
+            recording: Some(id),
+            base: None,
+        });
+    }
+    if let Some(id) = unfit {
+        let other = recordings::recording(job.connection, id)?.name;
+        report.findings.push(ReportFinding {
+            severity: "note",
+            line: None,
+            message: format!(
+                "it is no part of the recording {other:?} of this name in another folder, which ends before its \
+                 annotations"
+            ),
+            remedy: Some("if it is: `chereme undo`, then import it with --into recording:N".to_owned()),
+        });
     }
     Ok(Target::default())
 }
 
-/// Returns whether annotations fit into the movement of a recording, if it has any.
+/// Returns whether annotations fit into a recording, which ends where the longest of its tracks does.
 fn fits(job: &Job<'_>, recording: i64, transcript: &Transcript) -> Result<bool> {
-    if recordings::body_track(job.connection, recording)?.is_none() {
+    let tracks = tracks::tracks(job.connection, recording)?;
+    let ends = tracks
+        .iter()
+        .filter_map(|it| it.duration_us?.checked_add(it.offset_us));
+    let Some(end) = ends.max() else {
         return Ok(true);
-    }
-    let length = recordings::recording(job.connection, recording)?.duration_us;
-    Ok(transcript.end().micros() <= length.saturating_add(super::BEYOND))
+    };
+    Ok(transcript.end().micros() <= end.saturating_add(super::BEYOND))
 }
 
 /// Returns the newest annotation file of a recording: the one at this path, otherwise one of this name.

@@ -203,7 +203,7 @@ fn a_table_that_elan_exported_becomes_the_tiers_of_its_take() {
         fs::write(inbox.join(name), text).expect("written");
     }
     let options = ImportOptions::default();
-    let (mut corpus, report) = imported(folder.path(), &[inbox.clone()], &options);
+    let (mut corpus, report) = imported(folder.path(), std::slice::from_ref(&inbox), &options);
     assert!(!report.has_refusals(), "{report:?}");
     assert_eq!(report.created.get("recordings"), Some(&2));
     assert_eq!(report.created.get("annotations"), Some(&4));

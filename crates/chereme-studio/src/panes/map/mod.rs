@@ -9,8 +9,8 @@ use chereme_corpus::SignMap;
 use chereme_motion::Span;
 use chereme_sign::Component;
 use eframe::egui::{
-    Align2, Color32, FontId, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui,
-    Vec2, WidgetInfo, pos2, vec2,
+    Align2, Checkbox, Color32, FontId, Pos2, Rect, Response, RichText, Role, Sense, Stroke,
+    StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::Pane;
@@ -99,7 +99,8 @@ impl Map {
             for (at, (_, name)) in COMPONENTS.iter().enumerate() {
                 let others = self.by.iter().enumerate().any(|(it, on)| it != at && *on);
                 let only = self.by[at] && !others;
-                ui.add_enabled_ui(!only, |ui| ui.checkbox(&mut self.by[at], seen.say(*name)));
+                let tick = Checkbox::new(&mut self.by[at], seen.say(*name));
+                ui.add_enabled(!only, tick);
             }
             if ui.button(seen.say(words::WHOLE)).clicked() {
                 self.towards = Some(View::default());
