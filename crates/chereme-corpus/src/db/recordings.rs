@@ -487,8 +487,8 @@ fn motion_track_row(row: &Row<'_>) -> rusqlite::Result<MotionTrackRow> {
     })
 }
 
-/// Writes a media track; its `id` is not used.
-pub(crate) fn insert_media_track(connection: &Connection, row: &MediaTrackRow) -> Result<()> {
+/// Writes a media track and returns its row; the `id` given is not used.
+pub(crate) fn insert_media_track(connection: &Connection, row: &MediaTrackRow) -> Result<i64> {
     connection
         .prepare_cached(
             "INSERT INTO track (recording_id, kind, name, offset_us, media_url, media_type)
@@ -501,7 +501,7 @@ pub(crate) fn insert_media_track(connection: &Connection, row: &MediaTrackRow) -
             row.url,
             row.media_type
         ])?;
-    Ok(())
+    Ok(connection.last_insert_rowid())
 }
 
 /// Sets the location of a media track's file.

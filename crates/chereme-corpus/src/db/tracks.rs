@@ -305,6 +305,16 @@ pub(crate) fn set_offset(connection: &Connection, track: i64, offset_us: i64) ->
     Ok(())
 }
 
+/// Sets the length of a track.
+pub(crate) fn set_duration(connection: &Connection, track: i64, duration_us: i64) -> Result<()> {
+    connection
+        .prepare_cached(
+            "UPDATE track SET duration_us = ?2 WHERE id = ?1 AND duration_us IS NOT ?2",
+        )?
+        .execute([track, duration_us])?;
+    Ok(())
+}
+
 /// Sets the time of day of a track's own time 0.
 pub(crate) fn set_clock(connection: &Connection, track: i64, clock_us: i64) -> Result<()> {
     connection

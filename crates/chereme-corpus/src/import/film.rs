@@ -12,6 +12,7 @@ use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
 use crate::db::motion::hex;
 use crate::db::recordings::{self, MediaTrackRow, RecordingRow};
+use crate::db::tracks;
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::media::{find_media, is_same_film, media_type};
@@ -66,20 +67,21 @@ pub(super) fn import(job: &mut Job<'_>, _progress: &mut Progress<'_>) -> Result<
         Some(row) => (row.id, row.name),
         None => new(job, &mut report)?,
     };
-    let tracks = recordings::media_tracks(job.connection, id)?;
-    let own = tracks
+    let films = recordings::media_tracks(job.connection, id)?;
+    let own = films
         .iter()
         .find(|it| it.is_film() && is_same_film(it, &job.file_name));
     let mut offset = job.options.offset_us;
-    if let Some(own) = own {
+    let track = if let Some(own) = own {
         offset = own.offset_us;
         let note = format!("it is the film that the recording {name:?} names");
         report.findings.push(ReportFinding::note(note));
+        own.id
     } else {
         let free = (1..).map(|n| format!("film {n}"));
         let free = free
-            .take(tracks.len() + 1)
-            .find(|name| tracks.iter().all(|it| it.name != *name));
+            .take(films.len() + 1)
+            .find(|name| films.iter().all(|it| it.name != *name));
         let row = MediaTrackRow {
             id: 0,
             recording_id: id,
@@ -89,8 +91,11 @@ pub(super) fn import(job: &mut Job<'_>, _progress: &mut Progress<'_>) -> Result<
             media_type: media_type(&job.file_name).map(str::to_owned),
             imported: Vec::new(),
         };
-        recordings::insert_media_track(job.connection, &row)?;
         job.count("tracks", 1);
+        recordings::insert_media_track(job.connection, &row)?
+    };
+    if length > 0 {
+        tracks::set_duration(job.connection, track, length)?;
     }
     recordings::lengthen(job.connection, id, length.saturating_add(offset))?;
     report.recording = Some(name);

@@ -74,6 +74,10 @@ fn a_folder_of_films_and_annotations_becomes_recordings_with_their_films() {
         assert_eq!(media.len(), 1, "{media:?}");
         assert!(media[0].is_there && media[0].track.is_film(), "{media:?}");
     }
+    for id in recordings_of(&corpus) {
+        let tracks = crate::db::tracks::tracks(corpus.store.read(), id).expect("tracks");
+        assert_eq!(tracks[0].duration_us, Some(1_000_000), "{tracks:?}");
+    }
     assert_eq!(export(&corpus, "take"), text);
     assert!(export(&corpus, "bare").contains("in/deep/bare.mp4"));
     let again = take(&mut corpus, &folder, &ImportOptions::default());
