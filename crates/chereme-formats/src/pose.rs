@@ -223,10 +223,12 @@ fn stacked(bytes: &mut Bytes<'_>, header: &Header, points: usize) -> Result<Body
     };
     let people = bytes.u16(part)?;
     let frame = people * points * (dimensions + 1) * 4;
-    // The count of version 0.1 overflows; the length of the file is right.
+    // The count of version 0.1 overflows, and the length of the file is right; but if the two differ by anything else
+    // than overflows, the file is cut short, and what would be taken for its confidences are coordinates.
     let held = bytes.0.len().checked_div(frame).unwrap_or(0);
     let frames = if second { said } else { held };
-    if frames > held {
+    let overflow = usize::from(u16::MAX) + 1;
+    if frames > held || (frame > 0 && held % overflow != said % overflow && !second) {
         return Err(Error::Short(part));
     }
     let values = frames * people * points;

@@ -112,6 +112,17 @@ pub(super) fn points(
     let fault = |error: String| {
         Error::wrong(error).advise("export the folder of everything for its exact numbers as CSV")
     };
+    if let Points::C3d = form {
+        let all = tracks::tracks(connection, stretch.recording.id)?;
+        let curves = all.into_iter().filter(|it| it.kind == TrackKind::Curves);
+        let names: Vec<String> = curves.map(|it| it.name).collect();
+        if !names.is_empty() {
+            notes.push(format!(
+                "the file holds markers alone, without the curves {}; .curves.csv holds those",
+                names.join(", ")
+            ));
+        }
+    }
     let bytes = match form {
         Points::C3d => c3d::write(&markers, offset).map_err(fault)?,
         Points::Trc => trc::write(&row.name, &markers, offset)

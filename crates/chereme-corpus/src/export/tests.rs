@@ -574,6 +574,23 @@ fn movement_goes_through_glb_and_back_to_bvh_within_a_hundredth_of_a_millimetre(
     assert!(tried > 0);
 }
 
+#[test]
+fn markers_without_the_curves_beside_them_are_named() {
+    let mut place = Place::new();
+    let points = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n\
+                  100\t100\t2\t1\tmm\nFrame#\tTime\tLWRA\n\t\tX1\tY1\tZ1\n\n1\t0.00\t1\t9\t3\n2\t0.01\t2\t9\t3\n";
+    let face = "Timecode,BlendShapeCount,JawOpen\n00:00:00:00.0,61,0.25\n00:00:00:01.0,61,0.5\n";
+    let points = place.file("a.trc", points.as_bytes());
+    let face = place.file("a.csv", face.as_bytes());
+    for (files, told) in [(vec![points.clone()], false), (vec![points, face], true)] {
+        let corpus = place.corpus(&files);
+        let to = place.path(&format!("{told}.c3d"));
+        let report = export(&corpus, &address("recording:1"), &to).expect("exported");
+        let named = |it: &String| it.contains("without the curves face");
+        assert_eq!(report.notes.iter().any(named), told, "{:?}", report.notes);
+    }
+}
+
 #[cfg(not(feature = "parquet"))]
 #[test]
 fn a_program_without_parquet_says_what_to_do() {

@@ -127,6 +127,10 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "l’enregistrement n’a pas d’occurrences : la table contient ses courbes",
     ),
     (
+        "the file holds markers alone, without the curves {names}; .curves.csv holds those",
+        "le fichier ne contient que des marqueurs, sans les courbes {names} ; .curves.csv les contient",
+    ),
+    (
         "the file holds all of the recording {name}",
         "le fichier contient tout l’enregistrement {name}",
     ),

@@ -81,12 +81,14 @@ fn three_versions_read_to_equal_data() {
 
 #[test]
 fn damaged_files_are_refused() {
-    let whole = file(0.2);
-    for end in 0..whole.len() {
-        assert!(read(&whole[..end]).is_err(), "{end}");
-        let mut changed = whole.clone();
-        changed[end] ^= 0xff;
-        let _ = read(&changed);
+    for version in [0.0, 0.1, 0.2] {
+        let whole = file(version);
+        for end in 0..whole.len() {
+            assert!(read(&whole[..end]).is_err(), "{version}: {end}");
+            let mut changed = whole.clone();
+            changed[end] ^= 0xff;
+            let _ = read(&changed);
+        }
     }
     assert_eq!(read(&7f32.to_le_bytes()), Err(Error::Version("7".into())));
 }
