@@ -242,6 +242,9 @@ impl Error {
                 std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => {
                     Some(remedy_of(Cause::Full).into())
                 }
+                std::io::ErrorKind::InvalidData if is_encoding(source) => {
+                    Some("save it as text in UTF-8".into())
+                }
                 _ => None,
             },
             Self::NotACorpus { remedy, .. } => Some(remedy.clone()),
@@ -264,8 +267,16 @@ fn said(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "there is nothing of this name".to_owned(),
         std::io::ErrorKind::AlreadyExists => "something of this name is there already".to_owned(),
+        std::io::ErrorKind::InvalidData if is_encoding(error) => {
+            "the file is no text in UTF-8".to_owned()
+        }
         _ => error.to_string(),
     }
+}
+
+/// Returns whether text in another encoding, or no text at all, was read as UTF-8.
+fn is_encoding(error: &std::io::Error) -> bool {
+    error.kind() == std::io::ErrorKind::InvalidData && error.to_string().contains("UTF-8")
 }
 
 /// Returns the messages of a list of errors, one per line.

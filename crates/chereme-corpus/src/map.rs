@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::Path;
 
 use chereme_analysis::map::{Features, lay_out, neighbours};
@@ -14,7 +13,7 @@ use crate::db::columns::Origin;
 use crate::db::signs::{self, TokenRow};
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
-use crate::picture::write;
+use crate::picture::write_svg;
 use crate::progress::{Progress, Step, Unit};
 use crate::search::SearchOptions;
 
@@ -177,13 +176,9 @@ impl SignMap {
     /// Writes the map as an SVG: a point for each sign, with its gloss if there is room.
     ///
     /// # Errors
-    /// Fails if the file cannot be written, or exists and `force` is false.
+    /// Fails if the name does not end in `.svg`, the file cannot be written, or it exists and `force` is false.
     pub fn draw(&self, to: &Path, force: bool) -> Result<u64> {
-        let text = self.svg();
-        write(to, force, |out| {
-            out.write_all(text.as_bytes())
-                .map_err(|error| Error::file(to, error))
-        })
+        write_svg(to, force, &self.svg())
     }
 
     fn svg(&self) -> String {

@@ -3,6 +3,7 @@
 mod atomic_write;
 mod faces;
 mod points;
+mod svg;
 
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -35,6 +36,7 @@ use crate::sources::notation::own_body;
 
 use atomic_write::extension;
 pub(crate) use atomic_write::write;
+pub(crate) use svg::write_svg;
 
 /// The height of a film in pixels, and its pictures per second.
 const FILM: usize = 540;

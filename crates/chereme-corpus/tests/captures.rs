@@ -132,3 +132,27 @@ fn odd_first_frames_are_reported_with_their_numbers_and_cut_by_trim() {
         "the stored numbers stay those of the file"
     );
 }
+
+#[test]
+fn a_capture_that_cannot_be_read_is_refused_with_a_remedy() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text, says) in [
+        ("a.trc", "PathFileType\t4\n", "is missing"),
+        ("a.c3d", "", "no C3D file"),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        let mut corpus = Corpus::create(&folder.path().join(format!("{name}.chereme")), "A");
+        let corpus = corpus.as_mut().expect("made");
+        let mut hear = unheard;
+        let options = ImportOptions::default();
+        let report = corpus.import(&[path], &options, &mut Progress::new(&mut hear));
+        let file = &report.expect("a report").files[0];
+        let [finding] = file.findings.as_slice() else {
+            panic!("{file:?}");
+        };
+        assert!(finding.message.contains(says), "{finding:?}");
+        let remedy = finding.remedy.as_deref().unwrap_or_default();
+        assert!(remedy.contains("export the take again"), "{finding:?}");
+    }
+}

@@ -18,7 +18,7 @@ use crate::address::Name;
 use crate::db::columns::{AnnotationOrigin, ValueState};
 use crate::db::edits;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::picture;
 
 /// The targets of the keys of a take.
@@ -168,13 +168,9 @@ impl CuePhaseStatistics {
     /// arrival, with the median, on an axis from -600 to 600 ms.
     ///
     /// # Errors
-    /// Fails if the file exists already and `force` is not set, or it cannot be written.
+    /// Fails if the name does not end in `.svg`, the file exists already and `force` is not set, or it cannot be written.
     pub fn draw(&self, to: &Path, force: bool) -> Result<()> {
-        let text = self.svg();
-        let fill = |out: &mut std::io::BufWriter<std::fs::File>| {
-            std::io::Write::write_all(out, text.as_bytes()).map_err(|error| Error::file(to, error))
-        };
-        picture::write(to, force, fill).map(drop)
+        picture::write_svg(to, force, &self.svg()).map(drop)
     }
 
     fn svg(&self) -> String {

@@ -166,13 +166,9 @@ impl Corpus {
     /// its median.
     ///
     /// # Errors
-    /// Fails if the file exists already and `force` is not set, or it cannot be written.
+    /// Fails if the name does not end in `.svg`, the file exists already and `force` is not set, or it cannot be written.
     pub fn draw_onsets(&self, onsets: &Onsets, to: &Path, force: bool) -> Result<()> {
-        let text = svg(onsets);
-        let fill = |out: &mut std::io::BufWriter<std::fs::File>| {
-            std::io::Write::write_all(out, text.as_bytes()).map_err(|error| Error::file(to, error))
-        };
-        picture::write(to, force, fill).map(drop)
+        picture::write_svg(to, force, &svg(onsets)).map(drop)
     }
 }
 

@@ -22,6 +22,9 @@ use crate::track::{NewTrack, SkeletonTrack, Track};
 /// The number of bytes that are enough to see whether a table or JSON document holds curves.
 const HEAD: usize = 1 << 14;
 
+/// The remedy for a capture that cannot be read.
+const DAMAGED: &str = "mend that place, or export the take again from the program that recorded it";
+
 /// Reads a C3D file: markers, analog channels, model outputs, events.
 pub(super) fn import_c3d(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     take(job, progress, |bytes| {
@@ -301,7 +304,8 @@ fn take(
     }
     let bytes = job.bytes()?;
     job.tell(progress)?;
-    let (document, findings) = read(&bytes).map_err(Error::wrong)?;
+    let damaged = |why| Error::wrong(why).advise(DAMAGED);
+    let (document, findings) = read(&bytes).map_err(damaged)?;
     job.tell(progress)?;
     keep_take(job, document, findings, progress)
 }

@@ -420,6 +420,30 @@ const MESSAGES: &[(&str, &str)] = &[
     ),
     ("the text has {n} bytes", "le texte a {n} octets"),
     (
+        "mend that place, or export the take again from the program that recorded it",
+        "corrigez cet endroit, ou exportez de nouveau la prise depuis le programme qui l’a enregistrée",
+    ),
+    (
+        "the text takes {n} s to say",
+        "il faut {n} s pour dire le texte",
+    ),
+    (
+        "say at most an hour at once",
+        "dites au plus une heure à la fois",
+    ),
+    (
+        "{path}: the file is no text in UTF-8",
+        "{path} : le fichier n’est pas du texte en UTF-8",
+    ),
+    (
+        "save it as text in UTF-8",
+        "enregistrez-le comme texte en UTF-8",
+    ),
+    (
+        "cue at most 256 KiB at once, about an hour of speech",
+        "codez au plus 256 Kio à la fois, environ une heure de parole",
+    ),
+    (
         "give at most 1 MiB at once",
         "donnez au plus 1 Mio à la fois",
     ),

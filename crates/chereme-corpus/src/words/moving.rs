@@ -384,6 +384,14 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "la notation contient ce qui n’est pas un symbole",
     ),
     (
+        "the name does not end in .svg, but the picture is an SVG",
+        "le nom ne finit pas par .svg, mais l’image est un SVG",
+    ),
+    (
+        "give a name that ends in .svg",
+        "donnez un nom qui finit par .svg",
+    ),
+    (
         "the symbols of HamNoSys are drawn to an .svg",
         "les symboles HamNoSys se dessinent dans un .svg",
     ),
