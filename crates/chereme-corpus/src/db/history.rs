@@ -512,6 +512,20 @@ pub(crate) fn newest(connection: &Connection) -> Result<Option<i64>> {
     Ok(connection.query_row(sql, [], |row| row.get(0))?)
 }
 
+/// Returns the operations after one, oldest first, with the numbers of their changed rows; `None` if that operation no
+/// longer exists.
+pub(crate) fn since(connection: &Connection, operation: i64) -> Result<Option<Vec<(i64, i64)>>> {
+    let mut statement = connection
+        .prepare_cached("SELECT id, changes FROM operation WHERE id >= ?1 ORDER BY id")?;
+    let rows = statement.query_map([operation], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    let mut rows = rows.collect::<rusqlite::Result<Vec<(i64, i64)>>>()?;
+    if rows.first().is_none_or(|(id, _)| *id != operation) {
+        return Ok(None);
+    }
+    rows.remove(0);
+    Ok(Some(rows))
+}
+
 /// Returns the newest operations first.
 pub(crate) fn log(connection: &Connection, limit: usize) -> Result<Vec<OperationRow>> {
     let (done, _) = stacks(connection)?;

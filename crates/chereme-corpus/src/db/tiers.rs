@@ -266,6 +266,13 @@ pub(crate) fn tiers(connection: &Connection, recording: i64) -> Result<Vec<TierR
     Ok(rows)
 }
 
+/// Returns the recording of a tier; `None` if the tier no longer exists.
+pub(crate) fn recording_of(connection: &Connection, tier: i64) -> Result<Option<i64>> {
+    let mut statement = connection.prepare_cached("SELECT recording_id FROM tier WHERE id = ?1")?;
+    let mut rows = statement.query_map([tier], |row| row.get(0))?;
+    Ok(rows.next().transpose()?)
+}
+
 /// Returns one tier for each role and hand among the tiers of a name, except tiers without a role.
 pub(crate) fn roles_named(connection: &Connection, name: &str) -> Result<Vec<TierRow>> {
     let mut statement = connection.prepare_cached(&format!(

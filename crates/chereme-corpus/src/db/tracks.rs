@@ -355,6 +355,14 @@ pub(crate) fn layouts_of_curves(
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
+/// Returns the recording of a track; `None` if the track no longer exists.
+pub(crate) fn recording_of(connection: &Connection, track: i64) -> Result<Option<i64>> {
+    let mut statement =
+        connection.prepare_cached("SELECT recording_id FROM track WHERE id = ?1")?;
+    let mut rows = statement.query_map([track], |row| row.get(0))?;
+    Ok(rows.next().transpose()?)
+}
+
 /// Returns the signer of each recording that has one.
 pub(crate) fn signers_of_recordings(connection: &Connection) -> Result<BTreeMap<i64, i64>> {
     let mut statement = connection

@@ -8,8 +8,9 @@
 //! | [`head`] | rotations of head and trunk, from a skeleton or from the face's capture |
 //! | [`expressions`] | expressions of a function, with their milestones |
 //! | [`milestones`] | milestones derived from glosses and written as tiers |
-//! | [`performances`] | expressions as numbers at one rate, cached while the corpus does not change |
+//! | [`performances`] | expressions as numbers at one rate, cached until their recordings change |
 //! | [`shelf`] | a cache of many performances in the corpus file |
+//! | [`touched`] | the recordings whose performances a change affects |
 //! | [`onsets`] | begin and end of non-manuals relative to the signs that they span |
 //! | [`propose`] | proposals for brows, lids, gaze, mouth and head |
 //! | [`choose`] | ranking of performances for a sentence |
@@ -30,6 +31,7 @@ mod shelf;
 pub(crate) mod stage;
 #[cfg(test)]
 mod tests;
+mod touched;
 
 use chereme_compose::Curve;
 use chereme_formats::{Finding, Severity};

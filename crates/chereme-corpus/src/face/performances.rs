@@ -1,5 +1,6 @@
-//! Expressions as numbers at one rate, cut into phases, and cached while the corpus does not change.
+//! Expressions as numbers at one rate, cut into phases, and cached until their recordings change.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -12,7 +13,7 @@ use serde::Serialize;
 
 use super::expressions::{self, Expression};
 use super::head::{self, Turns};
-use super::{Fits, captured_with, shelf};
+use super::{Fits, captured_with, shelf, touched};
 use crate::curves;
 use crate::db::{history, recordings};
 use crate::error::{Error, Result};
@@ -102,13 +103,17 @@ impl Performance {
     }
 }
 
-/// Cache of the performances of a function, valid after one operation.
+/// Cache of the performances of a function; after a change only the recordings that it touched are read again.
 #[derive(Default)]
 pub(crate) struct Pool {
+    /// The operation after which the performances were read.
     newest: Option<i64>,
     key: Option<(Function, Vec<usize>)>,
     all: Arc<Vec<Performance>>,
 }
+
+/// The most recordings that are read again without renewing the cache in the corpus file.
+const FEW: usize = 256;
 
 impl Pool {
     /// Returns every performance of a function, with the requested channels, in order of recordings.
@@ -124,36 +129,26 @@ impl Pool {
         if self.newest == newest && newest.is_some() && self.key.as_ref() == Some(&key) {
             return Ok(Arc::clone(&self.all));
         }
-        if let Some(newest) = newest
-            && let Some(kept) = shelf::read(connection, function, channels, newest)
-        {
-            *self = Self {
-                newest: Some(newest),
-                key: Some(key),
-                all: Arc::new(kept),
-            };
-            return Ok(Arc::clone(&self.all));
-        }
-        let mut all = Vec::new();
-        let fits = Fits::of(connection)?;
-        let recordings = recordings::recordings(connection)?;
-        for (done, row) in recordings.iter().enumerate() {
-            if done % 64 == 0 {
-                progress.tell(Step {
-                    task: "reading faces",
-                    done: done as u64,
-                    total: Some(recordings.len() as u64),
-                    unit: Unit::Items,
-                })?;
+        // Taken, so that many performances are not copied.
+        let before = std::mem::take(self);
+        let kept = match before.newest {
+            Some(at) if before.key.as_ref() == Some(&key) => {
+                Some((at, Arc::unwrap_or_clone(before.all)))
             }
-            let found = expressions::of_recording(connection, row.id, Some(function), None)?;
-            for it in &found {
-                let address = super::milestones::address_of(it, &found);
-                let found = of_expression(connection, it, address, &row.name, channels, &fits)?;
-                all.extend(found);
+            _ => shelf::read(connection, function, channels),
+        };
+        let touched = match &kept {
+            Some((at, _)) => touched::recordings_since(connection, *at)?,
+            None => None,
+        };
+        let (all, many) = match (touched, kept) {
+            (Some(touched), Some((_, kept))) => {
+                let many = touched.len() > FEW;
+                (renewed(connection, &key, kept, &touched)?, many)
             }
-        }
-        if let Some(newest) = newest {
+            _ => (read_all(connection, &key, progress)?, true),
+        };
+        if let Some(newest) = newest.filter(|_| many) {
             shelf::write(connection, function, channels, (newest, &all));
         }
         *self = Self {
@@ -163,6 +158,75 @@ impl Pool {
         };
         Ok(Arc::clone(&self.all))
     }
+}
+
+/// Reads every performance of a function from its recording.
+fn read_all(
+    connection: &Connection,
+    (function, channels): &(Function, Vec<usize>),
+    progress: &mut Progress<'_>,
+) -> Result<Vec<Performance>> {
+    let mut all = Vec::new();
+    let fits = Fits::of(connection)?;
+    let recordings = recordings::recordings(connection)?;
+    for (done, row) in recordings.iter().enumerate() {
+        if done % 64 == 0 {
+            progress.tell(Step {
+                task: "reading faces",
+                done: done as u64,
+                total: Some(recordings.len() as u64),
+                unit: Unit::Items,
+            })?;
+        }
+        let own = (row.id, row.name.as_str());
+        all.extend(of_recording(connection, own, function, channels, &fits)?);
+    }
+    Ok(all)
+}
+
+/// Returns performances with those of the touched recordings read again.
+fn renewed(
+    connection: &Connection,
+    (function, channels): &(Function, Vec<usize>),
+    kept: Vec<Performance>,
+    touched: &BTreeSet<i64>,
+) -> Result<Vec<Performance>> {
+    if touched.is_empty() {
+        return Ok(kept);
+    }
+    let mut kept = kept.into_iter().peekable();
+    let mut all = Vec::with_capacity(kept.len());
+    let fits = Fits::of(connection)?;
+    for row in recordings::recordings(connection)? {
+        while let Some(it) = kept.next_if(|it| it.expression.recording <= row.id) {
+            if !touched.contains(&it.expression.recording) {
+                all.push(it);
+            }
+        }
+        if touched.contains(&row.id) {
+            let own = (row.id, row.name.as_str());
+            all.extend(of_recording(connection, own, function, channels, &fits)?);
+        }
+    }
+    Ok(all)
+}
+
+fn of_recording(
+    connection: &Connection,
+    (recording, name): (i64, &str),
+    function: &Function,
+    channels: &[usize],
+    fits: &Fits,
+) -> Result<Vec<Performance>> {
+    let found = expressions::of_recording(connection, recording, Some(function), None)?;
+    let mut all = Vec::new();
+    for it in &found {
+        let address = super::milestones::address_of(it, &found);
+        all.extend(of_expression(
+            connection, it, address, name, channels, fits,
+        )?);
+    }
+    Ok(all)
 }
 
 /// Returns M1 to M5 as frames at [`RATE`] from M1 on; `None` if there is no frame, or too many.

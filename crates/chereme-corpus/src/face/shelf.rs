@@ -2,8 +2,8 @@
 //! row.
 //!
 //! The cache is stored with the derived files of the search index, under `faces/FUNCTION/CHANNELS`, and records the
-//! operation after which it was written: after any other operation the performances are read from their recordings
-//! again. It can be deleted at any time.
+//! operation after which it was written: performances of recordings that later operations touched are read again. It can
+//! be deleted at any time.
 
 use chereme_motion::Instant;
 use chereme_sign::milestones::{Function, Milestones};
@@ -31,15 +31,14 @@ fn path(function: &Function, channels: &[usize]) -> String {
     format!("faces/{function}/{}", channels.join("-"))
 }
 
-/// Returns the performances cached for the state after an operation, unless they are missing or damaged.
+/// Returns the cached performances and the operation after which they were read, unless they are missing or damaged.
 pub(super) fn read(
     connection: &Connection,
     function: &Function,
     channels: &[usize],
-    newest: i64,
-) -> Option<Vec<Performance>> {
+) -> Option<(i64, Vec<Performance>)> {
     let data = files::file(connection, &path(function, channels)).ok()?;
-    decode(&data, function, channels.len(), newest)
+    decode(&data, function, channels.len())
 }
 
 /// Caches performances if there are many; does nothing if the corpus cannot be written.
@@ -134,16 +133,9 @@ impl<'b> Bytes<'b> {
     }
 }
 
-fn decode(
-    data: &[u8],
-    function: &Function,
-    channels: usize,
-    newest: i64,
-) -> Option<Vec<Performance>> {
+fn decode(data: &[u8], function: &Function, channels: usize) -> Option<(i64, Vec<Performance>)> {
     let mut bytes = Bytes(data.strip_prefix(MARK)?);
-    if bytes.number()? != newest.cast_unsigned() {
-        return None;
-    }
+    let newest = bytes.number()?.cast_signed();
     let count = usize::try_from(bytes.number()?).ok()?;
     if count > MOST {
         return None;
@@ -208,7 +200,7 @@ fn decode(
             it.columns.push(own);
         }
     }
-    Some(all)
+    Some((newest, all))
 }
 
 #[cfg(test)]
@@ -258,23 +250,20 @@ mod tests {
         let all: Vec<Performance> = (1..6).map(performance).collect();
         let data = encode(&all, 3, 42).expect("bytes");
         let wh = Function::of("wh");
-        let back = decode(&data, &wh, 3, 42).expect("performances");
+        let (newest, back) = decode(&data, &wh, 3).expect("performances");
         assert_eq!(format!("{back:?}"), format!("{all:?}"));
-        assert!(
-            decode(&data, &wh, 3, 43).is_none(),
-            "after another operation"
-        );
-        assert!(decode(&data, &wh, 4, 42).is_none(), "other channels");
+        assert_eq!(newest, 42);
+        assert!(decode(&data, &wh, 4).is_none(), "other channels");
         for cut in 0..data.len() {
-            assert!(decode(&data[..cut], &wh, 3, 42).is_none(), "{cut}");
+            assert!(decode(&data[..cut], &wh, 3).is_none(), "{cut}");
         }
         for at in 0..data.len() {
             let mut damaged = data.clone();
             damaged[at] ^= 0x55;
             // Damaged data may decode to other numbers, but must not panic.
-            let _ = decode(&damaged, &wh, 3, 42);
+            let _ = decode(&damaged, &wh, 3);
         }
         let none = encode(&[], 3, 42).expect("bytes");
-        assert_eq!(decode(&none, &wh, 3, 42).map(|it| it.len()), Some(0));
+        assert_eq!(decode(&none, &wh, 3).map(|(_, it)| it.len()), Some(0));
     }
 }

@@ -1,5 +1,6 @@
 //! Tests of faces from capture files to milestones, scores and choices.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -8,7 +9,7 @@ use chereme_motion::{Instant, Part};
 use chereme_sign::TierRole;
 use chereme_sign::milestones::Function;
 
-use super::{ChooseOptions, MilestoneOptions, Rank};
+use super::{ChooseOptions, MilestoneOptions, Rank, touched};
 use crate::address::{Address, Name};
 use crate::annotate::{AnnotateOptions, AnnotationAction, AnnotationName, NewTier, TierName};
 use crate::{Corpus, ImportOptions, Progress, unheard};
@@ -323,6 +324,66 @@ fn performances_are_ranked_by_score_and_a_recording_is_never_its_own_candidate()
 }
 
 #[test]
+fn after_a_change_only_the_recordings_that_it_touched_are_read_again() {
+    let mut case = case(&[("W1", 1.0, 1.0), ("W2", 0.5, 1.2), ("W3", 0.8, 0.9)]);
+    let options = ChooseOptions::default();
+    let first = choose(&case, "W1", &options);
+    let id = |name: &str| {
+        let all = first.ranking.iter();
+        let mut own = all.filter(|it| it.recording == name);
+        own.next().expect("ranked").recording_id
+    };
+    let (second, third) = (id("W2"), id("W3"));
+    let since = |case: &Case, operation: i64| {
+        touched::recordings_since(case.corpus.store.read(), operation).expect("read")
+    };
+    let newest = |case: &Case| {
+        let newest = crate::db::history::newest(case.corpus.store.read());
+        newest.expect("read").expect("an operation")
+    };
+
+    let before = newest(&case);
+    assert_eq!(since(&case, before), Some(BTreeSet::new()));
+    let question = [("wh-question", 2400, 3000)];
+    add(
+        &mut case.corpus,
+        "W2",
+        "construction",
+        TierRole::Free,
+        &question,
+    );
+    assert_eq!(since(&case, before), Some(BTreeSet::from([second])));
+    let kept = choose(&case, "W1", &options);
+    assert_eq!(kept.compared, first.compared + 1, "the new one is there");
+    case.corpus.faces.take();
+    assert_eq!(kept, choose(&case, "W1", &options), "as read from scratch");
+
+    case.corpus.undo().expect("undone");
+    assert_eq!(choose(&case, "W1", &options), first);
+    let before = newest(&case);
+    let choice = choose(&case, "W1", &options);
+    let best = choice.ranking[0].token.clone();
+    let made = case.corpus.animate_choice(&choice, &best, "ASKED");
+    let made = made.expect("animated").recording.expect("a recording");
+    assert_eq!(since(&case, before), Some(BTreeSet::from([made])));
+
+    case.corpus.undo().expect("undone");
+    let before = newest(&case);
+    let gone = [recording("W3")];
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let options = crate::DeleteOptions::default();
+    let deleted = case.corpus.delete(&gone, options, progress);
+    deleted.expect("deleted");
+    let touched = since(&case, before).expect("few changes");
+    assert!(touched.contains(&third), "{touched:?}");
+    let kept = choose(&case, "W1", &ChooseOptions::default());
+    case.corpus.faces.take();
+    assert_eq!(kept, choose(&case, "W1", &ChooseOptions::default()));
+    assert_eq!(since(&case, 1_000_000), None, "no such operation");
+}
+
+#[test]
 fn equal_scores_are_ordered_by_name_and_strict_lengths_are_refused_by_name() {
     let case = case(&[
         ("W1", 1.0, 1.0),
@@ -519,6 +580,11 @@ fn onsets_are_measured_against_the_signs() {
         case.corpus.draw_onsets(&found, &path, false).is_err(),
         "it is there already"
     );
+    let path = folder.path().join("onsets.png");
+    let error = case.corpus.draw_onsets(&found, &path, false);
+    let error = error.expect_err("another kind of picture");
+    assert!(error.to_string().contains(".svg"), "{error}");
+    assert!(!path.exists(), "nothing is written");
 }
 
 #[test]
