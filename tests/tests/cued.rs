@@ -261,6 +261,15 @@ fn a_recording_without_a_cuer_is_refused_with_a_remedy() -> Result<()> {
         &mut progress,
     )?;
     assert!(done.without_dictionary && done.keys == 2, "{done:?}");
+    let long = corpus.cue_from_dictionary(
+        &"le chat ".repeat(20_000),
+        (&how, &options),
+        (costs, &[]),
+        None,
+        &mut progress,
+    );
+    let error = long.expect_err("hours").to_string();
+    assert!(error.starts_with("the text takes"), "{error}");
     let costs = CueCosts {
         join: f64::NAN,
         ..costs

@@ -4,6 +4,21 @@ use std::fmt::{self, Display, Formatter};
 
 use crate::outcome::Report;
 
+/// Returns the text of a step or recipe in one line for people: its two ends if it is long, such as the text of a fable.
+#[must_use]
+pub fn brief(step: &str) -> String {
+    const MOST: usize = 160;
+    const END: usize = 40;
+    let line = |letter: char| if letter == '\n' { ' ' } else { letter };
+    let letters = step.chars().count();
+    if letters <= MOST {
+        return step.chars().map(line).collect();
+    }
+    let first: String = step.chars().take(MOST - END).map(line).collect();
+    let last: String = step.chars().skip(letters - END).map(line).collect();
+    format!("{first} … {last}")
+}
+
 impl Display for Report {
     /// Writes the report as indented lines; a step without a residual has no target to miss.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -11,7 +26,7 @@ impl Display for Report {
         let scale = " (residual: the largest distance of a wrist from its goal)";
         writeln!(f, "steps{}", if scaled { scale } else { "" })?;
         for step in &self.steps {
-            write!(f, "  {}", step.step)?;
+            write!(f, "  {}", brief(&step.step))?;
             if let Some(residual) = step.residual {
                 write!(f, "   (residual {:.2} mm)", residual * 1000.0)?;
             }
@@ -52,5 +67,23 @@ impl Display for Report {
         self.warnings
             .iter()
             .try_for_each(|warning| writeln!(f, "  {warning}"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::brief;
+
+    #[test]
+    fn a_long_step_is_shortened_and_its_lines_are_joined() {
+        let short = "cue \"le chat dort\" dominant";
+        assert_eq!(brief(short), short);
+        assert_eq!(brief("cue \"le chat\ndort\""), "cue \"le chat dort\"");
+        let long = brief(&format!("cue \"{}\" dominant", "été\n".repeat(1000)));
+        assert_eq!(long.chars().count(), 163);
+        assert!(
+            long.starts_with("cue \"été été") && long.ends_with("\" dominant"),
+            "{long}"
+        );
     }
 }

@@ -71,6 +71,7 @@ pub use curve::Spline;
 pub use draft::Draft;
 pub use error::{Cause, MakeError, Meant, Problem, RecipeError, TextError};
 pub use evaluate::{ENGINE, evaluate};
+pub use explain::brief;
 pub use face::{NUMBER, faces};
 pub use json::VERSION;
 pub use language::{Language, LanguageValue};

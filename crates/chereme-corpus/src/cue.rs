@@ -131,7 +131,11 @@ pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) 
     Ok(keys)
 }
 
-/// Returns the phones of an alignment in the format for recipes: SAMPA with milliseconds, including the first pause.
+/// The largest text or list of phones of a cuer: an hour or so of speech.
+const MOST_CUED_BYTES: usize = 1 << 18;
+
+/// Returns the phones of an alignment in the format for recipes: SAMPA with milliseconds, including the first pause;
+/// and the parts that could not be read.
 ///
 /// # Errors
 /// As [`cue_keys_of_file`].
@@ -139,9 +143,10 @@ pub fn cue_phones_of_file(
     path: &Path,
     tier: Option<&str>,
     options: &KeysOptions,
-) -> Result<String> {
-    let (read, ..) = aligned(path, tier, options)?;
-    Ok(read.written())
+) -> Result<(String, Vec<String>)> {
+    let (read, _, mut findings) = aligned(path, tier, options)?;
+    findings.extend(read.findings.iter().map(ToString::to_string));
+    Ok((read.written(), findings))
 }
 
 /// The cuer, and the manner of cueing.
@@ -169,6 +174,7 @@ impl Corpus {
         options: &CueOptions,
         gloss: Option<&str>,
     ) -> Result<Recombination> {
+        check_size(text)?;
         // A text that means nothing is refused by itself, not as a recipe that holds all of it.
         let read = Utterance::read(text, &options.reading).map_err(unread)?;
         if read.keys.is_empty() {
@@ -182,6 +188,15 @@ impl Corpus {
             None => self.preview(&recipe),
         }
     }
+}
+
+/// Refuses a text by its length, before it is read.
+pub(crate) fn check_size(text: &str) -> Result<()> {
+    if text.len() > MOST_CUED_BYTES {
+        return Err(Error::wrong(format!("the text has {} bytes", text.len()))
+            .advise("cue at most 256 KiB at once, about an hour of speech"));
+    }
+    Ok(())
 }
 
 /// Returns the error for a text without any key.

@@ -8,7 +8,9 @@ mod phases;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use chereme_compose::{About, CueTier, ENGINE, Generated, Input, Note, Recipe, Report, Resolved};
+use chereme_compose::{
+    About, CueTier, ENGINE, Generated, Input, Note, Recipe, Report, Resolved, brief,
+};
 use chereme_formats::bvh::convert;
 use chereme_formats::bvh::raw::{Column, Hierarchy};
 use chereme_motion::anatomy::Anatomy;
@@ -195,17 +197,19 @@ fn read(text: &str) -> Result<Recipe> {
     if text.trim_start().starts_with('{') {
         return serde_json::from_str(text).map_err(|error| {
             Error::wrong(format!("the recipe cannot be read: {error}"))
-                .at(text)
+                .at(brief(text))
                 .advise("a recipe in JSON is, for example, {\"version\": 1, \"make\": {\"sign\": \"BOL\"}}")
         });
     }
     text.parse().map_err(|error: chereme_compose::RecipeError| {
         let pointed = match &error {
-            chereme_compose::RecipeError::Text(text) => format!("\n{}", text.pointed()),
+            chereme_compose::RecipeError::Text(text) if !text.text.is_empty() => {
+                format!("\n{}", text.pointed())
+            }
             _ => String::new(),
         };
         Error::wrong(format!("the recipe cannot be read: {error}{pointed}"))
-            .at(text)
+            .at(brief(text))
             .advise(
                 "a recipe is a sign and the changes to it, such as: ESCARGOT | configure right U",
             )
@@ -219,22 +223,9 @@ fn cannot(error: chereme_compose::MakeError) -> Error {
         remedy: error.cause.remedy().unwrap_or_else(known),
         meant: error.cause.meant(),
         cause: error.cause.to_string(),
-        step: brief(error.step),
+        step: brief(&error.step),
         path: error.path,
     }))
-}
-
-/// Returns the text of a step for a message: its two ends if it is long, such as the text of a fable.
-fn brief(step: String) -> String {
-    const MOST: usize = 160;
-    const END: usize = 40;
-    let letters = step.chars().count();
-    if letters <= MOST {
-        return step;
-    }
-    let first: String = step.chars().take(MOST - END).collect();
-    let last: String = step.chars().skip(letters - END).collect();
-    format!("{first} … {last}")
 }
 
 fn recombination(recipe: &Recipe, gloss: String, made: Generated) -> Recombination {
@@ -627,21 +618,4 @@ fn source_rows(connection: &Connection, address: &str) -> Result<(Option<i64>, O
         Address::Recording(Name::Number(recording)) => (Some(recording), None),
         _ => (None, None),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::brief;
-
-    #[test]
-    fn a_long_step_is_shortened_in_a_message() {
-        let short = "cue \"le chat dort\" dominant".to_owned();
-        assert_eq!(brief(short.clone()), short);
-        let long = brief(format!("cue \"{}\" dominant", "été ".repeat(1000)));
-        assert_eq!(long.chars().count(), 163);
-        assert!(
-            long.starts_with("cue \"été") && long.ends_with("\" dominant"),
-            "{long}"
-        );
-    }
 }

@@ -150,12 +150,55 @@ fn phones_of_an_alignment_are_the_clock_in_every_alphabet() {
     );
     let path = folder.path().join("sampa.TextGrid");
     let phones = cue_phones_of_file(&path, None, &KeysOptions::default()).expect("phones");
+    let (phones, findings) = phones;
     assert_eq!(phones, "#=300 b=60 O~=170 Z=120 u=150");
+    assert_eq!(findings, [""; 0]);
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     let mut options = CueOptions::default();
     options.reading.phones = Some(Alphabet::Sampa);
     let done = corpus.cue(&phones, &options, None).expect("cued");
     assert!(done.duration_us > 800_000);
+}
+
+#[test]
+fn phones_of_a_file_without_a_key_are_named_and_become_pauses() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = grid(
+        "phones",
+        &[("b", 0.0, 0.06), ("Q9", 0.06, 0.12), ("O~", 0.12, 0.3)],
+    );
+    let path = file(&folder, "odd.TextGrid", &text);
+    let read = cue_phones_of_file(&path, None, &KeysOptions::default());
+    let (phones, findings) = read.expect("read");
+    assert_eq!(phones, "b=60 #=60 O~=180");
+    assert_eq!(findings.len(), 1, "{findings:?}");
+    assert!(findings[0].contains("phone 2 \"Q9\""), "{findings:?}");
+}
+
+#[test]
+fn a_long_text_is_named_in_short_and_a_longer_one_is_refused_by_its_length() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let text = "le chat dort,\n".repeat(30);
+    let done = corpus.cue(&text, &CueOptions::default(), Some("LONG"));
+    let done = done.expect("cued");
+    let longest = done.notes.iter().map(|note| note.from.chars().count());
+    assert!(longest.max() <= Some(163));
+    assert!(
+        !done.explanation.contains("dort,\n"),
+        "{}",
+        done.explanation
+    );
+    assert_eq!(
+        done.recipe.matches("chat").count(),
+        30,
+        "the recipe is whole"
+    );
+    let longer = "le chat dort, ".repeat(20_000);
+    let error = corpus.cue(&longer, &CueOptions::default(), None);
+    let error = error.expect_err("an hour and more");
+    assert_eq!(error.to_string(), "the text has 280000 bytes");
+    assert!(error.remedy().is_some_and(|it| it.contains("256 KiB")));
 }
 
 #[test]

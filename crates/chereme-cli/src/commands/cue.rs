@@ -79,9 +79,11 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
     let spoken = &args.spoken;
     let mut reading = spoken.options(args.pace);
+    let mut findings = Vec::new();
     let text = match (&spoken.from, &spoken.text) {
         (Some(path), _) => {
-            let phones = cue_phones_of_file(path, spoken.tier.as_deref(), &reading)?;
+            let (phones, odd) = cue_phones_of_file(path, spoken.tier.as_deref(), &reading)?;
+            findings = odd;
             reading.phones = Some(Alphabet::Sampa);
             phones
         }
@@ -98,6 +100,12 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         phase: args.by.into(),
         left: args.left,
     };
-    let done = corpus.cue(&text, &options, args.gloss.as_deref())?;
+    let mut done = corpus.cue(&text, &options, args.gloss.as_deref())?;
+    if args.explain {
+        for finding in &findings {
+            output.line(format!("warning: {finding}"))?;
+        }
+    }
+    done.report.warnings.append(&mut findings);
     super::recombine::tell(&done, args.explain, args.draw.as_deref(), output)
 }

@@ -10,6 +10,7 @@ use clap::ValueEnum;
 
 use crate::args::Cli;
 use crate::output::Output;
+use crate::streams;
 
 /// Print the keys of cued speech for a text or for phones
 ///
@@ -42,7 +43,7 @@ pub(crate) struct Args {
 /// Options for the text or phones to read.
 #[derive(Debug, clap::Args)]
 pub(super) struct Spoken {
-    /// The text, or the phones separated by blanks (a=120 is a phone of 120 ms)
+    /// The text, or the phones separated by blanks (a=120 is a phone of 120 ms); - is standard input
     #[arg(required_unless_present = "from")]
     pub(super) text: Option<String>,
     /// Take phones and times from this TextGrid or EAF file
@@ -72,7 +73,8 @@ pub(super) struct Spoken {
 }
 
 impl Spoken {
-    /// Returns the input with the options for reading it; with `--espeak` the input is the program's phones.
+    /// Returns the input with the options for reading it; with `--espeak` the input is the program's phones, and `-`
+    /// stands for standard input.
     pub(super) fn said(
         &self,
         text: &str,
@@ -80,10 +82,14 @@ impl Spoken {
         output: &mut Output,
     ) -> Result<(String, KeysOptions)> {
         let mut options = self.options(pace);
+        let text = match text {
+            "-" => streams::read_text()?,
+            text => text.to_owned(),
+        };
         if !self.espeak {
-            return Ok((text.to_owned(), options));
+            return Ok((text, options));
         }
-        let (phones, unknown) = cue_phones_of_espeak(text, &self.code)?;
+        let (phones, unknown) = cue_phones_of_espeak(&text, &self.code)?;
         if !unknown.is_empty() {
             let unknown: String = unknown.into_iter().collect();
             output.line(format!(

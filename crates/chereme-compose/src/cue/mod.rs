@@ -20,6 +20,7 @@ use chereme_sign::cue::{Alphabet, Utterance, french, gloss};
 use chereme_sign::{Component, Reading, cue};
 
 use crate::error::Cause;
+use crate::explain::brief;
 use crate::face::faces;
 use crate::ops::join;
 use crate::outcome::{About, CueTier, Note};
@@ -107,6 +108,9 @@ pub(crate) fn cue(
     let head = Head::of(&work.anatomy, &work.skeleton, &model, side).ok_or(Cause::NoHead)?;
     let sounds = sounds(&read.keys).ok_or(Cause::Input)?;
     let times = times(&sounds, settings.phase, measured);
+    // Before the paths of a very long text are found.
+    let least = sounds.last().map_or(0.0, |sound| sound.a3) / work.rate.frame_time();
+    join::check_length(work, least.ceil() as usize)?;
     let early = times
         .first()
         .map_or(0.0, |first| -first.m1.min(first.d1))
@@ -139,7 +143,7 @@ pub(crate) fn cue(
     }
     work.changed(
         [Group::Arm(side), Group::Fingers(side)],
-        &settings.to_string(),
+        &brief(&settings.to_string()),
     );
     let mut did = vec![format!(
         "{} keys of {} in {:.2} s, phases as {} has them",
@@ -286,7 +290,8 @@ fn notes(
     (targets, lead): (&[Target], f64),
 ) {
     let whole = work.span();
-    let from = settings.to_string();
+    // A copy stands with every note.
+    let from = brief(&settings.to_string());
     let mut add = |hand: Option<Side>, about: About, value: &str, span: Span| {
         if let Some(span) = span.intersection(whole)
             && !span.is_empty()

@@ -107,6 +107,8 @@ pub struct SaidPiece {
 /// The time for which the hand rests at either end, in seconds, and the time of its movement to rest.
 const STILL: f64 = 0.2;
 const TO_REST: f64 = 0.4;
+/// The longest sentence, in seconds.
+const LONGEST: f64 = 3600.0;
 
 impl Corpus {
     /// Composes a sentence from the movements of captured takes, and reads it back; with a gloss it is stored as a
@@ -138,9 +140,18 @@ impl Corpus {
                 Error::wrong("a cost is no number from 0 to 1000").advise("1 is usual for both")
             );
         }
+        crate::cue::check_size(text)?;
         let read = Utterance::read(text, &reading).map_err(fault)?;
         if read.keys.is_empty() {
             return Err(crate::cue::nothing_to_cue(text));
+        }
+        let last = read.keys.iter().filter_map(|key| key.span).next_back();
+        let seconds = last.map_or(0.0, |span| span.end().seconds());
+        if seconds > LONGEST {
+            return Err(
+                Error::wrong(format!("the text takes {seconds:.0} s to say"))
+                    .advise("say at most an hour at once"),
+            );
         }
         let found = book(self.store.read(), recordings, options, progress);
         let book = match found {
