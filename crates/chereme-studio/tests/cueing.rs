@@ -73,9 +73,18 @@ fn reading_is_practised_with_words_that_look_alike() {
     });
     press(&mut window, "pain, bain, main");
     until(&mut window, "the question", |window| {
-        has(window, "Which word was cued?")
+        has(window, "What was cued?")
     });
     idle(&mut window);
+    until(
+        &mut window,
+        "a stage that does not name the word",
+        |window| shows(window, "what is it?"),
+    );
+    for word in ["pain", "bain", "main"] {
+        let named = format!("The stage shows {word}");
+        assert!(!shows(&window, &named), "{named}");
+    }
     press(&mut window, "bain");
     assert!(has(&window, "Right: bain") || shows(&window, "No, it was"));
     assert!(has(&window, "1 of 1 right") || has(&window, "0 of 1 right"));

@@ -33,6 +33,10 @@ texts! {
     STORE: "Store", "Enregistrer";
     STORED: "Stored as {name}: export it as a film, subtitles, TextGrid or EAF with {key}", "Enregistré sous {name} : exportez-le en film, sous-titres, TextGrid ou EAF avec {key}";
     PRACTISE: "Practise reading", "S’entraîner à lire";
+    KEY_SET: "Keys:", "Clés :";
+    SHAPES: "Handshapes", "Configurations";
+    PLACES: "Placements", "Emplacements";
+    HIDDEN: "what is it?", "qu’est-ce que c’est ?";
     SET: "Words that look alike", "Mots qui se ressemblent sur les lèvres";
     OWN_SET: "Own words, separated by commas", "Mots à soi, séparés par des virgules";
     NEXT: "Next word", "Mot suivant";
@@ -41,7 +45,7 @@ texts! {
     FROM_SIDE: "From the side", "De côté";
     FROM_FRONT: "From the front", "De face";
     REVEAL: "Reveal the word", "Révéler le mot";
-    WHICH: "Which word was cued?", "Quel mot a été codé ?";
+    WHICH: "What was cued?", "Qu’est-ce qui a été codé ?";
     RIGHT: "Right: {word}", "Juste : {word}";
     WRONG: "No, it was {word}", "Non, c’était {word}";
     SCORE: "{right} of {all} right", "{right} sur {all} justes";

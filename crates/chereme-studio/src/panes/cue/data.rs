@@ -254,6 +254,38 @@ pub(super) fn sets(choices: &Choices) -> Vec<Vec<Item>> {
     }
 }
 
+/// Syllables with different handshapes at one place, and syllables with one handshape at different places.
+const FRENCH_KEYS: [&[&str]; 2] = [
+    &["pa", "ca", "sa", "ba", "ta", "la", "ga", "ya"],
+    &["ta", "ti", "tou", "tain", "té"],
+];
+const ENGLISH_KEYS: [&[&str]; 2] = [
+    &[
+        "p A:", "k A:", "s A:", "b A:", "t A:", "l A:", "g A:", "j A:",
+    ],
+    &["t i:", "t E", "t I", "t A:", "t V"],
+];
+
+/// Returns the keys that a code offers for practice, by handshape and by placement; each has the name of its key.
+pub(super) fn key_sets(choices: &Choices, language: Language) -> [(Text, Vec<Item>); 2] {
+    let [shapes, places] = match choices.spells() {
+        true => FRENCH_KEYS,
+        false => ENGLISH_KEYS,
+    };
+    let item = |input: &&str| {
+        let keys = read(input, choices, &Corrections::new()).keys;
+        let [key] = keys.as_slice() else {
+            return None;
+        };
+        Some(Item {
+            word: key_name(&key.placement, key.shape, language),
+            input: (*input).to_owned(),
+        })
+    };
+    let set = |inputs: &[&str]| inputs.iter().filter_map(item).collect();
+    [(words::SHAPES, set(shapes)), (words::PLACES, set(places))]
+}
+
 /// Returns the first twelve words of the user's own set, separated by commas; `None` for fewer than two words.
 pub(super) fn own_set(text: &str) -> Option<Vec<Item>> {
     let words = text
@@ -427,6 +459,23 @@ mod tests {
                 let different: std::collections::BTreeSet<_> = all.iter().collect();
                 assert_eq!(different.len(), set.len(), "{set:?} {all:?}");
             }
+        }
+    }
+
+    #[test]
+    fn keys_to_practise_differ_by_shape_or_by_placement() {
+        for code in 0..codes().len() {
+            let choices = Choices {
+                code,
+                ..Choices::default()
+            };
+            let names = |set: &[Item]| -> std::collections::BTreeSet<String> {
+                set.iter().map(|item| item.word.clone()).collect()
+            };
+            let [(_, shapes), (_, places)] = key_sets(&choices, Language::English);
+            assert_eq!(names(&shapes).len(), 8, "{code}: {shapes:?}");
+            assert_eq!(names(&places).len(), 5, "{code}: {places:?}");
+            assert!(places.iter().all(|item| item.word.ends_with(" 5")));
         }
     }
 

@@ -42,6 +42,8 @@ pub(crate) struct CuePane {
     /// The recipe of the movement that is shown or being generated.
     of: String,
     made: Option<Arc<Recombination>>,
+    /// Whether that movement is a word to guess, which the window must not name.
+    hidden: bool,
     /// The movement as it was given to the stage.
     given: Option<Arc<GeneratedClip>>,
     wrong: Option<String>,
@@ -81,11 +83,12 @@ impl CuePane {
             .map_or_else(Arc::default, |it| Arc::clone(&it.3))
     }
 
-    /// Requests the movement of a reading, unless it is the one that is shown.
-    fn show(&mut self, reading: &Reading, out: &mut Outbox) {
+    /// Requests the movement of a reading, unless it is the one that is shown; if `hidden`, the window does not name it.
+    fn show(&mut self, reading: &Reading, hidden: bool, out: &mut Outbox) {
         if reading.keys.is_empty() {
             return;
         }
+        self.hidden = hidden;
         let recipe = cue_recipe(&reading.input, &self.choices.options(reading), None);
         if self.of == recipe && (self.made.is_some() || self.making.is_some()) {
             self.given = None;
@@ -268,7 +271,7 @@ impl CuePane {
 
     fn current(&self, seen: &PaneInput<'_>) -> Option<usize> {
         let showing = seen.shown.made.as_ref()?;
-        if !Arc::ptr_eq(&showing.made, self.given.as_ref()?) {
+        if self.hidden || !Arc::ptr_eq(&showing.made, self.given.as_ref()?) {
             return None;
         }
         let at = showing.player.playhead().micros();
@@ -337,6 +340,14 @@ impl CuePane {
     fn practise(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let seed = (ui.input(|input| input.time) * 1e6) as u64;
         let mut begun = None;
+        ui.horizontal_wrapped(|ui| {
+            ui.label(seen.say(words::KEY_SET));
+            for (title, set) in data::key_sets(&self.choices, seen.language) {
+                if set.len() > 1 && ui.button(seen.say(title)).clicked() {
+                    begun = Some(set);
+                }
+            }
+        });
         ui.label(seen.say(words::SET));
         ui.horizontal_wrapped(|ui| {
             for set in data::sets(&self.choices) {
@@ -430,7 +441,7 @@ impl CuePane {
         if cue_now && let Some(item) = exercise.item() {
             let reading = data::read(&item.input, &self.choices, &Corrections::new());
             self.shows = false;
-            self.show(&reading, out);
+            self.show(&reading, true, out);
             out.send(Command::Look);
         }
         self.exercise = Some(exercise);
@@ -521,14 +532,21 @@ impl Pane for CuePane {
                     .request_repaint_after(std::time::Duration::from_secs_f64(rest));
             } else if self.shows && !seen.is_running(self.making) {
                 self.shows = false;
-                self.show(&reading, out);
+                self.show(&reading, false, out);
             }
         });
         if let Some(at) = ui.ctx().data_mut(|data| data.remove_temp::<i64>(seek_id())) {
             out.send(Command::Cue(Instant::from_micros(at)));
         }
         if let Some(made) = self.made.as_ref().filter(|_| self.given.is_none()) {
-            let made = Arc::new(GeneratedClip::of(made));
+            let made = Arc::new(match self.hidden {
+                true => GeneratedClip {
+                    name: seen.say(words::HIDDEN).to_owned(),
+                    parts: Vec::new(),
+                    ..GeneratedClip::of(made)
+                },
+                false => GeneratedClip::of(made),
+            });
             self.given = Some(Arc::clone(&made));
             out.send(Command::Made(Some(made)));
             if let Some(speed) = self.speed {
