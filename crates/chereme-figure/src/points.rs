@@ -187,7 +187,8 @@ impl<M: Borrow<Markers>> PointCloud<M> {
     pub fn note(&self) -> Option<&'static str> {
         let estimated = self.markers.borrow().capture() == Capture::Estimated;
         match (estimated, self.markers.borrow().space()) {
-            (true, Space::World(_)) => Some("estimated from film"),
+            // Landmarks of film, or hidden markers that a model restored.
+            (true, Space::World(_)) => Some("estimated"),
             (true, Space::Depth(_)) => Some("estimated from film, depth is a guess"),
             (true, Space::Image(_)) => Some("estimated from film, no depth"),
             (false, Space::World(_)) => None,
@@ -324,7 +325,7 @@ mod tests {
     use std::ops::ControlFlow;
 
     use chereme_motion::markers::Frame;
-    use chereme_motion::{Column, Marker, Rate, Times};
+    use chereme_motion::{Column, Convention, Marker, Rate, Times};
 
     use super::*;
 
@@ -355,6 +356,13 @@ mod tests {
         let markers = film();
         let cloud = PointCloud::of(&markers, Theme::Light).expect("points");
         assert_eq!(cloud.note(), Some("estimated from film, no depth"));
+        let at = [0.1, 1.2, 0.3].map(|value| Column::doubles(vec![value; 3]));
+        let tip = Marker::new("TIP", at.to_vec());
+        let room = Space::World(Convention::MODEL);
+        let restored = Markers::new(markers.times().clone(), room, vec![tip]);
+        let restored = restored.expect("markers").captured(Capture::Estimated);
+        let solved = PointCloud::of(&restored, Theme::Light).expect("points");
+        assert_eq!(solved.note(), Some("estimated"), "of no film");
         let (low, high) = cloud.mesh(0).bounds().expect("dots");
         // A picture stands upright, two metres high: 80 of 100 pixels down is 0.4 m up.
         assert!((low.y - 0.4).abs() < 0.03 && (high.y - 1.6).abs() < 0.03);

@@ -27,6 +27,7 @@ texts! {
     POINTS: "Markers", "Marqueurs";
     POINTS_HINT: "Optical markers and points from film, next to the signer", "Marqueurs optiques et points tirés du film, à côté de la personne";
     ESTIMATED: "Points estimated from film", "Points estimés d’après un film";
+    ESTIMATED_POINTS: "Some points are estimated", "Des points sont estimés";
     ESTIMATED_FLAT: "Points estimated from film, without depth", "Points estimés d’après un film, sans profondeur";
     NO_DEPTH: "Points without depth", "Points sans profondeur";
     HANDS: "Hands", "Mains";

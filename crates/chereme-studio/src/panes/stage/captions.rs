@@ -80,6 +80,7 @@ pub(super) fn notes(stage: &Stage, ui: &Ui, seen: &PaneInput<'_>, whole: Rect) {
         _ if stage.signer.is_some() && !stage.points.are_in_room() => None,
         Some("estimated from film, no depth") => Some(words::ESTIMATED_FLAT),
         Some("no depth") => Some(words::NO_DEPTH),
+        Some("estimated") => Some(words::ESTIMATED_POINTS),
         Some(_) => Some(words::ESTIMATED),
         None => None,
     };
