@@ -483,9 +483,17 @@ impl Planner<'_> {
 
     fn parallel(&mut self, motions: &[Motion], who: Who, time: f64, env: &Env) -> f64 {
         self.let_go(motions, who, time);
+        let shared = self.shared_tempo(motions);
+        let at_tempo = |motion: &Motion| Env {
+            slower: match has_tempo(motion) {
+                true => env.slower,
+                false => env.slower * shared,
+            },
+            ..*env
+        };
         let lengths: Vec<f64> = motions
             .iter()
-            .map(|motion| self.length_of(motion, who, env))
+            .map(|motion| self.length_of(motion, who, &at_tempo(motion)))
             .collect();
         let longest = lengths.iter().copied().fold(0.0, f64::max);
         // Plan paths first, so that the postures at their end are solved at the final positions.
@@ -495,13 +503,22 @@ impl Planner<'_> {
             .partition(|(motion, _)| !matches!(motion.kind, MotionKind::Target { .. }));
         for (motion, length) in ways.into_iter().chain(ends) {
             let stretch = if length > 1e-6 { longest / length } else { 1.0 };
+            let env = at_tempo(motion);
             let env = Env {
                 slower: env.slower * stretch,
-                ..*env
+                ..env
             };
             self.motion(motion, who, time, &env);
         }
         time + longest
+    }
+
+    /// Returns the factor on the duration of simultaneous motions for which the notation gives no tempo: the fastest
+    /// that it gives one of them. Without it a change of handshape beside a fast path would slow the path down.
+    fn shared_tempo(&self, motions: &[Motion]) -> f64 {
+        let written = motions.iter().filter(|motion| has_tempo(motion));
+        let factors = written.filter_map(tempo_manner).map(|it| self.slower(it));
+        factors.fold(1.0, f64::min)
     }
 
     /// Returns the duration of a motion (s), by a trial plan.
@@ -536,6 +553,24 @@ impl Planner<'_> {
         self.plan.phases.truncate(phases);
         end
     }
+}
+
+/// Returns the manner that gives the tempo of a motion: its own, or that of the motion that it repeats or that leads to
+/// its goal.
+fn tempo_manner(motion: &Motion) -> Option<&Manner> {
+    let manner = &motion.manner;
+    if manner.fast || manner.slow || manner.speed.is_some() {
+        return Some(manner);
+    }
+    match &motion.kind {
+        MotionKind::Target { motion, .. } => motion.as_deref().and_then(tempo_manner),
+        MotionKind::Repeated { motion, .. } => tempo_manner(motion),
+        _ => None,
+    }
+}
+
+fn has_tempo(motion: &Motion) -> bool {
+    tempo_manner(motion).is_some()
 }
 
 /// Returns the acting hands of an alternating motion: the second hand is half a period behind.

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Anatomy, Clip, ModelPose, Side};
-use chereme_sign::Handedness;
 use chereme_sign::hamnosys::{
     Aim, BodyLocation, BodyPlace, Constellation, Contact, Directed, Each, Frame, HandClass,
     HandLocation, HandSite, HandsUsed, Handshape, Manual, Motion, MotionKind, Place, Posture,
     Repeat, Repetition, Sign, Site, Size, Symmetry,
 };
+use chereme_sign::{Component, Handedness, Reading};
 
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 
@@ -399,6 +399,48 @@ fn time_is_stretched_if_arms_would_move_too_fast() {
         let [wrist, joint] = fastest(&made);
         assert!(wrist <= settings.language.speed_wrist * arm, "{wrist} m/s");
         assert!(joint <= settings.language.speed_joint, "{joint} rad/s");
+    }
+}
+
+#[test]
+fn a_fast_path_stays_fast_beside_a_change_of_handshape_or_orientation() {
+    let flat = posture(
+        HandClass::Flat,
+        "ol",
+        "d",
+        Some(at(BodyLocation::Chest, None)),
+    );
+    let changes = [
+        Posture {
+            shape: posture(HandClass::Fist, "ol", "d", None).shape,
+            ..Posture::default()
+        },
+        Posture {
+            extended: Each::Shared(Aim::at("ul".parse().expect("a direction"))),
+            ..Posture::default()
+        },
+    ];
+    for change in changes {
+        let lasts = |fast: bool| {
+            let mut path = directed("o");
+            path.manner.fast = fast;
+            let change = Motion::new(MotionKind::Target {
+                motion: None,
+                posture: Box::new(change.clone()),
+            });
+            let both = Motion::new(MotionKind::Parallel(vec![path, change]));
+            let sign = notated(HandsUsed::Dominant, flat.clone(), vec![both]);
+            let made = animate(&[&sign], &stage(Axes::Plain), &Settings::default())
+                .expect("it can be animated");
+            let phase = About::Component(Component::Movement, Some("phase".into()));
+            let stroke = |note: &&crate::Note| {
+                note.about == phase && note.value == Reading::Value("stroke".into())
+            };
+            let strokes = made.notes.iter().filter(stroke);
+            strokes.map(|note| note.span.seconds()).fold(0.0, f64::max)
+        };
+        let share = lasts(true) / lasts(false);
+        assert!(share < 0.75, "{share} of the usual time");
     }
 }
 

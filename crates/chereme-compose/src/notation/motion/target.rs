@@ -50,7 +50,7 @@ impl Planner<'_> {
         let end = planned.unwrap_or(time + usual).max(time + 1e-3);
         let end = match planned {
             Some(_) => end,
-            None => end.max(time + 0.6 * self.longest(&before, &goal)),
+            None => end.max(time + 0.6 * self.longest(&before, &goal) * env.slower.min(1.0)),
         };
         let pace = Pace::of(
             manner,
