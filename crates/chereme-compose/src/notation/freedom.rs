@@ -23,11 +23,11 @@ const SWIVEL: f64 = 7.0;
 const ELBOW: f64 = 4.5;
 /// Cost of a hand whose orientation deviates by the whole tolerance. Grows with the cube: half of that costs an eighth,
 /// so that a few degrees do not move the elbow far out.
-const TURNED: f64 = 75.0;
+const TURNED: f64 = 40.0;
 /// Cost of an elbow one arm's length above the shoulder, or above its usual height if that is higher; grows with the square.
 const RAISED: f64 = 1600.0;
 /// Cost of an elbow one arm's length higher than usual with the hand at its height; grows with the square.
-const LIFTED: f64 = 400.0;
+const LIFTED: f64 = 900.0;
 /// Height of a wrist above its shoulder (arm lengths) at which the rule's elbow is low enough: lower, it could only go
 /// inwards.
 const ABOVE: f64 = 0.2;
@@ -42,7 +42,7 @@ const LOW: f64 = 0.2;
 /// Speed (arm lengths per second) by which an elbow exceeds its wrist at the cost [`PUMPED`].
 const PUMPING: f64 = 0.5;
 /// Cost of such an elbow; grows with the square.
-const PUMPED: f64 = 2.0;
+const PUMPED: f64 = 20.0;
 /// Cost of a wrist one arm's length off its goal; grows with the square.
 const MISSED: f64 = 1.2e4;
 /// Cost of an upper arm one arm's length inside the trunk; grows with the square.
