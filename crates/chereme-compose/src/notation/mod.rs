@@ -54,6 +54,8 @@ mod solve_frame;
 pub(crate) mod stage;
 mod stretch_time;
 #[cfg(test)]
+mod tempo_tests;
+#[cfg(test)]
 mod tests;
 mod thumb;
 mod touch;

@@ -1,0 +1,104 @@
+//! Tests of the tempo of movement from notation: limits of speed, and motions that are written as fast.
+
+use chereme_sign::hamnosys::{
+    Aim, BodyLocation, Contact, Each, HandClass, HandsUsed, Motion, MotionKind, Posture,
+};
+use chereme_sign::{Component, Reading};
+
+use super::tests::{at, directed, notated, posture, stage};
+use super::*;
+use crate::About;
+use crate::testing::Axes;
+
+fn fastest(made: &Generated) -> [f64; 2] {
+    let rate = made.clip.rate().per_second();
+    let mut fastest = [0.0_f64; 2];
+    for frame in 1..made.clip.frames() {
+        let [a, b] = [frame - 1, frame].map(|frame| made.clip.model_pose(frame));
+        for side in Side::BOTH {
+            let arm = made.anatomy.arm(side).expect("an arm");
+            let way = a.position(arm.hand).distance(b.position(arm.hand));
+            fastest[0] = fastest[0].max(way * rate);
+            for joint in [arm.upper, arm.forearm, arm.hand] {
+                let turn = a.rotation(joint).angle_between(b.rotation(joint));
+                fastest[1] = fastest[1].max(turn * rate);
+            }
+        }
+    }
+    fastest
+}
+
+#[test]
+fn time_is_stretched_if_arms_would_move_too_fast() {
+    let mut flip = directed("l");
+    flip.manner.speed = Some(9.0);
+    let other = posture(HandClass::Flat, "il", "u", None);
+    let turn = Motion::new(MotionKind::Target {
+        motion: Some(Box::new(flip)),
+        posture: Box::new(other),
+    });
+    let sign = notated(
+        HandsUsed::Dominant,
+        posture(
+            HandClass::Flat,
+            "or",
+            "d",
+            Some(at(BodyLocation::Stomach, Some(Contact::Touch))),
+        ),
+        vec![turn],
+    );
+    for language in [None, Some((3.0, 9.0))] {
+        let mut settings = Settings::default();
+        if let Some((wrist, joint)) = language {
+            settings.language.speed_wrist = wrist;
+            settings.language.speed_joint = joint;
+        }
+        let made = animate(&[&sign], &stage(Axes::Odd), &settings).expect("it can be animated");
+        let arm = made.anatomy.measures().expect("measures").arm;
+        let [wrist, joint] = fastest(&made);
+        assert!(wrist <= settings.language.speed_wrist * arm, "{wrist} m/s");
+        assert!(joint <= settings.language.speed_joint, "{joint} rad/s");
+    }
+}
+
+#[test]
+fn a_fast_path_stays_fast_beside_a_change_of_handshape_or_orientation() {
+    let flat = posture(
+        HandClass::Flat,
+        "ol",
+        "d",
+        Some(at(BodyLocation::Chest, None)),
+    );
+    let changes = [
+        Posture {
+            shape: posture(HandClass::Fist, "ol", "d", None).shape,
+            ..Posture::default()
+        },
+        Posture {
+            extended: Each::Shared(Aim::at("ul".parse().expect("a direction"))),
+            ..Posture::default()
+        },
+    ];
+    for change in changes {
+        let lasts = |fast: bool| {
+            let mut path = directed("o");
+            path.manner.fast = fast;
+            let change = Motion::new(MotionKind::Target {
+                motion: None,
+                posture: Box::new(change.clone()),
+            });
+            let both = Motion::new(MotionKind::Parallel(vec![path, change]));
+            let sign = notated(HandsUsed::Dominant, flat.clone(), vec![both]);
+            let made = animate(&[&sign], &stage(Axes::Plain), &Settings::default())
+                .expect("it can be animated");
+            let phase = About::Component(Component::Movement, Some("phase".into()));
+            let stroke = |note: &&crate::Note| {
+                note.about == phase && note.value == Reading::Value("stroke".into())
+            };
+            let strokes = made.notes.iter().filter(stroke);
+            strokes.map(|note| note.span.seconds()).fold(0.0, f64::max)
+        };
+        let share = lasts(true) / lasts(false);
+        assert!(share < 0.75, "{share} of the usual time");
+    }
+}
