@@ -8,7 +8,7 @@ use chereme_figure::{
     Animation, AnimationOptions, Body, FigureError, Frames, Framing, Image, Palette, SheetOptions,
     Theme, View, contact_sheet, thumbnail, write_gif, write_png,
 };
-use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::glam::{DQuat, DVec3, Vec3};
 use chereme_motion::{Anatomy, Clip, Face, Joint, ModelPose, Part, Pose, Rate, Side, Skeleton};
 
 #[path = "../examples/common/signer.rs"]
@@ -405,6 +405,36 @@ fn a_face_value_moves_only_its_own_region_and_returns_to_rest() {
     let mut again = moved(&open);
     body.shape(&pose, &mut again);
     assert_eq!(again, rest, "the next posture has it at rest");
+}
+
+/// Tests a skeleton whose root lies in front of the belly, as some rigs have it.
+#[test]
+fn the_pelvis_is_at_the_thighs_wherever_the_root_lies() {
+    let (clip, _) = clip();
+    let shifted = |forward: f64| {
+        let by = DVec3::Z * forward;
+        let joints = clip.skeleton().joints().iter().map(|joint| Joint {
+            offset: match joint.parent {
+                None => joint.offset + by,
+                Some(0) => joint.offset - by,
+                Some(_) => joint.offset,
+            },
+            ..joint.clone()
+        });
+        let skeleton = Skeleton::new(joints.collect()).expect("a tree");
+        let anatomy = Anatomy::detect(&skeleton);
+        let mesh = Body::new(&skeleton, &anatomy).mesh(&skeleton.rest_model_pose());
+        let places: Vec<Vec3> = mesh.vertices.iter().map(|it| it.position).collect();
+        places
+    };
+    let usual = shifted(0.0);
+    for forward in [0.12, -0.12] {
+        let moved = shifted(forward);
+        assert_eq!(usual.len(), moved.len());
+        let off = usual.iter().zip(&moved).map(|(a, b)| a.distance(*b));
+        let most = off.fold(0.0, f32::max);
+        assert!(most < 0.06, "root {forward} m in front: {most} m off");
+    }
 }
 
 /// Tests skeletons with fewer joints than a signer with full hands.

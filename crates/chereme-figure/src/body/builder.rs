@@ -203,6 +203,12 @@ impl<'a> Builder<'a> {
         let hips = match thighs {
             [Some(right), Some(left)] => {
                 let apart = place(self.rest, right).distance(place(self.rest, left));
+                // Skeletons whose bones all lie in one line at rest show the breadth in the bones from the pelvis.
+                let bones = [right, left].map(|it| self.skeleton.joint(it).offset.length() as f32);
+                let apart = match apart < 0.03 * self.size {
+                    true => bones.iter().sum(),
+                    false => apart,
+                };
                 (apart * 0.5 + 0.072 * self.size) / 0.160
             }
             _ => self.size,

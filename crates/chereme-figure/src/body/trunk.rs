@@ -9,6 +9,9 @@ use super::skin::{Motion, twist};
 
 /// The angle of an arm below the horizontal in the bind posture, in radians.
 const LOWERED: f32 = 0.70;
+/// Distance of the hips' joint before or behind the thighs, as a share of a body's size in metres, above which the
+/// pelvis is at the thighs: some skeletons have their root in front of the belly.
+const OFF_THIGHS: f32 = 0.05;
 
 /// Returns the direction of an arm in the bind posture.
 pub(super) fn arm_direction(side: Side) -> Vec3 {
@@ -23,9 +26,16 @@ pub(super) struct TrunkRig {
     shoulders: [usize; 2],
     /// Joints on the right and the left: the line between them rotates with the chest, and with the pelvis.
     lines: [Option<[usize; 2]>; 2],
+    /// Right and left thigh.
+    thighs: Option<[usize; 2]>,
     /// The joint in the middle of the spine.
     middle: Option<usize>,
     hips: Option<usize>,
+    /// The middle of the pelvis in the space of the hips' joint, in metres: zero unless that joint stands before or behind
+    /// the thighs. `None` if the skeleton does not stand at rest, so that each posture shows it.
+    seat: Option<Vec3>,
+    /// The size of the body relative to an adult's.
+    size: f32,
     /// A joint, and the upward direction in its space, for skeletons without hips.
     upright: (usize, Vec3),
     /// The joint to which the chest is fixed, and its position in bind space.
@@ -66,7 +76,8 @@ impl TrunkRig {
         let shoulders = pair(Part::UpperArm)?;
         let apart = |[right, left]: [usize; 2]| place(rest, right).distance(place(rest, left));
         let collars = pair(Part::Clavicle).filter(|&it| apart(it) > 0.12 * apart(shoulders));
-        let thighs = pair(Part::Thigh).filter(|&it| apart(it) > 0.03 * size);
+        let thighs = pair(Part::Thigh);
+        let lines = [collars, thighs.filter(|&it| apart(it) > 0.03 * size)];
         let mid = (place(rest, shoulders[0]) + place(rest, shoulders[1])) * 0.5;
         let hips = joint(Part::Hips).filter(|&hips| place(rest, hips).distance(mid) > 0.25 * size);
         let top = joint(Part::Neck).or(joint(Part::Head));
@@ -89,9 +100,12 @@ impl TrunkRig {
             .map_or(Vec3::Y, |it| it.up.as_vec3());
         let mut rig = Self {
             shoulders,
-            lines: [collars, thighs],
+            lines,
+            thighs,
             middle,
             hips,
+            seat: None,
+            size,
             upright: (carrier, rotation(rest, carrier).inverse() * up),
             anchor: None,
             hips_at: Vec3::new(0.0, -trunk, 0.0),
@@ -99,6 +113,8 @@ impl TrunkRig {
         };
         let standing = anatomy.clone().with_reference(skeleton, rest);
         if standing.is_posed() {
+            let back = hips.map(|hips| rotation(rest, hips).inverse() * rig.off_hips(rest));
+            rig.seat = Some(back.unwrap_or_default());
             let own = turned(rig.left(rest, None), rig.up(rest));
             rig.turning = Some([carrier, hips.unwrap_or(carrier)].map(|joint| {
                 let back = rotation(rest, joint).inverse();
@@ -111,7 +127,8 @@ impl TrunkRig {
                     let at = *at / size;
                     at.x.abs() < 0.05 && (0.0..0.2).contains(&at.y) && at.z.abs() < 0.12
                 });
-            if let Some(at) = hips.map(within).filter(|at| at.z.abs() < 0.1 * size) {
+            let seat = rig.pelvis(rest).map(|at| own.inverse() * (at - mid));
+            if let Some(at) = seat.filter(|at| at.z.abs() < 0.1 * size) {
                 rig.hips_at.z = at.z;
             }
         }
@@ -128,6 +145,29 @@ impl TrunkRig {
         (right + left) * 0.5
     }
 
+    /// Returns the middle of the pelvis, if the skeleton has hips.
+    fn pelvis(&self, pose: &ModelPose) -> Option<Vec3> {
+        let hips = self.hips?;
+        let off = match self.seat {
+            Some(seat) => rotation(pose, hips) * seat,
+            None => self.off_hips(pose),
+        };
+        Some(place(pose, hips) + off)
+    }
+
+    /// Returns how far the thighs are before or behind the hips' joint; zero below [`OFF_THIGHS`].
+    fn off_hips(&self, pose: &ModelPose) -> Vec3 {
+        let (Some(hips), Some(thighs)) = (self.hips, self.thighs) else {
+            return Vec3::ZERO;
+        };
+        let between = (place(pose, thighs[0]) + place(pose, thighs[1])) * 0.5;
+        let trunk = (self.mid(pose) - between).normalize_or(Vec3::Y);
+        let off = (between - place(pose, hips)).reject_from_normalized(trunk);
+        let beyond = off.length() / (OFF_THIGHS * self.size).max(1e-6) - 1.0;
+        // Rises from nothing to the whole over a fifth of the threshold: nothing jumps from frame to frame.
+        off * (5.0 * beyond).clamp(0.0, 1.0)
+    }
+
     fn left(&self, pose: &ModelPose, line: Option<[usize; 2]>) -> Vec3 {
         let [right, left] = line.or(self.lines[0]).unwrap_or(self.shoulders);
         place(pose, left) - place(pose, right)
@@ -135,8 +175,8 @@ impl TrunkRig {
 
     fn up(&self, pose: &ModelPose) -> Vec3 {
         let (joint, up) = self.upright;
-        match self.hips {
-            Some(hips) => self.mid(pose) - place(pose, hips),
+        match self.pelvis(pose) {
+            Some(pelvis) => self.mid(pose) - pelvis,
             None => rotation(pose, joint) * up,
         }
     }
@@ -147,8 +187,8 @@ impl TrunkRig {
         let chest = self
             .middle
             .map_or(whole, |it| self.mid(pose) - place(pose, it));
-        let pelvis = match (self.middle, self.hips) {
-            (Some(middle), Some(hips)) => place(pose, middle) - place(pose, hips),
+        let pelvis = match (self.middle, self.pelvis(pose)) {
+            (Some(middle), Some(pelvis)) => place(pose, middle) - pelvis,
             _ => whole,
         };
         [
@@ -167,8 +207,8 @@ impl TrunkRig {
             None => (Vec3::ZERO, self.mid(pose)),
         };
         let chest = Motion::new(turns[0], from, to);
-        let pelvis = match self.hips {
-            Some(hips) => Motion::new(turns[1], self.hips_at, place(pose, hips)),
+        let pelvis = match self.pelvis(pose) {
+            Some(at) => Motion::new(turns[1], self.hips_at, at),
             None => chest,
         };
         TrunkPosed { pelvis, chest }

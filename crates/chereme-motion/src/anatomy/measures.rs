@@ -56,8 +56,8 @@ impl Measures {
                 .is_below(foot, thigh)
                 .then(|| length(skeleton, foot, thigh))
         });
-        let hand = both(|side| hand_length(anatomy, skeleton, side));
         let sum = arm.map(|l| l / ARM).or(leg.map(|l| l / LEG));
+        let hand = both(|side| hand_length(anatomy, skeleton, side, sum.map(|all| HAND * all)));
         let rough = sum.or(hand.map(|l| l / HAND)).filter(|&h| h > 0.0)?;
         let head_top = head_top(anatomy, skeleton, rough);
         let stature = match (leg, trunk_and_neck(anatomy, skeleton, model)) {
@@ -82,6 +82,9 @@ impl Measures {
     }
 }
 
+/// Distances of a hand's tip from its wrist, as shares of the usual hand, between which the tip is the end of the hand.
+const TIPS: [f64; 2] = [0.75, 1.4];
+
 fn both(measure: impl Fn(Side) -> Option<f64>) -> Option<f64> {
     let found: Vec<f64> = Side::BOTH
         .iter()
@@ -96,15 +99,20 @@ fn length(skeleton: &Skeleton, joint: usize, above: usize) -> f64 {
     path.map(|j| skeleton.joint(j).offset.length()).sum()
 }
 
-fn hand_length(anatomy: &Anatomy, skeleton: &Skeleton, side: Side) -> Option<f64> {
+/// Returns the length of a hand: of its middle finger's bones, or without fingers to the hand's tip, if that is far
+/// enough for a hand of the `usual` length; the tips of many skeletons without fingers end at the palm.
+fn hand_length(
+    anatomy: &Anatomy,
+    skeleton: &Skeleton,
+    side: Side,
+    usual: Option<f64>,
+) -> Option<f64> {
     let hand = anatomy.joint(Part::Hand(side))?;
     let middle = [3, 2, 1].map(|n| anatomy.joint(Part::Finger(side, Finger::Middle, n)));
     let Some(last) = middle.into_iter().flatten().next() else {
-        return skeleton
-            .joint(hand)
-            .tip
-            .map(DVec3::length)
-            .filter(|&l| l > 0.0);
+        let [least, most] = usual.map_or([0.0, f64::INFINITY], |it| TIPS.map(|share| share * it));
+        let tip = skeleton.joint(hand).tip.map(DVec3::length);
+        return tip.filter(|&length| length > least && length < most);
     };
     let tip = match (skeleton.joint(last).tip, skeleton.children(last)) {
         (Some(tip), _) => tip.length(),

@@ -407,6 +407,40 @@ fn body_measures_equal_the_built_body_and_are_those_of_a_person() {
 }
 
 #[test]
+fn the_tip_of_a_hand_without_fingers_is_its_end_only_if_a_hand_can_be_that_long() {
+    let (whole, anatomy) = worn(PLAIN);
+    let usual = anatomy.measures().expect("measures").hand;
+    let hands = Side::BOTH.map(|side| anatomy.joint(Part::Hand(side)).expect("a hand"));
+    let with_tip = |far: f64| {
+        let mut joints = whole.joints().to_vec();
+        let below = |n: &usize| {
+            hands
+                .iter()
+                .any(|&hand| whole.ancestors(*n).skip(1).any(|it| it == hand))
+        };
+        let fingers: Vec<usize> = (0..joints.len()).filter(below).collect();
+        for hand in hands {
+            joints[hand].tip = Some(DVec3::X * far);
+        }
+        let kept: Vec<usize> = (0..joints.len()).filter(|n| !fingers.contains(n)).collect();
+        let joints = kept.iter().map(|&n| Joint {
+            parent: joints[n]
+                .parent
+                .and_then(|up| kept.iter().position(|&it| it == up)),
+            ..joints[n].clone()
+        });
+        let skeleton = Skeleton::new(joints.collect()).expect("a tree");
+        let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("its own names");
+        anatomy.measures().expect("measures").hand
+    };
+    assert!((with_tip(0.17) - 0.17).abs() < 1e-9, "a plausible tip");
+    for far in [0.07, 0.4] {
+        let hand = with_tip(far);
+        assert!((hand / usual - 1.0).abs() < 0.15, "tip at {far}: {hand}");
+    }
+}
+
+#[test]
 fn every_landmark_is_plausibly_placed_and_turns_with_body_and_head() {
     for (wear_name, wear) in wears() {
         let (skeleton, anatomy) = worn(wear);
