@@ -10,11 +10,11 @@ use super::plan::{Event, HandState, PhaseKind, Planner, SignPlan, Who, acting};
 use super::stretch_time::Moved;
 use super::track::{Goals, goals};
 
-/// The number of steps in which the way of an approach is measured.
+/// The number of steps in which the path of an approach is measured.
 const STEPS: usize = 40;
 /// Frames per second at which the movements after an approach are measured.
 const RATE: f64 = 100.0;
-/// Way (m) that counts like a rotation of the hand by one radian, so that hands rotate evenly, too.
+/// Length of path (m) that counts like a rotation of the hand by one radian, so that hands rotate evenly, too.
 const LEVER: f64 = 0.04;
 /// Top speed of an approach as a share of that of the movements after it: the arm adds a little to what is planned.
 const SLOWER: f64 = 0.94;
@@ -32,12 +32,12 @@ pub(crate) struct Course {
     pub(crate) from: f64,
     /// The time at which it ends, in seconds.
     pub(crate) to: f64,
-    /// The done share of its acts after equal shares of the wrist's way.
+    /// The completed share of its acts after equal shares of the wrist's path.
     table: Vec<f64>,
 }
 
 impl Course {
-    /// Returns the done share of the acts after a share of the wrist's way.
+    /// Returns the completed share of the acts after a share of the wrist's path.
     pub(crate) fn share(&self, way: f64) -> f64 {
         let last = self.table.len() - 1;
         let at = way.clamp(0.0, 1.0) * last as f64;
@@ -45,7 +45,7 @@ impl Course {
         self.table[first] + (self.table[first + 1] - self.table[first]) * (at - first as f64)
     }
 
-    /// Returns the course of a wrist on its way, and the length (m) that the way would have at its top speed; `None` if
+    /// Returns the course of a wrist on its path, and the length (m) that the path would have at its top speed; `None` if
     /// the wrist hardly moves.
     fn along(way: &Goals) -> Option<(Vec<f64>, f64)> {
         let wrists: Vec<DVec3> = way.wrists().collect();
@@ -225,7 +225,7 @@ impl Planner<'_> {
         })
     }
 
-    /// Returns the way of a hand from one state to another, in [`STEPS`] equal shares of its acts.
+    /// Returns the path of a hand from one state to another, in [`STEPS`] equal shares of its acts.
     fn way(&mut self, n: usize, before: &HandState, goal: &HandState) -> Goals {
         let known = self.plan.events[n].len();
         let now = std::mem::replace(&mut self.state[n], before.clone());

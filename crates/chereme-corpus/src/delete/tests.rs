@@ -9,6 +9,19 @@ use crate::{
     SignChange, unheard, unpack_starter,
 };
 
+/// Returns a new corpus in `folder` with the content of `files`.
+fn imported(folder: &tempfile::TempDir, files: &[PathBuf]) -> Corpus {
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("created");
+    corpus
+        .import(
+            files,
+            &ImportOptions::default(),
+            &mut Progress::new(&mut unheard),
+        )
+        .expect("imported");
+    corpus
+}
+
 /// Returns a corpus with two captured takes and a small lexicon, and LIMACE, which is generated from one of them.
 fn corpus() -> (tempfile::TempDir, Corpus) {
     let folder = tempfile::tempdir().expect("a folder");
@@ -19,14 +32,7 @@ fn corpus() -> (tempfile::TempDir, Corpus) {
             .is_some_and(|it| wanted.iter().any(|w| it == *w))
     };
     let files: Vec<PathBuf> = files.into_iter().filter(named).collect();
-    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("created");
-    corpus
-        .import(
-            &files,
-            &ImportOptions::default(),
-            &mut Progress::new(&mut unheard),
-        )
-        .expect("imported");
+    let mut corpus = imported(&folder, &files);
     corpus
         .recombine("ESCARGOT | configure right U", "LIMACE")
         .expect("generated");
@@ -313,14 +319,7 @@ fn kinds() -> (tempfile::TempDir, Corpus) {
         ),
         crate::film::tests::film(folder.path(), [64, 48], 25),
     ];
-    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("created");
-    corpus
-        .import(
-            &files,
-            &ImportOptions::default(),
-            &mut Progress::new(&mut unheard),
-        )
-        .expect("imported");
+    let corpus = imported(&folder, &files);
     (folder, corpus)
 }
 
