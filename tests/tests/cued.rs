@@ -239,7 +239,11 @@ fn a_recording_without_a_cuer_is_refused_with_a_remedy() -> Result<()> {
     let mut hear = unheard;
     let mut progress = Progress::new(&mut hear);
     let restored = corpus.restore_markers(&[], &RestoreOptions::default(), &mut progress);
-    assert!(restored.is_err_and(|error| error.remedy().is_some_and(|it| it.contains("--labels"))));
+    assert!(restored.is_err_and(|error| {
+        error
+            .remedy()
+            .is_some_and(|it| it.text().contains("--labels"))
+    }));
     assert!(corpus.recognise_cues(&[], &[], &options).is_err());
     assert!(corpus.find_cue_targets(&[], true, &options).is_err());
     let wrong = CuedOptions {

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 use anyhow::Result;
+use chereme_corpus::remedy::Remedy;
 use chereme_corpus::words::{Language, Text, counted_in, fill, message, trouble};
 use chereme_corpus::{Step, Unit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -116,8 +117,8 @@ impl Output {
     }
 
     /// Writes a remedy of the library in the language of the output.
-    pub(crate) fn advise(&mut self, remedy: &str) -> Result<()> {
-        self.remark(trouble::WHAT_TO_DO, remedy)
+    pub(crate) fn advise(&mut self, remedy: &Remedy) -> Result<()> {
+        self.remark(trouble::WHAT_TO_DO, remedy.text())
     }
 
     fn remark(&mut self, form: Text, remark: &str) -> Result<()> {
@@ -165,7 +166,7 @@ impl Output {
                 tell(&label(trouble::WHERE, place));
             }
             if let Some(remedy) = remedy {
-                tell(&label(trouble::WHAT_TO_DO, spoken(&remedy)));
+                tell(&label(trouble::WHAT_TO_DO, spoken(remedy.text())));
             }
         }
         ExitCode::FAILURE

@@ -109,6 +109,67 @@ fn fault(command: &str) -> Option<String> {
     }
 }
 
+/// Returns the string literals of source code without its tests, each with the code directly before it.
+fn literals(text: &str) -> Vec<(String, String)> {
+    let text = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let lines = text.lines().map(str::trim_start);
+    let code: Vec<&str> = lines.filter(|line| !line.starts_with("//")).collect();
+    let code = code.join(" ").replace("'\"'", "' '").replace("\\\\", "  ");
+    let code = code.replace("\\\"", "'");
+    let mut found = Vec::new();
+    let mut before = String::new();
+    for (index, part) in code.split('"').enumerate() {
+        match index % 2 {
+            0 => part.clone_into(&mut before),
+            _ => found.push((before.clone(), part.replace("\\ ", " "))),
+        }
+    }
+    found
+}
+
+/// Returns whether a text names a command of the program, or an option of one.
+fn names_the_command_line(text: &str) -> bool {
+    let option = |word: &str| {
+        let word = word.trim_start_matches(['(', '`']);
+        word.strip_prefix("--")
+            .is_some_and(|it| it.starts_with(|c: char| c.is_ascii_lowercase()))
+    };
+    // A literal that is nothing but an option is an argument for another program.
+    text.contains("`chereme ") || text.contains(' ') && text.split_whitespace().any(option)
+}
+
+#[test]
+fn remedies_of_the_command_line_are_typed_as_such() {
+    let skins = ["crates/chereme-cli/", "crates/chereme-studio/"];
+    let (mut typed, mut faults) = (0, Vec::new());
+    for file in repository::rust_files() {
+        let words = file.path.contains("/words/") || file.path.contains("/tests");
+        let library = file.path.contains("/src/") && !words;
+        if !library || skins.iter().any(|skin| file.path.starts_with(skin)) {
+            continue;
+        }
+        for (before, text) in literals(&file.text) {
+            let opened = before.trim_end().trim_end_matches("format!(").trim_end();
+            let opened = opened.trim_end_matches("Cow::Borrowed(").trim_end();
+            let choice = opened
+                .trim_end_matches(',')
+                .rsplit("Remedy::choice(")
+                .next();
+            let of_choice = choice.is_some_and(|it| it.trim().starts_with("Choice::"));
+            let is_typed = opened.ends_with("Remedy::command(")
+                || opened.ends_with("Remedy::Command(")
+                || of_choice && choice.is_some_and(|it| !it.contains(';'));
+            match names_the_command_line(&text) {
+                true if is_typed => typed += 1,
+                true => faults.push(format!("{}: {text}", file.path)),
+                false => {}
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    assert!(typed > 80, "{typed} typed remedies are found");
+}
+
 #[test]
 fn every_command_named_in_a_message_parses() {
     let mut found = Vec::new();

@@ -1,6 +1,7 @@
 //! The faults of a recipe that are known before its evaluation.
 
 use chereme_motion::Side;
+use chereme_sign::Remedy;
 
 use crate::sources::SourceError;
 use crate::units::UnitError;
@@ -287,19 +288,19 @@ impl Cause {
 
     /// Returns what would work, if that is known.
     #[must_use]
-    pub fn remedy(&self) -> Option<String> {
+    pub fn remedy(&self) -> Option<Remedy> {
         const RESOLVE: &str = "resolve the recipe again";
         const ROLES: &str = "name its joints in a roles file, or use a recording that has one";
         let text = match self {
             Self::Source(error) => return error.remedy(),
             Self::Utterance(error) => return Some(error.remedy()),
-            Self::Notation(error) => return error.remedy().map(str::to_owned),
+            Self::Notation(error) => return error.remedy().map(Remedy::from),
             Self::TooFar { distance, arm, .. } => {
                 let nearer = (distance - arm) * 100.0;
-                return Some(format!("move it nearer by {nearer:.0} cm or more"));
+                return Some(format!("move it nearer by {nearer:.0} cm or more").into());
             }
             Self::Count { held: count, .. } | Self::Phases { phases: count, .. } => {
-                return Some(format!("give 1 or {count}"));
+                return Some(format!("give 1 or {count}").into());
             }
             Self::Stopped => "generate it again",
             Self::NoPhases => "name another rule: paper, attina, sppas or duchnowski",
@@ -323,6 +324,6 @@ impl Cause {
             Self::Changed { .. } | Self::Input => RESOLVE,
             Self::Hamnosys(_) | Self::Clip(_) => return None,
         };
-        Some(text.to_owned())
+        Some(text.into())
     }
 }

@@ -1,5 +1,6 @@
 //! The evaluator's questions to the outside: the one trait that a corpus implements.
 
+use chereme_sign::{Choice, Remedy};
 use std::sync::Arc;
 
 use chereme_motion::{Anatomy, Clip, HandAngles, Side, Span};
@@ -374,7 +375,7 @@ pub enum SourceError {
         /// The reason.
         why: String,
         /// The remedy, if one is known.
-        remedy: Option<Box<str>>,
+        remedy: Option<Box<Remedy>>,
     },
     /// The sign has no notation.
     #[error("{address:?} has no notation")]
@@ -444,18 +445,23 @@ impl SourceError {
 
     /// Returns what would work, if that is known.
     #[must_use]
-    pub fn remedy(&self) -> Option<String> {
-        Some(match self {
+    pub fn remedy(&self) -> Option<Remedy> {
+        let text = match self {
             Self::Missing { nearest, .. } | Self::UnknownValue { nearest, .. } => {
                 format!("did you mean {:?}?", nearest.as_ref()?)
             }
             Self::Ambiguous { .. } => "name one of them".to_owned(),
             Self::NoMovement { .. } => "name a sign that was captured or generated".to_owned(),
-            Self::Expression { remedy, .. } => remedy.as_ref()?.to_string(),
-            Self::NoNotation { address } => format!(
-                "import it as SiGML or HamNoSys, or write it from its movement: \
-                 `chereme transcribe CORPUS {address} --store`"
-            ),
+            Self::Expression { remedy, .. } => return remedy.as_deref().cloned(),
+            Self::NoNotation { address } => {
+                return Some(Remedy::choice(
+                    Choice::Notation,
+                    format!(
+                        "import it as SiGML or HamNoSys, or write it from its movement: \
+                         `chereme transcribe CORPUS {address} --store`"
+                    ),
+                ));
+            }
             Self::UnknownAlphabet { known, .. } => match known.as_slice() {
                 [] => "there is none".to_owned(),
                 known => format!("there is {}", known.join(", ")),
@@ -465,6 +471,7 @@ impl SourceError {
                  {\"version\": 1, \"values\": {\"move.big\": [0.5, \"arm\", \"mine\"]}}"
                 .to_owned(),
             Self::Query { .. } | Self::Unreadable(_) => return None,
-        })
+        };
+        Some(text.into())
     }
 }

@@ -1,5 +1,6 @@
 //! Addresses: texts that name a recording, token, sign, signer, tier or annotation.
 
+use chereme_sign::{Choice, Remedy};
 use std::fmt;
 use std::str::FromStr;
 
@@ -157,7 +158,9 @@ pub(crate) fn sign(connection: &Connection, gloss: &str) -> Result<i64> {
             Err(Error::wrong(format!("no sign is called {gloss:?}"))
                 .at(gloss)
                 .meaning(meant(gloss, near))
-                .advise("`chereme list CORPUS signs` lists the glosses"))
+                .advise(Remedy::command(
+                    "`chereme list CORPUS signs` lists the glosses",
+                )))
         }
         several => Err(ambiguous(
             gloss,
@@ -237,7 +240,9 @@ pub(crate) fn recording(connection: &Connection, name: &Name) -> Result<Recordin
             Err(Error::wrong(format!("no recording is called {text:?}"))
                 .at(text)
                 .meaning(meant(text, near))
-                .advise("`chereme list CORPUS recordings` lists them"))
+                .advise(Remedy::command(
+                    "`chereme list CORPUS recordings` lists them",
+                )))
         }
     }
 }
@@ -284,10 +289,13 @@ pub(crate) fn stretch(connection: &Connection, address: &Address) -> Result<Stre
         (token.recording_id, token.start_us, token.end_us)
     else {
         let (known_by, remedy) = if notations::of_token(connection, token.id)?.is_some() {
-            let remedy = "make it move first: `chereme animate CORPUS GLOSS --as NAME`";
+            let remedy = Remedy::choice(
+                Choice::Notation,
+                "make it move first: `chereme animate CORPUS GLOSS --as NAME`",
+            );
             ("is notation", remedy)
         } else {
-            let remedy = "name a token that was recorded, such as token:41";
+            let remedy = Remedy::from("name a token that was recorded, such as token:41");
             ("is a lexicon entry", remedy)
         };
         return Err(

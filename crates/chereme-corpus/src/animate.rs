@@ -1,5 +1,6 @@
 //! Generates movement from notation: HamNoSys text, SiGML files, and signs that the corpus has as notation.
 
+use chereme_sign::{Choice, Remedy};
 use std::path::Path;
 
 use chereme_compose::recipe::{Node, Notation};
@@ -94,7 +95,7 @@ impl Corpus {
                 let takes = takes.iter().map(|take| take.name.as_str());
                 let near = did_you_mean(nearest(wanted, signers.chain(takes)));
                 return Err(Error::wrong(format!("{wanted:?} names nobody's body{near}")).advise(
-                    "write the name of a signer or a recording; `chereme list CORPUS signers` lists them",
+                    Remedy::command("write the name of a signer or a recording; `chereme list CORPUS signers` lists them"),
                 ));
             }
         }
@@ -128,7 +129,10 @@ fn without_fingers(anatomy: &Anatomy) -> Option<NotationFinding> {
         line: None,
         symbol: None,
         message: format!("the body's {hands} joints of fingers: no handshape can be seen"),
-        remedy: Some("name another body with --signer, or the joints in a roles file".to_owned()),
+        remedy: Some(Remedy::choice(
+            Choice::JointRoles,
+            "name another body with --signer, or the joints in a roles file",
+        )),
     })
 }
 
@@ -174,7 +178,7 @@ fn understood(text: &str) -> Result<(String, Vec<NotationFinding>)> {
         line: None,
         symbol: Some(finding.index),
         message: finding.message.clone(),
-        remedy: Some(finding.remedy.to_owned()),
+        remedy: Some(finding.remedy.into()),
     };
     let mut findings: Vec<NotationFinding> = read.findings.iter().map(told).collect();
     let Some(error) = whole else {

@@ -1,5 +1,6 @@
 //! Integrity check: the faults of a corpus, their places, and remedies.
 
+use chereme_sign::{Choice, Remedy};
 use std::collections::BTreeMap;
 
 use chereme_formats::bvh::raw::Hierarchy;
@@ -48,13 +49,17 @@ pub struct Fault {
     /// The fault in words.
     pub message: String,
     /// The remedy.
-    pub remedy: String,
+    pub remedy: Remedy,
 }
 
 const BACKUP: &str = "take the file from a backup, or import the recording again";
 /// The number of overlaps on one tier that are listed as separate faults; the rest are counted.
 const SHOWN_OVERLAPS: u64 = 3;
-const MEND: &str = "`chereme check CORPUS --mend` puts it right";
+
+/// Returns the remedy for derived data with a fault.
+fn mend() -> Remedy {
+    Remedy::choice(Choice::Check, "`chereme check CORPUS --mend` puts it right")
+}
 
 impl Corpus {
     /// Checks everything in the corpus: the database, references, blocks and their hashes, skeletons, inventories,
@@ -95,8 +100,10 @@ impl Corpus {
                 kind: "index",
                 place: "search index".into(),
                 message: "the rows were changed without it".into(),
-                remedy: "the next search builds it again; so does `chereme check CORPUS --mend`"
-                    .into(),
+                remedy: Remedy::choice(
+                    Choice::Check,
+                    "the next search builds it again; so does `chereme check CORPUS --mend`",
+                ),
             });
             return Ok(());
         }
@@ -108,7 +115,7 @@ impl Corpus {
                 kind: "index",
                 place: "search index".into(),
                 message: format!("it holds {documents} documents for {tokens} tokens"),
-                remedy: MEND.into(),
+                remedy: mend(),
             });
         }
         Ok(())
@@ -154,9 +161,9 @@ impl Looking<'_, '_> {
         kind: &'static str,
         place: impl Into<String>,
         message: impl Into<String>,
-        remedy: &str,
+        remedy: impl Into<Remedy>,
     ) {
-        let (place, message, remedy) = (place.into(), message.into(), remedy.to_owned());
+        let (place, message, remedy) = (place.into(), message.into(), remedy.into());
         self.report.faults.push(Fault {
             kind,
             place,
@@ -314,7 +321,9 @@ impl Looking<'_, '_> {
                     }
                 }
                 let place = format!("recording {:?}", recording.name);
-                let remedy = "correct the annotation: `chereme annotate CORPUS set ANNOTATION --value TEXT`, or --start and --end";
+                let remedy = Remedy::command(
+                    "correct the annotation: `chereme annotate CORPUS set ANNOTATION --value TEXT`, or --start and --end",
+                );
                 let message = messages::named(connection, &violation.to_string());
                 self.fault("tier", place, message, remedy);
             }
@@ -345,7 +354,7 @@ impl Looking<'_, '_> {
                     "tokens",
                     place,
                     "its tokens do not agree with its tiers",
-                    MEND,
+                    mend(),
                 );
             }
             self.count("recordings")?;

@@ -3,6 +3,7 @@
 use chereme_formats::compare::{self, Conflict, Difference, Merged};
 use chereme_formats::eaf::{self, Transcript, patched, raw, to_raw};
 use chereme_formats::{subtitles, textgrid};
+use chereme_sign::Remedy;
 use serde::Serialize;
 
 use crate::Corpus;
@@ -54,7 +55,9 @@ impl CompareSide {
             Self::File { name, bytes } => read(name, bytes).map(|it| it.0),
             Self::Recording(address) => Err(Error::wrong("a recording is in a corpus")
                 .at(address.to_string())
-                .advise("name the corpus first: `chereme diff CORPUS recording:1 recording:2`")),
+                .advise(Remedy::command(
+                    "name the corpus first: `chereme diff CORPUS recording:1 recording:2`",
+                ))),
         };
         Ok(compare::diff(&read(self)?, &read(other)?))
     }

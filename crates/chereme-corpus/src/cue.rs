@@ -1,5 +1,6 @@
 //! Keys of cued speech from text or phones, without a corpus.
 
+use chereme_sign::Remedy;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -207,7 +208,7 @@ pub(crate) fn nothing_to_cue(text: &str) -> Error {
         begin.push('…');
     }
     Error::wrong(format!("there is nothing to cue in {begin:?}"))
-        .advise("write words, or phones with --phones")
+        .advise(Remedy::command("write words, or phones with --phones"))
 }
 
 /// Returns the phones of `text` in IPA as the program `espeak-ng` pronounces them, if it is installed, and the
@@ -229,9 +230,9 @@ pub fn cue_phones_of_espeak(text: &str, code: &str) -> Result<(String, Vec<char>
         other => other,
     };
     let cannot = |error: std::io::Error| {
-        Error::wrong(format!("espeak-ng cannot be run: {error}")).advise(
+        Error::wrong(format!("espeak-ng cannot be run: {error}")).advise(Remedy::command(
             "install espeak-ng, or give French text without --espeak, or phones with --phones",
-        )
+        ))
     };
     let mut child = Command::new("espeak-ng")
         .args(["-q", "-v", voice, "--ipa", "--stdin"])
@@ -321,7 +322,8 @@ fn aligned(
     } else {
         textgrid::read(&bytes).map_err(|error| wrong(error.to_string()))?
     };
-    let tier = phone_tier(&transcript, tier).map_err(wrong)?;
+    let tier =
+        phone_tier(&transcript, tier).map_err(|error| error.at(path.display().to_string()))?;
     let labels = tier.annotations.iter().map(|one| Phone {
         label: one.value.trim().to_owned(),
         span: Some(one.span),
@@ -363,10 +365,8 @@ pub(crate) fn is_phone_tier(name: &str) -> bool {
     PHONE_TIERS.iter().any(fits)
 }
 
-fn phone_tier<'a>(
-    transcript: &'a Transcript,
-    wanted: Option<&str>,
-) -> std::result::Result<&'a Tier, String> {
+/// Returns the wanted tier, or the first one whose name aligners use for phones.
+fn phone_tier<'a>(transcript: &'a Transcript, wanted: Option<&str>) -> Result<&'a Tier> {
     let plain = |name: &str| -> String {
         let folded = chereme_sign::text::fold(name);
         folded.chars().filter(|c| c.is_alphanumeric()).collect()
@@ -389,11 +389,16 @@ fn phone_tier<'a>(
         }),
     };
     found.ok_or_else(|| match wanted {
-        Some(wanted) => format!("there is no tier {wanted:?}; there are: {}", names()),
-        None => format!(
-            "no tier is called like phones; name one with --tier: {}",
+        Some(wanted) => Error::wrong(format!(
+            "there is no tier {wanted:?}; there are: {}",
             names()
-        ),
+        ))
+        .advise("name one of them"),
+        None => Error::wrong(format!(
+            "no tier is called like phones; there are: {}",
+            names()
+        ))
+        .advise(Remedy::command("name one with --tier")),
     })
 }
 
@@ -477,7 +482,7 @@ mod tests {
     fn input_that_means_nothing_is_refused_with_the_remedy() {
         let refuse = |input: &str, options: KeysOptions| {
             let error = cue_keys(input, &options).expect_err("refused");
-            error.remedy().unwrap_or_default().to_owned()
+            error.remedy().unwrap_or_default().to_string()
         };
         let code = |code: &str| KeysOptions {
             code: code.to_owned(),

@@ -1,5 +1,6 @@
 //! Scalar curves beside movement: a number for each frame, such as how much the brows are raised.
 
+use chereme_sign::Remedy;
 use std::io::Write;
 use std::ops::Range;
 
@@ -141,7 +142,7 @@ pub(crate) fn write_table(
     if curves.is_empty() {
         let name = &stretch.recording.name;
         return Err(Error::wrong(format!("the recording {name:?} has no curves")).advise(
-            "signs made from notation with non-manual tiers have some; `chereme list CORPUS recordings` counts them",
+            Remedy::command("signs made from notation with non-manual tiers have some; `chereme list CORPUS recordings` counts them"),
         ));
     }
     let fault = |error: csv::Error| Error::wrong(format!("the curves cannot be written: {error}"));

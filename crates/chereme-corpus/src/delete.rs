@@ -1,5 +1,6 @@
 //! Deletes recordings and signs, each with everything that belongs to it.
 
+use chereme_sign::Remedy;
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_motion::Instant;
@@ -232,7 +233,7 @@ impl Plan {
             ))
             .at(place)
             .advise(
-                "delete its annotations as well with --with-dependents, or name the recordings, too",
+                Remedy::command("delete its annotations as well with --with-dependents, or name the recordings, too"),
             ));
         }
         let made: Vec<&str> = self.made.values().map(String::as_str).collect();
@@ -242,8 +243,8 @@ impl Plan {
         ))
         .at(gone)
         .advise(
-            "delete them as well with --with-dependents, or keep them with --keep-dependents: they keep their own \
-             movement, and their recipes cannot be evaluated again",
+            Remedy::command("delete them as well with --with-dependents, or keep them with --keep-dependents: they keep their own \
+             movement, and their recipes cannot be evaluated again"),
         ))
     }
 
@@ -372,12 +373,14 @@ fn sign(connection: &Connection, name: &Name) -> Result<i64> {
 /// Returns the error for something that is removed in another way.
 fn not_here(address: &Address) -> Error {
     let remedy = match address {
-        Address::Annotation(_) | Address::Token(_) => {
-            "a token goes with its annotation: `chereme annotate CORPUS remove ANNOTATION`"
+        Address::Annotation(_) | Address::Token(_) => Remedy::command(
+            "a token goes with its annotation: `chereme annotate CORPUS remove ANNOTATION`",
+        ),
+        Address::Tier(_) => {
+            Remedy::command("remove a tier with `chereme annotate CORPUS remove-tier TIER`")
         }
-        Address::Tier(_) => "remove a tier with `chereme annotate CORPUS remove-tier TIER`",
-        Address::Gloss(_) => "write sign:GLOSS, or recording:NAME",
-        _ => "write recording:3, recording:NAME or sign:GLOSS",
+        Address::Gloss(_) => "write sign:GLOSS, or recording:NAME".into(),
+        _ => "write recording:3, recording:NAME or sign:GLOSS".into(),
     };
     Error::wrong(format!("{address} is neither a recording nor a sign"))
         .at(address.to_string())

@@ -1,6 +1,7 @@
 //! Small edits of recordings, signers and signs; each is an operation.
 
 use chereme_motion::Side;
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 
 use crate::Corpus;
@@ -218,7 +219,7 @@ pub(crate) fn sign_there(connection: &Connection, id: i64) -> Result<i64> {
         Err(Error::Database(rusqlite::Error::QueryReturnedNoRows)) => {
             Err(Error::wrong(format!("there is no sign:{id}"))
                 .at(format!("sign:{id}"))
-                .advise("`chereme list CORPUS signs` lists them"))
+                .advise(Remedy::command("`chereme list CORPUS signs` lists them")))
         }
         Err(other) => Err(other),
     }

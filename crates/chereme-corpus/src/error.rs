@@ -1,5 +1,6 @@
 //! Errors of work on a corpus, with their place and remedy.
 
+use chereme_sign::{Choice, Remedy};
 use std::path::PathBuf;
 
 pub use chereme_compose::Meant;
@@ -25,7 +26,7 @@ pub enum Error {
         /// The reason.
         reason: String,
         /// The remedy.
-        remedy: String,
+        remedy: Remedy,
     },
     /// The database refused or failed.
     #[error("the corpus database says: {0}")]
@@ -49,7 +50,7 @@ pub enum Error {
         /// The words, file, line or row with the fault.
         place: Option<String>,
         /// The remedy.
-        remedy: Option<String>,
+        remedy: Option<Remedy>,
         /// The name that was meant, if one near to a known one was written.
         meant: Option<Box<Meant>>,
     },
@@ -83,7 +84,7 @@ pub struct WrongQuery {
     /// The character, from 0, at which the fault begins.
     pub at: usize,
     /// What would be right.
-    pub remedy: Option<String>,
+    pub remedy: Option<Remedy>,
     /// The likeliest meaning, and the query with it.
     pub mended: Option<(String, String)>,
 }
@@ -98,7 +99,7 @@ pub struct FailedStep {
     /// Why it cannot be done.
     pub cause: String,
     /// What would work.
-    pub remedy: String,
+    pub remedy: Remedy,
     /// The name that was meant, if one near to a known one was written.
     pub meant: Option<Meant>,
 }
@@ -172,7 +173,7 @@ impl Error {
 
     /// Returns the error with advice.
     #[must_use]
-    pub fn advise(self, remedy: impl Into<String>) -> Self {
+    pub fn advise(self, remedy: impl Into<Remedy>) -> Self {
         match self {
             Self::Wrong {
                 message,
@@ -229,7 +230,7 @@ impl Error {
 
     /// Returns the remedy, if there is one.
     #[must_use]
-    pub fn remedy(&self) -> Option<String> {
+    pub fn remedy(&self) -> Option<Remedy> {
         match self {
             Self::File { source, .. } => match source.kind() {
                 std::io::ErrorKind::NotFound => Some("check the spelling of the path".into()),
@@ -240,7 +241,7 @@ impl Error {
                     Some("choose another name, or move the existing one away".into())
                 }
                 std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => {
-                    Some(remedy_of(Cause::Full).into())
+                    Some(remedy_of(Cause::Full))
                 }
                 std::io::ErrorKind::InvalidData if is_encoding(source) => {
                     Some("save it as text in UTF-8".into())
@@ -248,11 +249,15 @@ impl Error {
                 _ => None,
             },
             Self::NotACorpus { remedy, .. } => Some(remedy.clone()),
-            Self::Damaged { .. } => {
-                Some("`chereme check CORPUS` lists all damage and says how to mend it; a backup may be whole".into())
-            }
-            Self::Database(_) => self.cause().map(|cause| remedy_of(cause).to_owned()),
-            Self::Index(_) => Some("`chereme check CORPUS --mend` builds the search index again".into()),
+            Self::Damaged { .. } => Some(Remedy::choice(
+                Choice::Check,
+                "`chereme check CORPUS` lists all damage and says how to mend it; a backup may be whole",
+            )),
+            Self::Database(_) => self.cause().map(remedy_of),
+            Self::Index(_) => Some(Remedy::choice(
+                Choice::Check,
+                "`chereme check CORPUS --mend` builds the search index again",
+            )),
             Self::Wrong { remedy, .. } => remedy.clone(),
             Self::Query(query) => query.remedy.clone(),
             Self::Step(step) => Some(step.remedy.clone()),
@@ -302,17 +307,21 @@ fn several(errors: &[Error]) -> String {
     lines.join("\n")
 }
 
-fn remedy_of(cause: Cause) -> &'static str {
-    match cause {
+/// Returns the remedy for a failure of the database.
+fn remedy_of(cause: Cause) -> Remedy {
+    let text = match cause {
         Cause::Busy => {
             "another program has been writing to the corpus for 20 seconds; try again when it is done"
         }
         Cause::Full => "the disk is full; make room and try again, nothing was lost",
         Cause::ReadOnly => "the file or its folder may not be written by you",
         Cause::Damaged => {
-            "the file is damaged: take a backup, or save what can still be read with `chereme export CORPUS all --to FOLDER`"
+            return Remedy::command(
+                "the file is damaged: take a backup, or save what can still be read with `chereme export CORPUS all --to FOLDER`",
+            );
         }
-    }
+    };
+    text.into()
 }
 
 /// The result of work on a corpus.

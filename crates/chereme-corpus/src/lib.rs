@@ -67,6 +67,7 @@ pub use chereme_formats::table::annotations::{Moment, TimeUnit};
 pub use chereme_motion::Instant;
 pub use chereme_sign::milestones::{Function, Milestones, Phase as ExpressionPhase};
 pub use chereme_sign::query::HELP as QUERY_HELP;
+pub use chereme_sign::remedy;
 pub use chereme_sign::tier::spans::Mode;
 pub use chereme_sign::{Stereotype, TierRole, TierTopic};
 

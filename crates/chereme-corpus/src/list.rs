@@ -1,5 +1,6 @@
 //! Lists of rows of the corpus, filtered and sorted.
 
+use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
@@ -261,7 +262,9 @@ impl Corpus {
                 "tokens are filtered by their components with a query",
             )
             .at(pattern)
-            .advise("`chereme search CORPUS 'right.configuration=U'`")),
+            .advise(Remedy::command(
+                "`chereme search CORPUS 'right.configuration=U'`",
+            ))),
         }
     }
 

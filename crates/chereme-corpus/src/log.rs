@@ -1,5 +1,6 @@
 //! The history in detail: the rows that an operation changed, with their old and new values.
 
+use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 
 use chereme_motion::Instant;
@@ -105,7 +106,7 @@ impl Corpus {
             .ok_or_else(|| {
                 Error::wrong(format!("there is no operation {id}"))
                     .at(id.to_string())
-                    .advise("`chereme log CORPUS` lists them")
+                    .advise(Remedy::command("`chereme log CORPUS` lists them"))
             })?;
         let mut rows = Rows::default();
         history::each_change(connection, id, |change| {

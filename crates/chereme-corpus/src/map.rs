@@ -1,5 +1,6 @@
 //! A map of the signs: every sign has a position in a plane, and similar signs lie near each other.
 
+use chereme_sign::Remedy;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -102,7 +103,7 @@ impl Corpus {
                 names.join(", ")
             );
             return Err(Error::wrong(text).advise(
-                "import annotations or a lexicon with these components, or choose others; `chereme list CORPUS tokens` shows the codings",
+                Remedy::command("import annotations or a lexicon with these components, or choose others; `chereme list CORPUS tokens` shows the codings"),
             ));
         }
         let total = Some(2 * placed.len() as u64);

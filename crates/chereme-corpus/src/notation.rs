@@ -1,5 +1,6 @@
 //! Signs as notation: those in the corpus, and those in files beside it.
 
+use chereme_sign::{Choice, Remedy};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::Read;
@@ -100,7 +101,7 @@ pub(crate) fn find(connection: &Connection, address: &Address) -> Result<Notatio
     }
     Err(Error::wrong(format!("{address} has no notation"))
         .at(address.to_string())
-        .advise("import a SiGML file or a HamNoSys lexicon that holds the sign, or `chereme transcribe CORPUS SIGN --store`"))
+        .advise(Remedy::choice(Choice::Notation, "import a SiGML file or a HamNoSys lexicon that holds the sign, or `chereme transcribe CORPUS SIGN --store`")))
 }
 
 /// Returns the notation of a token, if it has one.

@@ -5,6 +5,7 @@ mod draft;
 mod parts;
 mod phases;
 
+use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -120,7 +121,7 @@ pub struct NotationFinding {
     /// The oddity.
     pub message: String,
     /// The remedy, if there is one.
-    pub remedy: Option<String>,
+    pub remedy: Option<Remedy>,
 }
 
 impl std::fmt::Display for NotationFinding {
@@ -156,7 +157,8 @@ impl Corpus {
     pub fn recombine(&mut self, recipe: &str, gloss: &str) -> Result<Recombination> {
         let gloss = gloss.trim();
         if gloss.is_empty() {
-            return Err(Error::wrong("a new sign needs a gloss").advise("write --as GLOSS"));
+            return Err(Error::wrong("a new sign needs a gloss")
+                .advise(Remedy::command("write --as GLOSS")));
         }
         let (resolved, made, recipe) = self.make(recipe)?;
         let (recording, token, name) = self.store.operation("recombine", |connection| {
@@ -218,7 +220,7 @@ fn read(text: &str) -> Result<Recipe> {
 
 /// Returns the failure of a step of a recipe.
 fn cannot(error: chereme_compose::MakeError) -> Error {
-    let known = || "`chereme list CORPUS signs` and `… values` list what there is".to_owned();
+    let known = || Remedy::command("`chereme list CORPUS signs` and `… values` list what there is");
     Error::Step(Box::new(FailedStep {
         remedy: error.cause.remedy().unwrap_or_else(known),
         meant: error.cause.meant(),

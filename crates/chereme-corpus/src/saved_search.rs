@@ -2,6 +2,7 @@
 //!
 //! In every query, `@NAME` stands for the search saved under that name.
 
+use chereme_sign::Remedy;
 use chereme_sign::query::Query;
 use chereme_sign::text::{did_you_mean, edit_distance, fold, nearest};
 use rusqlite::Connection;
@@ -158,10 +159,11 @@ fn there(connection: &Connection, name: &str) -> Result<(i64, KeptSearch)> {
     let meant = did_you_mean(kept_like(name, &all).map(|it| it.name.as_str()));
     let names: Vec<String> = all.iter().map(|it| format!("@{}", it.name)).collect();
     let remedy = match names.len() {
-        0 => "there is no saved search yet: `chereme search CORPUS --keep NAME QUERY` saves one"
-            .to_owned(),
-        count if count <= TOLD => format!("there are: {}", names.join(", ")),
-        count => format!("`chereme list CORPUS searches` lists all {count}"),
+        0 => Remedy::command(
+            "there is no saved search yet: `chereme search CORPUS --keep NAME QUERY` saves one",
+        ),
+        count if count <= TOLD => format!("there are: {}", names.join(", ")).into(),
+        count => Remedy::command(format!("`chereme list CORPUS searches` lists all {count}")),
     };
     Err(
         Error::wrong(format!("no search is saved as {name:?}{meant}"))

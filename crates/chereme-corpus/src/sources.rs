@@ -377,7 +377,7 @@ impl Sources for CorpusSources<'_> {
         let fault = |error: &Error| SourceError::Expression {
             address: address.to_owned(),
             why: error.to_string(),
-            remedy: error.remedy().map(Into::into),
+            remedy: error.remedy().map(Box::new),
         };
         let named: Address = address.parse().map_err(|error| fault(&error))?;
         let found = face::expression_at(self.connection, &named, function.as_ref());

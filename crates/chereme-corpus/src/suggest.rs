@@ -1,5 +1,6 @@
 //! Suggestions of new signs: partners that differ in one component, and values that no sign has.
 
+use chereme_sign::Remedy;
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_sign::tier::Hands;
@@ -86,7 +87,7 @@ impl Corpus {
                 own.len()
             ))
             .at(address.to_string())
-            .advise("code its handshape, placement and movement, or have them proposed with `chereme propose`"));
+            .advise(Remedy::command("code its handshape, placement and movement, or have them proposed with `chereme propose`")));
         }
         let (mut partners, mut possible) = (Vec::new(), Vec::new());
         let mut used: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();

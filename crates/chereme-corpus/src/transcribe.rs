@@ -6,6 +6,7 @@ use chereme_analysis::transcribe::{
     Feature, FeatureKind, Options, Stage, transcribe, transcribe_proven,
 };
 use chereme_motion::{HandCorrection, Side, Span};
+use chereme_sign::Remedy;
 use chereme_sign::hamnosys::{Notated, Sign, print, to_names};
 use serde::Serialize;
 
@@ -217,7 +218,9 @@ impl Corpus {
             return Err(
                 Error::wrong(format!("{address} has another notation already"))
                     .at(address.to_string())
-                    .advise("add --force to replace it; undo brings it back"),
+                    .advise(Remedy::command(
+                        "add --force to replace it; undo brings it back",
+                    )),
             );
         }
         let document = Notated {

@@ -1,5 +1,6 @@
 //! Adding and merging values of inventories.
 
+use chereme_sign::Remedy;
 use chereme_sign::text::{did_you_mean, nearest};
 use chereme_sign::{Inventory, InventoryValue};
 use rusqlite::Connection;
@@ -43,9 +44,9 @@ impl Corpus {
                     "{:?} has the value {:?} already",
                     stored.inventory.id, value.id
                 );
-                return Err(Error::wrong(wrong)
-                    .at(&value.id)
-                    .advise("`chereme list CORPUS values` lists the values"));
+                return Err(Error::wrong(wrong).at(&value.id).advise(Remedy::command(
+                    "`chereme list CORPUS values` lists the values",
+                )));
             }
             let summary = format!("{} to {}", value.id, stored.inventory.id);
             let mut whole = stored.inventory;
@@ -137,7 +138,9 @@ pub(crate) fn named(connection: &Connection, name: &str) -> Result<StoredInvento
         let meant = did_you_mean(nearest(name, ids.iter().map(String::as_str)));
         Error::wrong(format!("there is no inventory {name:?}{meant}"))
             .at(name)
-            .advise("`chereme list CORPUS inventories` lists them")
+            .advise(Remedy::command(
+                "`chereme list CORPUS inventories` lists them",
+            ))
     })
 }
 
@@ -150,7 +153,9 @@ fn value<'i>(inventory: &'i Inventory, name: &str) -> Result<&'i InventoryValue>
             inventory.id
         ))
         .at(name)
-        .advise("`chereme list CORPUS values` lists the values")
+        .advise(Remedy::command(
+            "`chereme list CORPUS values` lists the values",
+        ))
     })
 }
 

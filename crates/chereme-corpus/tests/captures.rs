@@ -152,7 +152,10 @@ fn a_capture_that_cannot_be_read_is_refused_with_a_remedy() {
             panic!("{file:?}");
         };
         assert!(finding.message.contains(says), "{finding:?}");
-        let remedy = finding.remedy.as_deref().unwrap_or_default();
-        assert!(remedy.contains("export the take again"), "{finding:?}");
+        let remedy = finding.remedy.clone().unwrap_or_default();
+        assert!(
+            remedy.text().contains("export the take again"),
+            "{finding:?}"
+        );
     }
 }

@@ -1,5 +1,6 @@
 //! Oddities that a reader noticed and tolerated.
 
+use chereme_sign::Remedy;
 use serde::{Deserialize, Serialize};
 
 /// An oddity of a foreign file that the reader tolerated.
@@ -15,7 +16,7 @@ pub struct Finding {
     /// The oddity, and the reader's interpretation.
     pub message: String,
     /// A correction, if one is possible.
-    pub remedy: Option<String>,
+    pub remedy: Option<Remedy>,
     /// The correction that an option of the reader makes, if one does.
     #[serde(skip)]
     pub mend: Option<Mend>,
@@ -57,7 +58,7 @@ impl Finding {
 
     /// Returns the finding with a correction.
     #[must_use]
-    pub fn with_remedy(mut self, remedy: impl Into<String>) -> Self {
+    pub fn with_remedy(mut self, remedy: impl Into<Remedy>) -> Self {
         self.remedy = Some(remedy.into());
         self
     }

@@ -37,6 +37,7 @@
 //! | [`query`] | the query language |
 //! | [`hamnosys`] | signs as notation: the tree that HamNoSys and SiGML write down |
 //! | [`cue`] | cued speech: codes as data, phones to keys, French text to phones |
+//! | [`remedy`] | remedies for errors and findings, typed by the programs in which they can be followed |
 //! | [`text`] | folding of case and accents, and suggestions for misspelt words |
 
 pub mod component;
@@ -46,6 +47,7 @@ pub mod inventory;
 pub mod milestones;
 pub mod query;
 pub mod relation;
+pub mod remedy;
 pub mod text;
 pub mod tier;
 pub mod token;
@@ -53,6 +55,7 @@ pub mod token;
 pub use component::{Component, Field, FieldError, HandRef, Handedness, Phase, Reading};
 pub use inventory::{Inventory, InventoryError, InventoryValue};
 pub use relation::{Relation, RelationError};
+pub use remedy::{Choice, Remedy};
 pub use tier::{
     Annotation, AnnotationId, Change, Edit, EditError, Hands, RoleError, Seam, Stereotype, Tier,
     TierId, TierRole, TierSet, TierTopic, Violation, check, plan,

@@ -148,10 +148,9 @@ fn fit(corpus: &mut Corpus, address: &Address, store: bool, output: &mut Output)
 
 fn findings(all: &[FaceFinding], output: &mut Output) -> Result<()> {
     for it in all {
-        let remedy = it
-            .remedy
-            .as_deref()
-            .map_or(String::new(), |it| format!(" ({})", output.spoken(it)));
+        let remedy = it.remedy.as_ref().map_or(String::new(), |it| {
+            format!(" ({})", output.spoken(it.text()))
+        });
         output.line(format!("- {}{remedy}", output.spoken(&it.message)))?;
     }
     Ok(())

@@ -317,7 +317,7 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
             output.line(format!("  and {} more", kind.files.len() - NAMED))?;
         }
         if let Some(remedy) = kind.remedy {
-            output.line(format!("    what to do: {}", output.spoken(&remedy)))?;
+            output.line(format!("    what to do: {}", output.spoken(remedy.text())))?;
         }
     }
     for finding in &report.findings {
@@ -402,7 +402,7 @@ fn print_finding(finding: &ReportFinding, output: &mut Output) -> Result<()> {
     let said = output.spoken(&finding.message);
     output.line(format!("  {}: {line}{said}", finding.severity))?;
     if let Some(remedy) = &finding.remedy {
-        let what = output.spoken(remedy);
+        let what = output.spoken(remedy.text());
         let remedy = fill(output.say(trouble::WHAT_TO_DO), &[("what", &what)]);
         output.line(format!("  {remedy}"))?;
     }

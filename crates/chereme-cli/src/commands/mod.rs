@@ -41,6 +41,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use chereme_corpus::Error;
+use chereme_corpus::remedy::{Choice, Remedy};
 use clap::Subcommand;
 
 use crate::args::Cli;
@@ -139,15 +140,11 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
 /// Replaces the remedy `chereme check` by another one if that command itself fails on damage.
 fn past_checking(error: anyhow::Error) -> anyhow::Error {
     match error.downcast_ref::<Error>() {
-        Some(known)
-            if known
-                .remedy()
-                .is_some_and(|it| it.contains("chereme check")) =>
-        {
+        Some(known) if matches!(known.remedy(), Some(Remedy::Choice(Choice::Check, _))) => {
             let place = known.place().unwrap_or_default();
             Error::wrong(known.to_string())
                 .at(place)
-                .advise("the check cannot go on: take a backup, or save what can be read with `chereme export CORPUS all --to FOLDER`")
+                .advise(Remedy::command("the check cannot go on: take a backup, or save what can be read with `chereme export CORPUS all --to FOLDER`"))
                 .into()
         }
         _ => error,

@@ -2,6 +2,7 @@
 
 use chereme_formats::table::TableError;
 use chereme_formats::table::annotations::{self, Action, ChangeRow, Fault};
+use chereme_sign::Remedy;
 
 use super::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, TierName,
@@ -32,9 +33,9 @@ impl Corpus {
         let (table, findings) = annotations::read(bytes, options.unit).map_err(|error| {
             let wrong = Error::wrong(error.to_string()).at(name);
             match error {
-                TableError::Implausible { .. } => wrong.advise(
+                TableError::Implausible { .. } => wrong.advise(Remedy::command(
                     "or name the unit with the table: --unit ms, --unit s or --unit frames",
-                ),
+                )),
                 _ => wrong,
             }
         })?;

@@ -1,5 +1,6 @@
 //! The names of tiers and annotations in requests, and the rows that they stand for.
 
+use chereme_sign::Remedy;
 use std::fmt;
 
 use chereme_formats::table::annotations::Moment;
@@ -112,9 +113,9 @@ pub(super) fn tier(connection: &Connection, name: &TierName) -> Result<TierRow> 
     let meant = did_you_mean(nearest(wanted, names.clone()));
     let all: Vec<&str> = names.take(20).collect();
     let remedy = if all.is_empty() {
-        "add one first: `chereme annotate CORPUS --in RECORDING add-tier NAME`".to_owned()
+        Remedy::command("add one first: `chereme annotate CORPUS --in RECORDING add-tier NAME`")
     } else {
-        format!("its tiers are: {}", all.join(", "))
+        format!("its tiers are: {}", all.join(", ")).into()
     };
     Err(Error::wrong(format!(
         "the recording {:?} has no tier {wanted:?}{meant}",
@@ -157,7 +158,9 @@ impl Work<'_> {
             [] if let Ok(number) = id.parse() => tier_rows::annotation(self.connection, number),
             [] => Err(Error::wrong(format!("no annotation is called {id:?}"))
                 .at(id)
-                .advise("write annotation:12; `chereme list CORPUS annotations` lists them")),
+                .advise(Remedy::command(
+                    "write annotation:12; `chereme list CORPUS annotations` lists them",
+                ))),
             several => {
                 let all: Vec<String> = several
                     .iter()
@@ -187,13 +190,14 @@ impl Work<'_> {
             return Ok(row.clone());
         }
         let around = near.first().map_or_else(
-            || "`chereme list CORPUS annotations` lists those that are there".to_owned(),
+            || Remedy::command("`chereme list CORPUS annotations` lists those that are there"),
             |row| {
                 let starts = Instant::from_micros(row.start_us);
                 format!(
                     "the one there, {}, starts at {starts}",
                     super::messages::said(row)
                 )
+                .into()
             },
         );
         Err(Error::wrong(format!(

@@ -2,6 +2,7 @@
 
 use chereme_formats::table::annotations::Moment;
 use chereme_motion::Instant;
+use chereme_sign::Remedy;
 use chereme_sign::text::fold;
 use chereme_sign::tier::spans::{self, Item};
 use regex::{NoExpand, Regex};
@@ -37,14 +38,18 @@ impl Find {
     /// # Errors
     /// Fails if the text is not a regular expression.
     pub fn pattern(text: &str) -> Result<Self> {
-        let advice = "write a regular expression such as ^BO.*; a text is found without --regex";
+        let advice = || {
+            Remedy::command(
+                "write a regular expression such as ^BO.*; a text is found without --regex",
+            )
+        };
         Regex::new(text).map(Self::Pattern).map_err(|error| {
             let why = error.to_string();
             let why = why.lines().last().unwrap_or_default().trim();
             let why = why.trim_start_matches("error: ");
             Error::wrong(format!("{text:?} is no regular expression: {why}"))
                 .at(text)
-                .advise(advice)
+                .advise(advice())
         })
     }
 
@@ -326,7 +331,7 @@ fn tiers_within(connection: &Connection, within: &Within) -> Result<Vec<(Recordi
 fn no_tier(text: &str) -> Error {
     Error::wrong(format!("no recording has a tier {text:?}"))
         .at(text)
-        .advise("`chereme list CORPUS tiers` lists them")
+        .advise(Remedy::command("`chereme list CORPUS tiers` lists them"))
 }
 
 /// Returns whether a tier has that name or number; `*` matches any letters.

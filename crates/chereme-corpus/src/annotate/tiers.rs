@@ -1,6 +1,7 @@
 //! Adding, changing and removing tiers.
 
 use chereme_formats::roles::Hands;
+use chereme_sign::Remedy;
 use chereme_sign::text::{did_you_mean, nearest};
 use chereme_sign::tier::{TierSet, check_tiers};
 use chereme_sign::{Stereotype, TierRole};
@@ -337,7 +338,9 @@ fn inventory<'i>(
         return Err(
             Error::wrong(format!("there is no inventory {wanted:?}{meant}"))
                 .at(wanted)
-                .advise("`chereme list CORPUS inventories` lists them"),
+                .advise(Remedy::command(
+                    "`chereme list CORPUS inventories` lists them",
+                )),
         );
     };
     if component.is_some() && !fits(&stored) {

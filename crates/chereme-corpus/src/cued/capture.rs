@@ -1,5 +1,6 @@
 //! Markers and keys of a recording in the form for the models of cued speech.
 
+use chereme_sign::Remedy;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -227,9 +228,11 @@ pub(super) fn take(
     options: &CuedOptions,
 ) -> Result<Take> {
     let no_markers = |message: String| {
-        Error::wrong(message).at(row.name.clone()).advise(
-            "import a .c3d or .trc file of a cuer; other labels are mapped with --labels FILE",
-        )
+        Error::wrong(message)
+            .at(row.name.clone())
+            .advise(Remedy::command(
+                "import a .c3d or .trc file of a cuer; other labels are mapped with --labels FILE",
+            ))
     };
     let mut best: Option<(TrackRow, usize)> = None;
     let all = tracks::tracks(connection, row.id)?;
@@ -394,7 +397,7 @@ pub(super) fn takes(
     if found.is_empty() {
         return Err(
             Error::wrong("no recording shows the markers of a cuer's hand or face").advise(
-                "import .c3d or .trc files of a cuer; other labels are mapped with --labels FILE",
+                Remedy::command("import .c3d or .trc files of a cuer; other labels are mapped with --labels FILE"),
             ),
         );
     }

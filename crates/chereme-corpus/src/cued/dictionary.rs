@@ -1,5 +1,6 @@
 //! Movements between keys cut from captured takes, and those that a script needs in addition.
 
+use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 
 use chereme_analysis::cue::pca::Pca;
@@ -304,8 +305,9 @@ pub(super) fn book(
         .collect();
     if flat.len() < 20 {
         return Err(
-            Error::wrong("too few frames show every marker of the hand and the head")
-                .advise("restore the hidden markers first: chereme cued CORPUS restore"),
+            Error::wrong("too few frames show every marker of the hand and the head").advise(
+                Remedy::command("restore the hidden markers first: chereme cued CORPUS restore"),
+            ),
         );
     }
     let step = flat.len().div_ceil(MOST_LEARNED).max(1);

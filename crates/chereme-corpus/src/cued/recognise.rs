@@ -2,6 +2,7 @@
 
 use chereme_analysis::cue::gauss::{Confusion, Recogniser};
 use chereme_analysis::cue::session::{Recognisers, examples, find, find_known};
+use chereme_sign::Remedy;
 use serde::Serialize;
 
 use super::capture::{Cued, cued};
@@ -132,8 +133,11 @@ impl Corpus {
         let pairs: Vec<_> = tested.iter().map(Cued::pair).collect();
         let (shapes, placements) = examples(&pairs, &shown);
         if shapes.is_empty() || placements.is_empty() {
-            return Err(Error::wrong("no key has a target whose markers are seen")
-                .advise("restore the hidden markers first: chereme cued CORPUS restore"));
+            return Err(
+                Error::wrong("no key has a target whose markers are seen").advise(Remedy::command(
+                    "restore the hidden markers first: chereme cued CORPUS restore",
+                )),
+            );
         }
         let (mut misread, mut left_out) = (Vec::new(), Vec::new());
         for (own, shown) in tested.iter().zip(&shown) {
@@ -177,6 +181,6 @@ pub(super) fn learned(
     let pairs: Vec<_> = takes.iter().map(Cued::pair).collect();
     find(&pairs).map_err(|error| {
         Error::wrong(format!("the recognisers cannot learn from these keys: {error}"))
-            .advise("import more takes with keys, or restore their hidden markers first: chereme cued CORPUS restore")
+            .advise(Remedy::command("import more takes with keys, or restore their hidden markers first: chereme cued CORPUS restore"))
     })
 }

@@ -1,5 +1,6 @@
 //! Hidden markers restored from models of hand and face, as a track of their own.
 
+use chereme_sign::Remedy;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
@@ -255,7 +256,7 @@ fn models(
     };
     if hand.is_none() && face.is_none() {
         return Err(Error::wrong(findings.join("; "))
-            .advise("name with --train recordings that show every marker, of the hand alone or the face alone"));
+            .advise(Remedy::command("name with --train recordings that show every marker, of the hand alone or the face alone")));
     }
     let models = Models {
         hand,

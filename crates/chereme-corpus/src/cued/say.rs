@@ -9,6 +9,7 @@ use chereme_motion::column::Column;
 use chereme_motion::glam::DVec3;
 use chereme_motion::markers::Marker;
 use chereme_motion::{Capture, Convention, Markers, Rate, Space, Times};
+use chereme_sign::Remedy;
 use chereme_sign::TierRole;
 use chereme_sign::cue::{self, Utterance, UtteranceError};
 use rusqlite::Connection;
@@ -168,8 +169,9 @@ impl Corpus {
         };
         let measured = match how.phase {
             PhaseRule::Measured => measured_phases(self.store.read())?.ok_or_else(|| {
-                Error::wrong("too few captured keys of each kind have measured phases")
-                    .advise("store them first: chereme cued CORPUS targets --store")
+                Error::wrong("too few captured keys of each kind have measured phases").advise(
+                    Remedy::command("store them first: chereme cued CORPUS targets --store"),
+                )
             })?,
             _ => CuePhases::default(),
         };
@@ -376,7 +378,9 @@ fn stored(
 ) -> Result<String> {
     let gloss = gloss.trim();
     if gloss.is_empty() {
-        return Err(Error::wrong("a new sign needs a gloss").advise("write --as GLOSS"));
+        return Err(
+            Error::wrong("a new sign needs a gloss").advise(Remedy::command("write --as GLOSS"))
+        );
     }
     let name = recordings::free_name(connection, gloss)?;
     let end = (made.hand.len() as f64 / book.rate * 1e6).round() as i64;

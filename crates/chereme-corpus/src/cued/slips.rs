@@ -2,6 +2,7 @@
 
 use chereme_analysis::cue::session::Key;
 use chereme_compose::CueTier;
+use chereme_sign::Remedy;
 use chereme_sign::cue::{self, Phone, Utterance, UtteranceError};
 use serde::Serialize;
 
@@ -114,7 +115,7 @@ impl Corpus {
                 let Some((phones, alphabet)) = found else {
                     return Err(Error::wrong(format!("{name:?} has no tier of phones"))
                         .at(name)
-                        .advise("give the text with --text, or import an alignment with a tier called Phones"));
+                        .advise(Remedy::command("give the text with --text, or import an alignment with a tier called Phones")));
                 };
                 let read = Utterance::of_phones(code.clone(), phones, alphabet);
                 (

@@ -7,6 +7,7 @@
 
 pub(super) mod tracked;
 
+use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 
 use rusqlite::{Connection, OptionalExtension, params};
@@ -166,7 +167,8 @@ pub(super) fn undo(
     progress: &mut Progress<'_>,
 ) -> Result<OperationRow> {
     let target = stacks(connection)?.0.pop().ok_or_else(|| {
-        Error::wrong("there is nothing to undo").advise("`chereme log CORPUS` lists all operations")
+        Error::wrong("there is nothing to undo")
+            .advise(Remedy::command("`chereme log CORPUS` lists all operations"))
     })?;
     let (kind, pair) = (OperationKind::Undo, (target, target));
     invert(connection, author, kind, pair, progress)
@@ -503,7 +505,9 @@ fn expect_row(
     Err(Error::wrong(format!(
         "the {row} was changed by something else since, so this cannot be taken back"
     ))
-    .advise("`chereme log CORPUS` lists all operations; `chereme check CORPUS` looks for damage"))
+    .advise(Remedy::command(
+        "`chereme log CORPUS` lists all operations; `chereme check CORPUS` looks for damage",
+    )))
 }
 
 /// Returns the number of the newest operation; nothing if there are no operations.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::Duration;
 
+use chereme_sign::{Choice, Remedy};
 use rusqlite::config::DbConfig;
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags};
@@ -119,23 +120,32 @@ impl Drop for Making {
     }
 }
 
-const CHOOSE: &str = "choose a file that `chereme new` or `chereme import` made";
+/// Returns the remedy for a file that is no corpus.
+fn choose() -> Remedy {
+    Remedy::choice(
+        Choice::OtherCorpus,
+        "choose a file that `chereme new` or `chereme import` made",
+    )
+}
 
 /// Returns the reason why a file cannot be a complete corpus, judged by its size, and a remedy.
-fn outwardly_wrong(path: &Path) -> Result<Option<(String, &'static str)>> {
+fn outwardly_wrong(path: &Path) -> Result<Option<(String, Remedy)>> {
     let fault = |error| Error::file(path, error);
     let data = match fs::metadata(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => {
-            let remedy = "check the spelling of the path; `chereme new` makes an empty corpus";
+            let remedy = Remedy::choice(
+                Choice::OtherCorpus,
+                "check the spelling of the path; `chereme new` makes an empty corpus",
+            );
             return Ok(Some(("there is nothing of this name".to_owned(), remedy)));
         }
         other => other.map_err(fault)?,
     };
     if !data.is_file() {
-        return Ok(Some(("it is a folder or a device".to_owned(), CHOOSE)));
+        return Ok(Some(("it is a folder or a device".to_owned(), choose())));
     }
     if data.len() == 0 {
-        return Ok(Some(("it is empty".to_owned(), CHOOSE)));
+        return Ok(Some(("it is empty".to_owned(), choose())));
     }
     let mut head = [0; 100];
     let mut file = fs::File::open(path).map_err(fault)?;
@@ -160,7 +170,10 @@ fn outwardly_wrong(path: &Path) -> Result<Option<(String, &'static str)>> {
     let logged = fs::metadata(log).is_ok_and(|log| log.len() > 0);
     if whole && !logged && word(24) == word(92) && data.len() < size {
         let reason = format!("it is cut short: {} bytes are there of {size}", data.len());
-        return Ok(Some((reason, "copy it again, or take it from a backup")));
+        return Ok(Some((
+            reason,
+            "copy it again, or take it from a backup".into(),
+        )));
     }
     Ok(None)
 }
@@ -202,10 +215,10 @@ fn unchanging(path: &Path) -> String {
 }
 
 pub(super) fn open(path: &Path) -> Result<Connection> {
-    let refuse = |reason: String, remedy: &str| Error::NotACorpus {
+    let refuse = |reason: String, remedy: Remedy| Error::NotACorpus {
         path: path.to_owned(),
         reason,
-        remedy: remedy.to_owned(),
+        remedy,
     };
     if let Some((reason, remedy)) = outwardly_wrong(path)? {
         return Err(refuse(reason, remedy));
@@ -219,12 +232,15 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
             Error::Database(fault)
                 if fault.sqlite_error_code() == Some(ErrorCode::NotADatabase) =>
             {
-                refuse("it is no database".into(), CHOOSE)
+                refuse("it is no database".into(), choose())
             }
             _ => error,
         })?;
     if application != APPLICATION_ID {
-        return Err(refuse("it is a database of another program".into(), CHOOSE));
+        return Err(refuse(
+            "it is a database of another program".into(),
+            choose(),
+        ));
     }
     let version = pragma("user_version")?;
     if version > SCHEMA_VERSION {
@@ -232,13 +248,13 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
             format!(
                 "its schema is version {version}, and this program knows up to {SCHEMA_VERSION}"
             ),
-            "open it with a newer version of Chereme",
+            "open it with a newer version of Chereme".into(),
         ));
     }
     if version < 1 {
         return Err(refuse(
             "its making was cut short".into(),
-            "delete it and create it again",
+            "delete it and create it again".into(),
         ));
     }
     let foreign: i64 = connection.query_row(
@@ -253,7 +269,7 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
             format!(
                 "it holds {foreign} views, triggers or virtual tables that Chereme did not create"
             ),
-            "take the file as untrusted: somebody has put code into it",
+            "take the file as untrusted: somebody has put code into it".into(),
         ));
     }
     if version < SCHEMA_VERSION {

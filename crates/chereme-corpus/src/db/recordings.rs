@@ -1,5 +1,6 @@
 //! Rows of signers, skeletons, recordings and their tracks.
 
+use chereme_sign::Remedy;
 use std::io::Read;
 
 use rusqlite::{Connection, OptionalExtension, Row, params};
@@ -244,7 +245,9 @@ pub(crate) fn recording(connection: &Connection, id: i64) -> Result<RecordingRow
         .ok_or_else(|| {
             Error::wrong(format!("there is no recording:{id}"))
                 .at(format!("recording:{id}"))
-                .advise("`chereme list CORPUS recordings` lists them")
+                .advise(Remedy::command(
+                    "`chereme list CORPUS recordings` lists them",
+                ))
         })
 }
 

@@ -1,5 +1,6 @@
 //! Rows of signs, their texts, tokens and token values.
 
+use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 
 use chereme_sign::tier::Hands;
@@ -342,7 +343,7 @@ pub(crate) fn token(connection: &Connection, id: i64) -> Result<TokenRow> {
         .ok_or_else(|| {
             Error::wrong(format!("there is no token:{id}"))
                 .at(format!("token:{id}"))
-                .advise("`chereme list CORPUS tokens` lists them")
+                .advise(Remedy::command("`chereme list CORPUS tokens` lists them"))
         })
 }
 

@@ -1,5 +1,6 @@
 //! Rows of tiers and annotations.
 
+use chereme_sign::Remedy;
 use chereme_sign::tier::Hands;
 use chereme_sign::{Component, Reading, Stereotype, TierRole, TierTopic};
 use rusqlite::{Connection, OptionalExtension, Row, params};
@@ -251,7 +252,7 @@ pub(crate) fn tier(connection: &Connection, id: i64) -> Result<TierRow> {
         .ok_or_else(|| {
             Error::wrong(format!("there is no tier:{id}"))
                 .at(format!("tier:{id}"))
-                .advise("`chereme list CORPUS tiers` lists them")
+                .advise(Remedy::command("`chereme list CORPUS tiers` lists them"))
         })
 }
 
@@ -354,7 +355,9 @@ pub(crate) fn annotation(connection: &Connection, id: i64) -> Result<AnnotationR
         .ok_or_else(|| {
             Error::wrong(format!("there is no annotation:{id}"))
                 .at(format!("annotation:{id}"))
-                .advise("`chereme list CORPUS annotations` lists them")
+                .advise(Remedy::command(
+                    "`chereme list CORPUS annotations` lists them",
+                ))
         })
 }
 

@@ -1,5 +1,6 @@
 //! Rows of tracks of every kind, and of their channels.
 
+use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::str::FromStr;
 
@@ -174,7 +175,7 @@ pub(crate) fn track(connection: &Connection, id: i64) -> Result<TrackRow> {
     found.unwrap_or_else(|| {
         Err(Error::wrong(format!("there is no track {id}"))
             .at(format!("track {id}"))
-            .advise("`chereme list CORPUS tracks` lists them"))
+            .advise(Remedy::command("`chereme list CORPUS tracks` lists them")))
     })
 }
 

@@ -290,7 +290,7 @@ fn only_recordings_and_signs_are_deleted_here() {
     ] {
         let refused = delete(&mut corpus, what, Dependents::Delete).expect_err(what);
         let said = refused.remedy().unwrap_or_default();
-        assert!(said.contains(remedy), "{what}: {said}");
+        assert!(said.text().contains(remedy), "{what}: {said}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! Exports movement as glTF and VRMA, markers as C3D and TRC, and tiers as TextGrid, subtitles and ELAN tables.
 
+use chereme_sign::Remedy;
 use std::io::Write;
 use std::ops::Range;
 
@@ -82,7 +83,9 @@ pub(super) fn vrma(connection: &Connection, stretch: &Stretch, out: &mut dyn Wri
         notes: notes(connection, stretch.recording.id, span)?,
     };
     let bytes = gltf::vrma::write(&clip, &anatomy, &expressions, &about).map_err(|error| {
-        Error::wrong(error).advise("say which joint is what with `chereme track`, or write .glb")
+        Error::wrong(error).advise(Remedy::command(
+            "say which joint is what with `chereme track`, or write .glb",
+        ))
     })?;
     put(out, &bytes)
 }
@@ -177,7 +180,9 @@ fn only(
             "the recording {name:?} has no track of {}",
             kind.name()
         ))
-        .advise("`chereme track CORPUS RECORDING` lists its tracks")
+        .advise(Remedy::command(
+            "`chereme track CORPUS RECORDING` lists its tracks",
+        ))
     })?;
     if !names.is_empty() {
         notes.push(format!(

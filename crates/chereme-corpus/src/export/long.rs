@@ -1,5 +1,6 @@
 //! The long tables of Parquet, and an error in their place in a program that was built without Parquet.
 
+use chereme_sign::Remedy;
 use std::io::Write;
 
 use rusqlite::Connection;
@@ -131,8 +132,10 @@ pub(super) fn write(
         Long::Frames => "export .bvh, or a folder of everything",
     };
     Err(
-        crate::error::Error::wrong("this program was built without Parquet").advise(format!(
-            "build it with `cargo build --release --features parquet`; or {instead}"
-        )),
+        crate::error::Error::wrong("this program was built without Parquet").advise(
+            Remedy::command(format!(
+                "build it with `cargo build --release --features parquet`; or {instead}"
+            )),
+        ),
     )
 }

@@ -1,5 +1,6 @@
 //! Exports notated tokens as SiGML and as HamNoSys text.
 
+use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::io::Write;
 
@@ -36,8 +37,11 @@ pub(super) fn write(
     let signs = notated(connection, tokens, progress)?;
     let without = tokens.len() - signs.len();
     if signs.is_empty() {
-        return Err(Error::wrong("none of these tokens has a notation")
-            .advise("`chereme list CORPUS tokens --where notation=*` lists those that have one"));
+        return Err(
+            Error::wrong("none of these tokens has a notation").advise(Remedy::command(
+                "`chereme list CORPUS tokens --where notation=*` lists those that have one",
+            )),
+        );
     }
     if without > 0 {
         notes.push(format!(

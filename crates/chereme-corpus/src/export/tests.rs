@@ -604,7 +604,7 @@ fn a_program_without_parquet_says_what_to_do() {
         let refused = export(&corpus, &ExportWhat::All, &place.path(name));
         let error = refused.expect_err("refused");
         let remedy = error.remedy().expect("a remedy");
-        assert!(remedy.contains("--features parquet"), "{remedy}");
+        assert!(remedy.text().contains("--features parquet"), "{remedy}");
         assert!(!place.path(name).exists());
     }
 }

@@ -1,5 +1,6 @@
 //! Ranks performances of a function for a sentence, and animates the sentence with the chosen one.
 
+use chereme_sign::Remedy;
 use std::thread;
 
 use chereme_analysis::dtw::CostMethod;
@@ -257,7 +258,7 @@ impl Corpus {
         let use_of: Vec<usize> = (0..asked.len()).filter(known).collect();
         if use_of.is_empty() {
             return Err(Error::wrong("the two faces have no channel in common")
-                .advise("name channels that both have with --channels; `chereme face CORPUS RECORDING` lists them"));
+                .advise(Remedy::command("name channels that both have with --channels; `chereme face CORPUS RECORDING` lists them")));
         }
         let one = both.iter().any(|it| it.expression.milestones.m3.is_none());
         let cut = |it: &Performance| it.phased_of(&asked, &use_of, one);
@@ -308,7 +309,9 @@ impl Corpus {
                 "no other recording has a performance of {function}"
             ))
             .at(function.name())
-            .advise("`chereme milestones CORPUS` lists the functions that there are"));
+            .advise(Remedy::command(
+                "`chereme milestones CORPUS` lists the functions that there are",
+            )));
         }
         let asked_for = Asked {
             options,
@@ -579,5 +582,5 @@ fn refused(error: &phases::PhasedError) -> Error {
 fn faceless(address: &Address) -> Error {
     Error::wrong(format!("{address} shows no face and no turn of the head"))
         .at(address.to_string())
-        .advise("import its face file under the recording's name, or rank by the medoid with --rank medoid")
+        .advise(Remedy::command("import its face file under the recording's name, or rank by the medoid with --rank medoid"))
 }

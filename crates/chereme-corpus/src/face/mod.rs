@@ -36,6 +36,7 @@ mod touched;
 use chereme_compose::Curve;
 use chereme_formats::{Finding, Severity};
 use chereme_motion::{Face, Instant, Span};
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
 
@@ -100,7 +101,7 @@ pub struct FaceFinding {
     /// The finding.
     pub message: String,
     /// A remedy, if there is one.
-    pub remedy: Option<String>,
+    pub remedy: Option<Remedy>,
 }
 
 impl From<Finding> for FaceFinding {

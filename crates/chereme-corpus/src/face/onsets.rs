@@ -1,5 +1,6 @@
 //! Begin and end of non-manuals relative to the signs that they span, for each construction.
 
+use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -143,7 +144,7 @@ impl Corpus {
         }
         if report.expressions == 0 {
             return Err(Error::wrong("there are no expressions with a function")
-                .advise("annotate wh, yn, negation or topic on a tier called \"function\"; see `chereme milestones --help`"));
+                .advise(Remedy::command("annotate wh, yn, negation or topic on a tier called \"function\"; see `chereme milestones --help`")));
         }
         for ((function, channel), lags) in found {
             let n = lags.len() as u64;

@@ -282,7 +282,11 @@ fn a_film_that_players_cannot_show_is_not_written() {
     let shape = Shape { rate: 25 };
     let error = write_film(&mut squares, shape, Vec::new(), &mut |_, _| Ok(()));
     let error = error.expect_err("refused");
-    assert!(error.remedy().is_some_and(|it| it.contains("--height")));
+    assert!(
+        error
+            .remedy()
+            .is_some_and(|it| it.text().contains("--height"))
+    );
 }
 
 #[test]

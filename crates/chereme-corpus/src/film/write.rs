@@ -1,5 +1,6 @@
 //! Writes pictures as a film: H.264 in MP4, which every player supports.
 
+use chereme_sign::Remedy;
 use std::io::Write;
 
 use chereme_figure::{Image, Pictures};
@@ -88,7 +89,7 @@ fn coder([width, height]: [usize; 2], rate: u32) -> Result<Encoder> {
         Error::wrong(format!(
             "a film of {width} by {height} pixels at {rate} pictures a second is too large for players"
         ))
-        .advise("make it lower with --height, draw fewer clips next to each other, or lower --rate")
+        .advise(Remedy::command("make it lower with --height, draw fewer clips next to each other, or lower --rate"))
     })?;
     let config = EncoderConfig {
         level_idc: *level,

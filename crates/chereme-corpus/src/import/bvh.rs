@@ -1,5 +1,6 @@
 //! Imports motion files: a recording with its skeleton and its movement, every number stored exactly.
 
+use chereme_sign::{Choice, Remedy};
 use std::fs::File;
 use std::sync::Arc;
 
@@ -96,7 +97,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         let mends = finding.mend == Some(Mend::RootOrder) && !job.options.mend_root;
         let mut finding = ReportFinding::from(finding);
         if mends {
-            finding.remedy = Some(MEND.to_owned());
+            finding.remedy = Some(mend_order());
         }
         finding
     });
@@ -220,7 +221,7 @@ pub(super) fn tell_odd_frames(
                 "no part of the movement, and left out of measures and pictures: {}",
                 told.join("; ")
             ),
-            remedy: Some("a recipe cuts them off: `| trim`, or `| span 0.2s..`".to_owned()),
+            remedy: Some("a recipe cuts them off: `| trim`, or `| span 0.2s..`".into()),
         });
     }
     Ok(())
@@ -263,7 +264,10 @@ fn understand(
     let skeleton: &Arc<Skeleton> = first.skeleton();
     let roles = options.roles.clone().unwrap_or_default();
     let anatomy = Anatomy::with_roles(skeleton, &roles).map_err(|error| {
-        Error::wrong(error.to_string()).advise("correct the roles file (--roles), or leave it out")
+        Error::wrong(error.to_string()).advise(Remedy::choice(
+            Choice::JointRoles,
+            "correct the roles file (--roles), or leave it out",
+        ))
     })?;
     let guess = convention(&anatomy, skeleton, &first, hierarchy, block, rate)?;
     let convention = Convention {
@@ -280,7 +284,7 @@ fn understand(
                 "the file's unit of length cannot be inferred from its skeleton; one unit is taken for {:.4} m",
                 convention.metres_per_unit
             ),
-            "say the unit with --unit, such as --unit cm",
+            Remedy::choice(Choice::Unit, "say the unit with --unit, such as --unit cm"),
         ));
     }
     let doubted = guess.confidence < SURE && guess.unit_name != "unknown";
@@ -294,7 +298,7 @@ fn understand(
                 "the directions up and left are uncertain; {} is assumed ({reason})",
                 convention.axes
             ),
-            "look at it with `chereme render`; say the axes with --axes, or name the joints in a roles file",
+            Remedy::choice(Choice::Axes, "look at it with `chereme render`; say the axes with --axes, or name the joints in a roles file"),
         ));
     }
     Ok(Understood {
@@ -414,7 +418,10 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
             severity: "note",
             line: None,
             message: format!("not found in the skeleton: {shown}{more}"),
-            remedy: Some("if a joint is one of these, say so in a roles file (--roles)".into()),
+            remedy: Some(Remedy::choice(
+                Choice::JointRoles,
+                "if a joint is one of these, say so in a roles file (--roles)",
+            )),
         });
     }
     let markers: Vec<String> = anatomy.markers().iter().map(|&joint| name(joint)).collect();
@@ -440,7 +447,10 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
                 ambiguity.part,
                 name(ambiguity.taken)
             ),
-            "say which one in a roles file (--roles)",
+            Remedy::choice(
+                Choice::JointRoles,
+                "say which one in a roles file (--roles)",
+            ),
         ));
     }
 }
@@ -584,7 +594,13 @@ fn root_scale(first: &Clip, anatomy: &Anatomy, up: DVec3) -> Option<f64> {
         .find(|step| (step / 2.0..step * 2.0).contains(&ratio))
 }
 
-const MEND: &str = "import it with --mend-root to read it so; the stored numbers stay the file's";
+/// Returns the remedy for root columns in another order or unit than the header states.
+fn mend_order() -> Remedy {
+    Remedy::choice(
+        Choice::RootOrder,
+        "import it with --mend-root to read it so; the stored numbers stay the file's",
+    )
+}
 
 fn mend_root(
     job: &Job<'_>,
@@ -610,7 +626,7 @@ fn mend_root(
                 "the root seems to be in another unit than the bones: its positions times {scale} would \
                  put the feet on the ground"
             ),
-            MEND,
+            mend_order(),
         ));
     }
     Ok(())

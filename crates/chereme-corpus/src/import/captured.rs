@@ -1,5 +1,6 @@
 //! Imports captures in formats other than BVH: markers, curves and skeletons, and tiers of other programs.
 
+use chereme_sign::{Choice, Remedy};
 use std::fs::{self, File};
 use std::io::Read as _;
 use std::path::Path;
@@ -106,7 +107,7 @@ fn import_tiers(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileRe
         let name = whole.file_name().unwrap_or_default().to_string_lossy();
         let why = Error::wrong(format!("it is an export of {name}, which says more"))
             .at(job.path.display().to_string())
-            .advise("if it holds changes of its own: `chereme annotate CORPUS --in RECORDING from FILE`");
+            .advise(Remedy::command("if it holds changes of its own: `chereme annotate CORPUS --in RECORDING from FILE`"));
         return match job.named {
             true => Err(why),
             false => Ok(FileReport::skipped(job.path, &why)),
@@ -171,7 +172,10 @@ fn scene(
     let skeleton = scene.clip.skeleton().clone();
     let roles = job.options.roles.clone().unwrap_or_default();
     let anatomy = Anatomy::with_roles(&skeleton, &roles).map_err(|error| {
-        Error::wrong(error.to_string()).advise("correct the roles file (--roles), or leave it out")
+        Error::wrong(error.to_string()).advise(Remedy::choice(
+            Choice::JointRoles,
+            "correct the roles file (--roles), or leave it out",
+        ))
     })?;
     let convention = facing(job, &scene, &anatomy, &mut report);
     let unit = match convention.metres_per_unit {
@@ -238,7 +242,7 @@ fn facing(job: &Job<'_>, scene: &Scene, anatomy: &Anatomy, report: &mut FileRepo
                     "in the unit that the file states the body is {:.4} m tall; its lengths are multiplied by {step}",
                     stature.unwrap_or_default()
                 ),
-                "say the unit with --unit, such as --unit cm, if the body is as tall as the file says",
+                Remedy::choice(Choice::Unit, "say the unit with --unit, such as --unit cm, if the body is as tall as the file says"),
             ));
         }
         stated.metres_per_unit * step

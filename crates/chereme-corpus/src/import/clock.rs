@@ -1,5 +1,6 @@
 //! Aligns tracks of one take by timecode: the time of day at which each began.
 
+use chereme_sign::Remedy;
 use std::ops::Range;
 
 use chereme_motion::Instant;
@@ -73,7 +74,7 @@ pub(super) fn take_of(
                     "its timecodes are those of several recordings: {}",
                     names.join(", ")
                 ),
-                "say which one it belongs to: import CORPUS FILE --into RECORDING",
+                Remedy::command("say which one it belongs to: import CORPUS FILE --into RECORDING"),
             ));
             Ok(None)
         }
@@ -122,7 +123,7 @@ pub(super) fn place(
                     Instant::from_micros(apart),
                     other.name
                 ),
-                "if they are of one take, say where it starts: track CORPUS RECORDING NAME --offset TIME",
+                Remedy::command("if they are of one take, say where it starts: track CORPUS RECORDING NAME --offset TIME"),
             ));
             continue;
         }

@@ -5,6 +5,7 @@ mod target;
 mod update;
 mod vocabulary;
 
+use chereme_sign::{Choice, Remedy};
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::Finding;
@@ -143,7 +144,10 @@ pub(super) fn import_as(
     {
         report.findings.push(ReportFinding::warning(
             "no tier was recognised as one of glosses, so no tokens were made",
-            "give tiers their roles in a mapping file (--map), or with `chereme annotate`",
+            Remedy::choice(
+                Choice::TierRoles,
+                "give tiers their roles in a mapping file (--map), or with `chereme annotate`",
+            ),
         ));
     }
     Ok(report)
@@ -201,7 +205,10 @@ fn update(
             return Err(Error::wrong(format!(
                 "the file and your edits contradict each other: {rule}"
             ))
-            .advise("import it with --theirs (the file as it is) or --mine (your edits)"));
+            .advise(Remedy::choice(
+                Choice::Side,
+                "import it with --theirs (the file as it is) or --mine (your edits)",
+            )));
         }
         return Ok(());
     }
@@ -225,8 +232,8 @@ fn update(
         report.status = FileStatus::Refused;
         lines.push(ReportFinding::error(
             format!("it was changed since it was imported, and would take back {many} of yours"),
-            "import it again with --merge (your edits and the file's changes; yours where both changed \
-             the same annotation), --theirs (the file), or --mine (your edits)",
+            Remedy::choice(Choice::Side, "import it again with --merge (your edits and the file's changes; yours where both changed \
+             the same annotation), --theirs (the file), or --mine (your edits)"),
         ));
         update::some(&lost, &mut |line| lines.push(ReportFinding::note(line)));
     }
@@ -299,8 +306,8 @@ fn warn_of_length(
                 "its annotations end at {end}, but the movement of the recording {:?} at {length}",
                 row.name
             ),
-            "see whether both are of the same take; `chereme undo`, and another name for the file, \
-             keeps them apart",
+            Remedy::command("see whether both are of the same take; `chereme undo`, and another name for the file, \
+             keeps them apart"),
         ));
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! Imports files that ELAN stores beside annotation files: vocabularies, tier templates, and display settings of tiers.
 
+use chereme_sign::{Choice, Remedy};
 use std::collections::BTreeSet;
 
 use chereme_formats::eaf;
@@ -60,7 +61,7 @@ pub(super) fn import_vocabularies(job: &mut Job<'_>, _: &mut Progress<'_>) -> Re
     if !others.is_empty() {
         report.findings.push(ReportFinding {
             remedy: Some(
-                "import the .eaf that uses them, or give their components in a mapping file (--map)".into(),
+                Remedy::choice(Choice::TierRoles, "import the .eaf that uses them, or give their components in a mapping file (--map)"),
             ),
             ..ReportFinding::note(format!(
                 "the names of the vocabularies {} name no component: they are kept for the annotation files that use \
@@ -148,7 +149,7 @@ pub(super) fn import_template(
                 "tiers of these names are there already in {}",
                 taken.join(", ")
             ),
-            "annotate CORPUS add-tiers --like copies those that are missing from another recording",
+            Remedy::choice(Choice::TiersLike, "annotate CORPUS add-tiers --like copies those that are missing from another recording"),
         ));
     }
     if given.is_empty() {
@@ -157,7 +158,9 @@ pub(super) fn import_template(
         }
         let none =
             Error::wrong("a template of tiers, and no recording next to it is without tiers")
-                .advise("name the recording: import CORPUS FILE --into RECORDING");
+                .advise(Remedy::command(
+                    "name the recording: import CORPUS FILE --into RECORDING",
+                ));
         return match job.named && taken.is_empty() {
             true => Err(none),
             false => Ok(FileReport::skipped(job.path, &none)),

@@ -123,10 +123,11 @@ fn length(path: &Path, report: &mut FileReport) -> Result<i64> {
         Err(mp4::Error::NoMp4) if !is_mp4(path) => match Film::open(path) {
             Ok(film) => Ok(film.times().end()),
             Err(error) => {
-                let remedy = error.remedy().unwrap_or_default();
-                report
-                    .findings
-                    .push(ReportFinding::warning(error.to_string(), remedy));
+                let remedy = error.remedy();
+                report.findings.push(ReportFinding {
+                    remedy,
+                    ..ReportFinding::warning(error.to_string(), "")
+                });
                 Ok(0)
             }
         },

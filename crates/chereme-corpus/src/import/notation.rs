@@ -1,5 +1,6 @@
 //! Stores notation and the components derived from it.
 
+use chereme_sign::{Choice, Remedy};
 use std::collections::BTreeMap;
 
 use chereme_formats::Finding;
@@ -89,12 +90,15 @@ pub(super) fn uncoded(gloss: &str, line: u64, text: &str) -> Option<ReportFindin
                 "{gloss}: its HamNoSys was saved as UTF-8 and read as Latin-1, and parts of it are lost; \
                  the sign was left uncoded"
             ),
-            "export the source again as UTF-8, and import that",
+            Remedy::from("export the source again as UTF-8, and import that"),
         )
     } else if !holds_some(text.as_bytes()) {
         (
             format!("{gloss}: {text:?} holds no HamNoSys; the sign was left uncoded by it"),
-            "if the column holds something else, say so in a mapping: {\"columns\": {\"NAME\": \"attribute\"}}",
+            Remedy::choice(
+                Choice::TierRoles,
+                "if the column holds something else, say so in a mapping: {\"columns\": {\"NAME\": \"attribute\"}}",
+            ),
         )
     } else {
         return None;

@@ -2,7 +2,10 @@
 //!
 //! To add a format, write a module with a reading function and add a line to [`READERS`].
 
+use std::borrow::Cow;
 use std::path::Path;
+
+use chereme_sign::Remedy;
 
 use super::{FileReport, Job, bvh, captured, eaf, elan, film, notated};
 use crate::error::{Error, Result};
@@ -186,27 +189,31 @@ struct Unread {
     /// A noun for such files.
     what: &'static str,
     /// A step that makes its contents readable.
-    remedy: &'static str,
+    remedy: Remedy,
 }
 
-const MEDIA: &str = "import the .eaf that names it; its recording is linked to it then";
+const MEDIA: Remedy = Remedy::Advice(Cow::Borrowed(
+    "import the .eaf that names it; its recording is linked to it then",
+));
 
 static UNREAD: &[Unread] = &[
     Unread {
         endings: &["txt"],
         what: "text without HamNoSys",
-        remedy: "a .txt holds HamNoSys, a sign a line: the gloss, a tab, and symbols or their names",
+        remedy: Remedy::Advice(Cow::Borrowed(
+            "a .txt holds HamNoSys, a sign a line: the gloss, a tab, and symbols or their names",
+        )),
     },
     Unread {
         endings: &["xml"],
         what: "XML without SiGML",
-        remedy: "an .xml holds SiGML: its root is <sigml>",
+        remedy: Remedy::Advice(Cow::Borrowed("an .xml holds SiGML: its root is <sigml>")),
     },
     #[cfg(not(feature = "fbx"))]
     Unread {
         endings: &["fbx"],
         what: "movement in a form that this build of the program does not read",
-        remedy: "open it in Blender and export .glb or .bvh",
+        remedy: Remedy::Advice(Cow::Borrowed("open it in Blender and export .glb or .bvh")),
     },
     Unread {
         endings: &["wav", "mp3"],
@@ -221,7 +228,9 @@ static UNREAD: &[Unread] = &[
     Unread {
         endings: &["chereme"],
         what: "a corpus",
-        remedy: "merge it into yours: `chereme merge CORPUS OTHER`; or export its files, and import those",
+        remedy: Remedy::Command(Cow::Borrowed(
+            "merge it into yours: `chereme merge CORPUS OTHER`; or export its files, and import those",
+        )),
     },
 ];
 
@@ -245,8 +254,11 @@ pub(super) fn unread(path: &Path) -> Error {
         .iter()
         .find(|it| it.endings.contains(&ending.as_str()));
     let (message, remedy) = match known {
-        Some(known) => (format!("it holds {}", known.what), known.remedy.to_owned()),
-        None => ("this kind of file is not known".to_owned(), endings()),
+        Some(known) => (format!("it holds {}", known.what), known.remedy.clone()),
+        None => (
+            "this kind of file is not known".to_owned(),
+            endings().into(),
+        ),
     };
     Error::wrong(message)
         .at(path.display().to_string())

@@ -1,5 +1,6 @@
 //! The report of an import, file by file.
 
+use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
@@ -191,7 +192,7 @@ pub struct Unread {
     /// The reason why they were not read.
     pub why: String,
     /// A way to make their contents readable.
-    pub remedy: Option<String>,
+    pub remedy: Option<Remedy>,
 }
 
 /// A finding about a file for the user.
@@ -204,7 +205,7 @@ pub struct ReportFinding {
     /// The finding.
     pub message: String,
     /// A remedy.
-    pub remedy: Option<String>,
+    pub remedy: Option<Remedy>,
 }
 
 impl From<Finding> for ReportFinding {
@@ -238,14 +239,14 @@ impl ReportFinding {
         }
     }
 
-    pub(super) fn error(message: impl Into<String>, remedy: impl Into<String>) -> Self {
+    pub(super) fn error(message: impl Into<String>, remedy: impl Into<Remedy>) -> Self {
         Self {
             severity: "error",
             ..Self::warning(message, remedy)
         }
     }
 
-    pub(super) fn warning(message: impl Into<String>, remedy: impl Into<String>) -> Self {
+    pub(super) fn warning(message: impl Into<String>, remedy: impl Into<Remedy>) -> Self {
         let remedy = Some(remedy.into());
         Self {
             severity: "warning",

@@ -201,7 +201,11 @@ fn movement_phases_divide_time_and_are_no_values_of_a_token() {
     let beside = corpus.search("equals right.movement.phase=stroke", &options);
     assert_eq!(beside.expect("answered").total, 1);
     let alone = corpus.search("movement.phase=stroke", &options);
-    assert!(alone.is_err_and(|error| error.remedy().is_some_and(|it| it.contains("overlaps"))));
+    assert!(alone.is_err_and(|error| {
+        error
+            .remedy()
+            .is_some_and(|it| it.text().contains("overlaps"))
+    }));
     let all = corpus.list(ListKind::Annotations, &ListFilter::default());
     assert_eq!(all.expect("listed").total, 3);
 }

@@ -11,6 +11,7 @@ use crate::track::{NewTrack, Track, store};
 use chereme_motion::{
     Anatomy, Clip, Column, Convention, Instant, Marker, Markers, Rate, Skeleton, Space, Times,
 };
+use chereme_sign::Remedy;
 
 /// Stores the tracks of a file and returns their recording: the one that the caller named, the one of the files with
 /// this folder and stem, or a new one. Adds a line for each track to the report, and the caller's offset to each track.
@@ -90,7 +91,7 @@ fn tell_folder(job: &Job<'_>, recording: i64, report: &mut FileReport) -> Result
     let name = recordings::recording(job.connection, recording)?.name;
     report.findings.push(ReportFinding {
         remedy: Some(
-            "if they are of two takes: `chereme undo`, and import each file by its name".to_owned(),
+            Remedy::command("if they are of two takes: `chereme undo`, and import each file by its name"),
         ),
         ..ReportFinding::note(format!(
             "it is the only file of its kind next to one of movement: it is taken for the take {name:?}"

@@ -1,6 +1,7 @@
 //! Conflicts of a merge: both candidates are kept, listed, and decided one by one.
 
 use chereme_motion::Instant;
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -332,7 +333,7 @@ impl Corpus {
                 let mut open = open.filter(|it| it.decided.is_none()).ok_or_else(|| {
                     Error::wrong(format!("there is no open conflict {number}"))
                         .at(number.to_string())
-                        .advise("`chereme conflicts CORPUS` lists them")
+                        .advise(Remedy::command("`chereme conflicts CORPUS` lists them"))
                 })?;
                 match decision {
                     Decision::Mine => {}

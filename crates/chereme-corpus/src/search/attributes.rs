@@ -107,7 +107,7 @@ fn unknown(test: &Test, name: &str, all: &[String]) -> QueryError {
     QueryError {
         at: test.subject_at.range(),
         message: format!("there is no field or attribute {name:?}"),
-        remedy,
+        remedy: remedy.into(),
         suggestion: meant,
     }
 }

@@ -1,5 +1,6 @@
 //! Compiles the tree of a query to a plan.
 
+use chereme_sign::Remedy;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -150,7 +151,7 @@ pub(crate) fn plan(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
         Expr::Saved(saved) => Err(QueryError {
             at: saved.at.range(),
             message: format!("no search is saved as {:?}", saved.name),
-            remedy: "`chereme list CORPUS searches` lists those that are".to_owned(),
+            remedy: Remedy::command("`chereme list CORPUS searches` lists those that are"),
             suggestion: None,
         }
         .into()),
@@ -178,7 +179,7 @@ fn inner(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
             message:
                 "`like` orders the whole answer, or removes less similar tokens from all of it"
                     .to_owned(),
-            remedy: "write it beside the other terms, not after `not` or `or`".to_owned(),
+            remedy: "write it beside the other terms, not after `not` or `or`".into(),
             suggestion: None,
         }
         .into()),
@@ -190,7 +191,7 @@ fn phase_of_no_token(at: std::ops::Range<usize>) -> QueryError {
         at,
         message: "phases of movement are not values of a token: they divide the time of signing"
             .to_owned(),
-        remedy: "write a relation to them: overlaps movement.phase=stroke".to_owned(),
+        remedy: "write a relation to them: overlaps movement.phase=stroke".into(),
         suggestion: None,
     }
 }
@@ -286,7 +287,7 @@ impl RequestedName<'_> {
         Failure::Query(QueryError {
             at: self.value.at.range(),
             message: format!("no {kind} is called {:?}", self.text),
-            remedy: more,
+            remedy: more.into(),
             suggestion: near.map(quoted),
         })
     }
@@ -378,7 +379,7 @@ fn token(wish: &RequestedName<'_>) -> Asked<Plan> {
         _ => Err(QueryError {
             at: wish.value.at.range(),
             message: format!("{:?} is no number of a token", wish.text),
-            remedy: "write token=41; a sign is found by gloss=CHAT".to_owned(),
+            remedy: "write token=41; a sign is found by gloss=CHAT".into(),
             suggestion: None,
         }
         .into()),

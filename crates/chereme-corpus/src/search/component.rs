@@ -207,7 +207,7 @@ fn all_parts(
     Err(QueryError {
         at: subject_at.end.saturating_sub(part.chars().count())..subject_at.end,
         message: format!("{component} has no part {part:?}"),
-        remedy,
+        remedy: remedy.into(),
         suggestion: nearest(part, names).map(str::to_owned),
     }
     .into())
@@ -317,7 +317,7 @@ fn check_feature(
     Err(QueryError {
         at: at.start + minus..at.end,
         message: format!("no value of {field} has a feature {:?}", feature.name),
-        remedy: format!("features are: {}", known.join(", ")),
+        remedy: format!("features are: {}", known.join(", ")).into(),
         suggestion: nearest(&feature.name, features.iter().copied()).map(str::to_owned),
     }
     .into())

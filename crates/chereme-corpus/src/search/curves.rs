@@ -119,7 +119,7 @@ fn unknown(test: &Test, name: &str) -> QueryError {
     QueryError {
         at: test.subject_at.range(),
         message: format!("a face has no curve {name:?}"),
-        remedy: format!("the curves are: {}", all.join(", ")),
+        remedy: format!("the curves are: {}", all.join(", ")).into(),
         suggestion: nearest(name, known()).map(|meant| format!("nonmanual.{meant}")),
     }
 }

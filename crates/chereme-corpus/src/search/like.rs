@@ -193,7 +193,7 @@ fn unknown(ask: &Ask<'_>, like: &Like, message: &str) -> Asked<super::compile::F
     Ok(QueryError {
         at: like.example_at.range(),
         message: message.to_owned(),
-        remedy: "write like token:41, or like and a gloss of the corpus".to_owned(),
+        remedy: "write like token:41, or like and a gloss of the corpus".into(),
         suggestion,
     }
     .into())

@@ -165,20 +165,15 @@ pub(crate) fn tokens(
 
 /// Returns the error for a query that cannot be understood.
 pub(crate) fn wrong(query: &str, error: &QueryError) -> Error {
-    let mut lines: Vec<String> = error.render(query).lines().map(str::to_owned).collect();
-    if !error.remedy.is_empty() {
-        lines.pop();
-    }
     let corrected = error.corrected(query);
-    let remedy = match (&corrected, error.remedy.as_str()) {
-        (Some(corrected), "") => Some(format!("write {corrected}")),
-        (None, "") => None,
-        (_, remedy) => Some(remedy.to_owned()),
+    let remedy = match &corrected {
+        _ if !error.remedy.is_empty() => Some(error.remedy.clone()),
+        Some(corrected) => Some(format!("write {corrected}").into()),
+        None => None,
     };
     Error::Query(Box::new(WrongQuery {
-        // The first lines draw the query.
-        message: lines.last().cloned().unwrap_or_default(),
-        drawn: lines.join("\n"),
+        message: error.fault(),
+        drawn: error.drawn(query),
         at: error.at.start,
         remedy,
         mended: error.suggestion.clone().zip(corrected),

@@ -26,7 +26,7 @@ pub(crate) fn plan(
     let refused = |message: &str| QueryError {
         at: at.clone(),
         message: message.to_owned(),
-        remedy: "write for example placement=head > chest".to_owned(),
+        remedy: "write for example placement=head > chest".into(),
         suggestion: None,
     };
     if field.phase.is_some() {

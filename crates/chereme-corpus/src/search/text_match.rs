@@ -269,7 +269,7 @@ fn fuzzy(test: &Test, field: TextField, text: &str, slips: u8) -> Asked<Vec<Opti
         return Err(QueryError {
             at: test.at.range(),
             message: "this is too long for a comparison that tolerates slips".to_owned(),
-            remedy: format!("write at most {LONGEST_FUZZY} characters"),
+            remedy: format!("write at most {LONGEST_FUZZY} characters").into(),
             suggestion: None,
         }
         .into());

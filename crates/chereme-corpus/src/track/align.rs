@@ -4,6 +4,7 @@ use chereme_analysis::align::{self, Signal as Samples};
 use chereme_motion::anatomy::Part;
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Curves, Markers, Side};
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
 
@@ -142,7 +143,9 @@ fn unknown(wanted: &str, names: &[String]) -> Error {
     let near = chereme_sign::text::did_you_mean(near);
     Error::wrong(format!("the track has no {wanted:?}{near}"))
         .at(wanted)
-        .advise("`chereme list CORPUS tracks` lists tracks; export one as .csv to see its channels")
+        .advise(Remedy::command(
+            "`chereme list CORPUS tracks` lists tracks; export one as .csv to see its channels",
+        ))
 }
 
 /// Returns the indices of the wanted names; those of `usual` if none is wanted, or all.

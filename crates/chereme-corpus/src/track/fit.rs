@@ -1,5 +1,6 @@
 //! Fits a skeleton to the markers of a recording; runs only on command.
 
+use chereme_sign::Remedy;
 use std::sync::Arc;
 
 use chereme_motion::fit::{Fitted, fit};
@@ -121,9 +122,9 @@ fn chosen(
     found.cloned().ok_or_else(|| {
         Error::wrong(format!("{recording:?} has no track of markers"))
             .at(recording)
-            .advise(
+            .advise(Remedy::command(
                 "import a .c3d or .trc file into it: chereme import CORPUS FILE --into recording:3",
-            )
+            ))
     })
 }
 
@@ -137,7 +138,9 @@ fn skeleton(connection: &Connection, to: Option<&Name>) -> Result<(Arc<Skeleton>
     recordings::body_track(connection, row.id)?.ok_or_else(|| {
         Error::wrong(format!("{:?} has no skeleton", row.name))
             .at(&row.name)
-            .advise("name a recording of movement, or leave --to out for the program's own body")
+            .advise(Remedy::command(
+                "name a recording of movement, or leave --to out for the program's own body",
+            ))
     })?;
     let track = movement::MotionTrack::of(connection, row.id)?;
     let clip = track.clip(connection, 0..1, &movement::ChannelGroup::ALL)?;

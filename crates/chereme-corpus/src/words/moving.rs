@@ -88,9 +88,10 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "il n’y a pas d’acteur {name} ; il y a : {names}",
     ),
     (
-        "no tier is called like phones; name one with --tier: {names}",
-        "aucun acteur n’a un nom de phones ; nommez-en un avec --tier : {names}",
+        "no tier is called like phones; there are: {names}",
+        "aucun acteur n’a un nom de phones ; il y a : {names}",
     ),
+    ("name one with --tier", "nommez-en un avec --tier"),
     (
         "give a table of two columns and at most 1 MiB",
         "donnez une table de deux colonnes et d’au plus 1 Mio",

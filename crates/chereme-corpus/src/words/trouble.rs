@@ -29,6 +29,5 @@ texts! {
     ASK_RIGHTS: "the file or its folder needs rights that you do not have", "le fichier ou son dossier demande des droits que vous n’avez pas";
     TRY_AGAIN: "try again when it is done", "réessayez quand il aura fini";
     MAKE_ROOM: "make room and try again; nothing was lost", "faites de la place et réessayez ; rien n’est perdu";
-    CHECK: "`chereme check` shows where, and how to mend it", "`chereme check` dit où, et comment réparer";
     QUERY_WRONG: "The query is not understood:", "La requête ne se comprend pas :";
 }

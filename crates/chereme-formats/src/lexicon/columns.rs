@@ -6,6 +6,7 @@ use crate::roles::{Hands, Mapping, Target, normal};
 use crate::table::Row;
 use crate::tally::Findings;
 use chereme_sign::query::number;
+use chereme_sign::{Choice, Remedy};
 use chereme_sign::{Component, Phase, TierRole, TierTopic};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -241,9 +242,9 @@ pub(super) fn meanings(
         findings.add("glosses by another title", || {
             let title = &column.title;
             let message = format!("no column is called a gloss; {title:?} was taken for it");
-            Finding::warning(1, message).with_remedy(format!(
+            Finding::warning(1, message).with_remedy(Remedy::choice(Choice::TierRoles, format!(
                 "call the column \"gloss\", or say so in a mapping: {{\"columns\": {{{title:?}: \"gloss\"}}}}"
-            ))
+            )))
         });
     }
     let mut seen = BTreeSet::new();
@@ -304,10 +305,10 @@ fn tell_attributes(columns: &[Column], findings: &mut Findings) {
         format!("{{\"columns\": {{{first:?}: \"translation\"}}}}"),
     );
     findings.add("attributes", || {
-        Finding::note(1, format!("the {columns} {shown}{more} {are} of each sign")).with_remedy(format!(
+        Finding::note(1, format!("the {columns} {shown}{more} {are} of each sign")).with_remedy(Remedy::choice(Choice::TierRoles, format!(
             "queries find them, as in attribute({first:?})=*; to take one for something else, say so in a \
              mapping: {example}"
-        ))
+        )))
     });
 }
 

@@ -30,6 +30,7 @@ use crate::hns::{holds_symbols, tell_mended};
 use crate::roles::{Hands, Mapping};
 use crate::table::{Cells, Row, TableError};
 use crate::tally::Findings;
+use chereme_sign::Remedy;
 use chereme_sign::hamnosys::{in_plain_symbols, mended};
 use chereme_sign::text::{edit_distance, fold};
 use chereme_sign::{Component, Field, Phase, Reading};
@@ -321,7 +322,7 @@ fn slips(lexicon: &Lexicon, findings: &mut Findings) {
                 let name = Field { hand: None, component: inventory.component, feature: inventory.feature.clone(), phase: None };
                 let line = first_line(lexicon, inventory, value);
                 Finding::note(line, format!("{name}: {value:?} ({}) and {common:?} ({}) are kept as two values", times(*count), times(*uses)))
-                    .with_remedy(format!("if they are one: chereme inventory CORPUS merge-value INVENTORY {value:?} {common:?}"))
+                    .with_remedy(Remedy::command(format!("if they are one: chereme inventory CORPUS merge-value INVENTORY {value:?} {common:?}")))
             });
         }
     }

@@ -1,5 +1,6 @@
 //! Utterances to be cued: text or phones, with times and keys.
 
+use crate::Remedy;
 use chereme_motion::{Instant, Span};
 
 use super::{Alphabet, CueCode, CueFinding, Key, Phone, code, codes, french};
@@ -82,22 +83,25 @@ pub enum UtteranceError {
 impl UtteranceError {
     /// Returns a correction.
     #[must_use]
-    pub fn remedy(&self) -> String {
-        match self {
+    pub fn remedy(&self) -> Remedy {
+        let text = match self {
             Self::NoCode(_) => {
                 let ids: Vec<&str> = codes().iter().map(|code| code.id.as_str()).collect();
                 format!("the codes are {}", ids.join(" and "))
             }
             Self::Variant(variant) => format!("the variants are {}", variant.known),
             Self::Long(_) => "give at most 1 MiB at once".to_owned(),
-            Self::NoSpelling(_) => "give phones: --phones sampa, ipa or mfa".to_owned(),
+            Self::NoSpelling(_) => {
+                return Remedy::command("give phones: --phones sampa, ipa or mfa");
+            }
             Self::Pace(_) => "a pace from 0.1 to 10; 1.6 is usual for people who cue".to_owned(),
             Self::NoDurations(_) => {
                 "give each phone its milliseconds, such as h=80 aU=240, or leave the pace out"
                     .to_owned()
             }
             Self::Duration { .. } => "write for example a=120: from 1 to 60000".to_owned(),
-        }
+        };
+        text.into()
     }
 }
 

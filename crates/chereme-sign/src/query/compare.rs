@@ -238,7 +238,11 @@ fn unknown_field(cursor: &Cursor<'_>, part: &str, at: At, whole: At) -> QueryErr
         && part.chars().any(char::is_uppercase)
     {
         let remedy = "a gloss with a colon stands after gloss= or in quotes".to_owned();
-        return QueryError { remedy, ..error }.suggest(Some(format!("gloss={part}")));
+        return QueryError {
+            remedy: remedy.into(),
+            ..error
+        }
+        .suggest(Some(format!("gloss={part}")));
     }
     let remedy = if meant.is_some() {
         String::new()
@@ -253,7 +257,11 @@ fn unknown_field(cursor: &Cursor<'_>, part: &str, at: At, whole: At) -> QueryErr
             names.join(", ")
         )
     };
-    QueryError { remedy, ..error }.suggest(meant)
+    QueryError {
+        remedy: remedy.into(),
+        ..error
+    }
+    .suggest(meant)
 }
 
 /// Whether `field:value` means `field=value`, as in addresses.

@@ -2,6 +2,7 @@
 
 use super::print::write_value;
 use super::tree::At;
+use crate::remedy::Remedy;
 use crate::text::nearest;
 use std::fmt;
 use std::ops::Range;
@@ -19,13 +20,13 @@ pub struct QueryError {
     /// The error, in one sentence without a full stop.
     pub message: String,
     /// A correction; may be empty if the suggestion is sufficient.
-    pub remedy: String,
+    pub remedy: Remedy,
     /// The text to write in place of [`at`](Self::at), if one meaning is most likely.
     pub suggestion: Option<String>,
 }
 
 impl QueryError {
-    pub(super) fn new(at: At, message: impl Into<String>, remedy: impl Into<String>) -> Self {
+    pub(super) fn new(at: At, message: impl Into<String>, remedy: impl Into<Remedy>) -> Self {
         let (message, remedy) = (message.into(), remedy.into());
         Self {
             at: at.range(),
@@ -40,12 +41,32 @@ impl QueryError {
         self
     }
 
-    /// Returns the error as lines of text: the query, carets under the place, the message, the
-    /// remedy. Of a long query only the part around the place is drawn.
+    /// Returns the error as lines of text: those of [`QueryError::drawn`], and the remedy.
+    #[must_use]
+    pub fn render(&self, query: &str) -> String {
+        let mut text = self.drawn(query);
+        if !self.remedy.is_empty() {
+            text.push('\n');
+            text.push_str(self.remedy.text());
+        }
+        text
+    }
+
+    /// Returns the message with the suggestion.
+    #[must_use]
+    pub fn fault(&self) -> String {
+        match &self.suggestion {
+            Some(suggestion) => format!("{}; did you mean {suggestion}?", self.message),
+            None => self.message.clone(),
+        }
+    }
+
+    /// Returns three lines of text: the query, carets under the place, and the message with the suggestion. Of a long
+    /// query only the part around the place is drawn.
     ///
     /// `query` is the text that was parsed.
     #[must_use]
-    pub fn render(&self, query: &str) -> String {
+    pub fn drawn(&self, query: &str) -> String {
         let chars: Vec<char> = query.chars().collect();
         let from = if self.at.start > LEAD + 10 {
             self.at.start.min(chars.len()) - LEAD
@@ -70,20 +91,12 @@ impl QueryError {
         let end = self.at.end.clamp(start, to);
         let indent = columns(&chars[from..start]) + usize::from(from > 0);
         let carets = columns(&chars[start..end]).max(1);
-        let mut text = format!(
+        format!(
             "{line}\n{}{}\n{}",
             " ".repeat(indent),
             "^".repeat(carets),
-            self.message
-        );
-        if let Some(suggestion) = &self.suggestion {
-            text.push_str(&format!("; did you mean {suggestion}?"));
-        }
-        if !self.remedy.is_empty() {
-            text.push('\n');
-            text.push_str(&self.remedy);
-        }
-        text
+            self.fault()
+        )
     }
 
     /// Returns the query with the suggestion in place of the wrong characters; `None` without a suggestion.
@@ -98,10 +111,7 @@ impl QueryError {
 
 impl fmt::Display for QueryError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "character {}: {}", self.at.start + 1, self.message)?;
-        if let Some(suggestion) = &self.suggestion {
-            write!(f, "; did you mean {suggestion}?")?;
-        }
+        write!(f, "character {}: {}", self.at.start + 1, self.fault())?;
         if !self.remedy.is_empty() {
             write!(f, " ({})", self.remedy)?;
         }

@@ -7,6 +7,7 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
+use chereme_corpus::remedy::Remedy;
 use chereme_corpus::{Film, FilmFacts, FilmTimes, MediaTrackRow, find_media};
 use eframe::egui::{Color32, ColorImage};
 
@@ -42,7 +43,7 @@ pub(super) enum Known {
     /// The file is missing; the first path that was tried.
     Gone(Option<PathBuf>),
     /// The film cannot be played: the reason, and a remedy.
-    Refused(String, Option<String>),
+    Refused(String, Option<Remedy>),
 }
 
 /// A decoded picture.

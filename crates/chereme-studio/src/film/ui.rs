@@ -12,6 +12,7 @@ use super::screen::Screen;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::file_dialogs::Choose;
+use crate::overlay::remedy;
 use crate::panes::inspector::Thing;
 use crate::words::{fill, film as words, spoken};
 use crate::work::Work;
@@ -99,9 +100,11 @@ fn one(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox,
             told(ui, room, &fill(seen.say(words::GONE), &[("path", &path)]));
         }
         (Known::Refused(why, remedy), _) => {
-            let remedy = remedy.as_deref().unwrap_or_default();
-            let said = [why.as_str(), remedy].map(|text| spoken(text, seen.language));
-            told(ui, room, &said.join("\n\n"));
+            let remedy = remedy.as_ref();
+            let remedy = remedy.and_then(|it| remedy::here(it, seen.language));
+            let shown = [Some(spoken(why, seen.language)), remedy];
+            let shown: Vec<String> = shown.into_iter().flatten().collect();
+            told(ui, room, &shown.join("\n\n"));
         }
     }
     let mut builder = UiBuilder::new().max_rect(line);

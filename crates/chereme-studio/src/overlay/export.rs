@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use chereme_corpus::{Address, ExportOptions, ExportReport, ExportWhat, Name};
 use eframe::egui::{Align2, Button, Context, Id, ProgressBar, RichText, ScrollArea, Ui, Window};
 
-use super::remedy;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::panes::complete::Line;
@@ -124,7 +123,7 @@ impl Export {
             Ok(_) => {}
             Err(chereme_corpus::Error::Stopped) => self.stopped = true,
             Err(error) => {
-                let remedy = error.remedy().filter(|it| remedy::is_of_the_window(it));
+                let remedy = error.remedy().and_then(|it| it.advice().map(str::to_owned));
                 let remedy = remedy.map_or(String::new(), |it| format!("\n{it}"));
                 self.wrong = Some(format!("{error}{remedy}"));
             }

@@ -9,7 +9,7 @@ use eframe::egui::{
     ScrollArea, Sense, Shape, Stroke, Style, TextStyle, Ui, Vec2, WidgetInfo, vec2,
 };
 
-use super::trouble;
+use super::{remedy, trouble};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::Outbox;
@@ -232,8 +232,11 @@ impl Notices {
         let faults = report.faults.iter();
         let said = |text: &String| spoken(text, language);
         let faults = faults.map(|it| {
-            let (message, remedy) = (said(&it.message), said(&it.remedy));
-            format!("{}: {message} ({remedy})", it.place)
+            let message = said(&it.message);
+            match remedy::here(&it.remedy, language) {
+                Some(remedy) => format!("{}: {message} ({remedy})", it.place),
+                None => format!("{}: {message}", it.place),
+            }
         });
         let lines: Vec<String> = report.mended.iter().map(said).chain(faults).collect();
         if let Some(notice) = self.all.last_mut() {

@@ -1,36 +1,33 @@
-//! Remedies in terms of the window, as those of the corpus name options of the command line.
+//! Remedies in the words of the window.
 
-use crate::words::{Language, Text, import as words, shell, spoken};
+use chereme_corpus::remedy::{Choice, Remedy};
 
-/// Parts of command line remedies, each with the corresponding remedy in the window.
-const HERE: [(&str, Text); 13] = [
-    ("--roles", words::HELP_ROLES),
-    ("roles file", words::HELP_ROLES),
-    ("--mend-root", words::HELP_ROOT),
-    ("--unit", words::HELP_UNIT),
-    ("--axes", words::HELP_AXES),
-    ("--map", words::HELP_TIERS),
-    ("mapping", words::HELP_TIERS),
-    ("--like", words::HELP_TEMPLATE),
-    ("--base", words::HELP_MERGE),
-    ("--theirs", words::HELP_CHANGED),
-    ("check --mend", shell::HELP_CHECK),
-    ("transcribe", shell::HELP_NOTATION),
-    ("animate", shell::HELP_NOTATION),
-];
+use crate::words::{Language, Text, import as words, shell, spoken, trouble};
 
-/// Returns the remedy in the window; `None` if only the command line offers one.
-pub(crate) fn here(remedy: &str, language: Language) -> Option<String> {
-    let known = HERE.iter().find(|(part, _)| remedy.contains(part));
-    if let Some((_, text)) = known {
-        return Some(text.of(language).to_owned());
+/// Returns the remedy in the words of the window; `None` if only the command line offers one.
+pub(crate) fn here(remedy: &Remedy, language: Language) -> Option<String> {
+    match remedy {
+        Remedy::Advice(text) => Some(spoken(text, language)),
+        Remedy::Choice(choice, _) => Some(offered(*choice).of(language).to_owned()),
+        Remedy::Command(_) => None,
     }
-    is_of_the_window(remedy).then(|| spoken(remedy, language))
 }
 
-/// Returns whether a remedy of the corpus names no command or option of the command line.
-pub(crate) fn is_of_the_window(remedy: &str) -> bool {
-    !remedy.contains("`chereme ") && !remedy.contains("--")
+/// Returns the text for a choice, which names its place in the window.
+fn offered(choice: Choice) -> Text {
+    match choice {
+        Choice::JointRoles => words::HELP_ROLES,
+        Choice::RootOrder => words::HELP_ROOT,
+        Choice::Unit => words::HELP_UNIT,
+        Choice::Axes => words::HELP_AXES,
+        Choice::TierRoles => words::HELP_TIERS,
+        Choice::TiersLike => words::HELP_TEMPLATE,
+        Choice::CommonAncestor => words::HELP_MERGE,
+        Choice::Side => words::HELP_CHANGED,
+        Choice::OtherCorpus => trouble::OTHER_CORPUS,
+        Choice::Check => trouble::CHECK_HERE,
+        Choice::Notation => shell::HELP_NOTATION,
+    }
 }
 
 #[cfg(test)]
@@ -38,39 +35,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn remedies_are_rephrased_for_the_window() {
-        for (remedy, english) in [
-            (
-                "say which one in a roles file (--roles)",
-                "Click the wrong joint",
-            ),
-            (
-                "say the unit with --unit, such as --unit cm",
-                "Choose the unit",
-            ),
-            (
-                "say the axes with --axes, or name the joints",
-                "Choose the axes",
-            ),
-            ("import it with --mend-root to read it so", "Tick"),
-            (
-                "give tiers their roles in a mapping file (--map), or with `chereme annotate`",
-                "Choose the role",
-            ),
+    fn the_window_says_in_its_own_words_where_a_choice_is_offered() {
+        let unit = Remedy::choice(Choice::Unit, "say the unit with --unit, such as --unit cm");
+        for (language, begins) in [
+            (Language::English, "Choose the unit"),
+            (Language::French, "Choisissez l’unité"),
         ] {
-            for language in [Language::English, Language::French] {
-                let told = here(remedy, language).expect("something");
-                assert!(!told.contains("--") && !told.contains('`'), "{told}");
-            }
-            let told = here(remedy, Language::English).expect("something");
-            assert!(told.starts_with(english), "{told}");
+            let shown = here(&unit, language).expect("a choice of the window");
+            assert!(shown.starts_with(begins), "{shown}");
         }
-        let plain = "correct the number in the file";
-        assert_eq!(here(plain, Language::English).as_deref(), Some(plain));
+    }
+
+    #[test]
+    fn advice_is_shown_as_it_is_and_commands_are_not() {
+        let advice = Remedy::from("correct the number in the file");
         assert_eq!(
-            here("`chereme list CORPUS tokens`", Language::English),
-            None
+            here(&advice, Language::English).as_deref(),
+            Some(advice.text())
         );
-        assert_eq!(here("write it with --force", Language::French), None);
+        let command = Remedy::command("`chereme list CORPUS tokens`");
+        assert_eq!(here(&command, Language::English), None);
     }
 }

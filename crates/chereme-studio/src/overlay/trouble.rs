@@ -2,6 +2,7 @@
 
 use std::io::ErrorKind;
 
+use chereme_corpus::remedy::Remedy;
 use chereme_corpus::words::message;
 use chereme_corpus::{Cause, Error};
 
@@ -23,40 +24,31 @@ pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Fai
         let text = crate::words::shell::REMEDY.of(language);
         fill(text, &[("remedy", &remedy)])
     };
-    let of_corpus = || remedy::here(&error.remedy()?, language);
+    let of_corpus = error.remedy();
+    let own = of_corpus.as_ref().and_then(|it| remedy::here(it, language));
     if language == Language::English {
-        let own = remedy_here(error).map(|it| it.of(language).to_owned());
         return FailureReport {
             text: error.to_string(),
-            remedy: own.or_else(of_corpus).map(|it| helps(&it)),
+            remedy: own.map(|it| helps(&it)),
             detail: None,
         };
     }
-    let own = of_corpus();
-    let said = match &own {
-        Some(remedy) => format!("{error}\n({remedy})"),
-        None => error.to_string(),
-    };
     let (text, remedy) = sentence(error, task, language);
     // The sentence is complete for a file error with a remedy, and for a translated message.
     let translated = message(&error.to_string(), language).is_some_and(|it| it == text);
     let whole = matches!(error, Error::File { .. }) && remedy.is_some() || translated;
-    let remedy = remedy.map(|it| it.of(language).to_owned());
+    let in_language = translated || matches!(of_corpus, Some(Remedy::Choice(..)));
+    let remedy = remedy
+        .map(|it| it.of(language).to_owned())
+        .or(own.clone().filter(|_| in_language));
+    let original = match &own {
+        Some(own) if remedy.is_none() => format!("{error}\n({own})"),
+        _ => error.to_string(),
+    };
     FailureReport {
         text,
-        remedy: remedy.or(own.filter(|_| translated)).map(|it| helps(&it)),
-        detail: (!whole).then_some(said),
-    }
-}
-
-/// Returns the remedy in the window for errors whose own remedies name unknown commands.
-fn remedy_here(error: &Error) -> Option<Text> {
-    match error {
-        Error::NotACorpus { remedy, .. } if remedy.contains("`chereme ") => {
-            Some(words::OTHER_CORPUS)
-        }
-        Error::Index(_) | Error::Damaged { .. } => Some(words::CHECK_HERE),
-        _ => None,
+        remedy: remedy.map(|it| helps(&it)),
+        detail: (!whole).then_some(original),
     }
 }
 
@@ -77,17 +69,17 @@ fn sentence(error: &Error, task: Option<Text>, language: Language) -> (String, O
         Error::NotACorpus { path, .. } => {
             let text = say(words::NOT_A_CORPUS);
             let text = fill(&text, &[("path", &path.display())]);
-            (text, remedy_here(error))
+            (text, None)
         }
         Error::Database(_) => match error.cause() {
             Some(Cause::Busy) => (say(words::BUSY), Some(words::TRY_AGAIN)),
             Some(Cause::Full) => (say(words::DISK_FULL), Some(words::MAKE_ROOM)),
             Some(Cause::ReadOnly) => (say(words::READ_ONLY), Some(words::ASK_RIGHTS)),
-            Some(Cause::Damaged) => (say(words::DAMAGED), Some(words::CHECK)),
+            Some(Cause::Damaged) => (say(words::DAMAGED), Some(words::CHECK_HERE)),
             None => (say(words::DATABASE), None),
         },
-        Error::Index(_) => (say(words::INDEX), remedy_here(error)),
-        Error::Damaged { .. } => (say(words::DAMAGED), remedy_here(error)),
+        Error::Index(_) => (say(words::INDEX), None),
+        Error::Damaged { .. } => (say(words::DAMAGED), None),
         Error::Several { errors } => {
             let text = say(words::SEVERAL);
             (fill(&text, &[("n", &errors.len())]), None)
@@ -114,6 +106,8 @@ fn failed(task: Option<Text>, language: Language) -> (String, Option<Text>) {
 
 #[cfg(test)]
 mod tests {
+    use chereme_corpus::remedy::Choice;
+
     use super::*;
     use crate::words::shell;
 
@@ -134,7 +128,7 @@ mod tests {
         let rubbish = Error::NotACorpus {
             path: "a.chereme".into(),
             reason: "it is no database".into(),
-            remedy: "choose a file that `chereme new` made".into(),
+            remedy: Remedy::choice(Choice::OtherCorpus, "choose a file that `chereme new` made"),
         };
         for language in [Language::English, Language::French] {
             let remedy = told(&rubbish, None, language).remedy.expect("a remedy");

@@ -60,7 +60,6 @@ texts! {
     GONE_REMEDY: "It was deleted, moved or replaced while it is open. All of it can still be saved from here; nothing can be changed until then.", "Il a été supprimé, déplacé ou remplacé alors qu’il est ouvert. Tout peut encore être enregistré d’ici ; rien ne peut être modifié d’ici là.";
     GONE_WHY: "The corpus file is gone: save a copy first.", "Le fichier du corpus a disparu : enregistrez d’abord une copie.";
     BACK_AGAIN: "The corpus file is there again.", "Le fichier du corpus est de retour.";
-    HELP_CHECK: "Check the corpus in the menu File; it mends the search index.", "Vérifiez le corpus dans le menu Fichier ; ce qui est faux dans l’index de recherche est corrigé.";
     HELP_NOTATION: "Notate the sign in the inspector first, or choose a sign that has movement.", "Notez d’abord le signe dans l’inspecteur, ou choisissez un signe qui a un mouvement.";
     SAVE_COPY: "Save a copy…", "Enregistrer une copie…";
     PUT_BACK: "Put it back", "Le remettre en place";

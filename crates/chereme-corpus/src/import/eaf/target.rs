@@ -3,6 +3,7 @@
 use chereme_formats::eaf::convert::Transcript;
 use chereme_formats::table::annotations;
 use chereme_formats::{eaf, subtitles, textgrid};
+use chereme_sign::{Choice, Remedy};
 
 use super::super::captured;
 use super::update;
@@ -117,7 +118,7 @@ pub(super) fn find(
                 "it is no part of the recording {other:?} of this name in another folder, which ends before its \
                  annotations"
             ),
-            remedy: Some("if it is: `chereme undo`, then import it with --into recording:N".to_owned()),
+            remedy: Some(Remedy::command("if it is: `chereme undo`, then import it with --into recording:N")),
         });
     }
     Ok(Target::default())
@@ -180,8 +181,8 @@ fn is_version(
             "it is taken for another file than {path}, with which it shares {same} of {all} annotations"
         ),
         remedy: Some(
-            "if it is a new version of that file: `chereme undo`, then import it with --merge, --theirs or \
-             --mine"
+            Remedy::choice(Choice::Side, "if it is a new version of that file: `chereme undo`, then import it with --merge, --theirs or \
+             --mine")
                 .to_owned(),
         ),
     });

@@ -4,6 +4,7 @@
 //! change that only one side made is taken over. If the corpus was edited and the file would revert the edit, the edit
 //! is lost; a merge preserves it.
 
+use chereme_sign::Remedy;
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::eaf::convert::{Annotation, AnnotationAddress, Transcript};
@@ -529,12 +530,15 @@ impl Updated {
             let edits = self.edits.iter().filter(move |it| it.outcome == outcome);
             edits.map(ToString::to_string).collect::<Vec<_>>()
         };
-        let warn = |remedy: &'static str| move |text: String| ReportFinding::warning(text, remedy);
-        let lost = warn("`chereme undo` takes the import back");
+        let warn =
+            |remedy: Remedy| move |text: String| ReportFinding::warning(text, remedy.clone());
+        let lost = warn(Remedy::command("`chereme undo` takes the import back"));
         some(&told(Outcome::Lost), &mut |text| {
             report.findings.push(lost(text))
         });
-        let conflict = warn("`chereme conflicts CORPUS` lists both candidates; decide there");
+        let conflict = warn(Remedy::command(
+            "`chereme conflicts CORPUS` lists both candidates; decide there",
+        ));
         some(&told(Outcome::Conflict), &mut |text| {
             report.findings.push(conflict(text))
         });

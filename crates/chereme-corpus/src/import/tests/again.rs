@@ -217,7 +217,7 @@ fn own_edits_that_conflict_with_a_changed_file_are_asked_about() {
                     file.findings[0]
                         .remedy
                         .as_ref()
-                        .is_some_and(|it| it.contains("--merge"))
+                        .is_some_and(|it| it.text().contains("--merge"))
                 );
             }
             OwnEdits::Mine => assert!(has(&file.findings, "stays as it is"), "{file:?}"),

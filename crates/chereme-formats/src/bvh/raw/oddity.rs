@@ -91,7 +91,7 @@ fn finding(
     if *count > 1 {
         message.push_str(&format!(" ({count} times)"));
     }
-    let remedy = (!remedy.is_empty()).then(|| remedy.to_owned());
+    let remedy = (!remedy.is_empty()).then(|| remedy.into());
     Finding {
         severity,
         line: Some(*line),

@@ -413,7 +413,7 @@ fn unknown_values_are_pointed_at() {
     let error = unknown_value(At::default(), "qqq", many.iter().map(String::as_str));
     assert_eq!(error.suggestion, None);
     assert_eq!(
-        error.remedy,
+        error.remedy.text(),
         "known values: B0, B1, B2, B3, B4, B5, B6, B7 and 12 more"
     );
     assert_eq!(

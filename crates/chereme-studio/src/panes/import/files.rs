@@ -232,7 +232,7 @@ fn findings(ui: &mut Ui, seen: &PaneInput<'_>, file: &FileReport) {
             .small()
             .color(colour);
         ui.label(text);
-        let remedy = finding.remedy.as_deref();
+        let remedy = finding.remedy.as_ref();
         if let Some(remedy) = remedy.and_then(|it| remedy::here(it, seen.language)) {
             let text = fill(seen.say(shell::REMEDY), &[("remedy", &remedy)]);
             ui.label(RichText::new(text).small());

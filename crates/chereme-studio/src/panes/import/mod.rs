@@ -21,6 +21,7 @@ use crate::file_dialogs::Choose;
 use crate::overlay::remedy;
 use crate::words::{fill, import as words, shell, spoken};
 use crate::work::{Ended, Outcome, Work, WorkId};
+use chereme_corpus::remedy::Remedy;
 use known::ImportCorrections;
 pub(crate) use paths::Paths;
 
@@ -39,7 +40,7 @@ pub(crate) struct Import {
     /// The outcome of a merge.
     merged: Option<MergeReport>,
     /// Why nothing could be examined: a message and a remedy.
-    wrong: Option<(String, Option<String>)>,
+    wrong: Option<(String, Option<Remedy>)>,
     /// Whether the work was stopped.
     stopped: bool,
     /// Whether files were just given, which must be examined.
@@ -231,7 +232,7 @@ impl Pane for Import {
             let said = spoken(wrong, seen.language);
             ui.label(RichText::new(said).color(seen.colours().trouble));
             let remedy = remedy
-                .as_deref()
+                .as_ref()
                 .and_then(|it| remedy::here(it, seen.language));
             if let Some(remedy) = remedy {
                 ui.label(fill(seen.say(shell::REMEDY), &[("remedy", &remedy)]));

@@ -11,6 +11,7 @@ use super::stack::{Card, Stack, What};
 use super::{catalogue, fields, settings};
 use crate::action::Action;
 use crate::context::PaneInput;
+use crate::overlay::remedy;
 use crate::words::{Language, fill, recombine as words, search, spoken};
 
 /// Residuals above this are reported as a warning, in metres.
@@ -301,9 +302,10 @@ fn told(ui: &mut Ui, seen: &PaneInput<'_>, shown: &ShownCard<'_>) -> Option<What
         if let Some(remedy) = trouble
             .remedy
             .as_ref()
-            .filter(|it| !trouble.text.contains(*it))
+            .filter(|it| !trouble.text.contains(it.text()))
+            .and_then(|it| remedy::here(it, seen.language))
         {
-            ui.label(RichText::new(spoken(remedy, seen.language)).small());
+            ui.label(RichText::new(remedy).small());
         }
         let meant = trouble.meant.as_ref()?;
         let mended = shown.card.what.mended(&meant.written, &meant.right)?;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::recipe::Report;
+use chereme_corpus::remedy::Remedy;
 use chereme_corpus::{Error, Meant, Recombination};
 
 use super::stack::Stack;
@@ -34,7 +35,7 @@ pub(super) struct Note {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Trouble {
     pub(super) text: String,
-    pub(super) remedy: Option<String>,
+    pub(super) remedy: Option<Remedy>,
     /// The name that was meant, if one near to a known one was written.
     pub(super) meant: Option<Meant>,
     /// The card with the problem.
@@ -176,9 +177,7 @@ fn trouble(error: &Error, stack: &Stack) -> Trouble {
     let at = step.and_then(|it| stack.card_at(&it.path));
     Trouble {
         text: text.unwrap_or_else(|| error.to_string()),
-        remedy: error
-            .remedy()
-            .filter(|it| crate::overlay::remedy::is_of_the_window(it)),
+        remedy: error.remedy(),
         meant: error.meant().cloned(),
         card: at.map(|at| stack.cards()[at].id),
     }
@@ -265,7 +264,7 @@ mod tests {
             step: "A".to_owned(),
             path: "/pipe/of".to_owned(),
             cause: "there is none".to_owned(),
-            remedy: "name another".to_owned(),
+            remedy: "name another".into(),
             meant: None,
         })));
         assert!(!live.hear(WorkId(99), &failed));

@@ -4,7 +4,6 @@ use chereme_corpus::{Address, Origin, Suggestions};
 use eframe::egui::{RichText, Ui};
 
 use crate::context::{Outbox, PaneInput};
-use crate::overlay::remedy;
 use crate::panes::list_row;
 use crate::words::{Text, fill, recombine as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
@@ -112,7 +111,7 @@ impl Suggest {
         match ended {
             Ok(Outcome::Suggested(found)) => self.found = Some(found.clone()),
             Err(error) => {
-                let remedy = error.remedy().filter(|it| remedy::is_of_the_window(it));
+                let remedy = error.remedy().and_then(|it| it.advice().map(str::to_owned));
                 let remedy = remedy.map_or(String::new(), |it| format!("; {it}"));
                 self.wrong = Some(format!("{error}{remedy}"));
             }

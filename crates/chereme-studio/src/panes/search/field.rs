@@ -13,6 +13,7 @@ use eframe::egui::{
 
 use super::suggest::{self, Offers};
 use crate::context::PaneInput;
+use crate::overlay::remedy;
 use crate::script::edit;
 use crate::words::{fill, search as words, spoken};
 
@@ -233,10 +234,10 @@ impl Field {
                 seen.colours().trouble
             };
             let message = spoken(&error.message, seen.language);
-            let words = if error.remedy.is_empty() {
-                message
-            } else {
-                format!("{message}: {}", spoken(&error.remedy, seen.language))
+            let remedy = remedy::here(&error.remedy, seen.language);
+            let words = match remedy.filter(|it| !it.is_empty()) {
+                Some(remedy) => format!("{message}: {remedy}"),
+                None => message,
             };
             ui.label(RichText::new(words).small().color(colour));
             if let (Some(mended), Some(suggestion)) =

@@ -29,6 +29,7 @@ mod tiles;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use chereme_corpus::remedy::Remedy;
 use chereme_corpus::{Error, Overview, SearchOptions};
 use chereme_sign::query::{Example, Expr, Query};
 use eframe::egui::{ScrollArea, Ui};
@@ -118,7 +119,7 @@ pub(crate) struct Search {
 struct Wrong {
     from: Option<usize>,
     error: String,
-    remedy: Option<String>,
+    remedy: Option<Remedy>,
     /// Returns the likeliest intended name, and the query with it.
     mended: Option<(String, String)>,
 }

@@ -8,6 +8,7 @@ use super::{PAUSE, Search, View, facets, results, rows, side_column, suggest, sy
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
+use crate::overlay::remedy;
 use crate::words::{Language, fill, search as words, spoken};
 
 /// A pane wider than this, in points, has room for facets beside its results.
@@ -92,8 +93,9 @@ impl Search {
                 ui.label(seen.say(crate::words::trouble::QUERY_WRONG));
             }
             ui.label(RichText::new(said).small().color(trouble));
-            if let Some(remedy) = &wrong.remedy {
-                ui.label(RichText::new(spoken(remedy, seen.language)).small());
+            let remedy = wrong.remedy.as_ref();
+            if let Some(remedy) = remedy.and_then(|it| remedy::here(it, seen.language)) {
+                ui.label(RichText::new(remedy).small());
             }
             let mended = wrong.mended.clone();
             if let Some((meant, query)) = mended {
