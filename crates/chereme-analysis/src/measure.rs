@@ -92,7 +92,7 @@ pub fn measure(
                 ..Measured::default()
             })
         }
-        MeasuredKind::Round => match path::fit(&path(), path::EXACT).way {
+        MeasuredKind::Round => match path::fit(&path(), path::exact()).way {
             PathForm::Circle {
                 turns,
                 long,
@@ -106,7 +106,7 @@ pub fn measure(
             }),
             _ => None,
         },
-        MeasuredKind::Wave => match path::fit(&path(), path::EXACT).way {
+        MeasuredKind::Wave => match path::fit(&path(), path::exact()).way {
             PathForm::Wave { chord, width, .. } => Some(Measured {
                 seconds: whole,
                 length: chord.length(),

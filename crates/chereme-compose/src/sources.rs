@@ -1,12 +1,12 @@
 //! The evaluator's questions to the outside: the one trait that a corpus implements.
 
-use chereme_sign::{Choice, Remedy};
 use std::sync::Arc;
 
 use chereme_motion::{Anatomy, Clip, HandAngles, Side, Span};
 use chereme_sign::hamnosys::Notated;
 use chereme_sign::inventory::{Inventory, InventoryValue, Landmark};
 use chereme_sign::milestones::{Function, Milestones};
+use chereme_sign::{Choice, Remedy};
 use chereme_sign::{Component, Handedness, Reading};
 use serde::{Deserialize, Serialize};
 

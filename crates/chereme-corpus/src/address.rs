@@ -1,11 +1,11 @@
 //! Addresses: texts that name a recording, token, sign, signer, tier or annotation.
 
-use chereme_sign::{Choice, Remedy};
 use std::fmt;
 use std::str::FromStr;
 
 use chereme_motion::{Instant, Span};
 use chereme_sign::text::{fold, nearest};
+use chereme_sign::{Choice, Remedy};
 use rusqlite::Connection;
 
 use crate::db::notations;

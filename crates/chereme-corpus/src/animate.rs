@@ -1,6 +1,5 @@
 //! Generates movement from notation: HamNoSys text, SiGML files, and signs that the corpus has as notation.
 
-use chereme_sign::{Choice, Remedy};
 use std::path::Path;
 
 use chereme_compose::recipe::{Node, Notation};
@@ -10,6 +9,7 @@ use chereme_motion::Side;
 use chereme_motion::anatomy::Anatomy;
 use chereme_sign::hamnosys::{self, Sign};
 use chereme_sign::text::{did_you_mean, nearest};
+use chereme_sign::{Choice, Remedy};
 use serde_json::json;
 
 use crate::Corpus;

@@ -1,12 +1,12 @@
 //! Integrity check: the faults of a corpus, their places, and remedies.
 
-use chereme_sign::{Choice, Remedy};
 use std::collections::BTreeMap;
 
 use chereme_formats::bvh::raw::Hierarchy;
 use chereme_motion::{Column, Instant, Span};
 use chereme_sign::Reading;
 use chereme_sign::tier::{self, AnnotationId, Hands, TierId, TierSet, Violation};
+use chereme_sign::{Choice, Remedy};
 use rusqlite::Connection;
 use serde::Serialize;
 use sha2::{Digest, Sha256};

@@ -1,6 +1,5 @@
 //! Keys of cued speech from text or phones, without a corpus.
 
-use chereme_sign::Remedy;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -10,6 +9,7 @@ use chereme_compose::{PhaseRule, VERSION};
 use chereme_formats::eaf::convert::{Tier, Transcript};
 use chereme_formats::{eaf, textgrid};
 use chereme_motion::Instant;
+use chereme_sign::Remedy;
 use chereme_sign::cue::{self, Alphabet, CueCode, Phone, Utterance, UtteranceError};
 use serde::Serialize;
 use serde_json::json;

@@ -1,12 +1,12 @@
 //! Scalar curves beside movement: a number for each frame, such as how much the brows are raised.
 
-use chereme_sign::Remedy;
 use std::io::Write;
 use std::ops::Range;
 
 use chereme_compose::Curve;
 use chereme_motion::column::{Column, Decimals};
 use chereme_motion::{Rate, Span, Times};
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 
 use crate::Corpus;

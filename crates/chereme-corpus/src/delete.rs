@@ -1,9 +1,9 @@
 //! Deletes recordings and signs, each with everything that belongs to it.
 
-use chereme_sign::Remedy;
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_motion::Instant;
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
 

@@ -1,10 +1,10 @@
 //! Errors of work on a corpus, with their place and remedy.
 
-use chereme_sign::{Choice, Remedy};
 use std::path::PathBuf;
 
 pub use chereme_compose::Meant;
 use chereme_sign::text::did_you_mean;
+use chereme_sign::{Choice, Remedy};
 
 /// An error in work on a corpus.
 #[derive(Debug, thiserror::Error)]

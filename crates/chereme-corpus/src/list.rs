@@ -1,11 +1,11 @@
 //! Lists of rows of the corpus, filtered and sorted.
 
-use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
 use chereme_sign::Field;
+use chereme_sign::Remedy;
 use chereme_sign::hamnosys::to_names;
 use chereme_sign::text::{did_you_mean, nearest};
 use chereme_sign::tier::Hands;

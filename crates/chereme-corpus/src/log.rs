@@ -1,9 +1,9 @@
 //! The history in detail: the rows that an operation changed, with their old and new values.
 
-use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 
 use chereme_motion::Instant;
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::Value;

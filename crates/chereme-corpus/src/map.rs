@@ -1,11 +1,11 @@
 //! A map of the signs: every sign has a position in a plane, and similar signs lie near each other.
 
-use chereme_sign::Remedy;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt::Write as _;
 use std::path::Path;
 
 use chereme_analysis::map::{Features, lay_out, neighbours};
+use chereme_sign::Remedy;
 use chereme_sign::{Component, Field};
 use serde::Serialize;
 

@@ -1,6 +1,5 @@
 //! Signs as notation: those in the corpus, and those in files beside it.
 
-use chereme_sign::{Choice, Remedy};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::Read;
@@ -8,6 +7,7 @@ use std::path::Path;
 
 use chereme_formats::{Finding, hns, sigml};
 use chereme_sign::hamnosys::Notated;
+use chereme_sign::{Choice, Remedy};
 use rusqlite::Connection;
 use serde::Serialize;
 

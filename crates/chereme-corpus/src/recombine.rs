@@ -5,7 +5,6 @@ mod draft;
 mod parts;
 mod phases;
 
-use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -16,6 +15,7 @@ use chereme_formats::bvh::convert;
 use chereme_formats::bvh::raw::{Column, Hierarchy};
 use chereme_motion::anatomy::Anatomy;
 use chereme_motion::{Clip, Convention, Face, Side};
+use chereme_sign::Remedy;
 use chereme_sign::inventory;
 use chereme_sign::tier::Hands;
 use chereme_sign::{Component, Field, Handedness, Reading, TierRole};

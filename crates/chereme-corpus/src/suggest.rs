@@ -1,8 +1,8 @@
 //! Suggestions of new signs: partners that differ in one component, and values that no sign has.
 
-use chereme_sign::Remedy;
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_sign::Remedy;
 use chereme_sign::tier::Hands;
 use chereme_sign::{Component, Field, HandRef, Handedness, Phase};
 use serde::Serialize;

@@ -39,6 +39,7 @@
 //! | [`cue`] | cued speech: codes as data, phones to keys, French text to phones |
 //! | [`remedy`] | remedies for errors and findings, typed by the programs in which they can be followed |
 //! | [`text`] | folding of case and accents, and suggestions for misspelt words |
+//! | [`tuned`] | documents of tuned numbers with their units and meanings |
 
 pub mod component;
 pub mod cue;
@@ -51,6 +52,7 @@ pub mod remedy;
 pub mod text;
 pub mod tier;
 pub mod token;
+pub mod tuned;
 
 pub use component::{Component, Field, FieldError, HandRef, Handedness, Phase, Reading};
 pub use inventory::{Inventory, InventoryError, InventoryValue};

@@ -14,37 +14,15 @@ use chereme_sign::hamnosys::Repeat;
 use glam::DVec3;
 
 use super::aim;
-use super::path::{EXACT, Fitted, PathForm, ROUND, fit};
+use super::path::{Fitted, PathForm, fit};
 use super::scene::{HandTrajectory, Scene, length};
-use cuts::{LEAST, cut, is_brief, joined, sure, ways};
+use crate::transcribe::tuned::tuned;
+use cuts::{cut, is_brief, joined, sure, ways};
 use fold::folded;
 use sway::{play, wrist};
 
-pub(super) use cuts::{LAP, signing};
+pub(super) use cuts::signing;
 pub(super) use sway::{Sway, wrist_name};
-
-/// The smallest rotation of a hand during an act that counts as a change of orientation (rad).
-const TURNED: f64 = 0.3;
-/// The smallest change of a hand's finger angles that counts as a change of handshape (rad, root of the mean square).
-const RESHAPED: f64 = 0.07;
-/// Changes that are repeated may be smaller than [`TURNED`] and [`RESHAPED`] by this factor.
-const AGAIN: f64 = 1.0 / 3.0;
-/// A hand that turns to and fro does so about a point at most this far away (m per radian of the turn).
-const LEVER: f64 = 0.1;
-/// The largest movement of a point about which the hand rotates, however far it rotates (m).
-const SWAYS: f64 = 0.06;
-/// Seconds in which a part of the hand lets go of its contact at the start of a movement.
-pub(super) const LETS_GO: f64 = 0.15;
-/// Stretches between two paths that are shorter than this (s) hold no act of their own.
-const GAP: f64 = 0.1;
-/// Wrist or finger movement before or after a path belongs to that path if the stretch lasts less than
-/// this (s): hands set out and arrive slowly.
-const LULL: f64 = 0.3;
-/// A hand part this many nepers less likely must fit e times better to be chosen.
-const PER: f64 = 10.0;
-/// Weight of the distance between a path and the nearest path that notation can write. Below 1, because
-/// hands deviate from the notated directions; captured hands count still less, by their `loose`ness.
-const ASIDE: f64 = 0.5;
 
 /// One act of a hand: a path, a movement of wrist or fingers, or a change of posture.
 #[derive(Debug, Clone)]
@@ -156,19 +134,20 @@ impl<'a> Mover<'a> {
 
     /// Like [`fit`](Self::fit), but if the hand turns or changes its shape on the way, the path may begin
     /// at one part of the hand and end at another. The reference point then passes from the one to the
-    /// other in step with the turn, or within the first [`LETS_GO`] seconds.
+    /// other in step with the turn, or within the first `acts.lets_go` seconds.
     fn fit_passing(&self, first: usize, last: usize) -> Fitted {
         let plain = self.fit(first, last);
         let track = self.track;
         let turns = track.turn(first, last).length();
         let changes = track.reshaped(first, last);
-        let reshaped = RESHAPED * self.seen.loose;
-        if matches!(plain.way, PathForm::Straight { .. }) || (turns < TURNED && changes < reshaped)
+        let reshaped = tuned().acts.reshaped * self.seen.loose;
+        if matches!(plain.way, PathForm::Straight { .. })
+            || (turns < tuned().acts.turned && changes < reshaped)
         {
             return plain;
         }
         let done = |n: usize| {
-            let share = if turns < TURNED {
+            let share = if turns < tuned().acts.turned {
                 track.reshaped(first, n) / changes
             } else {
                 track.turn(first, n).length() / turns
@@ -195,7 +174,7 @@ impl<'a> Mover<'a> {
                 if a.distance(*b) < 1e-3 {
                     continue;
                 }
-                let weight = (less / PER).exp();
+                let weight = (less / tuned().acts.per).exp();
                 let mut take = |way: Vec<DVec3>| {
                     let found = fit(&way, self.exact());
                     // No signer draws a circle with one part after the other; and less likely parts count
@@ -235,13 +214,13 @@ impl<'a> Mover<'a> {
 
     /// Returns the error of a path (m) below which simpler kinds are preferred.
     fn exact(&self) -> f64 {
-        EXACT * self.seen.loose * self.seen.loose
+        tuned().path.exact * self.seen.loose * self.seen.loose
     }
 
     /// Returns the score of a path: its error (m), weighted by how much notation it takes; lower is
     /// better.
     fn score(&self, fitted: &Fitted) -> f64 {
-        let aside = ASIDE * aside(&fitted.way) / self.seen.loose.powi(4);
+        let aside = tuned().acts.aside * aside(&fitted.way) / self.seen.loose.powi(4);
         (fitted.residual.hypot(aside) + self.exact()) * plain(&fitted.way)
     }
 
@@ -295,7 +274,7 @@ fn plain(way: &PathForm) -> f64 {
     match way {
         PathForm::Straight { .. } => 1.0,
         PathForm::Arc { .. } => 1.4,
-        PathForm::Circle { turns, .. } if turns * TAU < ROUND => 1.6,
+        PathForm::Circle { turns, .. } if turns * TAU < TAU * tuned().path.round => 1.6,
         PathForm::Circle { .. } => 1.2,
         PathForm::Wave { .. } => 1.8,
     }
@@ -363,7 +342,7 @@ fn lulls(scene: &Scene<'_>, way: &Act, beside: &[Act], frames: usize) -> bool {
         }
         _ => false,
     };
-    scene.seconds(frames) < LULL && beside.iter().all(same)
+    scene.seconds(frames) < tuned().acts.lull && beside.iter().all(same)
 }
 
 /// Returns whether the hand does nothing but turn to and fro about the wrist, or about a point near it.
@@ -376,7 +355,7 @@ fn sways(scene: &Scene<'_>, mover: &Mover<'_>, first: usize, last: usize) -> boo
         far.fold(0.0, f64::max)
     };
     let least = mover.points.iter().map(extent).fold(f64::MAX, f64::min);
-    cycles >= 1.4 && least < (LEVER * angle).min(SWAYS)
+    cycles >= 1.4 && least < (tuned().acts.lever * angle).min(tuned().acts.sways)
 }
 
 fn going(
@@ -398,13 +377,14 @@ fn going(
     // Such a hand ends in another orientation only if it ends farther off than the movement itself takes
     // it.
     let least = match &with {
-        Some(Sway::Wrist { angle, .. }) => TURNED.max(1.3 * angle),
-        _ => TURNED,
+        Some(Sway::Wrist { angle, .. }) => tuned().acts.turned.max(1.3 * angle),
+        _ => tuned().acts.turned,
     };
     Act {
         frames: first..=last,
         turned: track.turn(first, last).length() > least,
-        reshaped: plays.is_none() && track.reshaped(first, last) > RESHAPED * scene.loose,
+        reshaped: plays.is_none()
+            && track.reshaped(first, last) > tuned().acts.reshaped * scene.loose,
         kind: ActKind::Way(Box::new(fitted)),
         with,
         repeat: None,
@@ -422,15 +402,15 @@ fn on_the_spot(
     last: usize,
     plays: Option<&Sway>,
 ) -> Vec<Act> {
-    if last < first + scene.frames(GAP) {
+    if last < first + scene.frames(tuned().acts.gap) {
         return Vec::new();
     }
     let act = |frames: RangeInclusive<usize>, kind: ActKind| {
         let (first, last) = (*frames.start(), *frames.end());
         let change = matches!(kind, ActKind::Change);
         Act {
-            turned: change && track.turn(first, last).length() > TURNED,
-            reshaped: change && track.reshaped(first, last) > RESHAPED * scene.loose,
+            turned: change && track.turn(first, last).length() > tuned().acts.turned,
+            reshaped: change && track.reshaped(first, last) > tuned().acts.reshaped * scene.loose,
             until: last,
             frames,
             kind,
@@ -454,7 +434,7 @@ fn on_the_spot(
     if let Some(sway) = wrist(scene, track, first, last).filter(often) {
         return vec![act(first..=last, ActKind::Sway(sway))];
     }
-    let changes = cut(scene, &speeds, LEAST.1, first);
+    let changes = cut(scene, &speeds, tuned().cuts.least.1, first);
     let found: Vec<Act> = changes
         .into_iter()
         .map(|frames| act(frames, ActKind::Change))
@@ -483,18 +463,23 @@ fn to_and_fro(
             turn.hypot(shape) / scene.seconds((b - a).max(1))
         })
         .collect();
-    let found: Vec<Act> = cut(scene, &speeds, LEAST.1 * AGAIN, first)
-        .into_iter()
-        .map(|frames| {
-            let [turn, shape] = changed(*frames.start(), *frames.end());
-            Act {
-                turned: turn > TURNED * AGAIN,
-                reshaped: shape > RESHAPED * scene.loose * AGAIN,
-                ..act(frames, ActKind::Change)
-            }
-        })
-        .filter(|act| act.turned || act.reshaped)
-        .collect();
+    let found: Vec<Act> = cut(
+        scene,
+        &speeds,
+        tuned().cuts.least.1 * (1.0 / tuned().acts.again),
+        first,
+    )
+    .into_iter()
+    .map(|frames| {
+        let [turn, shape] = changed(*frames.start(), *frames.end());
+        Act {
+            turned: turn > tuned().acts.turned * (1.0 / tuned().acts.again),
+            reshaped: shape > tuned().acts.reshaped * scene.loose * (1.0 / tuned().acts.again),
+            ..act(frames, ActKind::Change)
+        }
+    })
+    .filter(|act| act.turned || act.reshaped)
+    .collect();
     let back = |pair: &[Act]| {
         let [a, b] = [&pair[0], &pair[1]];
         let [turn, shape] = changed(a.first(), b.last());

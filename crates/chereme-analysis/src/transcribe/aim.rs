@@ -9,30 +9,9 @@ use chereme_sign::hamnosys::{Aim, Compass, Direction, Frame, orientation};
 use glam::{DQuat, DVec3};
 
 use super::Found;
+use crate::transcribe::tuned::tuned;
 
 pub(super) use wrist::Wrist;
-
-/// Without a palm to judge by, a direction this much nearer (rad) outweighs one neper.
-const PLAIN: f64 = 0.035;
-/// Penalty (nepers) for a direction half-way between two: neighbours, those 60 degrees apart, those at a
-/// right angle.
-const HALF: [f64; 3] = [1.5, 2.2, 3.5];
-/// Penalty (nepers) for a palm half-way between two.
-const HALF_PALM: f64 = 1.2;
-/// Penalty (nepers) for one of the 26 directions without a symbol of its own.
-const CORNER: f64 = 5.0;
-/// Distribution of a hand's error in orientation: shares and standard deviations (degrees) of normal
-/// distributions in three dimensions. Most hands hold the orientation, some nearly, and the rest may be
-/// anywhere.
-const SPREAD: [(f64, f64); 3] = [(0.75, 1.0), (0.12, 4.0), (0.13, 15.0)];
-/// Each standard deviation is multiplied by this power of the looseness of the hands.
-const WIDER: [i32; 3] = [2, 1, 0];
-/// Directions farther from the measured one than this (rad) are not considered.
-const LOOKED_AT: f64 = 1.3;
-/// Degrees beyond the joint limit that cost one neper.
-const BEYOND: f64 = 8.0;
-/// Largest angle (rad) between two directions that notation may join: a right angle.
-const APART: f64 = 1.58;
 
 /// Returns the unit vector of an aim: left, up, forward.
 pub(super) fn vector(aim: &Aim<Direction>) -> DVec3 {
@@ -81,7 +60,11 @@ fn pointings() -> &'static [Pointing] {
             .map(|direction| Pointing {
                 aim: Aim::at(direction),
                 at: direction.vector().into(),
-                cost: if direction.has_symbol() { 0.0 } else { CORNER },
+                cost: if direction.has_symbol() {
+                    0.0
+                } else {
+                    tuned().aim.corner
+                },
             })
             .collect();
         let plain: Vec<Direction> = Direction::all().filter(|it| it.has_symbol()).collect();
@@ -95,7 +78,7 @@ fn pointings() -> &'static [Pointing] {
                     approx: false,
                     frame: Frame::Plain,
                 };
-                pairs.extend((apart < APART).then_some((apart, aim)));
+                pairs.extend((apart < tuned().aim.apart).then_some((apart, aim)));
             }
         }
         // If several pairs give the same direction, the pair nearest to each other is written.
@@ -104,7 +87,7 @@ fn pointings() -> &'static [Pointing] {
             let at = vector(&aim);
             let wide = usize::from(apart > 0.9) + usize::from(apart > 1.3);
             if all.iter().all(|other| other.at.distance(at) > 1e-6) {
-                let cost = HALF[wide];
+                let cost = tuned().aim.half[wide];
                 all.push(Pointing { aim, at, cost });
             }
         }
@@ -129,7 +112,7 @@ fn palms(between: bool) -> Vec<(Aim<Compass>, f64, f64)> {
             second: Some(second),
             ..Aim::at(first)
         };
-        (aim, palm.angle() + FRAC_PI_8, HALF_PALM)
+        (aim, palm.angle() + FRAC_PI_8, tuned().aim.half_palm)
     });
     let half = half.filter(|_| between);
     whole.into_iter().chain(half).collect()
@@ -155,7 +138,7 @@ pub(super) fn nearest(direction: DVec3, between: bool) -> Found<Aim<Direction>> 
         let off = it.at.angle_between(direction);
         let cost = it.aim.second.map_or(0.0, |_| it.cost);
         let aim = nearer_first(&it.aim, direction);
-        (aim, off, off + PLAIN * cost)
+        (aim, off, off + tuned().aim.plain * cost)
     });
     Found::of(found.collect()).degrees()
 }
@@ -207,7 +190,7 @@ pub(super) fn turned(
     let own = [along, facing.normalize_or(along.any_orthonormal_vector())];
     let palms = palms(how.between);
     let mut all: Vec<Meant> = Vec::new();
-    let far = |it: &&Pointing| it.at.angle_between(along) > LOOKED_AT;
+    let far = |it: &&Pointing| it.at.angle_between(along) > tuned().aim.looked_at;
     for pointing in told(how.between).filter(|it| !far(it)) {
         all.extend(palms.iter().map(|&(palm, angle, cost)| {
             let facing = orientation::palm(pointing.at.to_array(), angle);
@@ -255,7 +238,7 @@ pub(super) fn turned(
 /// joint limit stopped the hand before it.
 fn likely(own: [DVec3; 2], meant: [DVec3; 2], wrist: Option<&Wrist>, loose: f64) -> (f64, f64) {
     let of = |off: f64| {
-        let parts = SPREAD.iter().zip(WIDER);
+        let parts = tuned().aim.spread.iter().zip(tuned().aim.wider);
         let density = |((share, spread), wider): (&(f64, f64), i32)| {
             let spread = spread * loose.powi(wider);
             share * (-0.5 * (off / spread).powi(2)).exp() / spread.powi(3)
@@ -266,7 +249,7 @@ fn likely(own: [DVec3; 2], meant: [DVec3; 2], wrist: Option<&Wrist>, loose: f64)
     let stopped = wrist.map_or_else(Vec::new, |wrist| wrist.stopped(meant));
     stopped.into_iter().fold(free, |best, at| {
         let beyond = apart(at, meant);
-        let likely = of(apart(own, at)) - beyond / BEYOND;
+        let likely = of(apart(own, at)) - beyond / tuned().aim.beyond;
         if likely > best.0 {
             (likely, beyond)
         } else {

@@ -7,11 +7,8 @@ use std::sync::Arc;
 use chereme_motion::{Channel, Clip};
 use glam::{DQuat, DVec4};
 
-/// Joints with more noise than this (rad about each axis; 0.7 degrees) are smoothed, to about half of it.
-const TREMBLES: f64 = 0.0122;
-/// Widest smoothing kernel, as a standard deviation in seconds: it keeps eight tenths of the amplitude of
-/// a hand that moves to and fro four times a second.
-const WIDEST: f64 = 0.05;
+use crate::transcribe::tuned::tuned;
+
 /// The fewest frames from which noise can be estimated.
 const FEWEST: usize = 12;
 
@@ -30,15 +27,16 @@ pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
     let mut channels = Vec::with_capacity(clip.channels().len());
     for channel in clip.channels() {
         let trembles = noise(&channel.rotations);
-        if trembles < TREMBLES {
+        if trembles < tuned().denoise.trembles {
             channels.push(channel.clone());
             continue;
         }
         most = most.max(trembles.to_degrees());
         joints += 1;
         // Such a kernel of n frames reduces white noise by the square root of 32 n / 27 times that of pi.
-        let enough = (2.0 * trembles / TREMBLES).powi(2) * 27.0 / (32.0 * PI.sqrt());
-        let wide = enough.min(WIDEST * clip.rate().per_second());
+        let enough =
+            (2.0 * trembles / tuned().denoise.trembles).powi(2) * 27.0 / (32.0 * PI.sqrt());
+        let wide = enough.min(tuned().denoise.widest * clip.rate().per_second());
         channels.push(Channel {
             rotations: smoothed(&channel.rotations, wide),
             translations: channel.translations.clone(),
@@ -131,7 +129,7 @@ mod tests {
 
     #[test]
     fn noise_is_measured_and_clean_movement_counts_as_none() {
-        assert!(noise(&turning(120, 0.0)) < 0.1 * TREMBLES);
+        assert!(noise(&turning(120, 0.0)) < 0.1 * tuned().denoise.trembles);
         for degrees in [1.0_f64, 2.0, 4.0] {
             let found = noise(&turning(300, degrees.to_radians())).to_degrees();
             assert!((found / degrees - 1.0).abs() < 0.15, "{degrees} {found}");
@@ -150,7 +148,7 @@ mod tests {
                 .sum();
             (sum / clean.len() as f64).sqrt()
         };
-        let smooth = smoothed(&shaken, WIDEST * 60.0);
+        let smooth = smoothed(&shaken, tuned().denoise.widest * 60.0);
         assert!(
             off(&smooth) < 0.7 * off(&shaken),
             "{} {}",

@@ -5,21 +5,8 @@ use std::ops::RangeInclusive;
 use chereme_sign::hamnosys::Symmetry;
 use glam::DVec3;
 
-use super::acts::LAP;
 use super::scene::{HandTrajectory, Scene};
-
-/// A hand that stays within this distance of its start (arm lengths) does not move.
-const STAYS: f64 = 0.05;
-/// Movements are alike if their difference is less than this share of them.
-const ALIKE: f64 = 0.3;
-/// Postures are alike if the hands' axes differ by less than this (rad).
-const POINTS: f64 = 0.6;
-/// Postures are alike if the finger angles differ by less than this (rad).
-const SHAPED: f64 = 0.4;
-/// Penalty for parallel hands: movement that fits mirrored and parallel hands alike is read as mirrored.
-const PARALLEL: f64 = 0.02;
-/// Places mirror each other if they differ by less than this (arm lengths).
-const PLACED: f64 = 0.22;
+use crate::transcribe::tuned::tuned;
 
 /// The relation of the other hand to the dominant one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -135,9 +122,9 @@ pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Rel
     let middle = first + (last - first) / 2;
     let still = |track: &HandTrajectory| {
         let mut way = track.palm[first..=last].iter();
-        way.all(|at| at.distance(track.palm[first]) < STAYS * scene.arm)
+        way.all(|at| at.distance(track.palm[first]) < tuned().hands.stays * scene.arm)
     };
-    let lies = still(other) && other.palm[middle].y < LAP * scene.arm;
+    let lies = still(other) && other.palm[middle].y < tuned().cuts.lap * scene.arm;
     let resting = [first, middle, last]
         .iter()
         .filter(|&&frame| other.rests[frame])
@@ -161,7 +148,7 @@ pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Rel
     best.sort_by(|a, b| a.1.total_cmp(&b.1));
     let unlike = RelationKind::Unlike { moves: !stays[1] };
     match best.first() {
-        Some(&(symmetry, off)) if off < ALIKE => Relation {
+        Some(&(symmetry, off)) if off < tuned().hands.alike => Relation {
             kind: RelationKind::Alike(symmetry),
             residual: off,
             runner_up: best
@@ -188,7 +175,7 @@ fn held_alike(
     }
     let off = posture_off([a, b], frame, symmetry)?;
     let place = a.palm[frame] * DVec3::new(-1.0, 1.0, 1.0);
-    let apart = place.distance(b.palm[frame]) / (PLACED * scene.arm);
+    let apart = place.distance(b.palm[frame]) / (tuned().hands.placed * scene.arm);
     (apart < 1.0).then_some(off.max(0.25 * apart) + parallel(symmetry))
 }
 
@@ -198,8 +185,10 @@ fn posture_off([a, b]: [&HandTrajectory; 2], frame: usize, symmetry: &Symmetry) 
     let along = (a.along[frame] * signs).angle_between(b.along[frame]);
     let normal = (a.normal[frame] * signs).angle_between(b.normal[frame]);
     let shaped = a.known.apart(&a.angles[frame], &b.angles[frame]);
-    let off = (along / POINTS).max(normal / POINTS).max(shaped / SHAPED);
-    (off < 1.0).then_some(ALIKE * off)
+    let off = (along / tuned().hands.points)
+        .max(normal / tuned().hands.points)
+        .max(shaped / tuned().hands.shaped);
+    (off < 1.0).then_some(tuned().hands.alike * off)
 }
 
 /// Returns the difference of two hands' movements from a symmetry, as a share of them. If the movements
@@ -218,7 +207,7 @@ fn moved_alike(
         all += da.length_squared() + db.length_squared();
     }
     let off = off / all.max(1e-12);
-    let posture = posture_off([a, b], first, symmetry).unwrap_or(ALIKE);
+    let posture = posture_off([a, b], first, symmetry).unwrap_or(tuned().hands.alike);
     // Of symmetries that fit the movements equally well, the simplest one that the postures have.
     let marks = [symmetry.up_down, symmetry.out_in, symmetry.out_of_phase];
     let marks = marks.iter().filter(|mark| **mark).count() as f64;
@@ -227,5 +216,9 @@ fn moved_alike(
 
 /// Returns the penalty for hands that do not mirror each other; if both relations fit, mirroring is meant.
 fn parallel(symmetry: &Symmetry) -> f64 {
-    if symmetry.left_right { 0.0 } else { PARALLEL }
+    if symmetry.left_right {
+        0.0
+    } else {
+        tuned().hands.parallel
+    }
 }

@@ -19,6 +19,7 @@
 //! | `tree` | the sign's tree and its features |
 //! | `precision` | how exactly the hands hold the intended directions and handshapes |
 //! | `resynthesis` | verification of hand placement by re-synthesis |
+//! | `tuned` | the tuned numbers, which are data: `schema/notation/reading.json` |
 
 mod acts;
 mod aim;
@@ -31,6 +32,7 @@ mod resynthesis;
 mod scene;
 mod shape;
 mod tree;
+mod tuned;
 mod words;
 
 #[cfg(test)]
@@ -41,6 +43,8 @@ use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, Sign};
 use serde::Serialize;
 
 pub use resynthesis::MOST_POSTURES;
+
+use tuned::tuned;
 
 /// Settings of a transcription.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,14 +86,11 @@ impl Options {
     #[must_use]
     pub fn made() -> Self {
         Self {
-            slack: MADE,
+            slack: tuned().reading.made,
             ..Self::default()
         }
     }
 }
-
-/// Expected distance (m) between the hand and its place in synthesised movement.
-const MADE: f64 = 0.004;
 
 /// The reason why a token cannot be transcribed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -321,11 +322,11 @@ fn looked_at(
     let clip = steadied.as_ref().map_or(clip, |steadied| &steadied.clip);
     let scene = scene::Scene::of(clip, anatomy, options)?;
     let exact = Options {
-        slack: MADE,
+        slack: tuned().reading.made,
         ..options.clone()
     };
     let sight = tree::Sight::new(&scene, options);
-    let mut found = if options.slack > MADE && precision::is_exact(&scene, &sight) {
+    let mut found = if options.slack > tuned().reading.made && precision::is_exact(&scene, &sight) {
         let scene = scene::Scene::of(clip, anatomy, &exact)?;
         resynthesis::written(&tree::Sight::new(&scene, &exact), performs)
     } else {

@@ -5,28 +5,12 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 
 use super::scene::length;
+use crate::transcribe::tuned::tuned;
 
-/// Expected error of a path in synthesised movement, in metres.
-pub(crate) const EXACT: f64 = 0.002;
-/// The number of points, evenly spaced along a path, that fits use.
-const POINTS: usize = 48;
-/// Smallest ratio of depth to chord of an arc: half of the shallowest that is notated.
-const CURVED: f64 = 0.075;
-/// A shallower path is an arc if it is at least this deep (m), at least this deep against its chord, and
-/// its error is at most this share of the straight path's.
-const SHALLOW: (f64, f64, f64) = (0.015, 0.035, 0.15);
-/// Smallest angle (rad) of a full circle: five sixths of a turn.
-pub(super) const ROUND: f64 = TAU * 0.83;
-/// Smallest angle (rad) of an incomplete circle; below it the path is an arc, at most half a turn.
-const PART: f64 = TAU * 0.75;
-/// Largest error of an incomplete circle, as a share of its radius.
-const PART_OFF: f64 = 0.12;
-
-/// A path to and fro that is narrower than this share of its length is not an ellipse.
-const NARROW: f64 = 0.3;
-
-/// Smallest ratio of the radii of an incomplete circle.
-const WIDE: f64 = 0.7;
+/// Returns the expected error of a path in synthesised movement, in metres.
+pub(crate) fn exact() -> f64 {
+    tuned().path.exact
+}
 
 /// The path of a hand; lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,7 +95,7 @@ impl PathForm {
 /// Fits every kind of path to points in order of time and returns the best one. Hands may be off by
 /// `exact` metres: smaller bows and waves are ignored.
 pub(crate) fn fit(points: &[DVec3], exact: f64) -> Fitted {
-    let points = evenly(points, POINTS);
+    let points = evenly(points, tuned().path.points);
     let (first, last) = (points[0], points[points.len() - 1]);
     let chord = last - first;
     let straight = PathForm::Straight { chord };
@@ -135,8 +119,10 @@ pub(crate) fn fit(points: &[DVec3], exact: f64) -> Fitted {
     let arc = PathForm::Arc { chord, bow };
     let off_arc = off(&points, |s| first + along_arc(chord, bow, s));
     let (deep, wide) = (bow.length(), chord.length());
-    let sure = deep > SHALLOW.0 && deep > SHALLOW.1 * wide && off_arc < SHALLOW.2 * off_straight;
-    let curved = sure || (deep > CURVED * wide && off_arc < off_straight);
+    let sure = deep > tuned().path.shallow.0
+        && deep > tuned().path.shallow.1 * wide
+        && off_arc < tuned().path.shallow.2 * off_straight;
+    let curved = sure || (deep > tuned().path.curved * wide && off_arc < off_straight);
     let (way, residual, other) = if curved && deep > exact {
         (arc, off_arc, (straight, off_straight))
     } else {
@@ -220,7 +206,7 @@ fn circle(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
             (a * d - b * c).atan2(a * c + b * d)
         })
         .sum();
-    if swept < PART {
+    if swept < TAU * tuned().path.part {
         return None;
     }
     let [sxx, sxy, syy] = flat.iter().fold([0.0; 3], |[a, b, c], &(x, y)| {
@@ -235,7 +221,11 @@ fn circle(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
             .fold(0.0, f64::max)
     };
     let (long, short) = (most(|p| p.0), most(|p| p.1));
-    let narrow = if swept < ROUND { WIDE } else { NARROW };
+    let narrow = if swept < TAU * tuned().path.round {
+        tuned().path.wide
+    } else {
+        tuned().path.narrow
+    };
     if short < narrow * long || short <= exact {
         return None;
     }
@@ -248,7 +238,11 @@ fn circle(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
         .iter()
         .map(|&point| (point - centre).dot(axis).powi(2));
     let residual = ((squares.sum::<f64>() + lift.sum::<f64>()) / points.len() as f64).sqrt();
-    let most = if swept < ROUND { PART_OFF } else { 0.3 };
+    let most = if swept < TAU * tuned().path.round {
+        tuned().path.part_off
+    } else {
+        0.3
+    };
     (residual < most * long).then(|| {
         let spoke = |point: DVec3| (point - centre).reject_from_normalized(axis);
         let way = PathForm::Circle {
@@ -340,12 +334,15 @@ mod tests {
     #[test]
     fn each_kind_of_path_is_recognised_at_any_speed() {
         let ease = |s: f64| s * s * (3.0 - 2.0 * s);
-        let line = fit(&along(30, |s| DVec3::new(0.2, 0.1, 0.0) * ease(s)), EXACT);
+        let line = fit(
+            &along(30, |s| DVec3::new(0.2, 0.1, 0.0) * ease(s)),
+            tuned().path.exact,
+        );
         assert_eq!(line.way.kind(), "straight");
         assert!(line.residual < 1e-9);
         let arc = fit(
             &along(30, |s| along_arc(DVec3::X * 0.2, DVec3::Z * 0.06, ease(s))),
-            EXACT,
+            tuned().path.exact,
         );
         let PathForm::Arc { bow, .. } = arc.way else {
             panic!("{arc:?}");
@@ -358,7 +355,7 @@ mod tests {
                     let side = if wavy { turn } else { turn.asin() / 1.571 };
                     DVec3::new(0.2 * s, 0.04 * side, 0.0)
                 }),
-                EXACT,
+                tuned().path.exact,
             )
         };
         for wavy in [true, false] {
@@ -380,7 +377,7 @@ mod tests {
                     let (sin, cos) = (TAU * turns * s).sin_cos();
                     DVec3::new(0.1 * cos, 0.1 * narrow * sin, 0.3)
                 }),
-                EXACT,
+                tuned().path.exact,
             );
             let PathForm::Circle {
                 axis,
@@ -407,7 +404,7 @@ mod tests {
                     let (sin, cos) = (TAU * share * s).sin_cos();
                     DVec3::new(0.1 * cos, 0.1 * sin, 0.3)
                 }),
-                EXACT,
+                tuned().path.exact,
             )
         };
         assert_eq!(turn(0.5).way.kind(), "arc");
@@ -426,7 +423,7 @@ mod tests {
             vec![DVec3::ONE; 9],
             vec![DVec3::ZERO, DVec3::X],
         ] {
-            assert!(fit(&points, EXACT).residual.is_finite());
+            assert!(fit(&points, tuned().path.exact).residual.is_finite());
         }
     }
 }

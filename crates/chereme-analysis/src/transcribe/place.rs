@@ -17,29 +17,13 @@ use glam::DVec3;
 
 use super::Found;
 use super::scene::{Axes, Scene};
-use choice::{Choice, Spot, TOP, contacts, middle};
+use crate::transcribe::tuned::tuned;
+use choice::{Choice, Spot, contacts, middle};
 use hand::{Hand, named_all};
 use spread::Spread;
 
 pub(super) use hand::named;
 pub(super) use together::Together;
-
-/// A hand touches the head or an arm below the first distance, the trunk below the second, the other hand
-/// below the third (arm lengths).
-const TOUCH: [f64; 3] = [0.05, 0.11, 0.045];
-/// Penalty (nepers) of each nearness, before the trunk and before the head: close, usual distance, arm
-/// extended, touching.
-const NEARNESS: [[f64; 4]; 2] = [[0.0, 0.4, 2.5, 1.5], [0.5, 1.5, 3.5, 1.5]];
-/// Penalty (nepers) for naming a part of the hand: close to the trunk, close to the head, and touching.
-const SAID: [f64; 3] = [6.5, 3.5, 1.0];
-/// Additional penalty (nepers) for each step of a part's [`rank`](hand::rank).
-const STEP: f64 = 1.5;
-/// Penalty (nepers) for a contact without a named part: annotators mostly name it.
-const UNSAID: f64 = 1.5;
-/// Penalty (nepers) for naming a side if both hands are meant, each on its own side.
-const OWN_SIDES: f64 = 1.0;
-/// Parts of the hand with a higher penalty (nepers) than this are not considered.
-const RATHER_NOT: f64 = 8.0;
 
 /// The place found for a hand, with its errors.
 #[derive(Debug, Clone)]
@@ -270,7 +254,7 @@ impl<'a> Body<'a> {
             if touching && !within {
                 continue;
             }
-            let nearness = NEARNESS[usize::from(!trunk)];
+            let nearness = tuned().place.nearness[usize::from(!trunk)];
             let cost = choice.cost
                 + match contact {
                     Some(Contact::Close) => nearness[0],
@@ -278,9 +262,13 @@ impl<'a> Body<'a> {
                     Some(_) => nearness[3],
                     None => nearness[1],
                 }
-                + if choice.top && !touching { TOP } else { 0.0 }
+                + if choice.top && !touching {
+                    tuned().choice.top
+                } else {
+                    0.0
+                }
                 + if symmetric && !spot.beside && spot.lateral != 0.0 {
-                    OWN_SIDES
+                    tuned().place.own_sides
                 } else {
                     0.0
                 };
@@ -288,7 +276,7 @@ impl<'a> Body<'a> {
             let own = if small { meant } else { hand.middle() };
             let mut add = |at: DVec3, said: Option<&'c [HandPoint]>, cost: f64| {
                 let distance = at.distance(spot.at);
-                let far = distance > TOUCH[usize::from(trunk)] * scene.arm;
+                let far = distance > tuned().place.touch[usize::from(trunk)] * scene.arm;
                 if touching && far && wide == Wide::No {
                     return;
                 }
@@ -310,16 +298,20 @@ impl<'a> Body<'a> {
                     meant: own.point,
                 });
             };
-            add(own.at, None, cost + if touching { UNSAID } else { 0.0 });
+            add(
+                own.at,
+                None,
+                cost + if touching { tuned().place.unsaid } else { 0.0 },
+            );
             if (small || near) && within {
                 let pushed = (touching && trunk).then_some(spot.out);
-                let said = SAID[if touching { 2 } else { usize::from(!trunk) }];
+                let said = tuned().place.said[if touching { 2 } else { usize::from(!trunk) }];
                 if wide == Wide::Yes {
                     for (at, parts, steps) in hand.nameable() {
-                        add(*at, Some(parts), cost + said + STEP * steps);
+                        add(*at, Some(parts), cost + said + tuned().place.step * steps);
                     }
                 } else if let Some((at, parts, steps)) = hand.nearest(goal, pushed) {
-                    add(at, Some(parts), cost + said + STEP * steps);
+                    add(at, Some(parts), cost + said + tuned().place.step * steps);
                 }
             }
         }
@@ -405,11 +397,11 @@ impl<'a> Body<'a> {
         let all = self.candidates(n, hand, false, Wide::No);
         let best = all.iter().map(|it| it.score).fold(f64::INFINITY, f64::min);
         let near = all.iter().filter(|it| it.small);
-        for it in near.filter(|it| it.score < best + RATHER_NOT) {
+        for it in near.filter(|it| it.score < best + tuned().place.rather_not) {
             let parts = it.said.map_or_else(|| vec![it.meant], <[_]>::to_vec);
             add(parts, it.score - best);
         }
-        for (part, less) in self.other_pairs(n, RATHER_NOT) {
+        for (part, less) in self.other_pairs(n, tuned().place.rather_not) {
             add(vec![part], less);
         }
         found

@@ -18,30 +18,17 @@ use super::place::{Body, Placed};
 use super::scene::Axes;
 use super::tree::{self, Begun, Picked, Sight, Stand};
 use super::{Performs, Transcription};
+use crate::transcribe::tuned::tuned;
 
-/// Ranks of the candidate places of a hand that are tried in turn; the next range is tried only if no
-/// place of the one before fits.
-const PLACES: [Range<usize>; 3] = [0..40, 40..120, 120..300];
-/// The number of candidate places to try for two hands in a constellation.
-const SHARED: usize = 100;
-/// The number of pairs of hand parts to try.
-const PAIRS: usize = 8;
-/// The number of orientations to try at each place.
-const TURNS: usize = 12;
-/// The number of places at which other orientations are tried.
-const TURNED_AT: usize = 24;
+/// Returns the ranks of the candidate places of a hand that are tried in turn; the next range is tried only if no place
+/// of the one before fits.
+fn ranks() -> [Range<usize>; 3] {
+    let [few, more, most] = tuned().resynthesis.places;
+    [0..few, few..more, more..most]
+}
+
 /// The most postures that are synthesised for one sign.
 pub const MOST_POSTURES: usize = 1000;
-/// The number of best postures that are synthesised to the end of the sign.
-const FINALISTS: usize = 12;
-/// Distance (m) within which a hand matches after re-synthesis of the whole sign.
-const EXACT: f64 = 0.001;
-/// Distance (m) within which a hand matches after re-synthesis of the first posture only.
-const NEARLY: f64 = 0.0025;
-/// An alternative reading is accepted only if its error is below this (m).
-const ALMOST: f64 = 0.0035;
-/// Penalty (nepers) for a reading whose re-synthesis misses the observed hand.
-const INEXACT: f64 = 6.0;
 
 /// Writes the notation of a scene; with `performs`, verifies the places by re-synthesis.
 pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>) -> Transcription {
@@ -221,9 +208,13 @@ impl Proof<'_, '_> {
         if let Some(unsaid) = self.unsaid(&first) {
             return Some(unsaid);
         }
-        let mut best = self.tried(first, &self.performs.performs(self.told)?, EXACT)?;
+        let mut best = self.tried(
+            first,
+            &self.performs.performs(self.told)?,
+            tuned().resynthesis.exact,
+        )?;
         let told = best.off;
-        let mut near = self.moved(&mut best, &PLACES);
+        let mut near = self.moved(&mut best, &ranks());
         for other in self.other_forms(&best.trial) {
             if self.open(best.off).is_empty() {
                 break;
@@ -236,7 +227,7 @@ impl Proof<'_, '_> {
             } else {
                 2
             };
-            self.moved(&mut other, &PLACES[..far]);
+            self.moved(&mut other, &ranks()[..far]);
             // A match of the other hand alone may be chance.
             let [open, before] = [other.off, best.off].map(|off| self.open(off));
             if open.len() < before.len() && !open.contains(&0) {
@@ -256,7 +247,7 @@ impl Proof<'_, '_> {
                 ..best.trial.clone()
             };
             let mut still = self.begun_as(still)?;
-            self.moved(&mut still, &PLACES[..2]);
+            self.moved(&mut still, &ranks()[..2]);
             if self.open(still.off).len() < self.open(best.off).len() {
                 best = still;
             }
@@ -265,7 +256,7 @@ impl Proof<'_, '_> {
             let [best, told] = [best.off, told].map(|off| self.beyond(off, within).len());
             best < told
         };
-        if !fewer(NEARLY) && !fewer(ALMOST) {
+        if !fewer(tuned().resynthesis.nearly) && !fewer(tuned().resynthesis.almost) {
             return Some((None, told));
         }
         Some(best.told())
@@ -279,15 +270,15 @@ impl Proof<'_, '_> {
             return None;
         }
         let whole = self.performs.performs(&begun.trial.sign(self.told))?;
-        let whole = self.tried(begun.trial, &whole, EXACT)?;
-        self.beyond(whole.off, EXACT)
+        let whole = self.tried(begun.trial, &whole, tuned().resynthesis.exact)?;
+        self.beyond(whole.off, tuned().resynthesis.exact)
             .is_empty()
             .then(|| whole.told())
     }
 
     fn begun_as(&self, trial: Trial) -> Option<Tried> {
         let clip = self.performs.begins(&trial.sign(self.told))?;
-        self.tried(trial, &clip, NEARLY)
+        self.tried(trial, &clip, tuned().resynthesis.nearly)
     }
 
     /// Tries other places for hands that miss their observed position, updates `best`, and returns the
@@ -312,7 +303,7 @@ impl Proof<'_, '_> {
 
     /// Returns the hands that miss their observed position.
     fn open(&self, off: [f64; 2]) -> Vec<usize> {
-        self.beyond(off, NEARLY)
+        self.beyond(off, tuned().resynthesis.nearly)
     }
 
     /// Returns the hands whose reading is responsible for a miss, of their own or of the hands that follow
@@ -340,7 +331,7 @@ impl Proof<'_, '_> {
 
     /// Returns trials with other places for hand `n`, or for both in a constellation, the likeliest first.
     fn places(&self, from: &Trial, n: usize) -> Vec<Trial> {
-        let [.., last] = PLACES;
+        let [.., last] = ranks();
         let symmetric = self.begun.symmetric || from.mirrored;
         match &from.stand {
             Stand::One(own, _) if *own == n => {
@@ -358,7 +349,9 @@ impl Proof<'_, '_> {
                 all.into_iter().map(each).collect()
             }
             Stand::Together(together, _) if n == 0 => {
-                let all = self.body.likeliest_shared(together, SHARED);
+                let all = self
+                    .body
+                    .likeliest_shared(together, tuned().resynthesis.shared);
                 let both = |at| from.with(Stand::Together(together.clone(), at));
                 all.into_iter().map(both).collect()
             }
@@ -386,7 +379,11 @@ impl Proof<'_, '_> {
             Stand::Together(..) => Some(Stand::Each([0, 1].map(likeliest))),
             _ => None,
         };
-        let pairs = self.body.likeliest_pairs().into_iter().take(PAIRS);
+        let pairs = self
+            .body
+            .likeliest_pairs()
+            .into_iter()
+            .take(tuned().resynthesis.pairs);
         let together = pairs.filter_map(|together| {
             let at = self.body.likeliest_shared(&together, 1).pop()?;
             Some(Stand::Together(together, at))
@@ -405,11 +402,15 @@ impl Proof<'_, '_> {
             return Vec::new();
         };
         near.sort_by(|a, b| {
-            let of = |tried: &Tried| tried.trial.cost() + 0.5 * tried.off[n] / NEARLY;
+            let of = |tried: &Tried| {
+                tried.trial.cost() + 0.5 * tried.off[n] / tuned().resynthesis.nearly
+            };
             of(a).total_cmp(&of(b))
         });
-        near.truncate(TURNED_AT);
-        let turns = self.sight.turned(track, self.begun.frame, TURNS + 1);
+        near.truncate(tuned().resynthesis.turned_at);
+        let turns = self
+            .sight
+            .turned(track, self.begun.frame, tuned().resynthesis.turns + 1);
         let each = near.iter().flat_map(|tried| {
             turns[1..].iter().map(|turned| {
                 let mut trial = tried.trial.clone();
@@ -433,15 +434,18 @@ impl Proof<'_, '_> {
         let signs: Vec<Sign> = trials.iter().map(|trial| trial.sign(self.told)).collect();
         let clips = self.performs.begin_all(&signs).into_iter();
         let begun = trials.into_iter().zip(clips);
-        let begun = begun.filter_map(|(trial, clip)| self.tried(trial, &clip?, NEARLY));
+        let begun =
+            begun.filter_map(|(trial, clip)| self.tried(trial, &clip?, tuned().resynthesis.nearly));
         let mut all: Vec<Tried> = begun.collect();
         all.sort_by(|a, b| a.total.total_cmp(&b.total));
-        for nearest in all.iter().take(FINALISTS) {
+        for nearest in all.iter().take(tuned().resynthesis.finalists) {
             if nearest.trial.cost() >= best.total {
                 continue;
             }
             let whole = self.performs.performs(&nearest.trial.sign(self.told));
-            let whole = whole.and_then(|clip| self.tried(nearest.trial.clone(), &clip, EXACT));
+            let whole = whole.and_then(|clip| {
+                self.tried(nearest.trial.clone(), &clip, tuned().resynthesis.exact)
+            });
             if let Some(whole) = whole.filter(|whole| whole.total < best.total) {
                 *best = whole;
             }
@@ -452,7 +456,9 @@ impl Proof<'_, '_> {
     fn tried(&self, trial: Trial, clip: &Clip, exact: f64) -> Option<Tried> {
         let off = self.off(clip)?;
         let otherwise = trial.otherwise();
-        let of = |n: usize| (0.5 * (off[n] / exact).powi(2)).min(INEXACT + otherwise[n]);
+        let of = |n: usize| {
+            (0.5 * (off[n] / exact).powi(2)).min(tuned().resynthesis.inexact + otherwise[n])
+        };
         let unlikely = match &trial.stand {
             Stand::One(n, _) if self.begun.alone => of(*n),
             Stand::Each(_) => of(0) + of(1),

@@ -5,10 +5,8 @@ use chereme_sign::hamnosys::BodyLanguage;
 use glam::{DMat3, DQuat, DVec3};
 
 use super::shape::Known;
-use super::{MADE, Options, TranscribeError};
-
-/// The number of frames that show which arms rest.
-const LOOKED_AT: usize = 48;
+use super::{Options, TranscribeError};
+use crate::transcribe::tuned::tuned;
 
 /// The signer, with the dominant hand first.
 ///
@@ -135,7 +133,7 @@ impl<'a> Scene<'a> {
             language: &options.language,
             dominant: options.dominant,
             slack: options.slack.max(1e-4),
-            loose: (options.slack.max(1e-4) / MADE).sqrt(),
+            loose: (options.slack.max(1e-4) / tuned().reading.made).sqrt(),
             arm: measures.arm,
             shoulders: measures.shoulder_width,
             hand: measures.hand,
@@ -178,7 +176,7 @@ impl<'a> Scene<'a> {
 
     /// Returns the side of the only arm that signs: the other rests in most of the frames in which an arm does not.
     fn lone_arm(&self) -> Option<Side> {
-        let step = self.clip.frames().div_ceil(LOOKED_AT);
+        let step = self.clip.frames().div_ceil(tuned().scene.looked_at);
         let (mut signing, mut both) = ([0, 0], 0);
         for frame in (0..self.clip.frames()).step_by(step) {
             let model = self.clip.model_pose(frame);

@@ -9,6 +9,7 @@ use chereme_sign::hamnosys::{
 };
 
 use super::Found;
+use crate::transcribe::tuned::tuned;
 
 const CLASSES: [HandClass; 12] = [
     HandClass::Fist,
@@ -40,23 +41,6 @@ const BENDS: [Option<Bend>; 7] = [
     Some(Bend::HalfBent),
 ];
 const OPENINGS: [Option<Opening>; 3] = [None, Some(Opening::Tight), Some(Opening::Slack)];
-
-/// Weights of the thumb's angles. Below those of the fingers, and lowest for opposition, as skeletons
-/// differ in them.
-const THUMB: [f64; 5] = [0.6, 0.6, 0.1, 0.35, 0.3];
-/// Weights of each finger's angles: the end joint counts less, as it follows the middle one; the spread
-/// counts more, as few degrees of it distinguish forms.
-const FINGER: [f64; 4] = [2.2, 1.0, 1.0, 0.35];
-/// Two forms with a smaller difference than this (degrees) are the same.
-const SAME: f64 = 0.3;
-/// Added to a residual (degrees) before it is multiplied by the penalties.
-const FLOOR: f64 = 0.6;
-/// Penalty of each addition to the notation, as a share of the residual.
-const COSTS: [(f64, &str); 3] = [(0.14, "between"), (0.06, "digits"), (0.16, "exception")];
-/// The number of nearest forms that are tried with exceptions.
-const TRIED: usize = 16;
-/// A digit with a larger error than this (degrees) may be an exception.
-const ODD: f64 = 16.0;
 
 /// An entry of the table: a form with its angles in degrees.
 #[derive(Debug)]
@@ -109,7 +93,7 @@ impl Forms {
                     between: Some(second),
                     ..bare(first)
                 };
-                entries.push(entry(shape, COSTS[0].0));
+                entries.push(entry(shape, tuned().shape.costs[0]));
             }
         }
         for form in plain() {
@@ -118,7 +102,7 @@ impl Forms {
                     special: digits,
                     ..bare(form)
                 };
-                entries.push(entry(shape, COSTS[1].0));
+                entries.push(entry(shape, tuned().shape.costs[1]));
             }
         }
         Self {
@@ -147,7 +131,8 @@ impl Forms {
             let sum: f64 = squares.map(|((a, b), w)| w * (a - b) * (a - b)).sum();
             (sum / total).sqrt()
         };
-        let scored = |residual: f64, cost: f64| (residual + FLOOR) * (1.0 + loose * cost);
+        let scored =
+            |residual: f64, cost: f64| (residual + tuned().shape.floor) * (1.0 + loose * cost);
         let residuals: Vec<f64> = self
             .entries
             .iter()
@@ -208,7 +193,7 @@ impl Forms {
         }
         let mut found = Vec::new();
         for near in &mut near {
-            let few = TRIED.min(near.len());
+            let few = tuned().shape.tried.min(near.len());
             if few < near.len() {
                 near.select_nth_unstable_by(few, |a, b| a.0.total_cmp(&b.0));
             }
@@ -237,7 +222,7 @@ impl Forms {
                 let off = hand.fingers[n].flexion[joint] - now.fingers[n].flexion[joint];
                 off.to_degrees().abs() * weight[joint + 1].min(1.0)
             });
-            if from.shape.bends[n + 1].is_some() || apart.fold(0.0, f64::max) < ODD {
+            if from.shape.bends[n + 1].is_some() || apart.fold(0.0, f64::max) < tuned().shape.odd {
                 continue;
             }
             for bend in BENDS.into_iter().flatten() {
@@ -245,7 +230,7 @@ impl Forms {
                 shape.bends[n + 1] = Some(bend);
                 let angles = hand_angles(&shape, &self.language).to_array();
                 let residual = off(&angles.map(f64::to_degrees));
-                let cost = from.cost + COSTS[2].0;
+                let cost = from.cost + tuned().shape.costs[2];
                 let score = scored(residual, cost);
                 let least = better.as_ref().map_or(from.score, |found| found.score);
                 if score < least {
@@ -343,7 +328,7 @@ fn other_digits(class: HandClass) -> Vec<Digits> {
 fn add(entries: &mut Vec<FormAngles>, entry: FormAngles) {
     if entries
         .iter()
-        .all(|old| apart(&old.angles, &entry.angles) > SAME)
+        .all(|old| apart(&old.angles, &entry.angles) > tuned().shape.same)
     {
         entries.push(entry);
     }
@@ -372,7 +357,7 @@ impl Known {
             there
         };
         let thumb = [0, 1, 2].map(|n| has(Part::Thumb(side, n)));
-        for (n, weight) in THUMB.into_iter().enumerate() {
+        for (n, weight) in tuned().shape.thumb.into_iter().enumerate() {
             let there = thumb[n.saturating_sub(2)];
             weights[n] = if there { weight } else { 0.0 };
         }
@@ -381,11 +366,11 @@ impl Known {
             for joint in 1..4_u8 {
                 if has(Part::Finger(side, finger, joint)) {
                     let at = first + usize::from(joint);
-                    weights[at] = FINGER[usize::from(joint)];
+                    weights[at] = tuned().shape.finger[usize::from(joint)];
                 }
             }
             if weights[first + 1] > 0.0 {
-                weights[first] = FINGER[0];
+                weights[first] = tuned().shape.finger[0];
             }
         }
         (Self(weights), missing)
@@ -404,9 +389,9 @@ impl Known {
     #[cfg(test)]
     fn whole() -> Self {
         let mut weights = [0.0; HandAngles::LEN];
-        weights[..5].copy_from_slice(&THUMB);
+        weights[..5].copy_from_slice(&tuned().shape.thumb);
         for slot in weights[5..].chunks_exact_mut(4) {
-            slot.copy_from_slice(&FINGER);
+            slot.copy_from_slice(&tuned().shape.finger);
         }
         Self(weights)
     }

@@ -18,7 +18,7 @@ use chereme_sign::hamnosys::{
 };
 use glam::DVec3;
 
-use super::acts::{Act, ActKind, LETS_GO, Mover, Seeing, Sway, acts, signing};
+use super::acts::{Act, ActKind, Mover, Seeing, Sway, acts, signing};
 use super::aim;
 use super::hands::{Relation, RelationKind, lead, relation, signs};
 use super::path::PathForm;
@@ -27,15 +27,10 @@ use super::scene::{HandTrajectory, Scene, length};
 use super::shape::Forms;
 use super::words;
 use super::{Feature, FeatureKind, Found, Options, RunnerUp, Stage, Transcription, Unit};
+use crate::transcribe::tuned::tuned;
 pub(super) use posture::Stand;
 use posture::behind;
 pub(super) use readings::Sight;
-
-/// Upper bound (nepers) on the penalty of a hand's separate place, however far it is from every place.
-const MOST_APART: f64 = 12.0;
-
-/// A reading of a hand is sure if its residual is at most this (degrees).
-const SURE: f64 = 4.0;
 
 /// The symmetry of hands that mirror each other.
 const MIRRORED: Symmetry = Symmetry {
@@ -45,9 +40,6 @@ const MIRRORED: Symmetry = Symmetry {
     out_of_phase: false,
     real_space: false,
 };
-
-/// More actions than this suggest that the clip holds several signs.
-const MOST: usize = 12;
 
 /// The readings of one hand in one frame.
 #[derive(Debug, Clone)]
@@ -206,7 +198,7 @@ impl<'a> Writer<'a> {
             }
         }
         let done = self.stages.len() - 1;
-        if done > MOST {
+        if done > tuned().tree.most {
             self.findings.push(format!(
                 "{done} actions are many for one sign: give the span of a single token"
             ));

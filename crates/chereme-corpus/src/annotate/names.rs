@@ -1,10 +1,10 @@
 //! The names of tiers and annotations in requests, and the rows that they stand for.
 
-use chereme_sign::Remedy;
 use std::fmt;
 
 use chereme_formats::table::annotations::Moment;
 use chereme_motion::{Instant, Span};
+use chereme_sign::Remedy;
 use chereme_sign::text::{did_you_mean, fold, nearest};
 use rusqlite::Connection;
 

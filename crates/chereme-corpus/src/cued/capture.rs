@@ -1,6 +1,5 @@
 //! Markers and keys of a recording in the form for the models of cued speech.
 
-use chereme_sign::Remedy;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -10,6 +9,7 @@ use chereme_analysis::cue::labels;
 use chereme_analysis::cue::session::{Followed, Key, KeySounds, rigid_set};
 use chereme_compose::CueTier;
 use chereme_motion::{Instant, Markers, Space, Span};
+use chereme_sign::Remedy;
 use chereme_sign::cue::{self, Alphabet, CueCode, Phone, Utterance};
 use rusqlite::Connection;
 use serde::Serialize;

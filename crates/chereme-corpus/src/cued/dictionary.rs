@@ -1,6 +1,5 @@
 //! Movements between keys cut from captured takes, and those that a script needs in addition.
 
-use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 
 use chereme_analysis::cue::pca::Pca;
@@ -8,6 +7,7 @@ use chereme_analysis::cue::rigid::Rigid;
 use chereme_analysis::cue::session::{KeyGestures, Recognisers, bridge, rigid_set};
 use chereme_compose::cue::dikey::{Dictionary, Dikey, DikeyEnd};
 use chereme_motion::glam::{DQuat, DVec3};
+use chereme_sign::Remedy;
 use chereme_sign::cue::{self, Utterance};
 use rusqlite::Connection;
 use serde::Serialize;

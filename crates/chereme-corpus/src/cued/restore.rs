@@ -1,6 +1,5 @@
 //! Hidden markers restored from models of hand and face, as a track of their own.
 
-use chereme_sign::Remedy;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
@@ -12,6 +11,7 @@ use chereme_motion::column::Column;
 use chereme_motion::glam::DVec3;
 use chereme_motion::markers::{Marker, Quality};
 use chereme_motion::{Capture, Convention, Markers, Space};
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
 

@@ -7,9 +7,9 @@
 
 pub(super) mod tracked;
 
-use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 
+use chereme_sign::Remedy;
 use rusqlite::{Connection, OptionalExtension, params};
 use serde::Serialize;
 use serde_json::Value;

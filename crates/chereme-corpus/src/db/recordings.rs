@@ -1,8 +1,8 @@
 //! Rows of signers, skeletons, recordings and their tracks.
 
-use chereme_sign::Remedy;
 use std::io::Read;
 
+use chereme_sign::Remedy;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 

@@ -1,8 +1,8 @@
 //! Rows of signs, their texts, tokens and token values.
 
-use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 
+use chereme_sign::Remedy;
 use chereme_sign::tier::Hands;
 use chereme_sign::{Component, Field, Phase, Reading};
 use rusqlite::{Connection, OptionalExtension, Row, params};

@@ -1,10 +1,10 @@
 //! Rows of tracks of every kind, and of their channels.
 
-use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use chereme_motion::{Instant, Rate, Span};
+use chereme_sign::Remedy;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 

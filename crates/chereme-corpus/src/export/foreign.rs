@@ -1,12 +1,12 @@
 //! Exports movement as glTF and VRMA, markers as C3D and TRC, and tiers as TextGrid, subtitles and ELAN tables.
 
-use chereme_sign::Remedy;
 use std::io::Write;
 use std::ops::Range;
 
 use chereme_formats::eaf::Transcript;
 use chereme_formats::{c3d, gltf, subtitles, textgrid, trc};
 use chereme_motion::{Clip, Instant, Span};
+use chereme_sign::Remedy;
 use chereme_sign::TierRole;
 use rusqlite::Connection;
 

@@ -1,8 +1,8 @@
 //! The long tables of Parquet, and an error in their place in a program that was built without Parquet.
 
-use chereme_sign::Remedy;
 use std::io::Write;
 
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 
 use super::ExportWhat;

@@ -1,10 +1,10 @@
 //! Exports notated tokens as SiGML and as HamNoSys text.
 
-use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::io::Write;
 
 use chereme_formats::{hns, sigml};
+use chereme_sign::Remedy;
 use chereme_sign::hamnosys::Notated;
 use rusqlite::Connection;
 

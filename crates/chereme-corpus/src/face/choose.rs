@@ -1,11 +1,11 @@
 //! Ranks performances of a function for a sentence, and animates the sentence with the chosen one.
 
-use chereme_sign::Remedy;
 use std::thread;
 
 use chereme_analysis::dtw::CostMethod;
 use chereme_analysis::phases::{self, NoPath, Phased, PhasedScore};
 use chereme_motion::{Instant, Span};
+use chereme_sign::Remedy;
 use chereme_sign::milestones::{Function, Milestones};
 use chereme_sign::text::did_you_mean;
 use serde::Serialize;

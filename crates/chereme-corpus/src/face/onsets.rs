@@ -1,11 +1,11 @@
 //! Begin and end of non-manuals relative to the signs that they span, for each construction.
 
-use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use chereme_motion::Instant;
+use chereme_sign::Remedy;
 use chereme_sign::milestones::{EDGE, Function};
 use serde::Serialize;
 

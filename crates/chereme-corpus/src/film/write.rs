@@ -1,10 +1,10 @@
 //! Writes pictures as a film: H.264 in MP4, which every player supports.
 
-use chereme_sign::Remedy;
 use std::io::Write;
 
 use chereme_figure::{Image, Pictures};
 use chereme_formats::mp4::{self, Muxer};
+use chereme_sign::Remedy;
 use rusty_h264::{Encoder, EncoderConfig, Preset, YuvFrame};
 
 use super::colours::{Planes, usual};

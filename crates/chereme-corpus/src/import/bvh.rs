@@ -1,6 +1,5 @@
 //! Imports motion files: a recording with its skeleton and its movement, every number stored exactly.
 
-use chereme_sign::{Choice, Remedy};
 use std::fs::File;
 use std::sync::Arc;
 
@@ -12,6 +11,7 @@ use chereme_motion::anatomy::{Anatomy, ConventionGuess, Evidence, Part};
 use chereme_motion::ends::Ends;
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Clip, Convention, ModelPose, Rate, Side, Skeleton};
+use chereme_sign::{Choice, Remedy};
 use serde_json::json;
 use sha2::{Digest, Sha256};
 

@@ -1,6 +1,5 @@
 //! Imports captures in formats other than BVH: markers, curves and skeletons, and tiers of other programs.
 
-use chereme_sign::{Choice, Remedy};
 use std::fs::{self, File};
 use std::io::Read as _;
 use std::path::Path;
@@ -12,6 +11,7 @@ use chereme_formats::{
     Finding, Scene, c3d, curves, gltf, keypoints, pose, subtitles, textgrid, trc,
 };
 use chereme_motion::{Anatomy, Convention};
+use chereme_sign::{Choice, Remedy};
 
 use super::report::ReportFinding;
 use super::understood::MovementRead;

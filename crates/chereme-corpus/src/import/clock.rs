@@ -1,9 +1,9 @@
 //! Aligns tracks of one take by timecode: the time of day at which each began.
 
-use chereme_sign::Remedy;
 use std::ops::Range;
 
 use chereme_motion::Instant;
+use chereme_sign::Remedy;
 
 use super::report::ReportFinding;
 use super::{FileReport, Job};

@@ -5,7 +5,6 @@ mod target;
 mod update;
 mod vocabulary;
 
-use chereme_sign::{Choice, Remedy};
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::Finding;
@@ -14,6 +13,7 @@ use chereme_formats::eaf::convert::{Annotation, AnnotationAddress, Timing, Trans
 use chereme_formats::roles::{self, Mapping, TierGuess};
 use chereme_motion::Instant;
 use chereme_sign::TierRole;
+use chereme_sign::{Choice, Remedy};
 use serde_json::json;
 
 use super::report::{Outcome, ReportFinding};

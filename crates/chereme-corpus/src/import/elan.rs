@@ -1,11 +1,11 @@
 //! Imports files that ELAN stores beside annotation files: vocabularies, tier templates, and display settings of tiers.
 
-use chereme_sign::{Choice, Remedy};
 use std::collections::BTreeSet;
 
 use chereme_formats::eaf;
 use chereme_formats::eaf::convert::{Tier, Transcript};
 use chereme_formats::roles::{self, TierName};
+use chereme_sign::{Choice, Remedy};
 use serde_json::{Value, json};
 
 use super::eaf as annotations;

@@ -1,12 +1,12 @@
 //! Stores notation and the components derived from it.
 
-use chereme_sign::{Choice, Remedy};
 use std::collections::BTreeMap;
 
 use chereme_formats::Finding;
 use chereme_formats::hns::holds_some;
 use chereme_sign::hamnosys::components::{Mapped, MappedValue, Mapper};
 use chereme_sign::hamnosys::{Notated, is_garbled, parse_lenient};
+use chereme_sign::{Choice, Remedy};
 use chereme_sign::{Component, Reading};
 
 use super::report::ReportFinding;

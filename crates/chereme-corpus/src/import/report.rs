@@ -1,12 +1,12 @@
 //! The report of an import, file by file.
 
-use chereme_sign::Remedy;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
 use chereme_formats::{Finding, Severity};
 use chereme_motion::Instant;
+use chereme_sign::Remedy;
 use serde::Serialize;
 
 use super::understood::Understood;

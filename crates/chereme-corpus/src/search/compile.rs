@@ -1,11 +1,11 @@
 //! Compiles the tree of a query to a plan.
 
-use chereme_sign::Remedy;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use chereme_sign::Component;
+use chereme_sign::Remedy;
 use chereme_sign::query::{
     At, Comparison, Expr, Missing, Operator, Property, QueryError, Test, TimeField, TimeTest,
     Value, Wanted, What,

@@ -1,10 +1,10 @@
 //! Fits a skeleton to the markers of a recording; runs only on command.
 
-use chereme_sign::Remedy;
 use std::sync::Arc;
 
 use chereme_motion::fit::{Fitted, fit};
 use chereme_motion::{Anatomy, Column, Convention, Curve, Curves, Skeleton, Times};
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
 

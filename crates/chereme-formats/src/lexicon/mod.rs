@@ -23,6 +23,7 @@ mod json;
 mod slpaa;
 mod values;
 
+use chereme_sign::Remedy;
 pub use columns::{Column, Meaning};
 
 use crate::finding::Finding;
@@ -30,7 +31,6 @@ use crate::hns::{holds_symbols, tell_mended};
 use crate::roles::{Hands, Mapping};
 use crate::table::{Cells, Row, TableError};
 use crate::tally::Findings;
-use chereme_sign::Remedy;
 use chereme_sign::hamnosys::{in_plain_symbols, mended};
 use chereme_sign::text::{edit_distance, fold};
 use chereme_sign::{Component, Field, Phase, Reading};

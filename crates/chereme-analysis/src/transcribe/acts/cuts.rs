@@ -6,46 +6,9 @@ use glam::DVec3;
 
 use super::super::path::PathForm;
 use super::super::scene::{HandTrajectory, Scene};
-use super::{GAP, Mover, Seeing, TURNED};
+use super::{Mover, Seeing};
 use crate::strokes::{between_minima, smoothed};
-
-/// Smallest peak of speed of a path (arm lengths per second) and of a turn (radians per second).
-pub(super) const LEAST: (f64, f64) = (0.12, 0.35);
-/// Paths shorter than this (arm lengths) are ignored: a third of a small movement.
-const SHORT: f64 = 0.035;
-/// Small displacements shorter than this (s) are ignored; the fastest real ones take twice as long.
-const BRIEF: f64 = 0.11;
-/// A hand stops between two paths if its speed there is below this share of its top speed on both.
-const STOPS: f64 = 0.2;
-/// The hand goes on round a corner if its speed there is above this share of its top speed, provided that
-/// the joined path is a loop back to its start: a circle that the body flattens.
-const CORNERS: f64 = 0.12;
-/// A loop is closed if its angle differs from whole turns by less than this (turns).
-const CLOSED: f64 = 0.08;
-/// A loop's shorter radius is at least this share of its longer one.
-const ROUNDISH: f64 = 0.5;
-/// A flattened loop's error is below this share of its longer radius.
-const FLATTENED: f64 = 0.22;
-/// A hand that only slows down goes on if its speed stays above this share of its top speed before and
-/// after.
-const SLOWS: f64 = 0.35;
-/// Within a sign, such a hand goes on if it changes direction by less than this (rad).
-const ONWARD: f64 = 0.6;
-/// From and to rest, such a hand goes on if it changes direction by less than this (rad).
-const TURNS: f64 = 1.05;
-/// A single path of a loosely moving hand must be at least this share of a small movement long.
-const FAINT: f64 = 0.5;
-/// A path leads back if its direction differs from the reverse by less than the first number (rad) and its
-/// length by at most the second number as a factor.
-const BACK: (f64, f64) = (0.8, 2.0);
-/// Height below which a hand may rest in the lap or before the belly, relative to the shoulders (arm
-/// lengths).
-pub(in crate::transcribe) const LAP: f64 = -0.65;
-/// A hand leaves the lap if it rises by more than this (arm lengths).
-const RISE: f64 = 0.4;
-
-/// A path from or to rest ends within this time (s) of the minimum of the smoothed speed.
-const NEAR: f64 = 0.1;
+use crate::transcribe::tuned::tuned;
 
 /// Returns the frames in which a hand signs, without its paths from and to rest.
 pub(in crate::transcribe) fn signing(
@@ -62,20 +25,21 @@ pub(in crate::transcribe) fn signing(
     let mover = Mover::new(track, [0, last], nothing, &[]);
     let (ways, speeds) = ways(scene, &mover, 0, last);
     let on = |a: &RangeInclusive<usize>, b: &RangeInclusive<usize>| {
-        slows(scene, [a, b], |n| speeds[n], SLOWS) && turn(track, [a, b]) < TURNS
+        slows(scene, [a, b], |n| speeds[n], tuned().cuts.slows)
+            && turn(track, [a, b]) < tuned().cuts.turns
     };
     let mut first = 0;
     let mut end = last;
     // Hands in the lap or folded before the belly are at rest if they later rise far from there.
     let lies = |low: usize, high: usize| {
         let (low, high) = (track.palm[low].y, track.palm[high].y);
-        low < LAP * scene.arm && high - low > RISE * scene.arm
+        low < tuned().cuts.lap * scene.arm && high - low > tuned().cuts.rise * scene.arm
     };
     let rests = |low: usize, high: usize| track.rests[low] || lies(low, high);
     // A hand may stir while it rests, before it rises or after it sinks.
     let stirs = |way: &&RangeInclusive<usize>| {
         let mut ends = [*way.start(), *way.end()].into_iter();
-        ends.all(|n| track.rests[n] || track.palm[n].y < LAP * scene.arm)
+        ends.all(|n| track.rests[n] || track.palm[n].y < tuned().cuts.lap * scene.arm)
     };
     let rises = |n: &usize| ways.get(*n).is_some_and(|it| rests(*it.start(), *it.end()));
     let stirring = ways.iter().take_while(stirs).count();
@@ -103,7 +67,7 @@ pub(in crate::transcribe) fn signing(
 /// Returns the frame in which the hand is slowest, near a minimum of its smoothed speed: smoothing moves the minimum
 /// away from the faster of the two paths that meet there.
 fn stillest(scene: &Scene<'_>, speeds: &[f64], at: usize) -> usize {
-    let reach = scene.frames(NEAR);
+    let reach = scene.frames(tuned().cuts.near);
     let near = at.saturating_sub(reach)..(at + reach + 1).min(speeds.len());
     near.min_by(|&a, &b| speeds[a].total_cmp(&speeds[b]))
         .unwrap_or(at)
@@ -126,8 +90,8 @@ pub(super) fn ways(
         speeds.fold(f64::MAX, f64::min)
     };
     let speeds: Vec<f64> = (first..=last).map(slowest).collect();
-    let mut found = cut(scene, &speeds, LEAST.0 * scene.arm, first);
-    found.retain(|way| mover.shortest(*way.start(), *way.end()) > SHORT * scene.arm);
+    let mut found = cut(scene, &speeds, tuned().cuts.least.0 * scene.arm, first);
+    found.retain(|way| mover.shortest(*way.start(), *way.end()) > tuned().cuts.short * scene.arm);
     (found, speeds)
 }
 
@@ -161,13 +125,16 @@ pub(super) fn sure(
     ways: Vec<RangeInclusive<usize>>,
 ) -> Vec<RangeInclusive<usize>> {
     let arm = scene.arm;
-    let least = (SHORT * scene.loose).min(FAINT * scene.language.move_small) * arm;
+    let least = (tuned().cuts.short * scene.loose)
+        .min(tuned().cuts.faint * scene.language.move_small)
+        * arm;
     let palm = &mover.track.palm;
     let chord = |way: &RangeInclusive<usize>| palm[*way.end()] - palm[*way.start()];
     let back = |a: &RangeInclusive<usize>, b: &RangeInclusive<usize>| {
         let (there, back) = (chord(a), -chord(b));
         let ratio = there.length() / back.length().max(1e-9);
-        there.angle_between(back) < BACK.0 && (1.0 / BACK.1..BACK.1).contains(&ratio)
+        there.angle_between(back) < tuned().cuts.back.0
+            && (1.0 / tuned().cuts.back.1..tuned().cuts.back.1).contains(&ratio)
     };
     let is_sure = |n: usize| {
         let beside = |m: usize| ways.get(m).is_some_and(|other| back(&ways[n], other));
@@ -182,7 +149,7 @@ pub(super) fn sure(
 /// Returns whether a path is too brief and short to be meant: the hand only settles into its posture, or
 /// leaves it.
 pub(super) fn is_brief(scene: &Scene<'_>, mover: &Mover<'_>, first: usize, last: usize) -> bool {
-    scene.seconds(last - first) < BRIEF
+    scene.seconds(last - first) < tuned().cuts.brief
         && mover.shortest(first, last) < scene.language.move_small * scene.arm
 }
 
@@ -202,7 +169,7 @@ pub(super) fn joined(
             let goes_on = pairs.take_while(|(next, it)| slows(scene, [it, next], &speed, stops));
             goes_on.count()
         };
-        let (on, round) = (follow(STOPS), follow(CORNERS));
+        let (on, round) = (follow(tuned().cuts.stops), follow(tuned().cuts.corners));
         let whole = (1..=round).rev().find(|&more| {
             let way = mover.fit(*first.start(), *left[more].end());
             match way.way {
@@ -214,10 +181,10 @@ pub(super) fn joined(
                 } => {
                     let whole = turns.round().max(1.0);
                     let corner = *first.end();
-                    let closed = (turns - whole).abs() < CLOSED
-                        && narrow > ROUNDISH
-                        && mover.track.turn(*first.start(), corner).length() < TURNED;
-                    let most = if closed { FLATTENED } else { 0.15 };
+                    let closed = (turns - whole).abs() < tuned().cuts.closed
+                        && narrow > tuned().cuts.roundish
+                        && mover.track.turn(*first.start(), corner).length() < tuned().acts.turned;
+                    let most = if closed { tuned().cuts.flattened } else { 0.15 };
                     (more <= on || closed)
                         && turns / ((more + 1) as f64) < 1.2
                         && way.residual < most * long.length()
@@ -227,8 +194,9 @@ pub(super) fn joined(
             }
         });
         let onward = || {
-            let pairs = rest.iter().zip(left).take(follow(SLOWS));
-            let goes_on = pairs.take_while(|(next, it)| turn(mover.track, [it, next]) < ONWARD);
+            let pairs = rest.iter().zip(left).take(follow(tuned().cuts.slows));
+            let goes_on =
+                pairs.take_while(|(next, it)| turn(mover.track, [it, next]) < tuned().cuts.onward);
             goes_on.count()
         };
         let joined = whole.unwrap_or_else(onward);
@@ -248,7 +216,7 @@ fn slows(
 ) -> bool {
     let fastest = |way: &RangeInclusive<usize>| way.clone().map(&speed).fold(0.0, f64::max);
     let slowest = speed(*before.end()).min(speed(*next.start()));
-    next.start() <= &(before.end() + scene.frames(GAP))
+    next.start() <= &(before.end() + scene.frames(tuned().acts.gap))
         && slowest > share * fastest(before).min(fastest(next))
 }
 

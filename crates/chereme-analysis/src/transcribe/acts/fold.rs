@@ -6,12 +6,7 @@ use glam::DVec3;
 use super::super::path::PathForm;
 use super::super::scene::{HandTrajectory, Scene, scaled};
 use super::{Act, ActKind};
-
-/// Two changes are the same, or opposite, if they differ by less than this share of the bigger one.
-const ALIKE: f64 = 0.5;
-/// A repetition grows if each execution is at least this factor bigger than the one before: about half of
-/// the growth that notation means.
-const GROWS: f64 = 1.18;
+use crate::transcribe::tuned::tuned;
 
 /// Returns the change that an act brings, as one vector: displacement, turn and finger angles, each in
 /// units of its usual size.
@@ -53,7 +48,7 @@ pub(super) fn folded(scene: &Scene<'_>, track: &HandTrajectory, acts: Vec<Act>) 
             let mut end = n + 1;
             while end < acts.len()
                 && !is_round(&acts[end - 1])
-                && apart(&changes[end - 1], &changes[end], sign) < ALIKE
+                && apart(&changes[end - 1], &changes[end], sign) < tuned().fold.alike
             {
                 end += 1;
             }
@@ -99,8 +94,8 @@ fn growth(changes: &[Vec<f64>], step: usize) -> Option<bool> {
     match sizes.len() {
         // Two executions are too few to show growth.
         0..=2 => None,
-        _ if by(|a, b| b > GROWS * a) => Some(true),
-        _ if by(|a, b| a > GROWS * b) => Some(false),
+        _ if by(|a, b| b > tuned().fold.grows * a) => Some(true),
+        _ if by(|a, b| a > tuned().fold.grows * b) => Some(false),
         _ => None,
     }
 }

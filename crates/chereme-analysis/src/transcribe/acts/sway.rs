@@ -4,12 +4,7 @@ use chereme_sign::hamnosys::{Digit, Digits, WristMotion};
 use glam::DVec3;
 
 use super::super::scene::{HandTrajectory, Scene, scaled};
-
-/// Smallest range of a hand or finger that moves to and fro, in radians.
-const SWAY: f64 = 0.12;
-/// A hand turns to and fro about an axis only if that range is at least this share of its widest one about
-/// any axis.
-const BESIDES: f64 = 0.4;
+use crate::transcribe::tuned::tuned;
 
 /// A movement to and fro of wrist or fingers.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +57,7 @@ pub(super) fn wrist(
     let widest = swings.iter().map(|swing| swing.range).fold(0.0, f64::max);
     // A hand may turn to another orientation about one axis while it moves to and fro about another.
     let sways = |swing: &Swing| {
-        swing.range >= (SWAY * scene.loose).max(BESIDES * widest)
+        swing.range >= (tuned().sway.sway * scene.loose).max(tuned().sway.besides * widest)
             && swing.turning >= 2
             && swing.net < 0.45 * swing.range
     };
@@ -127,7 +122,9 @@ pub(super) fn play(
     let columns: [Vec<f64>; 5] = std::array::from_fn(column);
     let swings = columns.each_ref().map(|column| Swing::of(column));
     let playing: Vec<usize> = (0..5)
-        .filter(|&digit| swings[digit].turning >= 3 && swings[digit].range > SWAY * scene.loose)
+        .filter(|&digit| {
+            swings[digit].turning >= 3 && swings[digit].range > tuned().sway.sway * scene.loose
+        })
         .collect();
     if playing.len() < 2 {
         return None;

@@ -4,6 +4,8 @@ use chereme_sign::hamnosys::sites::Region;
 use chereme_sign::hamnosys::{BodyLocation, Contact, Side, Site};
 use glam::DVec3;
 
+use crate::transcribe::tuned::tuned;
+
 /// The places that a hand's position can distinguish; finer ones (teeth, eyelids) are beyond the
 /// measurement.
 const PLACES: [BodyLocation; 24] = [
@@ -39,36 +41,6 @@ const SIDES: [Option<Side>; 5] = [
     Some(Side::RightBeside),
     Some(Side::LeftBeside),
 ];
-
-/// Penalty (nepers) for a place half-way between two.
-const BETWEEN: f64 = 1.2;
-/// Additional penalty (nepers) if the two differ in both height and side.
-const OBLIQUE: f64 = 1.0;
-/// Penalty (nepers) for a place that annotators rarely write.
-const RARE: f64 = 2.0;
-/// Penalty (nepers) for a place half-way to the top of the shoulder without contact.
-pub(super) const TOP: f64 = 1.0;
-/// Penalty (nepers) for the left side of the body.
-const ACROSS: f64 = 1.0;
-/// Penalty (nepers) for a place next to the body.
-const BESIDE: f64 = 1.5;
-/// Penalty (nepers) for the distance between the two places, per [`APART`].
-const WIDE: f64 = 0.6;
-/// Penalty (nepers) if one place is at the trunk and the other at the head.
-const REGIONS: f64 = 2.0;
-/// Extra penalty (nepers) if another place lies between the two: an annotator would write that one.
-const SKIPS: f64 = 2.0;
-/// Extra penalty (nepers) if the two are farther apart than [`APART`], or on opposite sides.
-const DISTANT: f64 = 1.5;
-/// A place lies between two others if its distance from their midpoint is below this share of half their
-/// distance.
-const BETWEEN_THEM: f64 = 0.6;
-/// Largest distance (m) between two places that notation usually joins.
-const APART: f64 = 0.2;
-/// Largest distance (m) between a place and the same place at or next to its side.
-const ASIDE: f64 = 0.35;
-/// Largest distance (m) between a place at the neck and one at the head.
-const ABOVE: f64 = 0.3;
 
 /// A place on the body, with the normal along which a hand is put before it.
 #[derive(Debug, Clone, Copy)]
@@ -114,11 +86,11 @@ pub(super) fn all(spot: impl Fn(&Site<BodyLocation>) -> Option<Spot>) -> Vec<Cho
                 continue;
             }
             let more = if !(is_top(first) && is_top(second)) && skips(first, second, &plain) {
-                SKIPS
+                tuned().choice.skips
             } else {
                 0.0
             };
-            let more = more + if far { DISTANT } else { 0.0 };
+            let more = more + if far { tuned().choice.distant } else { 0.0 };
             let mut add = |a: &Spot, b: &Spot| {
                 let mut both = choice(a, Some(b));
                 both.cost += more;
@@ -168,9 +140,9 @@ fn neighbours(a: &Spot, b: &Spot) -> bool {
             || matches!(spot.site.at, BodyLocation::Neck | BodyLocation::ShoulderTop)
     };
     let most = match a.region == b.region {
-        true if a.site.at == b.site.at => ASIDE,
-        true => APART,
-        false if high(a) && high(b) => ABOVE,
+        true if a.site.at == b.site.at => tuned().choice.aside,
+        true => tuned().choice.apart,
+        false if high(a) && high(b) => tuned().choice.above,
         false => 0.0,
     };
     apart > 1e-3 && apart < most && !opposite && !arms
@@ -181,13 +153,13 @@ fn neighbours(a: &Spot, b: &Spot) -> bool {
 fn distant(a: &Spot, b: &Spot) -> bool {
     let apart = a.at.distance(b.at);
     let arms = matches!(a.region, Region::Arm(_));
-    apart > 1e-3 && apart < ASIDE && a.region == b.region && !arms
+    apart > 1e-3 && apart < tuned().choice.aside && a.region == b.region && !arms
 }
 
 /// Returns whether a common place lies between two.
 fn skips(a: &Spot, b: &Spot, plain: &[&Spot]) -> bool {
     let middle = a.at.midpoint(b.at);
-    let reach = BETWEEN_THEM * a.at.distance(middle);
+    let reach = tuned().choice.between_them * a.at.distance(middle);
     let others = plain
         .iter()
         .filter(|it| it.site != a.site && it.site != b.site);
@@ -217,7 +189,9 @@ fn is_rare(spot: &Spot) -> bool {
 fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
     let both = || [Some(first), second].into_iter().flatten();
     let sum = |cost: fn(&Spot) -> f64| both().map(cost).fold(0.0, f64::max);
-    let wide = second.map_or(0.0, |second| first.at.distance(second.at) / APART);
+    let wide = second.map_or(0.0, |second| {
+        first.at.distance(second.at) / tuned().choice.apart
+    });
     let across = second.is_some_and(|second| second.region != first.region);
     Choice {
         spot: second.map_or(*first, |second| middle(first, second)),
@@ -226,10 +200,15 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
             + second.map_or(0.0, |second| {
                 let level = second.site.at != first.site.at;
                 let side = second.site.side != first.site.side;
-                BETWEEN + if level && side { OBLIQUE } else { 0.0 }
+                tuned().choice.between
+                    + if level && side {
+                        tuned().choice.oblique
+                    } else {
+                        0.0
+                    }
             })
-            + WIDE * wide
-            + if across { REGIONS } else { 0.0 },
+            + tuned().choice.wide * wide
+            + if across { tuned().choice.regions } else { 0.0 },
         top: both().any(is_top) && !both().all(is_top),
         near: both().any(|spot| is_rare(spot) || spot.site.at == BodyLocation::UnderChin),
         far: false,
@@ -239,12 +218,16 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
 /// Returns the penalty (nepers) of a single place.
 fn said(spot: &Spot) -> f64 {
     let side = match spot.site.side {
-        Some(Side::LeftAt) => ACROSS,
-        Some(Side::RightBeside) => BESIDE,
-        Some(Side::LeftBeside) => ACROSS + BESIDE,
+        Some(Side::LeftAt) => tuned().choice.across,
+        Some(Side::RightBeside) => tuned().choice.beside,
+        Some(Side::LeftBeside) => tuned().choice.across + tuned().choice.beside,
         _ => 0.0,
     };
-    side + if is_rare(spot) { RARE } else { 0.0 }
+    side + if is_rare(spot) {
+        tuned().choice.rare
+    } else {
+        0.0
+    }
 }
 
 /// Returns the distances at which a hand may be before a place.

@@ -8,6 +8,7 @@ use chereme_sign::hamnosys::{Digit, Digits, HandLocation, HandSite, Handshape, S
 use glam::DVec3;
 
 use super::super::scene::{Axes, Scene};
+use crate::transcribe::tuned::tuned;
 
 /// A point of a hand with its position and its outward normal.
 #[derive(Debug, Clone, Copy)]
@@ -107,7 +108,7 @@ impl Hand {
         let off = |(at, _, steps): &&(DVec3, Vec<HandPoint>, f64)| {
             let off = *at - to;
             let before = pushed.map_or(DVec3::ZERO, |way| way * off.dot(way).max(0.0));
-            (off - before * BEFORE).length() + RANK * self.slack * steps
+            (off - before * tuned().part.before).length() + tuned().part.rank * self.slack * steps
         };
         let nearest = self.named.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
         nearest.map(|(at, parts, steps)| (*at, parts.as_slice(), *steps))
@@ -133,15 +134,6 @@ impl Hand {
     }
 }
 
-/// Added distance of a hand part for each step of its [`rank`], as a share of the slack.
-pub(super) const RANK: f64 = 0.5;
-/// Share of a hand part's distance in front of the trunk that does not count, as the hand was pushed out.
-const BEFORE: f64 = 0.7;
-/// The rank of two digits together.
-const TWO: f64 = 1.0;
-/// Two fingertips count as one part if they are nearer to each other than this, in metres.
-const PINCHED: f64 = 0.10;
-
 /// Returns the parts of a hand that notation names, tips and pads of two digits together included.
 fn nameable(points: &[Spotted]) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
     let mut all: Vec<_> = points
@@ -158,9 +150,9 @@ fn nameable(points: &[Spotted]) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
         for pair in pairs {
             let both = pair.map(|digit| HandPoint::Tip(digit, face));
             if let [Some(a), Some(b)] = both.map(at)
-                && a.distance(b) < PINCHED
+                && a.distance(b) < tuned().part.pinched
             {
-                all.push((a.midpoint(b), both.to_vec(), TWO));
+                all.push((a.midpoint(b), both.to_vec(), tuned().part.two));
             }
         }
     }

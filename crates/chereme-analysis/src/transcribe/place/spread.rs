@@ -3,24 +3,7 @@
 use glam::DVec3;
 
 use super::super::scene::Scene;
-
-/// Shares of hands that are exactly at their place, that are shifted within the room of the place or
-/// pushed out of the trunk, and that may be anywhere.
-const SHARES: [f64; 3] = [0.75, 0.2, 0.05];
-/// The same shares for hands that touch the trunk.
-const OF_TRUNK: [f64; 3] = [0.35, 0.55, 0.1];
-/// Factor on the room of a hand whose arm should reach far.
-const SHORT: f64 = 1.7;
-/// When `slack` is below this (m), the first mixture component is narrowed in proportion.
-const EXACT: f64 = 0.016;
-/// Standard deviation of the last component (arm lengths): before a place, and touching one.
-const ANYWHERE: [f64; 2] = [0.12, 0.06];
-/// Mean distance by which a hand is pushed out of the trunk, in arm lengths.
-const PUSHED: f64 = 0.04;
-/// Sideways shift of a hand that is pushed out, as a share of that distance.
-const SLIDES: f64 = 0.5;
-/// Spread (arm lengths) of the gap between two hands that should touch but do not.
-const MISSED: f64 = 0.02;
+use crate::transcribe::tuned::tuned;
 
 /// Distributions of a hand's offset from its intended place, as mixtures of normal distributions.
 pub(super) struct Spread {
@@ -56,24 +39,32 @@ impl Spread {
             self.room[usize::from(off.y < 0.0)].y,
             self.room[usize::from(off.z < 0.0)].z,
         );
-        let room = if far { room * SHORT } else { room };
-        let anywhere = DVec3::splat(ANYWHERE[0] * self.arm);
-        self.unlikely(SHARES, [normal(off, room), normal(off, anywhere)], off)
+        let room = if far {
+            room * tuned().spread.short
+        } else {
+            room
+        };
+        let anywhere = DVec3::splat(tuned().spread.anywhere[0] * self.arm);
+        self.unlikely(
+            tuned().spread.shares,
+            [normal(off, room), normal(off, anywhere)],
+            off,
+        )
     }
 
     /// Like [`free`](Self::free), for a hand that touches a place with the outward normal `out`. Hands
     /// that would be in the trunk are pushed out of it.
     pub(super) fn touching(&self, off: DVec3, out: DVec3, trunk: bool) -> f64 {
-        let anywhere = DVec3::splat(ANYWHERE[1] * self.arm);
-        let missed = MISSED * self.arm + self.about;
+        let anywhere = DVec3::splat(tuned().spread.anywhere[1] * self.arm);
+        let missed = tuned().spread.missed * self.arm + self.about;
         if !trunk {
             let missed = normal(off, DVec3::splat(missed));
-            return self.unlikely(SHARES, [missed, normal(off, anywhere)], off);
+            return self.unlikely(tuned().spread.shares, [missed, normal(off, anywhere)], off);
         }
         let far = off.dot(out);
         let aside = off - out * far;
-        let mean = PUSHED * self.arm;
-        let slides = missed.hypot(SLIDES * far.max(0.0));
+        let mean = tuned().spread.pushed * self.arm;
+        let slides = missed.hypot(tuned().spread.slides * far.max(0.0));
         let flat = (-0.5 * aside.length_squared() / (slides * slides)).exp()
             / (std::f64::consts::TAU * slides * slides);
         let ahead = if far > 0.0 {
@@ -82,22 +73,30 @@ impl Spread {
             -0.5 * (far / missed).powi(2)
         };
         let pushed = flat * ahead.exp() / mean;
-        self.unlikely(OF_TRUNK, [pushed, normal(off, anywhere)], off)
+        self.unlikely(
+            tuned().spread.of_trunk,
+            [pushed, normal(off, anywhere)],
+            off,
+        )
     }
 
     /// Like [`free`](Self::free), for a hand that should be at the other hand.
     pub(super) fn together(&self, off: DVec3) -> f64 {
-        let missed = DVec3::splat(MISSED * self.arm + self.about);
-        let anywhere = DVec3::splat(ANYWHERE[1] * self.arm);
-        self.unlikely(SHARES, [normal(off, missed), normal(off, anywhere)], off)
+        let missed = DVec3::splat(tuned().spread.missed * self.arm + self.about);
+        let anywhere = DVec3::splat(tuned().spread.anywhere[1] * self.arm);
+        self.unlikely(
+            tuned().spread.shares,
+            [normal(off, missed), normal(off, anywhere)],
+            off,
+        )
     }
 
     fn unlikely(&self, shares: [f64; 3], [some, any]: [f64; 2], off: DVec3) -> f64 {
         let about = DVec3::splat(self.about);
-        let exact = DVec3::splat(self.about * (self.about / EXACT).min(1.0));
+        let exact = DVec3::splat(self.about * (self.about / tuned().spread.exact).min(1.0));
         let core = |off: DVec3| 0.8 * normal(off, exact) + 0.2 * normal(off, about);
         let at = shares[0] * core(off) + shares[1] * some + shares[2] * any;
-        (SHARES[0] * core(DVec3::ZERO) / at.max(f64::MIN_POSITIVE)).ln()
+        (tuned().spread.shares[0] * core(DVec3::ZERO) / at.max(f64::MIN_POSITIVE)).ln()
     }
 }
 

@@ -4,26 +4,10 @@ use chereme_sign::hamnosys::sites::{HandPoint, Region};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Site};
 use glam::DVec3;
 
-use super::hand::{Hand, RANK, Spotted, rank};
-use super::{Body, Placed, TOUCH};
+use super::hand::{Hand, Spotted, rank};
+use super::{Body, Placed};
+use crate::transcribe::tuned::tuned;
 
-/// Parts of the two hands nearer to each other than this (arm lengths) may form a constellation.
-const TOGETHER: f64 = 0.125;
-/// The number of pairs of hand parts to consider.
-const PAIRS: usize = 8;
-/// A constellation is reported unless separate places are likelier by more than this (nepers): for
-/// touching hands, and for close ones.
-const RATHER: [f64; 2] = [2.0, 1.0];
-/// Penalty (nepers) for naming the parts of the hands.
-const PARTS: f64 = 1.5;
-/// Additional penalty (nepers) for each step of the parts' ranks.
-const STEP: f64 = 0.7;
-/// Penalty (nepers) for a constellation whose parts remain unnamed.
-const UNNAMED: f64 = 2.5;
-/// Hands with parts nearer to each other than this (arm lengths) touch.
-const CONTACT: f64 = 0.025;
-/// Penalty (nepers) for reading touching hands as merely close.
-const TOUCHES: f64 = 3.0;
 /// The place of hands whose notation names no place.
 const NEUTRAL: Site<BodyLocation> = Site {
     at: BodyLocation::NeutralSpace,
@@ -54,8 +38,8 @@ impl Together {
     /// Returns the penalty (nepers) of the notation itself.
     pub(in crate::transcribe) fn cost(&self) -> f64 {
         match (self.named, self.said) {
-            (false, _) => UNNAMED,
-            (true, true) => PARTS + STEP * ranks(self),
+            (false, _) => tuned().together.unnamed,
+            (true, true) => tuned().together.parts + tuned().together.step * ranks(self),
             (true, false) => 0.0,
         }
     }
@@ -66,7 +50,7 @@ impl Body<'_> {
     /// metres; `None` if the hands are apart.
     pub(in crate::transcribe) fn together(&self) -> Option<Together> {
         // Annotators name whole faces of the hand rather than points within them.
-        let near = |it: &Together| it.distance + RANK * self.scene.slack * ranks(it);
+        let near = |it: &Together| it.distance + tuned().part.rank * self.scene.slack * ranks(it);
         self.pairs(1, near).into_iter().next()
     }
 
@@ -75,7 +59,7 @@ impl Body<'_> {
         let [Some(dominant), Some(other)] = &self.hands else {
             return Vec::new();
         };
-        let reach = TOGETHER * self.scene.arm;
+        let reach = tuned().together.together * self.scene.arm;
         let mut all: Vec<(f64, Together)> = Vec::new();
         for own in &dominant.points {
             for other in &other.points {
@@ -93,8 +77,8 @@ impl Body<'_> {
     /// Returns the parts of a hand that may be at the other one, each with its penalty against the
     /// likeliest; those above `most` nepers are left out.
     pub(super) fn other_pairs(&self, n: usize, most: f64) -> Vec<(HandPoint, f64)> {
-        let unlikely = |it: &Together| it.unlikely + STEP * ranks(it);
-        let all = self.pairs(4 * PAIRS, unlikely);
+        let unlikely = |it: &Together| it.unlikely + tuned().together.step * ranks(it);
+        let all = self.pairs(4 * tuned().together.pairs, unlikely);
         let best = all.first().map_or(0.0, unlikely);
         let others = all.iter().map(|it| (it.parts[n], unlikely(it) - best));
         others.filter(|(_, less)| *less < most).collect()
@@ -115,7 +99,7 @@ impl Body<'_> {
             (out, ways[1].length())
         };
         let touch = self.spread.together(apart);
-        let touching = distance < TOUCH[2] * arm && touch < close;
+        let touching = distance < tuned().place.touch[2] * arm && touch < close;
         Together {
             parts: [own.point, other.point],
             at: [own.at, other.at],
@@ -144,7 +128,7 @@ impl Body<'_> {
         let below = other.meant(-way, Region::Trunk);
         let region = Region::Arm(self.scene.dominant.other());
         let upon = [dominant.meant(below.out, region), below];
-        let reach = TOGETHER * self.scene.arm;
+        let reach = tuned().together.together * self.scene.arm;
         [mirrored, upon]
             .iter()
             .map(|[own, other]| Together {
@@ -159,15 +143,18 @@ impl Body<'_> {
     /// than separate places, whose penalty is `apart` (nepers).
     pub(in crate::transcribe) fn constellation(&self, apart: f64) -> Option<(Together, Placed)> {
         let mut all = self.meant_pairs();
-        all.extend(self.pairs(PAIRS, |it| it.unlikely + STEP * ranks(it)));
+        all.extend(self.pairs(tuned().together.pairs, |it| {
+            it.unlikely + tuned().together.step * ranks(it)
+        }));
         let nearest = self.together();
-        let touch = nearest.is_some_and(|it| it.distance < CONTACT * self.scene.arm);
+        let touch =
+            nearest.is_some_and(|it| it.distance < tuned().together.contact * self.scene.arm);
         let (score, together, placed) = all
             .into_iter()
             .filter_map(|together| {
                 let mut placed = self.shared(together.at[0].midpoint(together.at[1]))?;
                 let apart = match together.contact {
-                    Contact::Close if touch => TOUCHES,
+                    Contact::Close if touch => tuned().together.touches,
                     _ => 0.0,
                 };
                 placed.residual = placed.residual.max(together.off);
@@ -178,7 +165,7 @@ impl Body<'_> {
                 ))
             })
             .min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let rather = RATHER[usize::from(together.contact != Contact::Touch)];
+        let rather = tuned().together.rather[usize::from(together.contact != Contact::Touch)];
         (score < rather + apart).then_some((together, placed))
     }
 
@@ -190,7 +177,9 @@ impl Body<'_> {
             ..it.clone()
         };
         all.extend(all.iter().map(unnamed).collect::<Vec<_>>());
-        all.extend(self.pairs(PAIRS, |it| it.unlikely + STEP * ranks(it)));
+        all.extend(self.pairs(tuned().together.pairs, |it| {
+            it.unlikely + tuned().together.step * ranks(it)
+        }));
         all.sort_by(|a, b| (a.cost() + a.unlikely).total_cmp(&(b.cost() + b.unlikely)));
         all
     }

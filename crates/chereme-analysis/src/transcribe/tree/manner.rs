@@ -5,15 +5,7 @@ use chereme_sign::hamnosys::{BodyLanguage, Manner};
 
 use super::super::scene::Scene;
 use super::*;
-
-/// A pause before an act is a rest if it lasts longer than this share of a usual rest.
-const RESTS: f64 = 0.8;
-/// Weight of a difference in `late`, the time at which half of the path is done.
-const LATE: f64 = 2.0;
-/// Weight of a difference in `even`, the share of time of the middle half of the path.
-const EVEN: f64 = 0.6;
-/// Penalty for an act that ends in contact but runs like one without.
-const UNEXPECTED: f64 = 0.05;
+use crate::transcribe::tuned::tuned;
 
 /// A candidate manner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,18 +62,7 @@ struct Course {
     even: f64,
 }
 
-/// The course that the animator's controller gives a movement to a meant goal.
-const TARGETTED: Course = course(0.50, 0.56, 0.52);
-/// The course of a movement into contact.
-const CONTACT: Course = course(0.39, 0.66, 0.48);
-/// The course of a movement with a sudden stop.
-const STOP: Course = course(0.38, 0.70, 0.48);
-/// The course of a tense movement.
-const TENSE: Course = course(0.57, 0.50, 0.61);
-/// The course of a circle.
-const ROUND: Course = course(0.68, 0.50, 0.62);
-
-const fn course(span: f64, late: f64, even: f64) -> Course {
+fn course([span, late, even]: [f64; 3]) -> Course {
     Course { span, late, even }
 }
 
@@ -101,7 +82,7 @@ impl Writer<'_> {
         idle: usize,
     ) -> Manner {
         let scene = self.scene;
-        let rest = scene.seconds(idle) > RESTS * scene.language.time_rest;
+        let rest = scene.seconds(idle) > tuned().manner.rests * scene.language.time_rest;
         let mut manner = Manner {
             rest,
             ..Manner::default()
@@ -159,14 +140,17 @@ fn tempo(
     let tempi = &all[..if into_contact || round { 4 } else { 5 }];
     // A hand may come to rest at a contact that is not meant.
     let own: &[(Course, f64)] = match (round, into_contact) {
-        (true, _) => &[(ROUND, 0.0)],
-        (false, true) => &[(CONTACT, 0.0), (TARGETTED, UNEXPECTED)],
-        (false, false) => &[(TARGETTED, 0.0)],
+        (true, _) => &[(course(tuned().manner.round), 0.0)],
+        (false, true) => &[
+            (course(tuned().manner.contact), 0.0),
+            (course(tuned().manner.targetted), tuned().manner.unexpected),
+        ],
+        (false, false) => &[(course(tuned().manner.targetted), 0.0)],
     };
     Some(nearest(tempi, l, |tempo, factor| {
         let courses = match tempo {
-            Tempo::Tense => &[(TENSE, 0.0)],
-            Tempo::Halt => &[(STOP, 0.0)],
+            Tempo::Tense => &[(course(tuned().manner.tense), 0.0)],
+            Tempo::Halt => &[(course(tuned().manner.stop), 0.0)],
             _ => own,
         };
         let scored = courses.iter().map(|(course, cost)| {
@@ -177,7 +161,10 @@ fn tempo(
             let off = times.fold(f64::MAX, f64::min);
             let late = (ran.course.late - course.late).abs();
             let even = (ran.course.even - course.even).abs();
-            (off, off + LATE * late + EVEN * even + cost)
+            (
+                off,
+                off + tuned().manner.late * late + tuned().manner.even * even + cost,
+            )
         });
         scored.fold((f64::MAX, f64::MAX), |best, tried| {
             if tried.1 < best.1 { tried } else { best }
@@ -263,6 +250,6 @@ fn ran(scene: &Scene<'_>, track: &HandTrajectory, act: &Act) -> Option<Ran> {
     let span = (end - start).max(1e-3);
     Some(Ran {
         seconds: span * scene.clip.rate().frame_time(),
-        course: course(0.0, (half - start) / span, (three - quarter) / span),
+        course: course([0.0, (half - start) / span, (three - quarter) / span]),
     })
 }

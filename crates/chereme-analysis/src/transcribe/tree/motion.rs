@@ -1,8 +1,10 @@
 //! Writes the motions of a hand: paths, wrist and finger movement, and changes on the way.
 
+use std::f64::consts::TAU;
+
 use super::super::acts::wrist_name;
-use super::super::path::ROUND;
 use super::*;
+use crate::transcribe::tuned::tuned;
 
 impl Writer<'_> {
     /// Writes a path through space.
@@ -219,7 +221,7 @@ pub(super) fn written(scene: &Scene<'_>, way: &PathForm) -> MotionKind {
         } => {
             let mut round = circular(direction, size, long, narrow, start, l);
             // An incomplete circle needs its end in notation, and therefore its start as well.
-            if turns * std::f64::consts::TAU < ROUND {
+            if turns * TAU < TAU * tuned().path.round {
                 let back = aim::from_out(DVec3::from(direction.vector())).inverse();
                 let hour = |spoke: DVec3| {
                     let flat = back * spoke;

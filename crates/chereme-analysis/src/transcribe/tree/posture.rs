@@ -1,6 +1,7 @@
 //! Writes the posture that a sign begins with: shape, direction, palm and place of the hands.
 
 use super::*;
+use crate::transcribe::tuned::tuned;
 
 impl Writer<'_> {
     /// Writes the posture that the sign begins with.
@@ -86,7 +87,7 @@ impl Writer<'_> {
         let turned = turned && !otherwise(one, other, signs);
         let shaped = match (&one.shape, &other.shape) {
             (Some(x), Some(y)) if x.best != y.best => {
-                let sure = x.residual.max(y.residual) < SURE;
+                let sure = x.residual.max(y.residual) < tuned().tree.sure;
                 !sure
                     && !self.picked.mirrored
                     && a.known.apart(&a.angles[frame], &b.angles[frame]) < 0.22
@@ -108,7 +109,8 @@ impl Writer<'_> {
         let placed = [0, 1].map(|n| body.place(n, !alone));
         let apart = if alone {
             let each = placed.iter().flatten();
-            each.map(|placed| placed.score.min(MOST_APART)).sum()
+            each.map(|placed| placed.score.min(tuned().tree.most_apart))
+                .sum()
         } else {
             // A symmetric place applies to both hands.
             let [own, other] = &placed;
@@ -234,7 +236,7 @@ fn otherwise(one: &HandReading, other: &HandReading, signs: DVec3) -> bool {
     let told = |seen: &HandReading| {
         let along = aim::vector(&seen.extended.best);
         let palm = seen.palm.as_ref()?;
-        let sure = seen.extended.residual.max(palm.residual) < SURE;
+        let sure = seen.extended.residual.max(palm.residual) < tuned().tree.sure;
         let angle = aim::palm_angle(&palm.best);
         let normal = orientation::palm(along.to_array(), angle);
         sure.then_some([along, normal.into()])

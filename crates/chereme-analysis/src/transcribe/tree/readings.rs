@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::*;
+use crate::transcribe::tuned::tuned;
 
 /// Handshapes by hand and frame.
 type Shapes = BTreeMap<(Side, usize), Option<Found<Handshape>>>;
@@ -59,7 +60,7 @@ impl<'a> Sight<'a> {
         let seen = Seeing {
             parts: &parts,
             others: &others,
-            lets_go: self.scene.frames(LETS_GO),
+            lets_go: self.scene.frames(tuned().acts.lets_go),
             loose: self.scene.loose,
         };
         let mover = Mover::new(track, ends, seen, &pivots);

@@ -4,12 +4,12 @@
 //! change that only one side made is taken over. If the corpus was edited and the file would revert the edit, the edit
 //! is lost; a merge preserves it.
 
-use chereme_sign::Remedy;
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::eaf::convert::{Annotation, AnnotationAddress, Transcript};
 use chereme_formats::roles::TierGuess;
 use chereme_motion::Instant;
+use chereme_sign::Remedy;
 use chereme_sign::Stereotype;
 
 use super::{FileReport, Job, annotation_row, coded, parents_first};

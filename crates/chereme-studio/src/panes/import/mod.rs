@@ -10,6 +10,7 @@ mod together;
 
 use std::path::PathBuf;
 
+use chereme_corpus::remedy::Remedy;
 use chereme_corpus::{FileStatus, ImportReport, MergeReport};
 use eframe::egui::{Align, Button, Id, Layout, ProgressBar, RichText, ScrollArea, Ui};
 
@@ -21,7 +22,6 @@ use crate::file_dialogs::Choose;
 use crate::overlay::remedy;
 use crate::words::{fill, import as words, shell, spoken};
 use crate::work::{Ended, Outcome, Work, WorkId};
-use chereme_corpus::remedy::Remedy;
 use known::ImportCorrections;
 pub(crate) use paths::Paths;
 
