@@ -19,10 +19,7 @@ const ARROWS: [(&str, &[&str]); 10] = [
         &["motion", "sign", "formats", "analysis", "compose", "figure"],
     ),
     ("chereme-studio", &["motion", "sign", "figure", "corpus"]),
-    (
-        "chereme-cli",
-        &["motion", "sign", "figure", "corpus", "studio"],
-    ),
+    ("chereme-cli", &["motion", "sign", "figure", "corpus"]),
     (
         "chereme-tests",
         &[

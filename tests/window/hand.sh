@@ -4,7 +4,7 @@
 #
 #     source hand.sh FOLDER [PROGRAM]
 #
-# Needs (Debian) xvfb xdotool imagemagick libgl1-mesa-dri, jq, and a built program; with a mouse also dbus
+# Needs (Debian) xvfb xdotool imagemagick libgl1-mesa-dri, jq, and both programs (`cargo build`); with a mouse also dbus
 # at-spi2-core libglib2.0-bin python3-gi gir1.2-atspi-2.0: what is clicked is found by the name that assistive
 # technology is told.
 set -euo pipefail

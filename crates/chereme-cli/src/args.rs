@@ -46,16 +46,7 @@ pub(crate) struct Cli {
 impl Cli {
     /// Returns the author for the history: the option's, otherwise the environment's, otherwise the machine's user.
     pub(crate) fn author(&self) -> String {
-        let user = || {
-            ["CHEREME_AUTHOR", "USER", "USERNAME", "LOGNAME"]
-                .iter()
-                .filter_map(|name| std::env::var(name).ok())
-                .find(|name| !name.trim().is_empty())
-        };
-        self.author
-            .clone()
-            .or_else(user)
-            .unwrap_or_else(|| "unknown".to_owned())
+        chereme_corpus::author(self.author.as_deref(), variable)
     }
 
     /// Opens the corpus.
@@ -112,11 +103,12 @@ pub(crate) fn take_language(words: &mut Vec<OsString>) -> Option<String> {
 
 /// Returns the language of a code; without one the language of the locale.
 pub(crate) fn language(asked: Option<&str>) -> Language {
-    let locale = ["LC_ALL", "LC_MESSAGES", "LANG"]
-        .into_iter()
-        .filter_map(|name| std::env::var(name).ok())
-        .find(|locale| !locale.is_empty());
-    Language::of_locale(asked.unwrap_or(&locale.unwrap_or_default()))
+    asked.map_or_else(|| Language::of_environment(variable), Language::of_locale)
+}
+
+/// Returns a variable of the environment.
+fn variable(name: &str) -> Option<String> {
+    std::env::var(name).ok()
 }
 
 /// Reads a small text file that the user named; `-` is standard input.

@@ -6,6 +6,7 @@
 mod address;
 mod animate;
 mod annotate;
+mod author;
 mod check;
 pub(crate) mod codec;
 mod compare;
@@ -79,6 +80,7 @@ pub use annotate::{
     Find, NewTier, RemovedTiers, Replaced, ReplacedValue, Scheme, TierChange, TierName, Values,
     Within,
 };
+pub use author::author;
 pub use check::{CheckReport, Fault};
 pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
 pub use chereme_analysis::phases::{NoPath, PhaseScore};

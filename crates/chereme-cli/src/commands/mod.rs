@@ -29,7 +29,6 @@ mod recombine;
 mod render;
 mod score;
 mod search;
-#[cfg(feature = "studio")]
 mod studio;
 mod suggest;
 mod tiers;
@@ -87,7 +86,6 @@ pub(crate) enum Command {
     Log(history::LogArgs),
     Completions(completions::Args),
     Man(completions::ManArgs),
-    #[cfg(feature = "studio")]
     Studio(studio::Args),
 }
 
@@ -131,8 +129,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Log(args) => history::log(cli, args, output),
         Command::Completions(args) => completions::run(args, output),
         Command::Man(args) => completions::man(args, output),
-        #[cfg(feature = "studio")]
-        Command::Studio(args) => studio::run(cli, args),
+        Command::Studio(args) => return studio::run(cli, args),
     }?;
     Ok(ExitCode::SUCCESS)
 }

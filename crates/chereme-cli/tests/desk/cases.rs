@@ -87,6 +87,8 @@ pub(crate) const CASES: &[Case] = &[
     ("new @c", 1, ERROR),
     ("new @d/no/such/folder.chereme", 1, ERROR),
     ("new", 2, ERROR),
+    ("studio @d/none.chereme", 1, ERROR),
+    ("studio @c @c", 2, ERROR),
     ("import @d/a.chereme @in", 0, IMPORT),
     (
         "import @d/a.chereme @in/bowl.bvh --signer Ben --handedness left",

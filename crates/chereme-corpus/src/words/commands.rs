@@ -3,6 +3,26 @@
 /// Messages and remedies in English and French; a form that is contained in another comes after it.
 pub(super) const COMMANDS: &[(&str, &str)] = &[
     (
+        "the window is a program of its own, chereme-studio, and neither the folder of this program nor the path has it",
+        "la fenêtre est un programme à part, chereme-studio, et ni le dossier de ce programme ni le PATH ne l’ont",
+    ),
+    (
+        "in a checkout, build it with `cargo build --release`; elsewhere, install it with `cargo install --path crates/chereme-studio`",
+        "dans un dépôt, compilez-le avec `cargo build --release` ; ailleurs, installez-le avec `cargo install --path crates/chereme-studio`",
+    ),
+    (
+        "no window can be opened: {reason}",
+        "aucune fenêtre ne peut s’ouvrir : {reason}",
+    ),
+    (
+        "a display (X11 or Wayland) with OpenGL is needed; on Debian: {command}. Every other command of chereme works without a window",
+        "il faut un affichage (X11 ou Wayland) avec OpenGL ; sous Debian : {command}. Toutes les autres commandes de chereme se passent de fenêtre",
+    ),
+    (
+        "a display with OpenGL is needed. Every other command of chereme works without a window",
+        "il faut un affichage avec OpenGL. Toutes les autres commandes de chereme se passent de fenêtre",
+    ),
+    (
         "write a time such as 0.2s or -200ms",
         "écrivez un temps comme 0.2s ou -200ms",
     ),

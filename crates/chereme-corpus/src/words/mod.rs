@@ -80,6 +80,16 @@ impl Language {
             Self::English
         }
     }
+
+    /// Returns the language of the system from the environment, which `variable` reads.
+    #[must_use]
+    pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
+        let mut locales = ["LC_ALL", "LC_MESSAGES", "LANG"]
+            .into_iter()
+            .filter_map(variable);
+        let locale = locales.find(|locale| !locale.is_empty());
+        Self::of_locale(&locale.unwrap_or_default())
+    }
 }
 
 /// Words in every language.
@@ -150,5 +160,13 @@ mod tests {
         assert_eq!(fill("{n} of {all}", &[("n", &2), ("all", &"x")]), "2 of x");
         assert_eq!(Language::of_locale("fr_CH"), Language::French);
         assert_eq!(Language::of_locale("C"), Language::English);
+        let of = |name: &str| match name {
+            "LC_ALL" => Some(String::new()),
+            "LC_MESSAGES" => Some("fr_BE.UTF-8".to_owned()),
+            "LANG" => Some("C".to_owned()),
+            _ => None,
+        };
+        assert_eq!(Language::of_environment(of), Language::French);
+        assert_eq!(Language::of_environment(|_| None), Language::English);
     }
 }

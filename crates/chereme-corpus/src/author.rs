@@ -1,0 +1,34 @@
+//! The name of the person at work, for the history.
+
+/// Variables of the environment that name the person, the first that counts first.
+const VARIABLES: [&str; 4] = ["CHEREME_AUTHOR", "USER", "USERNAME", "LOGNAME"];
+
+/// Returns the author for the history: the given name, otherwise that of the environment, which `variable` reads.
+#[must_use]
+pub fn author(given: Option<&str>, variable: impl Fn(&str) -> Option<String>) -> String {
+    let found = || {
+        let mut names = VARIABLES.iter().filter_map(|name| variable(name));
+        names.find(|name| !name.trim().is_empty())
+    };
+    given
+        .map(str::to_owned)
+        .or_else(found)
+        .unwrap_or_else(|| "unknown".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_option_counts_before_the_environment_and_the_project_before_the_machine() {
+        let of = |name: &str| match name {
+            "CHEREME_AUTHOR" => Some(" ".to_owned()),
+            "USER" | "LOGNAME" => Some(name.to_lowercase()),
+            _ => None,
+        };
+        assert_eq!(author(Some("Camille"), of), "Camille");
+        assert_eq!(author(None, of), "user");
+        assert_eq!(author(None, |_| None), "unknown");
+    }
+}
