@@ -129,7 +129,13 @@ impl Corpus {
                 .operation_told("mend", progress, |connection, progress| {
                     let inventories = inventories::load(connection)?;
                     for recording in recordings::recordings(connection)? {
-                        tokens::derive_told(connection, recording.id, &inventories, progress)?;
+                        tokens::derive_told(
+                            connection,
+                            recording.id,
+                            None,
+                            &inventories,
+                            progress,
+                        )?;
                     }
                     Ok(((), "tokens derived again".to_owned()))
                 })?;
@@ -345,7 +351,7 @@ impl Looking<'_, '_> {
             }
             let derived = rows::tried(connection, || {
                 let before = rows::changes(connection)?;
-                tokens::derive_told(connection, recording.id, &inventories, self.progress)?;
+                tokens::derive_told(connection, recording.id, None, &inventories, self.progress)?;
                 Ok(rows::changes(connection)? - before)
             })?;
             if derived > 0 {

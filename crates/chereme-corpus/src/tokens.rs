@@ -29,20 +29,11 @@ pub(crate) fn derive(
 ) -> Result<()> {
     let mut hear = unheard;
     let progress = &mut Progress::new(&mut hear);
-    bring(connection, recording, window, inventories, progress)
+    derive_told(connection, recording, window, inventories, progress)
 }
 
-/// Derives the tokens of a whole recording as [`derive()`] does, and can be stopped.
+/// Derives tokens as [`derive()`] does, and can be stopped.
 pub(crate) fn derive_told(
-    connection: &Connection,
-    recording: i64,
-    inventories: &[StoredInventory],
-    progress: &mut Progress<'_>,
-) -> Result<()> {
-    bring(connection, recording, None, inventories, progress)
-}
-
-fn bring(
     connection: &Connection,
     recording: i64,
     window: Option<Span>,

@@ -189,9 +189,10 @@ impl Corpus {
         faults: Vec<Error>,
         progress: &mut Progress<'_>,
     ) -> Result<AnnotateReport> {
-        self.store.operation("annotate", |connection| {
+        let told = |connection: &Connection, progress: &mut Progress<'_>| {
             carry_out(connection, changes, options, faults, progress)
-        })
+        };
+        self.store.operation_told("annotate", progress, told)
     }
 
     /// Adds tiers and changes annotations as one operation of that name: all of it, or nothing.
@@ -202,12 +203,13 @@ impl Corpus {
         (changes, options): (&[AnnotationChange], &AnnotateOptions),
         progress: &mut Progress<'_>,
     ) -> Result<AnnotateReport> {
-        self.store.operation(name, |connection| {
+        let told = |connection: &Connection, progress: &mut Progress<'_>| {
             for tier in new {
                 tiers::insert(connection, tier)?;
             }
             carry_out(connection, changes, options, Vec::new(), progress)
-        })
+        };
+        self.store.operation_told(name, progress, told)
     }
 }
 
@@ -233,7 +235,7 @@ fn carry_out(
         }
     }
     let deeds = std::mem::take(&mut work.deeds);
-    let mut report = work.finish(changes.len())?;
+    let mut report = work.finish(changes.len(), progress)?;
     report.summary = deeds.summary(&report);
     let summary = report.summary.clone();
     Ok((report, summary))
@@ -301,7 +303,7 @@ impl<'a> Work<'a> {
         Ok(())
     }
 
-    fn finish(mut self, changes: usize) -> Result<AnnotateReport> {
+    fn finish(mut self, changes: usize, progress: &mut Progress<'_>) -> Result<AnnotateReport> {
         let failed = self.labels.values().any(Option::is_none);
         self.faults
             .retain(|fault| !(failed && matches!(fault, Error::Follows(_))));
@@ -317,11 +319,12 @@ impl<'a> Work<'a> {
             scope.close(self.connection)?;
             if let Some(touched) = scope.touched {
                 let recording = scope.recording.id;
-                tokens::derive(
+                tokens::derive_told(
                     self.connection,
                     recording,
                     Some(touched),
                     &scope.inventories,
+                    progress,
                 )?;
                 self.report.recordings.push(scope.recording.name.clone());
             }

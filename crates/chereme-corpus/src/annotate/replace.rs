@@ -198,15 +198,16 @@ impl Corpus {
             return self.annotate(changes, &options, progress);
         }
         let mut tried = None;
-        let done = self.store.operation("annotate", |connection| {
+        let told = |connection: &Connection, progress: &mut Progress<'_>| {
             let mut work = Work::new(connection, &options)?;
             for change in changes {
                 work.change(change)?;
             }
-            tried = Some(work.finish(changes.len())?);
+            tried = Some(work.finish(changes.len(), progress)?);
             // An error rolls the attempt back.
             Err::<((), String), _>(Error::Stopped)
-        });
+        };
+        let done = self.store.operation_told("annotate", progress, told);
         match (done, tried) {
             (_, Some(report)) => Ok(report),
             (Err(error), None) => Err(error),

@@ -17,14 +17,18 @@ use sha2::{Digest, Sha256};
 
 use super::report::ReportFinding;
 use super::understood::{BodyRead, ConventionRead, JointRole, MovementRead, RootRead};
-use super::{FileReport, FileStatus, Job};
+use super::{FileReport, FileStatus, Job, eaf};
 use crate::address;
 use crate::db::motion::hex;
 use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
-use crate::db::tracks;
+use crate::db::tiers;
+use crate::db::tracks::{self, TrackKind};
 use crate::error::{Error, Result};
 use crate::movement::{self, BLOCK_FRAMES, ChannelGroup, MotionTrack};
 use crate::progress::{Progress, Step, Unit};
+
+/// The number of frames in a header above which it is taken for damaged.
+const MOST_DECLARED: u64 = 1_000_000_000;
 
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     if let Some(report) = known(job)? {
@@ -51,7 +55,11 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         Error::wrong(error.to_string()).advise("correct the line `Frame Time:` of the file")
     })?;
     let found = understand(job, &hierarchy, &block, rate, &mut report)?;
-    let recording = insert_recording(job, &mut report)?;
+    let declared = reader.header().declared_frames;
+    let plausible = declared.filter(|frames| *frames <= MOST_DECLARED);
+    let length = plausible.and_then(|frames| usize::try_from(frames).ok());
+    let length = length.map(|frames| rate.instant(frames).micros());
+    let recording = insert_recording(job, length, &mut report)?;
     let track = insert_track(
         job,
         recording,
@@ -455,19 +463,40 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
     }
 }
 
-/// Returns the recording without movement that this movement belongs to, if its annotations were imported first.
-fn without_movement(job: &Job<'_>, report: &mut FileReport) -> Result<Option<i64>> {
-    let lacks = |id: i64| {
-        recordings::body_track(job.connection, id).map(|track| track.is_none().then_some(id))
-    };
+/// Returns the recording without movement that a movement of this length belongs to, if its annotations were imported
+/// first. A recording from another folder is another take if it has a capture of any kind, or annotations that end after
+/// the movement.
+fn without_movement(
+    job: &Job<'_>,
+    length_us: Option<i64>,
+    report: &mut FileReport,
+) -> Result<Option<i64>> {
     if let Some(id) = job.places.beside(&job.place) {
-        return lacks(id);
+        let track = recordings::body_track(job.connection, id)?;
+        return Ok(track.is_none().then_some(id));
     }
+    let is_bare = |id: i64| -> Result<bool> {
+        let tracks = tracks::tracks(job.connection, id)?;
+        Ok(tracks.iter().all(|it| it.kind == TrackKind::Media))
+    };
+    let fits = |id: i64| -> Result<bool> {
+        let Some(length) = length_us else {
+            return Ok(true);
+        };
+        let most = length.saturating_add(eaf::BEYOND);
+        for tier in tiers::tiers(job.connection, id)? {
+            let rows = tiers::annotations(job.connection, tier.id)?;
+            if rows.iter().any(|row| row.end_us > most) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    };
     let mut others = job.places.recordings_named(&job.place);
     let named = recordings::recording_named(job.connection, &job.stem)?;
     others.extend(named.map(|row| row.id));
     for id in others {
-        if lacks(id)?.is_some() {
+        if is_bare(id)? && fits(id)? {
             let name = recordings::recording(job.connection, id)?.name;
             report.findings.push(ReportFinding::note(format!(
                 "the recording {name:?} of this name had no movement: it has this one now"
@@ -478,9 +507,13 @@ fn without_movement(job: &Job<'_>, report: &mut FileReport) -> Result<Option<i64
     Ok(None)
 }
 
-/// Returns the recording that movement belongs to: the one that the caller named, one of this name without movement, or
-/// a new one.
-pub(super) fn insert_recording(job: &mut Job<'_>, report: &mut FileReport) -> Result<i64> {
+/// Returns the recording that a movement of this length belongs to: the one that the caller named, one of this name
+/// without movement, or a new one.
+pub(super) fn insert_recording(
+    job: &mut Job<'_>,
+    length_us: Option<i64>,
+    report: &mut FileReport,
+) -> Result<i64> {
     let options = job.options;
     if let Some(into) = &options.into {
         return Ok(address::recording(job.connection, into)?.id);
@@ -495,7 +528,7 @@ pub(super) fn insert_recording(job: &mut Job<'_>, report: &mut FileReport) -> Re
         }
         None => None,
     };
-    let id = match without_movement(job, report)? {
+    let id = match without_movement(job, length_us, report)? {
         Some(id) => {
             let (origin, licence) = (options.origin, options.licence.as_deref());
             recordings::describe(job.connection, id, signer_id, origin, licence)?;

@@ -20,6 +20,7 @@ use super::report::{Outcome, ReportFinding};
 use super::understood::TiersRead;
 use super::{FileReport, FileStatus, Job, OwnEdits};
 use crate::db::columns::{AnnotationOrigin, Origin, ValueState};
+use crate::db::edits;
 use crate::db::recordings::{self, MediaTrackRow, RecordingRow};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
@@ -38,7 +39,7 @@ pub(crate) const HANDEDNESS: &str = "chereme.handedness";
 pub(crate) const TIERS: &str = "chereme.tiers";
 
 /// How far annotations may extend beyond the end of the movement without a warning, in microseconds.
-const BEYOND: i64 = 1_000_000;
+pub(super) const BEYOND: i64 = 1_000_000;
 
 /// Reads an annotation file onto its recording.
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
@@ -55,7 +56,7 @@ pub(super) fn add(
     report: &mut FileReport,
     progress: &mut Progress<'_>,
 ) -> Result<bool> {
-    let there = standing_tiers(job, recording, transcript)?;
+    let there = standing_tiers(job, recording, (transcript, None), report)?;
     if !there.is_empty() {
         return Ok(false);
     }
@@ -94,7 +95,8 @@ pub(super) fn import_as(
     let recording = recording(job, &transcript, target.recording, &mut report)?;
     know_participants(job, &transcript)?;
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
-    let there = standing_tiers(job, recording, &transcript)?;
+    let base = target.transcript(job)?;
+    let there = standing_tiers(job, recording, (&transcript, base.as_ref()), &mut report)?;
     if let Some(base) = target.base.as_ref().filter(|base| base.hash == job.hash) {
         if remap(job, &there, &transcript, &guesses, &mut report)? == 0 {
             let mut same = FileReport::unchanged(job.path, target.elsewhere(job));
@@ -110,7 +112,7 @@ pub(super) fn import_as(
                 base.path.as_ref().unwrap_or(&base.name)
             )),
         );
-        tokens::derive_told(job.connection, recording, &job.inventories, progress)?;
+        tokens::derive_told(job.connection, recording, None, &job.inventories, progress)?;
         return Ok(report);
     }
     warn_of_length(job, recording, &transcript, &mut report)?;
@@ -119,7 +121,6 @@ pub(super) fn import_as(
         let tiers = write_tiers(job, (recording, &there), &transcript, &guesses, &mut report)?;
         write_annotations(job, &transcript, &guesses, &tiers, progress)?;
     } else {
-        let base = target.transcript(job)?;
         let sides = (&transcript, base.as_ref());
         update(
             job,
@@ -134,7 +135,7 @@ pub(super) fn import_as(
         }
     }
     recordings::lengthen(job.connection, recording, transcript.end().micros())?;
-    tokens::derive_told(job.connection, recording, &job.inventories, progress)?;
+    tokens::derive_told(job.connection, recording, None, &job.inventories, progress)?;
     let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
     job.count("tokens", derived.saturating_sub(before));
     job.keep(Some(recording), Some(&bytes))?;
@@ -171,6 +172,8 @@ fn update(
         BTreeSet::new()
     };
     let (counts, inventories) = (job.counts.clone(), job.inventories.clone());
+    // A token refers to its annotation until tokens are derived again.
+    edits::defer_references(job.connection)?;
     job.connection.execute_batch("SAVEPOINT edits")?;
     let tier_rows = write_tiers(job, (recording, there), transcript, guesses, report)?;
     let sides = update::Sides {
@@ -440,16 +443,29 @@ fn know_participants(job: &mut Job<'_>, transcript: &Transcript) -> Result<()> {
     Ok(())
 }
 
-/// Returns the tiers of the recording, if the file is a version of the one that they came from and shares some of them.
+/// Returns the tiers of the recording by their names in the file, if the file is a version of the one that they came
+/// from and shares some of them.
 fn standing_tiers(
     job: &Job<'_>,
     recording: i64,
-    transcript: &Transcript,
+    (transcript, base): (&Transcript, Option<&Transcript>),
+    report: &mut FileReport,
 ) -> Result<BTreeMap<String, TierRow>> {
-    let there: BTreeMap<String, TierRow> = tiers::tiers(job.connection, recording)?
+    let mut there: BTreeMap<String, TierRow> = tiers::tiers(job.connection, recording)?
         .into_iter()
         .map(|row| (row.name.clone(), row))
         .collect();
+    if let Some(base) = base {
+        for (theirs, mine) in update::renamed(job, transcript, base, &there)? {
+            let Some(row) = there.remove(&mine) else {
+                continue;
+            };
+            report.findings.push(ReportFinding::note(format!(
+                "the tier {theirs:?} of the file is {mine:?} in the corpus"
+            )));
+            there.insert(theirs, row);
+        }
+    }
     let double = transcript
         .tiers
         .iter()

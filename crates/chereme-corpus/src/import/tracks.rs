@@ -37,7 +37,10 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
                     tell_folder(job, recording, report)?;
                     recording
                 }
-                None => bvh::insert_recording(job, report)?,
+                None => {
+                    let lengths = new.iter().map(|track| length_us(&track.track));
+                    bvh::insert_recording(job, lengths.max(), report)?
+                }
             },
         },
     };

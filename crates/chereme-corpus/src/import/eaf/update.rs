@@ -73,6 +73,45 @@ pub(super) fn is_edited(
     Ok(false)
 }
 
+/// Returns the tiers of a file that were renamed in the corpus: the name in the file, and the present name. The earlier
+/// version of the file has the tier, and most of its annotations lie on the other tier with their ids.
+pub(super) fn renamed(
+    job: &Job<'_>,
+    transcript: &Transcript,
+    base: &Transcript,
+    there: &BTreeMap<String, TierRow>,
+) -> Result<Vec<(String, String)>> {
+    let in_file = |name: &str| {
+        let mut both = transcript.tiers.iter().chain(&base.tiers);
+        both.any(|tier| tier.name == name)
+    };
+    let mut free: Vec<(&String, Vec<AnnotationRow>)> = Vec::new();
+    for (name, row) in there.iter().filter(|(name, _)| !in_file(name)) {
+        free.push((name, tiers::annotations(job.connection, row.id)?));
+    }
+    let mut found = Vec::new();
+    for tier in &transcript.tiers {
+        let before = base.tiers.iter().find(|it| it.name == tier.name);
+        let Some(before) = before.filter(|_| !there.contains_key(&tier.name)) else {
+            continue;
+        };
+        let ids: BTreeSet<&str> = before.annotations.iter().map(|it| it.id.as_str()).collect();
+        let shared = |rows: &[AnnotationRow]| {
+            let named = rows.iter().filter_map(|row| row.external_id.as_deref());
+            named.filter(|id| ids.contains(id)).count()
+        };
+        let counts = free.iter().map(|(_, rows)| shared(rows));
+        let Some((at, most)) = counts.enumerate().max_by_key(|(_, count)| *count) else {
+            break;
+        };
+        if most > 0 && 2 * most >= ids.len() {
+            let (name, _) = free.remove(at);
+            found.push((tier.name.clone(), name.clone()));
+        }
+    }
+    Ok(found)
+}
+
 /// Returns the number of annotations that are the same in two files (id, time and value), and that of the file with
 /// more.
 pub(super) fn alike(a: &Transcript, b: &Transcript) -> (usize, usize) {

@@ -284,6 +284,71 @@ fn own_removals_and_additions_are_merged_too() {
 }
 
 #[test]
+fn movement_of_another_folder_takes_annotations_only_if_they_fit() {
+    for (end, wanted) in [(200, &["Take"][..]), (9000, &["Take", "Take (B)"][..])] {
+        let desk = Desk::new();
+        for folder in ["A", "B"] {
+            fs::create_dir(desk.folder.path().join(folder)).expect("made");
+        }
+        let tiers = desk.file("A/Take.eaf", &eaf(&[("Gloss", 0, end, "CHAT")]));
+        let movement = desk.file("B/Take.bvh", MOVEMENT);
+        let mut corpus = desk.corpus("c.chereme");
+        for path in [tiers, movement] {
+            take(&mut corpus, &[path], &ImportOptions::default());
+        }
+        assert_eq!(names(&corpus), wanted, "annotations until {end} ms");
+    }
+}
+
+#[test]
+fn a_gloss_that_a_colleague_removed_goes_with_its_token() {
+    let desk = Desk::new();
+    let whole = eaf(&[("Gloss", 0, 500, "BOL"), ("Handshape right", 0, 500, "S")]);
+    let start = whole.find("<ANNOTATION><ALIGNABLE").expect("there");
+    let end = start + whole[start..].find("</TIER>").expect("its end");
+    let without = format!("{}{}", &whole[..start], &whole[end..]);
+    for own_edits in [OwnEdits::Ask, OwnEdits::Merge, OwnEdits::Theirs] {
+        let mut corpus = desk.corpus(&format!("{own_edits:?}.chereme"));
+        let paths = [desk.file("one.eaf", &whole)];
+        take(&mut corpus, &paths, &ImportOptions::default());
+        assert_eq!(corpus.info().expect("info").counts["tokens"], 1);
+        desk.file("one.eaf", &without);
+        let report = take(&mut corpus, &paths, &choose(own_edits));
+        assert_eq!(report.files[0].status, FileStatus::Updated, "{report:?}");
+        assert_eq!(said(&corpus), ["Handshape right 0 S"]);
+        let counts = corpus.info().expect("info").counts;
+        assert_eq!((counts["tokens"], counts["signs"]), (0, 0));
+        assert_whole(&mut corpus);
+    }
+}
+
+#[test]
+fn a_tier_that_was_renamed_in_the_corpus_is_updated_by_the_file() {
+    let desk = Desk::new();
+    let file = |value: &str| eaf(&[("Gloss", 0, 500, value), ("Notes", 0, 500, "fine")]);
+    let paths = [desk.file("one.eaf", &file("BOL"))];
+    let mut corpus = desk.corpus("c.chereme");
+    take(&mut corpus, &paths, &ImportOptions::default());
+    let renamed = corpus.store.operation("change tier", |connection| {
+        let all = crate::db::tiers::tiers(connection, 1)?;
+        for mut row in all.into_iter().filter(|row| row.name == "Gloss") {
+            row.name = "GL".to_owned();
+            crate::db::tiers::update_tier(connection, &row)?;
+        }
+        Ok(((), String::new()))
+    });
+    renamed.expect("renamed");
+    desk.file("one.eaf", &file("BALLE"));
+    let report = take(&mut corpus, &paths, &ImportOptions::default());
+    assert_eq!(said(&corpus), ["GL 0 BALLE", "Notes 0 fine"]);
+    assert!(
+        has(&report.files[0].findings, "\"Gloss\" of the file is \"GL\""),
+        "{report:?}"
+    );
+    assert_eq!(report.changed.get("annotations"), Some(&1));
+}
+
+#[test]
 fn a_colleagues_copy_from_another_folder_is_a_version_of_the_file() {
     let desk = Desk::new();
     let first = desk.file("one.eaf", &four(["A", "B", "C", "D"]));

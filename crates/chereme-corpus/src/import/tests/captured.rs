@@ -123,6 +123,27 @@ fn a_body_in_a_unit_that_makes_it_a_giant_is_a_person_with_a_finding() {
 }
 
 #[test]
+fn captures_of_one_name_in_two_folders_are_two_recordings() {
+    let desk = Desk::new();
+    let folders = ["A", "B"].map(|folder| desk.folder.path().join(folder));
+    for (folder, height) in [("A", "900"), ("B", "800")] {
+        fs::create_dir(desk.folder.path().join(folder)).expect("made");
+        desk.file(&format!("{folder}/take.trc"), &TRC.replace("900", height));
+    }
+    let mut corpus = desk.corpus("c.chereme");
+    let mut hear = unheard;
+    let report = corpus.import(
+        &folders,
+        &ImportOptions::default(),
+        &mut Progress::new(&mut hear),
+    );
+    let report = report.expect("imported");
+    let names: Vec<_> = report.files.iter().map(|it| it.recording.clone()).collect();
+    let wanted = ["take", "take (B)"].map(|it| Some(it.to_owned()));
+    assert_eq!(names, wanted);
+}
+
+#[test]
 fn an_import_of_tracks_of_every_kind_is_undone_and_done_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let inbox = folder.path().join("in");
