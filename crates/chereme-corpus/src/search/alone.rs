@@ -6,6 +6,7 @@ use super::compile::{self, Ask, Asked};
 use super::finding::FindingKind;
 use super::joined;
 use super::plan;
+use super::text_match;
 
 /// Reports the terms that find nothing: all of them if the query has no results, and otherwise those within an `or`,
 /// whose failure would go unnoticed.
@@ -65,14 +66,19 @@ fn leaves(ask: &Ask<'_>, term: &Expr) -> Asked<()> {
             });
             drop(known);
             if !said && count(ask, term)? == 0 {
-                let why = match term {
-                    Expr::Relation(_) => "no token has this relation to such an annotation",
-                    _ => "no token of the corpus has it",
+                let (why, names) = match term {
+                    Expr::Relation(_) => (
+                        "no token has this relation to such an annotation",
+                        Vec::new(),
+                    ),
+                    Expr::Test(test) => (
+                        "no token of the corpus has it",
+                        text_match::alternatives(ask, test)?,
+                    ),
+                    _ => ("no token of the corpus has it", Vec::new()),
                 };
-                let kind = FindingKind::CannotMatch {
-                    why: why.to_owned(),
-                    names: Vec::new(),
-                };
+                let why = why.to_owned();
+                let kind = FindingKind::CannotMatch { why, names };
                 ask.find(term.to_string(), at, kind);
             }
             Ok(())

@@ -177,7 +177,7 @@ fn nothing(test: &ComponentTest, known: &KnownReadings, literal: Option<&str>) -
     FindingKind::CannotMatch { why, names }
 }
 
-/// Returns the names that contain a text or differ from it by a slip or two, most likely first.
+/// Returns the names that begin with a text, contain it or differ from it by a slip or two, most likely first.
 pub(crate) fn like(text: &str, names: &[String]) -> Vec<String> {
     let wanted = fold(text);
     let mut found: Vec<String> = Vec::new();
@@ -185,7 +185,10 @@ pub(crate) fn like(text: &str, names: &[String]) -> Vec<String> {
     let words = |name: &str| {
         let folded = fold(name);
         let mut words = folded.split(|c: char| !c.is_alphanumeric());
-        words.any(|word| word == wanted) || wanted.chars().count() > 2 && folded.contains(&wanted)
+        let letters = wanted.chars().count();
+        words.any(|word| word == wanted)
+            || letters > 1 && folded.starts_with(&wanted)
+            || letters > 2 && folded.contains(&wanted)
     };
     let holding = names.iter().filter(|name| words(name));
     for name in holding {

@@ -235,9 +235,21 @@ fn answer(ask: &Ask<'_>, query: &Query, options: &SearchOptions) -> Asked<Answer
         hits,
         facets,
         facets_left_out,
-        findings: ask.findings.take(),
+        findings: once(ask.findings.take()),
         notes: ask.notes.take().into_iter().collect(),
     })
+}
+
+/// Keeps the first of findings that say the same about conditions at different places.
+fn once(findings: Vec<Finding>) -> Vec<Finding> {
+    let mut kept: Vec<Finding> = Vec::new();
+    for finding in findings {
+        let same = |it: &Finding| (&it.condition, &it.kind) == (&finding.condition, &finding.kind);
+        if !kept.iter().any(same) {
+            kept.push(finding);
+        }
+    }
+    kept
 }
 
 /// Returns the terms of a conjunction.

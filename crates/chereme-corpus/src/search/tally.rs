@@ -109,16 +109,25 @@ fn subject(name: &str) -> Result<Subject> {
             What::Component(field, _) => Ok(Subject::Component(field.clone())),
             What::Property(property, _) => Ok(Subject::Property(*property)),
             What::Whole(TextField::Gloss, _) => Ok(Subject::Gloss),
+            What::Attribute(own, _) if own == name.trim() => Err(Error::wrong(format!(
+                "there is no field {name:?}, and attributes are not counted"
+            ))
+            .at(name)
+            .advise(COUNTED)),
             _ => Err(uncounted(name)),
         },
         _ => Err(uncounted(name)),
     }
 }
 
+/// The remedy for a field whose values are not counted.
+const COUNTED: &str =
+    "count a component such as placement, or gloss, signer, recording, origin, hand";
+
 fn uncounted(name: &str) -> Error {
     Error::wrong(format!("values of {name:?} are not counted"))
         .at(name)
-        .advise("count a component such as placement, or gloss, signer, recording, origin, hand")
+        .advise(COUNTED)
 }
 
 fn tally(ask: &Ask<'_>, query: &Query, subjects: &[Subject]) -> Asked<Tally> {

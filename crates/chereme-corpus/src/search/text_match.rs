@@ -23,19 +23,20 @@ const LONGEST_FUZZY: usize = 64;
 /// Returns the plan for a comparison of whole texts; if a token has several, one match suffices.
 pub(crate) fn plan(ask: &Ask<'_>, field: TextField, comparison: &Comparison) -> Asked<Plan> {
     match field {
-        TextField::Gloss => gloss(ask, comparison),
+        TextField::Gloss => gloss(ask, comparison, true),
         TextField::Translation | TextField::Comment => {
             other(ask, field == TextField::Translation, comparison)
         }
         TextField::Any => Ok(Plan::any(vec![
-            gloss(ask, comparison)?,
+            gloss(ask, comparison, false)?,
             other(ask, true, comparison)?,
             other(ask, false, comparison)?,
         ])),
     }
 }
 
-fn gloss(ask: &Ask<'_>, comparison: &Comparison) -> Asked<Plan> {
+/// Returns the plan for a comparison of glosses; with `alone` it reports a gloss that no sign has.
+fn gloss(ask: &Ask<'_>, comparison: &Comparison, alone: bool) -> Asked<Plan> {
     let values = comparison.values.iter();
     let plans = values.map(|value| match &value.wanted {
         Wanted::Present => Ok(Plan::everything()),
@@ -57,7 +58,7 @@ fn gloss(ask: &Ask<'_>, comparison: &Comparison) -> Asked<Plan> {
             let found = signs.rows.iter();
             let found = found.filter(|(_, gloss, folded)| is(gloss, folded));
             let found: Vec<i64> = found.map(|(id, _, _)| *id).collect();
-            if found.is_empty() {
+            if alone && found.is_empty() {
                 nobody_has(ask, comparison, value)?;
             }
             Ok(Plan::Index(Probe::Rows(RowField::Sign, found)))
@@ -65,7 +66,7 @@ fn gloss(ask: &Ask<'_>, comparison: &Comparison) -> Asked<Plan> {
         Wanted::Named(pattern) => {
             let glob = Glob::whole(pattern);
             let signs = ask.signs()?;
-            if !signs.rows.iter().any(|(.., folded)| glob.matches(folded)) {
+            if alone && !signs.rows.iter().any(|(.., folded)| glob.matches(folded)) {
                 nobody_has(ask, comparison, value)?;
             }
             Ok(Plan::Index(whole_gloss(ask, pattern)?))
@@ -87,23 +88,43 @@ fn nobody_has(ask: &Ask<'_>, comparison: &Comparison, value: &Value) -> Asked<()
         operator: comparison.operator,
         values: vec![value.clone()],
     };
+    let kind = FindingKind::CannotMatch {
+        why: "no sign has such a gloss".to_owned(),
+        names: glosses_like(ask, pattern)?,
+    };
+    ask.find(format!("gloss{written}"), value.at, kind);
+    Ok(())
+}
+
+/// Returns the glosses that resemble the text of a pattern.
+fn glosses_like(ask: &Ask<'_>, pattern: &Pattern) -> Asked<Vec<String>> {
     let text = match pattern.expression() {
         Some(expression) => expression.source().to_owned(),
         None => pattern.segments().concat(),
     };
     let text: String = text.chars().filter(|c| !"^$.*\\".contains(*c)).collect();
     let signs = ask.signs()?;
-    let glosses: Vec<String> = signs
-        .rows
-        .iter()
-        .map(|(_, gloss, _)| gloss.clone())
-        .collect();
-    let kind = FindingKind::CannotMatch {
-        why: "no sign has such a gloss".to_owned(),
-        names: findings::like(&text, &glosses),
+    let glosses = signs.rows.iter().map(|(_, gloss, _)| gloss.clone());
+    Ok(findings::like(&text, &glosses.collect::<Vec<_>>()))
+}
+
+/// Returns glosses that resemble the only text of a test that finds nothing in glosses, or in any text.
+pub(crate) fn alternatives(ask: &Ask<'_>, test: &Test) -> Asked<Vec<String>> {
+    let pattern = match &test.what {
+        What::Words(TextField::Any | TextField::Gloss, patterns) => match &patterns[..] {
+            [pattern] => pattern,
+            _ => return Ok(Vec::new()),
+        },
+        What::Whole(TextField::Any, comparison) => match &comparison.values[..] {
+            [value] => match &value.wanted {
+                Wanted::Named(pattern) => pattern,
+                _ => return Ok(Vec::new()),
+            },
+            _ => return Ok(Vec::new()),
+        },
+        _ => return Ok(Vec::new()),
     };
-    ask.find(format!("gloss{written}"), value.at, kind);
-    Ok(())
+    glosses_like(ask, pattern)
 }
 
 fn whole_gloss(ask: &Ask<'_>, pattern: &Pattern) -> Asked<Probe> {

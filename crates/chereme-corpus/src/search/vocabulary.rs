@@ -296,11 +296,23 @@ fn loose(text: &str) -> String {
     words.join(" ")
 }
 
-/// Returns the larger place if a place is a part or a side of one: `head` for `side of head`, `chin` for `chin ipsi`.
+/// Returns the larger place if a place is a part or a side of one: `head` for `side of head`, `chin` for `chin ipsi`,
+/// `weak hand` for `weak hand: palm`, `leg` for `upper leg`.
 fn whole_of(place: &str) -> Option<&str> {
     const SIDES: [&str; 4] = [" ipsi", " contra", " ipsilateral", " contralateral"];
     let sided = SIDES.iter().find_map(|side| place.strip_suffix(side));
-    sided.or_else(|| Some(place.rsplit_once(" of ")?.1))
+    let part = || Some(place.split_once(':')?.0.trim_end());
+    let within = |word: &str| Some(place.rsplit_once(word)?.1);
+    let half = || {
+        ["upper ", "lower "]
+            .iter()
+            .find_map(|it| place.strip_prefix(it))
+    };
+    sided
+        .or_else(part)
+        .or_else(|| within(" of "))
+        .or_else(|| within(" in "))
+        .or_else(half)
 }
 
 /// The spellings that are accepted for the wanted values.
@@ -325,4 +337,24 @@ fn has(value: &InventoryValue, features: &[Feature], exactly: bool) -> bool {
     let named = features.iter().filter(|feature| !feature.absent);
     let named: BTreeSet<String> = named.map(|feature| fold(&feature.name)).collect();
     all && (!exactly || named == own)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_and_sides_of_places_name_the_larger_place() {
+        for (place, whole) in [
+            ("chin ipsi", Some("chin")),
+            ("side of head", Some("head")),
+            ("weak hand: palm", Some("weak hand")),
+            ("neutral space: high", Some("neutral space")),
+            ("low in neutral space", Some("neutral space")),
+            ("upper leg", Some("leg")),
+            ("chest", None),
+        ] {
+            assert_eq!(whole_of(place), whole, "{place}");
+        }
+    }
 }

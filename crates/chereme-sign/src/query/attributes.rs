@@ -79,6 +79,19 @@ pub(super) fn follows(cursor: &Cursor<'_>) -> bool {
     }
 }
 
+/// Returns whether the operator and the text after it compare a name with a single number, or ask whether it has a
+/// value: `iconicity=5`, `frequency!=2`, `frequency=*`, `frequency=unset`; the cursor is before the operator.
+pub(super) fn equals(cursor: &Cursor<'_>) -> bool {
+    let mut ahead = cursor.clone();
+    let at = operator_place(&mut ahead);
+    let operator = ahead.text(at);
+    ahead.skip_blanks();
+    let chunk = ahead.chunk();
+    let text = ahead.text(chunk);
+    ["=", "==", "!=", "≠"].contains(&&*operator)
+        && (number(&text).is_some() || ["*", "unset"].contains(&&*text))
+}
+
 /// Reads `("name")` and the comparison after the word `attribute`, which is at `at`.
 pub(super) fn in_parentheses(cursor: &mut Cursor<'_>, at: At) -> Result<Test, QueryError> {
     const REMEDY: &str = r#"write for example attribute("Sign Frequency")>2"#;
@@ -204,6 +217,10 @@ mod tests {
             ("Iconicity(M)<3,5", "attribute(\"Iconicity(M)\")<3.5"),
             ("frequency=0.2..0.5", "attribute.frequency=0.2..0.5"),
             ("not frequency=..3", "not attribute.frequency<=3"),
+            ("iconicity=5", "attribute.iconicity=5"),
+            ("iconicity!=2", "attribute.iconicity!=2"),
+            ("iconicity=*", "attribute.iconicity=*"),
+            ("not iconicity=unset", "not attribute.iconicity=unset"),
             (
                 "attribute.MajorLocation.2.0Frequency>-1",
                 "attribute.MajorLocation.2.0Frequency>-1",

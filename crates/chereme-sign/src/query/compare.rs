@@ -35,12 +35,18 @@ pub(super) fn test(cursor: &mut Cursor<'_>) -> Result<Test, QueryError> {
 }
 
 /// Reads the comparison of an attribute; `None` if the name before it is not one. A name is an attribute if it begins
-/// with `attribute.`, or if it is no field and a number follows.
+/// with `attribute.`, or if it is no field and a comparison with numbers follows; after a name that resembles a field, a
+/// single number is a value of the field.
 fn attribute(cursor: &mut Cursor<'_>, name: &str, at: At) -> Result<Option<What>, QueryError> {
     if let Some(name) = attributes::prefixed(name) {
         return attributes::test(cursor, name.to_owned()).map(Some);
     }
-    if name.contains('.') || !attributes::follows(cursor) || component(cursor, at).is_ok() {
+    let Err(no_field) = component(cursor, at) else {
+        return Ok(None);
+    };
+    let is_one =
+        attributes::follows(cursor) || no_field.suggestion.is_none() && attributes::equals(cursor);
+    if name.contains('.') || !is_one {
         return Ok(None);
     }
     attributes::test(cursor, name.to_owned()).map(Some)
@@ -365,7 +371,8 @@ fn fix(value: &mut Value, property: Property, fixed: &[&str]) -> Result<(), Quer
         .filter(|_| property == Property::Hand);
     let house = hand
         .map(HandRef::name)
-        .or_else(|| fixed.iter().copied().find(|name| *name == text));
+        .or_else(|| fixed.iter().copied().find(|name| *name == text))
+        .or_else(|| words::origin(&text).filter(|_| property == Property::Origin));
     let Some(house) = house else {
         let message = format!("{text:?} is no {}", property.name());
         let remedy = format!("known values: {}", fixed.join(", "));

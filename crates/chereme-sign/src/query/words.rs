@@ -94,6 +94,17 @@ impl TimeField {
     }
 }
 
+/// Returns the origin that another word means, such as those that tables and pictures write beside signs.
+pub(super) fn origin(text: &str) -> Option<&'static str> {
+    Some(match &*fold(text) {
+        "synthesised" | "synthesized" | "composed" | "compose" => "made",
+        "notated" | "notation" | "lexicon entry" | "note" | "entree de lexique" => "lexicon",
+        "capte" => "captured",
+        "produit" => "generated",
+        _ => return None,
+    })
+}
+
 /// The word that opens a relation with a distance.
 pub(super) const WITHIN: &str = "within";
 /// The words after the distance of `within`.

@@ -207,6 +207,7 @@ duration=0.5s..1s => CHAT BOL-2H ÉCOLE
 start>=1s => MAISON ÉCOLE
 end<=300ms => INDEX:1
 origin=lexicon => BOL ESCARGOT
+origin=notated => BOL ESCARGOT
 origin!=lexicon => CHAT BOL-2H MAISON INDEX:1 ÉCOLE
 signer=ben => INDEX:1 ÉCOLE
 signer=unset => BOL ESCARGOT
@@ -350,6 +351,10 @@ tier(nosuch)=x => cannot-match tier("nosuch")=x: Mouthing Remarks Traduction dom
 overlaps tier(Mouth)=* => cannot-match tier("Mouth")=*: Mouthing
 tier(Mouthing)=moo => cannot-match tier("Mouthing")=moo:
 zebra => cannot-match zebra:
+CHATS => cannot-match CHATS: CHAT
+gloss:CHATS => cannot-match gloss:CHATS: CHAT
+text=/^BOLL/ => cannot-match text=/^BOLL/: BOL
+placement=head or placement=head => widened placement=head: chin
 gloss=CHAT or zebra => cannot-match zebra:
 gloss=CHAT or gloss:zeb* => cannot-match gloss:zeb*:
 configuration=U placement=chest => none-together configuration=U placement=chest: configuration=U 2 placement=chest 1
