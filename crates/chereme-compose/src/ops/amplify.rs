@@ -81,6 +81,9 @@ impl Operator for Amplify {
     }
 }
 
+/// The factor below which a hand hardly moves any more.
+const STANDS: f64 = 0.1;
+
 /// Multiplies the distances of the wrists from the middle of their movement.
 pub(crate) fn amplify(
     work: &mut Work,
@@ -93,8 +96,10 @@ pub(crate) fn amplify(
         return Ok((vec!["nothing to do".into()], 0.0));
     }
     let reach = scale(work, sides, factor)?;
+    let stands = factor < STANDS;
     say::withdraw(work, sides, operator, |component, feature| {
-        component == Component::Movement && feature == Some("size")
+        component == Component::Movement
+            && (feature == Some("size") || stands && feature != Some("phase"))
     });
     work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
     let mut did = vec![format!(

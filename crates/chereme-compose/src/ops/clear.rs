@@ -42,8 +42,9 @@ impl Cleared {
         let count = moved.clone().filter(|way| *way > 1e-4).count();
         let most = moved.fold(0.0, f64::max);
         let mut told = format!(
-            "the {side} hand is kept out of head and trunk: moved by up to {:.1} cm in {count} frames",
-            cm(most)
+            "the {side} hand is kept out of head and trunk: moved by up to {:.1} cm in {count} {}",
+            cm(most),
+            if count == 1 { "frame" } else { "frames" }
         );
         if self.at(frames) > SKIN {
             let at = work.rate.instant(frames.start);

@@ -280,6 +280,9 @@ pub(crate) fn shown_by(
     })
 }
 
+/// The distance in metres of one of two hands from the place of their middle, beyond which the hand is not at the place.
+const APART: f64 = 0.25;
+
 /// Moves the hands; returns a description of the effects, the residual, and the displacement in body space, in
 /// metres.
 pub(crate) fn place(
@@ -292,6 +295,7 @@ pub(crate) fn place(
     let frame = frame(work, sides)?;
     let mut frames = 0..work.frames;
     let mut told_anchor = Vec::new();
+    let mut spot = None;
     let by = match &settings.to {
         Goal::By(legs) => frame.sum(legs),
         to => {
@@ -307,6 +311,7 @@ pub(crate) fn place(
             let now = anchor.at(work, sides).ok_or(Cause::NoArm(sides[0]))?;
             told_anchor.extend(anchor.told(work));
             frames = anchor.frames;
+            spot = Some((goal, anchor.point));
             goal - now
         }
     };
@@ -326,8 +331,23 @@ pub(crate) fn place(
         }
     }
     for &side in sides {
+        // Of two hands far apart only their middle is at the place.
+        let apart = spot
+            .filter(|_| sides.len() > 1 && value.is_some())
+            .and_then(|(goal, point)| {
+                let own = body::mean_point(work, &[side], point)?;
+                Some(own.distance(goal)).filter(|away| *away > APART)
+            });
+        if let Some(away) = apart {
+            told_anchor.push(format!(
+                "the {} hand is {:.1} cm away from the place, so its placement is left open",
+                side.name(),
+                away * 100.0
+            ));
+        }
         if by != DVec3::ZERO || value.is_some() {
-            say::placed(work, side, value.as_deref(), frames.clone(), operator);
+            let value = value.as_deref().filter(|_| apart.is_none());
+            say::placed(work, side, value, frames.clone(), operator);
         }
     }
     if by != DVec3::ZERO {
