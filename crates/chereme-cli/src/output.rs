@@ -90,8 +90,13 @@ impl Output {
         if self.json {
             return Ok(());
         }
-        for line in table::lines(header, rows, self.width) {
-            self.line_as_is(&line)?;
+        let table = table::table(header, rows, self.width);
+        for line in &table.lines {
+            self.line_as_is(line)?;
+        }
+        if !table.left_out.is_empty() {
+            let names = table.left_out.join(", ");
+            self.line(format!("no room for: {names}; --width 0 shows all columns"))?;
         }
         Ok(())
     }

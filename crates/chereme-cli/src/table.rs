@@ -2,34 +2,47 @@
 
 /// The number of blanks between two columns.
 const GAP: usize = 2;
-/// The least width of a shortened column of text.
+/// The least width of a shortened column.
 const NARROWEST: usize = 8;
+/// The number of columns that stay however narrow a table is.
+const FEWEST: usize = 2;
 /// The largest width of the rule below the titles, unless the titles are wider.
 const RULE: usize = 100;
 
-/// Returns the lines of a table: columns as wide as their widest cell, numbers to the right. With a width the
-/// widest columns of text are shortened, with an ellipsis, until the lines fit.
-pub(crate) fn lines(header: &[&str], rows: &[Vec<String>], width: Option<usize>) -> Vec<String> {
-    let count = |text: &str| text.chars().count();
-    let numeric: Vec<bool> = (0..header.len())
-        .map(|column| is_numeric(rows, column))
+/// A table as lines of text.
+pub(crate) struct Table {
+    /// The titles, a rule, and a line for each row.
+    pub(crate) lines: Vec<String>,
+    /// The titles of the columns for which there was no room.
+    pub(crate) left_out: Vec<String>,
+}
+
+/// Returns a table: columns as wide as their widest cell, numbers to the right. With a width the widest columns are
+/// shortened, with an ellipsis, until the lines fit; if that is not enough, columns without any cell are left out, then
+/// the last ones.
+pub(crate) fn table(header: &[&str], rows: &[Vec<String>], width: Option<usize>) -> Table {
+    let all: Vec<ColumnShape> = (0..header.len())
+        .map(|column| ColumnShape::of(header[column], rows, column))
         .collect();
-    let mut widths: Vec<usize> = (0..header.len())
-        .map(|column| {
-            let cells = rows.iter().filter_map(|row| row.get(column));
-            let widest = cells.map(|cell| count(cell)).max().unwrap_or(0);
-            widest.max(count(header[column]))
-        })
-        .collect();
+    let mut kept: Vec<usize> = (0..header.len()).collect();
+    let mut widths = all.iter().map(|it| it.widest).collect::<Vec<_>>();
     if let Some(width) = width {
-        fit(&mut widths, &numeric, width);
+        loop {
+            let shapes: Vec<&ColumnShape> = kept.iter().map(|at| &all[*at]).collect();
+            widths = fitted(&shapes, width);
+            if whole(&widths) <= width || kept.len() <= FEWEST {
+                break;
+            }
+            let empty = kept.iter().rposition(|at| all[*at].is_empty);
+            kept.remove(empty.unwrap_or(kept.len() - 1));
+        }
     }
-    let line = |cells: &mut dyn Iterator<Item = &str>| {
+    let line = |cell: &dyn Fn(usize) -> String| {
         let mut text = String::new();
-        for ((cell, width), numeric) in cells.zip(&widths).zip(&numeric) {
-            let cell = shortened(cell, *width);
-            let pad = " ".repeat(width.saturating_sub(count(&cell)));
-            let (before, after) = if *numeric {
+        for (column, width) in kept.iter().zip(&widths) {
+            let cell = shortened(&cell(*column), *width);
+            let pad = " ".repeat(width.saturating_sub(cell.chars().count()));
+            let (before, after) = if all[*column].is_numeric {
                 (pad, String::new())
             } else {
                 (String::new(), pad)
@@ -38,39 +51,67 @@ pub(crate) fn lines(header: &[&str], rows: &[Vec<String>], width: Option<usize>)
         }
         text.trim_end().to_owned()
     };
-    let head = line(&mut header.iter().copied());
-    let whole = widths.iter().sum::<usize>() + GAP * widths.len().saturating_sub(1);
-    let rule = "-".repeat(whole.min(RULE.max(count(&head))));
-    let rows = rows
-        .iter()
-        .map(|row| line(&mut row.iter().map(String::as_str)));
-    let mut lines = vec![head.clone(), rule];
-    lines.extend(rows);
-    lines
+    let head = line(&|column| header[column].to_owned());
+    let rule = "-".repeat(whole(&widths).min(RULE.max(head.chars().count())));
+    let mut lines = vec![head, rule];
+    let cell = |row: &Vec<String>, column: usize| row.get(column).cloned().unwrap_or_default();
+    lines.extend(rows.iter().map(|row| line(&|column| cell(row, column))));
+    let left_out = (0..header.len()).filter(|column| !kept.contains(column));
+    Table {
+        lines,
+        left_out: left_out.map(|column| header[column].to_owned()).collect(),
+    }
 }
 
-fn is_numeric(rows: &[Vec<String>], column: usize) -> bool {
-    let mut cells = rows.iter().filter_map(|row| row.get(column)).peekable();
-    cells.peek().is_some() && cells.all(|cell| cell.is_empty() || cell.parse::<f64>().is_ok())
+/// The needs of a column.
+struct ColumnShape {
+    widest: usize,
+    /// The width below which it is not shortened.
+    least: usize,
+    is_numeric: bool,
+    /// Whether no row has a cell in it.
+    is_empty: bool,
 }
 
-/// Narrows the widest columns of text until the table fits or all are at their least width.
-fn fit(widths: &mut [usize], numeric: &[bool], width: usize) {
-    let gaps = GAP * widths.len().saturating_sub(1);
+impl ColumnShape {
+    fn of(title: &str, rows: &[Vec<String>], column: usize) -> Self {
+        let cells = || rows.iter().filter_map(|row| row.get(column));
+        let widest = cells().map(|cell| cell.chars().count()).max().unwrap_or(0);
+        let number = |cell: &String| cell.is_empty() || cell.parse::<f64>().is_ok();
+        let is_numeric = !rows.is_empty() && cells().all(number);
+        Self {
+            widest: widest.max(title.chars().count()),
+            least: if is_numeric {
+                widest.max(NARROWEST)
+            } else {
+                NARROWEST
+            },
+            is_numeric,
+            is_empty: widest == 0,
+        }
+    }
+}
+
+/// Returns the width of a table's lines.
+fn whole(widths: &[usize]) -> usize {
+    widths.iter().sum::<usize>() + GAP * widths.len().saturating_sub(1)
+}
+
+/// Returns the widths of columns, the widest narrowed until the table fits or all have their least width.
+fn fitted(columns: &[&ColumnShape], width: usize) -> Vec<usize> {
+    let mut widths: Vec<usize> = columns.iter().map(|it| it.widest).collect();
     loop {
-        let over = (widths.iter().sum::<usize>() + gaps).saturating_sub(width);
-        let mut text: Vec<usize> = (0..widths.len())
-            .filter(|at| !numeric[*at] && widths[*at] > NARROWEST)
+        let over = whole(&widths).saturating_sub(width);
+        let mut loose: Vec<usize> = (0..widths.len())
+            .filter(|at| widths[*at] > columns[*at].least)
             .collect();
-        text.sort_by_key(|at| std::cmp::Reverse(widths[*at]));
-        let Some(widest) = text.first().copied().filter(|_| over > 0) else {
-            return;
+        loose.sort_by_key(|at| std::cmp::Reverse(widths[*at]));
+        let Some(widest) = loose.first().copied().filter(|_| over > 0) else {
+            return widths;
         };
-        let next = text
-            .get(1)
-            .map_or(NARROWEST, |at| widths[*at])
-            .max(NARROWEST);
-        let step = (widths[widest] - next).max(1).min(over);
+        let next = loose.get(1).map_or(0, |at| widths[*at]);
+        let least = columns[widest].least;
+        let step = (widths[widest] - next.max(least)).max(1).min(over);
         widths[widest] -= step;
     }
 }
@@ -102,6 +143,10 @@ mod tests {
         ]
     }
 
+    fn lines(header: &[&str], rows: &[Vec<String>], width: Option<usize>) -> Vec<String> {
+        table(header, rows, width).lines
+    }
+
     #[test]
     fn a_table_is_cut_to_the_width_given() {
         let header = ["token", "gloss", "components"];
@@ -121,6 +166,28 @@ mod tests {
         }
         let least = lines(&header, &rows(), Some(3));
         assert!(least[3].contains("ÊTRE DÉ…"), "{least:#?}");
-        assert_eq!(lines(&header, &[], Some(20))[0], "token  gloss  compone…");
+        assert_eq!(lines(&header, &[], Some(22))[0], "token  gloss  compone…");
+    }
+
+    #[test]
+    fn a_table_with_too_many_columns_leaves_some_out() {
+        let header = ["id", "name", "signer", "duration_us", "notes", "licence"];
+        let row = ["1", "BOL", "", "1500000", "", "CC0-1.0"].map(str::to_owned);
+        let rows = [row.to_vec()];
+        for (width, left_out) in [
+            (60, &[][..]),
+            (36, &["notes"][..]),
+            (30, &["signer", "notes"][..]),
+            (16, &["signer", "duration_us", "notes", "licence"][..]),
+        ] {
+            let table = table(&header, &rows, Some(width));
+            assert_eq!(table.left_out, left_out, "{width}");
+            let fits = |line: &String| line.chars().count() <= width;
+            assert!(table.lines.iter().all(fits), "{:#?}", table.lines);
+            assert!(table.lines[2].contains("BOL"));
+        }
+        // The number of a narrowed column stays whole.
+        let narrow = lines(&header, &rows, Some(36));
+        assert!(narrow[0].contains("duration…") && narrow[2].contains("1500000"));
     }
 }

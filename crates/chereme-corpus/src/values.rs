@@ -1,7 +1,7 @@
 //! Adding and merging values of inventories.
 
 use chereme_sign::Remedy;
-use chereme_sign::text::{did_you_mean, nearest};
+use chereme_sign::text::{did_you_mean, fold, nearest};
 use chereme_sign::{Inventory, InventoryValue};
 use rusqlite::Connection;
 use serde::Serialize;
@@ -24,6 +24,14 @@ pub struct MergedValues {
 }
 
 impl Corpus {
+    /// Returns the key of the inventory with this key, or with this name in any language.
+    ///
+    /// # Errors
+    /// Fails if there is no such inventory, or several have this name and none the key.
+    pub fn inventory_key(&self, name: &str) -> Result<String> {
+        Ok(named(self.store.read(), name)?.inventory.id)
+    }
+
     /// Adds a value to an inventory, as one operation; tokens whose tiers use the value are derived again.
     ///
     /// # Errors
@@ -131,9 +139,19 @@ pub(crate) fn named(connection: &Connection, name: &str) -> Result<StoredInvento
         .iter()
         .map(|stored| stored.inventory.id.clone())
         .collect();
-    let found = all
-        .into_iter()
-        .find(|stored| stored.inventory.id == name.trim());
+    let name = name.trim();
+    let keyed = all.iter().position(|stored| stored.inventory.id == name);
+    let called = || {
+        let is = |stored: &StoredInventory| {
+            let mut names = stored.inventory.names.values();
+            names.any(|own| fold(own) == fold(name))
+        };
+        let mut found = all.iter().enumerate().filter(|(_, it)| is(it));
+        let (at, _) = found.next()?;
+        found.next().is_none().then_some(at)
+    };
+    let found = keyed.or_else(called);
+    let found = found.and_then(|at| all.into_iter().nth(at));
     found.ok_or_else(|| {
         let meant = did_you_mean(nearest(name, ids.iter().map(String::as_str)));
         Error::wrong(format!("there is no inventory {name:?}{meant}"))
@@ -225,6 +243,16 @@ mod tests {
             .merge_values("lex/handedness", "1", "2s")
             .expect_err("no inventory");
         assert!(error.to_string().contains("no inventory"), "{error}");
+
+        for (name, found) in [
+            ("configurations", Some("configurations")),
+            ("Hand Configurations", Some("configurations")),
+            (key, Some(key)),
+            ("hand", None),
+        ] {
+            let key = corpus.inventory_key(name).ok();
+            assert_eq!(key.as_deref(), found, "{name}");
+        }
 
         let before = corpus.info().expect("info").counts["values"];
         let bent = InventoryValue {

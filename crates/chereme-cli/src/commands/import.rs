@@ -388,10 +388,37 @@ fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
     for column in file.understood.columns.iter().flatten() {
         output.line(format!("  column {}: {}", column.title, column.meaning))?;
     }
-    for finding in &file.findings {
+    let (shown, more) = without_repetition(&file.findings);
+    for finding in shown {
         print_finding(finding, output)?;
     }
+    if more > 0 {
+        output.line(format!(
+            "  and {more} more findings like these, all of them with --json"
+        ))?;
+    }
     Ok(())
+}
+
+/// The number of findings of a file with the same remedy that are listed.
+const ALIKE: usize = 10;
+
+/// Returns the findings to list, and the number of those left out because many others have the same remedy.
+fn without_repetition(findings: &[ReportFinding]) -> (Vec<&ReportFinding>, usize) {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut shown = Vec::new();
+    for finding in findings {
+        let count = finding.remedy.as_ref().map_or(0, |remedy| {
+            let count = counts.entry(remedy.text()).or_default();
+            *count += 1;
+            *count
+        });
+        if count <= ALIKE {
+            shown.push(finding);
+        }
+    }
+    let more = findings.len() - shown.len();
+    (shown, more)
 }
 
 fn print_finding(finding: &ReportFinding, output: &mut Output) -> Result<()> {
@@ -407,4 +434,28 @@ fn print_finding(finding: &ReportFinding, output: &mut Output) -> Result<()> {
         output.line(format!("  {remedy}"))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn findings_with_one_remedy_are_listed_a_few_times() {
+        let finding = |line: u64, remedy: Option<&str>| ReportFinding {
+            severity: "warning",
+            line: Some(line),
+            message: format!("the sign {line} has no notation"),
+            remedy: remedy.map(Into::into),
+        };
+        let same = (0..40).map(|line| finding(line, Some("export it again")));
+        let mut findings: Vec<ReportFinding> = same.collect();
+        findings.push(finding(40, None));
+        findings.push(finding(41, Some("give it a gloss")));
+        let (shown, more) = without_repetition(&findings);
+        assert_eq!((shown.len(), more), (12, 30));
+        let last: Vec<_> = shown[10..].iter().map(|it| it.line).collect();
+        assert_eq!(last, [Some(40), Some(41)]);
+        assert_eq!(without_repetition(&findings[30..]).1, 0);
+    }
 }

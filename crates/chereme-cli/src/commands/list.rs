@@ -53,8 +53,13 @@ fn pair(text: &str) -> Result<(String, String), String> {
 pub(super) fn list(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let corpus = cli.open(&args.corpus)?;
     let mut columns = args.filter.clone();
-    let own = args.inventory.iter();
-    columns.extend(own.map(|name| ("inventory".to_owned(), name.clone())));
+    if let Some(name) = &args.inventory {
+        let key = match name.contains('*') {
+            true => name.clone(),
+            false => corpus.inventory_key(name)?,
+        };
+        columns.push(("inventory".to_owned(), key));
+    }
     let filter = ListFilter {
         columns,
         sort: args.sort.clone(),

@@ -576,10 +576,6 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "{head} articulations de la tête et {trunk} du tronc",
     ),
     (
-        "the {side} hand is kept out of head and trunk: moved by up to {cm} cm in {n} frames",
-        "la main {side} reste hors de la tête et du tronc : écartée de {cm} cm au plus dans {n} images",
-    ),
-    (
         "measured on {pairs} pairs, {vowels} vowels and {consonants} consonants alone",
         "mesuré sur {pairs} paires, {vowels} voyelles et {consonants} consonnes seules",
     ),

@@ -38,9 +38,9 @@ texts! {
     DID_ANNOTATE: "{what} in {place}", "{what} dans {place}";
     ADDED: "{n} annotations added", "{n} annotations ajoutées";
     ONE_ADDED: "{n} annotation added", "{n} annotation ajoutée";
-    CHANGED: "{n} changed", "{n} modifiées";
+    CHANGED: "{n} annotations changed", "{n} annotations modifiées";
     ONE_CHANGED: "{n} annotation changed", "{n} annotation modifiée";
-    REMOVED: "{n} removed", "{n} supprimées";
+    REMOVED: "{n} annotations removed", "{n} annotations supprimées";
     ONE_REMOVED: "{n} annotation removed", "{n} annotation supprimée";
     ONE_RESTORED: "{n} annotation restored in {place}", "{n} annotation rétablie dans {place}";
     RESTORED: "{n} annotations restored in {place}", "{n} annotations rétablies dans {place}";
@@ -62,8 +62,8 @@ texts! {
     DID_ADD_TRACKS: "Tracks added: {what}", "Pistes ajoutées : {what}";
     DID_CHANGE_TRACK: "Track changed: {what}", "Piste modifiée : {what}";
     DID_CHANGE_MEDIA: "Media changed: {what}", "Média modifié : {what}";
-    DID_ADD_VALUE: "Value added: {what}", "Valeur ajoutée : {what}";
-    DID_MERGE_VALUES: "Values merged: {what}", "Valeurs fusionnées : {what}";
+    DID_ADD_VALUE: "Value {value} added to {place}", "Valeur {value} ajoutée à {place}";
+    DID_MERGE_VALUES: "Value {value} merged into {into} in {place}", "Valeur {value} fusionnée avec {into} dans {place}";
     DID_KEEP_SEARCH: "Search saved: {what}", "Recherche enregistrée : {what}";
     DID_RENAME_SEARCH: "Search renamed: {what}", "Recherche renommée : {what}";
     DID_DELETE: "Deleted: {what}", "Supprimé : {what}";
@@ -96,6 +96,14 @@ pub fn sentence(it: &OperationRow, language: Language) -> String {
             let tier = tier.trim_matches('"');
             say(DID_CHANGE_TIER, &[("tier", &tier), ("place", &place)])
         }),
+        "add value" => parted(" to ")
+            .map(|(value, place)| say(DID_ADD_VALUE, &[("value", &value), ("place", &place)])),
+        "merge values" => parted(" in ").and_then(|(values, place)| {
+            let (value, into) = values.split_once(" into ")?;
+            let all: [(&str, &dyn Display); 3] =
+                [("value", &value), ("into", &into), ("place", &place)];
+            Some(say(DID_MERGE_VALUES, &all))
+        }),
         "merge" => Some(say(super::merge::DID_MERGE, &[("what", &summary)])),
         "decide" => Some(say(super::merge::DID_DECIDE, &[("what", &summary)])),
         "propose" => annotated(summary, language).map(|what| say(DID_PROPOSE, &[("what", &what)])),
@@ -119,8 +127,6 @@ fn plain(name: &str) -> Option<Text> {
         "add tracks" => DID_ADD_TRACKS,
         "change track" => DID_CHANGE_TRACK,
         "change media" => DID_CHANGE_MEDIA,
-        "add value" => DID_ADD_VALUE,
-        "merge values" => DID_MERGE_VALUES,
         "keep search" => DID_KEEP_SEARCH,
         "rename search" => DID_RENAME_SEARCH,
         "forget search" => DID_FORGET_SEARCH,
@@ -259,6 +265,18 @@ mod tests {
                 "chins",
                 "Search saved: chins",
                 "Recherche enregistrée : chins",
+            ),
+            (
+                "annotate",
+                "2 removed in Un",
+                "2 annotations removed in Un",
+                "2 annotations supprimées dans Un",
+            ),
+            (
+                "merge values",
+                "2S into 2s in hands",
+                "Value 2S merged into 2s in hands",
+                "Valeur 2S fusionnée avec 2s dans hands",
             ),
             ("delete", "a, B", "Deleted: a, B", "Supprimé : a, B"),
             ("novel", "x", "novel: x", "novel: x"),

@@ -19,6 +19,14 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ),
     ("and {n} more", "et {n} de plus"),
     (
+        "and {n} more findings like these, all of them with --json",
+        "et {n} constats de plus comme ceux-ci, tous avec --json",
+    ),
+    (
+        "no room for: {names}; --width 0 shows all columns",
+        "pas de place pour : {names} ; --width 0 montre toutes les colonnes",
+    ),
+    (
         "nothing is written; it would be:",
         "rien n’est écrit ; ce serait :",
     ),
@@ -461,6 +469,21 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("notes from {old} to {new}", "remarques : {old} → {new}"),
     ("its order or form", "son ordre ou sa forme"),
     (
+        "{file}: updated -> recording {name}",
+        "{file} : mis à jour -> enregistrement {name}",
+    ),
+    ("{file}: updated", "{file} : mis à jour"),
+    (
+        "{file}: unchanged -> recording {name}",
+        "{file} : inchangé -> enregistrement {name}",
+    ),
+    ("{file}: unchanged", "{file} : inchangé"),
+    (
+        "{file}: REFUSED -> recording {name}",
+        "{file} : REFUSÉ -> enregistrement {name}",
+    ),
+    ("{file}: REFUSED", "{file} : REFUSÉ"),
+    (
         "{file} -> recording {name}",
         "{file} -> enregistrement {name}",
     ),
@@ -578,4 +601,29 @@ pub(super) const LINES: &[(&str, &str)] = &[
         "{recording} n’a pas de piste {name}",
     ),
     ("a tier that is gone", "un acteur qui n’existe plus"),
+    (
+        "{rest}, and still {cm} cm in the body",
+        "{rest}, et encore à {cm} cm dans le corps",
+    ),
+    (
+        "{rest}, at {time} {cm} cm away from its goal, as the hand would enter the body there; turn it with `orient`",
+        "{rest}, à {time} à {cm} cm de son but, car la main y entrerait dans le corps ; tournez-la avec `orient`",
+    ),
+    ("{cm} cm in 1 frame", "{cm} cm dans 1 image"),
+    ("{cm} cm in {n} frames", "{cm} cm dans {n} images"),
+    (
+        "{source} ({gloss}), {n} frames at {rate} fps",
+        "{source} ({gloss}), {n} images à {rate} i/s",
+    ),
+    ("{cm} cm left, {rest}", "{cm} cm à gauche, {rest}"),
+    ("{cm} cm right, {rest}", "{cm} cm à droite, {rest}"),
+    ("{cm} cm up, {rest}", "{cm} cm vers le haut, {rest}"),
+    ("{cm} cm down, {rest}", "{cm} cm vers le bas, {rest}"),
+    ("{cm} cm forward", "{cm} cm en avant"),
+    ("{cm} cm back", "{cm} cm en arrière"),
+    (
+        "{tier} of {recording} at {time} s: {from} -> {to}",
+        "{tier} de {recording} à {time} s : {from} -> {to}",
+    ),
+    ("{names} and {n} more", "{names} et {n} autres"),
 ];

@@ -50,6 +50,10 @@ const MESSAGES: &[(&str, &str)] = &[
         "there is no field or attribute {name}",
         "il n’y a ni champ ni attribut {name}",
     ),
+    (
+        "there is no field {name}, and attributes are not counted",
+        "il n’y a pas de champ {name}, et les attributs ne se comptent pas",
+    ),
     ("the file has too many bytes", "le fichier a trop d’octets"),
     (
         "no column is called a gloss",
@@ -296,6 +300,15 @@ const MESSAGES: &[(&str, &str)] = &[
         "{what}, de {start} à {end}, chevauche {other} ({from} à {to}) sur l’acteur {tier} de {recording}",
     ),
     ("free next to it: {times}", "libre à côté : {times}"),
+    ("a new annotation", "une nouvelle annotation"),
+    ("the right hand", "la main droite"),
+    ("the left hand", "la main gauche"),
+    ("the body", "le corps"),
+    ("an operator", "un opérateur"),
+    (
+        "the tier {name} of the file is {other} in the corpus",
+        "l’acteur {name} du fichier est {other} dans le corpus",
+    ),
     (
         "{value} is no value of the inventory {inventory} of the tier {tier}; did you mean {near}?",
         "{value} n’est pas une valeur de l’inventaire {inventory} de l’acteur {tier} ; vouliez-vous dire {near} ?",

@@ -53,6 +53,62 @@ pub(super) const NOTES: &[(&str, &str)] = &[
     ),
     ("moved {way}", "déplacé : {way}"),
     (
+        "the right hand is kept out of head and trunk: moved by up to {rest}",
+        "la main droite est tenue hors de la tête et du tronc : déplacée de {rest}",
+    ),
+    (
+        "the left hand is kept out of head and trunk: moved by up to {rest}",
+        "la main gauche est tenue hors de la tête et du tronc : déplacée de {rest}",
+    ),
+    (
+        "the right hand is {cm} cm away from the place, so its placement is left open",
+        "la main droite est à {cm} cm du lieu, son emplacement reste donc ouvert",
+    ),
+    (
+        "the left hand is {cm} cm away from the place, so its placement is left open",
+        "la main gauche est à {cm} cm du lieu, son emplacement reste donc ouvert",
+    ),
+    (
+        "the right hand stays where it is: the second sign does not use it",
+        "la main droite reste où elle est : le second signe ne s’en sert pas",
+    ),
+    (
+        "the left hand stays where it is: the second sign does not use it",
+        "la main gauche reste où elle est : le second signe ne s’en sert pas",
+    ),
+    (
+        "right hand: leaves {n} frames before the end, enters at frame {at}, {between} frames between",
+        "main droite : part {n} images avant la fin, arrive à l’image {at}, {between} images entre deux",
+    ),
+    (
+        "left hand: leaves {n} frames before the end, enters at frame {at}, {between} frames between",
+        "main gauche : part {n} images avant la fin, arrive à l’image {at}, {between} images entre deux",
+    ),
+    (
+        "the place is that of the contact at {time}: the {part} at the mouth",
+        "l’emplacement est celui du contact à {time} : {part} à la bouche",
+    ),
+    (
+        "the place is that of the contact at {time}: the {part} at the chin",
+        "l’emplacement est celui du contact à {time} : {part} au menton",
+    ),
+    (
+        "the place is that of the contact at {time}: the {part} at the chest",
+        "l’emplacement est celui du contact à {time} : {part} à la poitrine",
+    ),
+    ("right-temple", "tempe droite"),
+    ("left-temple", "tempe gauche"),
+    ("right-cheek", "joue droite"),
+    ("left-cheek", "joue gauche"),
+    ("right-index-tip", "bout de l’index droit"),
+    ("left-index-tip", "bout de l’index gauche"),
+    ("right-thumb-tip", "bout du pouce droit"),
+    ("left-thumb-tip", "bout du pouce gauche"),
+    ("right-middle-tip", "bout du majeur droit"),
+    ("left-middle-tip", "bout du majeur gauche"),
+    ("right-palm", "paume droite"),
+    ("left-palm", "paume gauche"),
+    (
         "the {side} index finger's line passes {mm} mm beside the target",
         "la ligne de l’index {side} passe à {mm} mm de la cible",
     ),
@@ -89,14 +145,6 @@ pub(super) const NOTES: &[(&str, &str)] = &[
     (
         "the second signer's movement is put on the first one's body",
         "le mouvement du second signeur est mis sur le corps du premier",
-    ),
-    (
-        "the {side} hand stays where it is: the second sign does not use it",
-        "la main {side} reste où elle est : le second signe ne s’en sert pas",
-    ),
-    (
-        "{side} hand: leaves {n} frames before the end, enters at frame {at}, {between} frames between",
-        "main {side} : part {n} images avant la fin, arrive à l’image {at}, {between} images entre deux",
     ),
     ("{from} s became {to} s", "{from} s sont devenus {to} s"),
 ];
