@@ -6,8 +6,9 @@ pub(crate) mod data;
 use std::sync::Arc;
 
 use chereme_corpus::Overview;
+use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
-    Align2, Button, FontId, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
+    Button, FontId, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
     WidgetInfo, vec2,
 };
 
@@ -230,19 +231,19 @@ impl History {
         let body = TextStyle::Body.resolve(ui.style());
         let small = FontId::proportional(TextStyle::Small.resolve(ui.style()).size);
         let at = rect.left_center() + vec2(20.0, 0.0);
-        painter.text(at, Align2::LEFT_BOTTOM, &row.what, body, strong);
+        let line = |text: String, font: FontId, colour| {
+            let mut job = LayoutJob::simple_singleline(text, font, colour);
+            job.wrap = TextWrapping::truncate_at_width((rect.right() - at.x).max(0.0));
+            painter.layout_job(job)
+        };
+        let what = line(row.what.clone(), body, strong);
+        painter.galley(at - vec2(0.0, what.size().y), what, strong);
         let about = match state {
             Some(text) => format!("{} · {}", seen.say(text), row.about),
             None => row.about.clone(),
         };
-        let below = at + vec2(0.0, 2.0);
-        painter.text(
-            below,
-            Align2::LEFT_TOP,
-            about,
-            small,
-            visuals.weak_text_color(),
-        );
+        let weak = visuals.weak_text_color();
+        painter.galley(at + vec2(0.0, 2.0), line(about, small, weak), weak);
         let tip = match row.standing {
             Standing::Stands(0) | Standing::Gone => None,
             Standing::Stands(_) => Some(words::TIP_BACK),

@@ -67,10 +67,6 @@ impl Search {
                 self.field.set(query);
                 self.rows = rows::Rows::default();
             }
-            if let Some(query) = suggest::with_origins(&self.field.text) {
-                self.field.set(query);
-                self.rows = rows::Rows::default();
-            }
             self.field.take_focus();
             // Entering a text hides the rows if there is not enough room for them and the results.
             self.built &= !self.low;

@@ -146,15 +146,16 @@ fn figure(
     }
     let small = TextStyle::Small.resolve(ui.style());
     let body = TextStyle::Body.resolve(ui.style());
-    let left = rect.left() + 5.0;
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    let line = |middle: f32| {
+        let center = pos2(rect.center().x, picture.bottom() + middle);
+        Rect::from_center_size(center, vec2(rect.width(), 20.0))
+    };
     let text = ui.visuals().text_color();
-    let name = pos2(left, picture.bottom() + 10.0);
-    painter.text(name, Align2::LEFT_CENTER, &hit.gloss, body, text);
+    put(ui, line(10.0), &hit.gloss, body, text, false);
     let weak = ui.visuals().weak_text_color();
-    let place = pos2(left, picture.bottom() + 26.0);
     let where_to = hits::place_text(&hit, lexicon(seen, &hit));
-    painter.text(place, Align2::LEFT_CENTER, where_to, small, weak);
+    put(ui, line(26.0), &where_to, small, weak, false);
     if let Some(score) = hit.score {
         let at = picture.right_top() + vec2(-5.0, 4.0);
         let text = fill(seen.say(words::ALIKE), &[("share", &percent(score))]);

@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use chereme_corpus::words::guide;
 use chereme_corpus::{Around, Finding, FindingKind, Proposed, guessed};
 use chereme_sign::Component;
-use chereme_sign::query::Query;
+use chereme_sign::query::{Expr, Operator, Query, Value, Wanted, What};
 use eframe::egui::{Label, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Ui, WidgetInfo};
 
-use super::builder::{self, Condition, How, Subject};
+use super::builder;
 use super::hits::Found;
 use super::rows::component_text;
 use super::saved::{Kept, only_counted};
@@ -108,18 +108,30 @@ impl Coded {
     }
 }
 
-/// Returns the components whose values a query requires.
+/// Returns the components whose values a query requires, also those of one branch of an `or`.
 fn components(query: &str) -> BTreeSet<Component> {
-    let Ok(query) = Query::parse(query) else {
-        return BTreeSet::new();
-    };
-    let asked = |row: &Condition| match row {
-        Condition::Values(Subject::Component(field), How::Is | How::Exactly | How::Has, _) => {
-            Some(field.component)
+    let mut found = BTreeSet::new();
+    if let Ok(query) = Query::parse(query) {
+        add_components(&query.root, &mut found);
+    }
+    found
+}
+
+fn add_components(expr: &Expr, found: &mut BTreeSet<Component>) {
+    match expr {
+        Expr::And(terms) | Expr::Or(terms) => {
+            terms.iter().for_each(|term| add_components(term, found));
         }
-        _ => None,
-    };
-    builder::rows(&query).iter().filter_map(asked).collect()
+        Expr::Test(test) => {
+            if let What::Component(field, comparison) = &test.what {
+                let missing = |value: &Value| matches!(value.wanted, Wanted::Missing(_));
+                let required = comparison.operator != Operator::IsNot
+                    && !comparison.values.iter().any(missing);
+                found.extend(required.then_some(field.component));
+            }
+        }
+        Expr::Relation(_) | Expr::Not(_) | Expr::Like(_) | Expr::Saved(_) => {}
+    }
 }
 
 /// Returns the components without any coding.
@@ -374,6 +386,10 @@ mod tests {
         assert_eq!(
             of("placement=chin configuration==U,V"),
             [Component::Configuration, Component::Placement]
+        );
+        assert_eq!(
+            of("placement=chin or (movement=arc gloss=A)"),
+            [Component::Placement, Component::Movement]
         );
         assert!(of("configuration!=U").is_empty());
         assert!(of("movement=unset").is_empty());

@@ -1,13 +1,13 @@
 //! Completions of a query: words of the language, values, names and glosses.
 
 use chereme_corpus::KeptSearch;
-use chereme_sign::query::{Completion, Expected, Missing, Property, Query, TextField, complete};
+use chereme_sign::query::{Completion, Expected, Missing, Property, TextField, complete};
 use chereme_sign::text::fold;
 use chereme_sign::{Component, Field};
 
 use crate::model::Snapshot;
 use crate::panes::library::data::origin_named;
-use crate::words::{Language, Text, library};
+use crate::words::{Language, library};
 
 /// The most completions.
 const MOST: usize = 10;
@@ -98,37 +98,6 @@ fn kept(query: &str, name: &str, snapshot: &Snapshot) -> Offers {
     Offers {
         replace: 0..query.chars().count(),
         all: fitting.take(MOST).map(offer).collect(),
-    }
-}
-
-/// Returns a query with the window's names of origins replaced by those of queries; a sign with only a notation is a
-/// lexicon entry.
-pub(super) fn with_origins(query: &str) -> Option<String> {
-    let error = Query::parse(query).err()?;
-    let before: String = query.chars().take(error.at.start).collect();
-    let word: String = query
-        .chars()
-        .skip(error.at.start)
-        .take(error.at.len())
-        .collect();
-    let word = fold(word.trim_matches('"'));
-    let called = |text: Text| {
-        Language::ALL
-            .iter()
-            .any(|(it, _)| fold(text.of(*it)) == word)
-    };
-    let ids = Property::Origin.fixed_values()?;
-    let id = ids.iter().find(|id| origin_named(id).is_some_and(called));
-    let id = id
-        .copied()
-        .or_else(|| called(library::NOTATED).then_some("lexicon"))?;
-    let after: String = query.chars().skip(error.at.end).collect();
-    let mended = format!("{before}{id}{after}");
-    // Further words may still need a correction.
-    match Query::parse(&mended) {
-        Ok(_) => Some(mended),
-        Err(next) if next.at.start > error.at.start => with_origins(&mended),
-        Err(_) => None,
     }
 }
 
@@ -279,6 +248,8 @@ pub(super) fn quoted(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use chereme_sign::query::Query;
+
     use super::*;
     use chereme_corpus::{Overview, SignGlance, StoredInventory};
     use std::sync::Arc;
@@ -351,25 +322,18 @@ mod tests {
 
     #[test]
     fn origins_are_accepted_under_their_names_in_the_window() {
-        for (query, wanted) in [
-            ("origin=notated", "origin=lexicon"),
-            (
-                "origin=synthesised placement=chin",
-                "origin=made placement=chin",
-            ),
-            ("origin=capté,composé", "origin=captured,made"),
-            ("gloss=A origin=\"lexicon entry\"", "gloss=A origin=lexicon"),
-        ] {
-            assert_eq!(with_origins(query).as_deref(), Some(wanted), "{query}");
+        let written = |word: &str| {
+            let query: Query = format!("origin={word:?}").parse().expect(word);
+            query.to_string()
+        };
+        for (language, _) in Language::ALL {
+            for id in Property::Origin.fixed_values().expect("origins") {
+                let name = origin_named(id).expect("a name").of(language);
+                assert_eq!(written(name), format!("origin={id}"), "{name}");
+            }
+            assert_eq!(written(library::NOTATED.of(language)), "origin=lexicon");
         }
-        for query in [
-            "origin=made",
-            "origin=nonsense",
-            "origin=",
-            "placement=notated",
-        ] {
-            assert_eq!(with_origins(query), None, "{query}");
-        }
+        assert!("origin=nonsense".parse::<Query>().is_err());
     }
 
     #[test]

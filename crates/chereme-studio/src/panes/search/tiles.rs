@@ -16,6 +16,8 @@ use crate::words::{Text, search as words};
 const HIGH: f32 = 92.0;
 const TURN: f64 = 1.6;
 const GAP: f32 = 8.0;
+/// The room on the right for the bar that scrolls the pane.
+const MARGIN: f32 = 6.0;
 
 /// A tile: its component, its name, and sample values, which are shown one after the other.
 const TILES: [(Component, Text, [&str; 4]); 3] = [
@@ -58,7 +60,8 @@ impl Tiles {
         if found.is_empty() {
             return None;
         }
-        let width = (ui.available_width() + GAP) / found.len() as f32 - GAP;
+        let room = ui.available_width() - MARGIN;
+        let width = (room + GAP) / found.len() as f32 - GAP;
         let mut query = None;
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = GAP;
@@ -124,11 +127,18 @@ fn tile(
         }
     }
     ui.ctx().request_repaint_after_secs(TURN as f32 / 4.0);
-    let font = TextStyle::Body.resolve(ui.style());
     let below = pos2(rect.center().x, rect.bottom() - 14.0);
     let text = ui.visuals().text_color();
-    ui.painter()
-        .text(below, Align2::CENTER_CENTER, name, font, text);
+    let laid = |style: TextStyle| {
+        let font = style.resolve(ui.style());
+        ui.painter().layout_no_wrap(name.to_owned(), font, text)
+    };
+    let mut galley = laid(TextStyle::Body);
+    if galley.size().x > width - 8.0 {
+        galley = laid(TextStyle::Small);
+    }
+    let at = Align2::CENTER_CENTER.anchor_size(below, galley.size());
+    ui.painter().galley(at.min, galley, text);
     response
 }
 
