@@ -283,6 +283,34 @@ fn adding_many_rows_prints_a_short_summary() {
 }
 
 #[test]
+fn copied_annotations_are_pasted_once() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let path = corpus.display();
+    let copied = "tier\tstart\tend\tvalue\nGloss\t0.000\t0.010\tUN\nGloss\t0.020\t0.030\tDEUX\n";
+    let line = format!("annotate {path} --in bowl paste - --at 1.6 --json");
+    let done = desk.pipe(&line, copied.as_bytes());
+    let json: serde_json::Value = serde_json::from_slice(&done.stdout).expect("JSON");
+    assert_eq!(json["added"], 2, "{}", text(&done.stderr));
+    let again = desk.pipe(&line, copied.as_bytes());
+    let json: serde_json::Value = serde_json::from_slice(&again.stderr).expect("JSON");
+    let message = json["error"]["message"].as_str().unwrap_or_default();
+    assert!(
+        message.contains("there is an annotation already at 1.600s"),
+        "{message}"
+    );
+    let french = desk.pipe(
+        &format!("--language fr annotate {path} --in bowl paste - --at 1.6"),
+        copied.as_bytes(),
+    );
+    let said = text(&french.stderr);
+    assert!(
+        said.contains("il y a déjà une annotation à 1.600s"),
+        "{said}"
+    );
+}
+
+#[test]
 fn a_change_prints_the_old_and_new_value_and_pushes_neighbours_on_request() {
     let desk = Desk::new();
     let corpus = desk.corpus();

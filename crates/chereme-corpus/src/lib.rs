@@ -74,12 +74,12 @@ pub use chereme_sign::{Stereotype, TierRole, TierTopic};
 
 pub use address::{Address, Name, Stretch};
 pub use animate::Staging;
-pub use annotate::drag_limits;
 pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, Copied,
     Find, NewTier, RemovedTiers, Replaced, ReplacedValue, Scheme, TierChange, TierName, Values,
     Within,
 };
+pub use annotate::{clipboard, drag_limits, paste, requests, snap, tier_values};
 pub use author::author;
 pub use check::{CheckReport, Fault};
 pub use chereme_analysis::kinematics::{HandCurves, Kinematics};

@@ -1,4 +1,4 @@
-//! Documents of tuned numbers, each of which stands with its unit and its meaning.
+//! Documents of tuned numbers: each number stands with its unit and its meaning.
 //!
 //! ```
 //! use serde::Deserialize;

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use chereme_corpus::words::history as words;
+use chereme_corpus::paste::PasteOptions;
+use chereme_corpus::words::{fill, history as words, trouble};
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
     Corpus, Error, Find, Mode, Moment, Name, Progress, ReportFinding, TierName, TimeUnit, Within,
@@ -21,7 +22,7 @@ use crate::streams;
 /// with a remedy. A time is 1.5, 1.5s, 1500ms, 0:01.500 or a frame such as f90. A tier is tier:12, or its name with
 /// --in RECORDING; an annotation is annotation:12, or its id in the file from which it was imported.
 ///
-/// Actions on annotations: add, set, split, merge, reorder, remove, replace, shift, from. On tiers: add-tier,
+/// Actions on annotations: add, set, split, merge, reorder, remove, replace, shift, paste, from. On tiers: add-tier,
 /// add-tiers, tier, copy-tier, remove-tier. On other things: recording, signer, sign, cite.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -174,6 +175,23 @@ enum Action {
         #[arg(long)]
         unit: Option<TimeUnit>,
     },
+    /// Paste annotations that the window or a spreadsheet copied, into the recording named by --in
+    ///
+    /// Each line of the text has a tier, a start, an end and a value, with tabs between them; titles may give another
+    /// order. Annotations keep their times and tiers, unless --at and --tier give others.
+    Paste {
+        /// The text; - is standard input
+        file: PathBuf,
+        /// The tier of annotations without a tier name; with --at, of all if they name one tier only
+        #[arg(long)]
+        tier: Option<String>,
+        /// The start of the first annotation; the others keep their distances from it
+        #[arg(long)]
+        at: Option<Moment>,
+        /// Paste the annotations that have a place even if others have none
+        #[arg(long)]
+        partly: bool,
+    },
     #[command(flatten)]
     Other(tiers::Action),
 }
@@ -206,6 +224,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         }
         Action::Replace { .. } => return replace(&mut corpus, &args.action, recording, output),
         Action::Shift { .. } => return shift(&mut corpus, args, recording, output),
+        Action::Paste { .. } => return paste(&mut corpus, args, recording, output),
         Action::Other(action) => return tiers::run(&mut corpus, action, recording, output),
         action => changes(action, recording)?,
     };
@@ -275,9 +294,11 @@ fn changes(action: &Action, recording: Option<&Name>) -> Result<Vec<AnnotationAc
                 annotation: named(text),
             })
             .collect(),
-        Action::From { .. } | Action::Replace { .. } | Action::Shift { .. } | Action::Other(_) => {
-            Vec::new()
-        }
+        Action::From { .. }
+        | Action::Replace { .. }
+        | Action::Shift { .. }
+        | Action::Paste { .. }
+        | Action::Other(_) => Vec::new(),
     })
 }
 
@@ -287,16 +308,67 @@ fn table(
     recording: Option<&Name>,
     options: &AnnotateOptions,
 ) -> Result<(AnnotateReport, Vec<ReportFinding>)> {
-    let bytes = if streams::is_standard(file) {
-        streams::read()?
-    } else {
-        std::fs::read(file).map_err(|error| Error::file(file, error))?
-    };
+    let bytes = bytes_of(file)?;
     let name = file.display().to_string();
     let mut bar = Bar::new();
     let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
     let progress = &mut Progress::new(&mut hear);
     Ok(corpus.annotate_table(&bytes, &name, recording, options, progress)?)
+}
+
+/// Returns the bytes of a file or of standard input.
+fn bytes_of(file: &Path) -> Result<Vec<u8>> {
+    if streams::is_standard(file) {
+        return streams::read();
+    }
+    Ok(std::fs::read(file).map_err(|error| Error::file(file, error))?)
+}
+
+fn paste(
+    corpus: &mut Corpus,
+    args: &Args,
+    recording: Option<&Name>,
+    output: &mut Output,
+) -> Result<()> {
+    let Action::Paste {
+        file,
+        tier,
+        at,
+        partly,
+    } = &args.action
+    else {
+        return Ok(());
+    };
+    let recording = recording.ok_or_else(which_recording)?;
+    let tier = tier.as_ref().map(|it| TierName::read(it, Some(recording)));
+    let options = PasteOptions {
+        tier: tier.transpose()?,
+        at: *at,
+        partly: *partly,
+    };
+    let name = file.display().to_string();
+    let text = String::from_utf8(bytes_of(file)?).map_err(|_| {
+        Error::wrong("the text is not UTF-8")
+            .at(&name)
+            .advise("save it as UTF-8")
+    })?;
+    let mut bar = Bar::new();
+    let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
+    let progress = &mut Progress::new(&mut hear);
+    let text = (text.as_str(), name.as_str());
+    let (report, odd) = corpus.paste_annotations(recording, text, &options, progress)?;
+    drop(bar);
+    for line in &odd {
+        let said = output.spoken(&line.fault());
+        let place = fill(output.say(trouble::LINE), &[("n", &line.line)]);
+        output.line(format!("{place}{said}"))?;
+    }
+    tell(report, args.ids, output)
+}
+
+/// Returns the error for an action that needs a recording.
+fn which_recording() -> Error {
+    Error::wrong("which recording?").advise("name it with --in")
 }
 
 /// Parses `recording:3` or a recording's name.
@@ -410,9 +482,7 @@ fn shift(
     };
     let of_all = tiers.iter().all(|tier| !tier.starts_with("tier:"));
     if recording.is_none() && of_all {
-        return Err(Error::wrong("which recording?")
-            .advise("name it with --in")
-            .into());
+        return Err(which_recording().into());
     }
     let within = Within {
         recording: recording.cloned(),

@@ -285,6 +285,8 @@ pub(crate) const CASES: &[Case] = &[
     ("annotate @c --in bowl set a99 --value X", 1, ERROR),
     ("annotate @c --in cup set a1 --value X", 1, ERROR),
     ("annotate @c from @more/none.csv", 1, ERROR),
+    ("annotate @c --in bowl paste @more/changes.csv", 1, ERROR),
+    ("annotate @c paste @more/changes.csv", 1, ERROR),
     (
         "annotate @c replace BOL TASSE --tier Gloss --dry-run",
         0,

@@ -5,17 +5,24 @@
 
 mod arrange;
 mod bulk;
+pub mod clipboard;
 mod copies;
 mod deeds;
 pub mod drag_limits;
 mod make_room;
 pub(crate) mod messages;
 mod names;
+pub mod paste;
 mod replace;
+pub mod requests;
 mod scheme;
 mod scope;
+pub mod snap;
+#[cfg(test)]
+mod testing;
 #[cfg(test)]
 mod tests;
+pub mod tier_values;
 mod tiers;
 mod write;
 

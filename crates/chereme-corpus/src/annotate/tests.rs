@@ -3,6 +3,7 @@
 mod arrange;
 mod copies;
 mod laws;
+mod paste;
 mod replace;
 mod scheme;
 mod tiers;

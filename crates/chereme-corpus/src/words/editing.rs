@@ -18,6 +18,56 @@ pub(super) const EDITING: &[(&str, &str)] = &[
         "{text} is no number of a {kind}",
         "{text} n’est pas un numéro de {kind}",
     ),
+    (
+        "{text} is no time: write 1.5, 0:01.500 or f12",
+        "{text} n’est pas un temps : écrivez 1.5, 0:01.500 ou f12",
+    ),
+    ("no start and end in {text}", "ni début ni fin dans {text}"),
+    (
+        "it ends at {text}, which is not after its start",
+        "elle finit à {text}, ce qui n’est pas après son début",
+    ),
+    (
+        "the recording has no tier {text}",
+        "l’enregistrement n’a pas d’acteur {text}",
+    ),
+    (
+        "{text} is no value of its tier",
+        "{text} n’est pas une valeur de son acteur",
+    ),
+    (
+        "the annotation that begins at {text} is not within the recording",
+        "l’annotation qui commence à {text} n’est pas dans l’enregistrement",
+    ),
+    (
+        "no annotation of the parent tier contains {text}",
+        "aucune annotation de l’acteur parent ne contient {text}",
+    ),
+    (
+        "there is an annotation already at {text}",
+        "il y a déjà une annotation à {text}",
+    ),
+    (
+        "no annotation is left for {text}",
+        "il ne reste pas d’annotation pour {text}",
+    ),
+    (
+        "the text has no start and end times",
+        "le texte n’a ni débuts ni fins",
+    ),
+    (
+        "write tier, start, end and value in each line, with tabs between them",
+        "écrivez acteur, début, fin et valeur dans chaque ligne, séparés par des tabulations",
+    ),
+    (
+        "the recording {name} has no frames",
+        "l’enregistrement {name} n’a pas d’images",
+    ),
+    (
+        "add the tier, or name another one with --tier",
+        "ajoutez l’acteur, ou nommez-en un autre avec --tier",
+    ),
+    ("the text is not UTF-8", "le texte n’est pas en UTF-8"),
     ("an empty text names nothing", "un texte vide ne nomme rien"),
     ("{what} is no token", "{what} n’est pas une occurrence"),
     ("write token:41 or a gloss", "écrivez token:41 ou une glose"),

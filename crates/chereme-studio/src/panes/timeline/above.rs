@@ -1,6 +1,6 @@
 //! The layer above the rows: annotations at their future places, dragged ones, and the field for values.
 
-use chereme_corpus::Contents;
+use chereme_corpus::{Contents, requests};
 use eframe::egui::{Rangef, Rect, TextStyle, Ui};
 
 use super::drag::Sight;
@@ -15,7 +15,13 @@ impl Drawing<'_, '_> {
         let font = TextStyle::Body.resolve(ui.style());
         let mut all: Vec<(Ghost, bool)> = Vec::new();
         if sight.ghosts.is_empty() {
-            all.extend(self.timeline.ghosts.iter().map(|ghost| (*ghost, false)));
+            all.extend(
+                self.timeline
+                    .asked
+                    .ghosts
+                    .iter()
+                    .map(|ghost| (*ghost, false)),
+            );
         }
         all.extend(sight.ghosts.iter().map(|ghost| (*ghost, sight.refused)));
         if let Some(ghost) = self.new_ghost(contents) {
@@ -30,7 +36,7 @@ impl Drawing<'_, '_> {
             });
             let Some((at, y)) = row else { continue };
             let text = ghost.id.and_then(|id| self.seen.snapshot.annotation(id));
-            let text = text.map(|it| super::changes::typed(&it.tier.annotations, it.at));
+            let text = text.map(|it| requests::typed(&it.tier.annotations, it.at));
             let row = Rect::from_x_y_ranges(lane.x_range(), *y);
             let tier = &contents.tiers[*at];
             let what = (tier, text.unwrap_or_default(), *refused);
@@ -47,7 +53,7 @@ impl Drawing<'_, '_> {
             contents,
             seen: self.seen,
         };
-        if let Some(begun) = &self.timeline.begun {
+        if let Some(begun) = &self.timeline.entry.begun {
             let here = scene.playhead();
             return Some(Ghost {
                 tier: begun.tier,
@@ -56,7 +62,7 @@ impl Drawing<'_, '_> {
                 end: begun.start.max(here),
             });
         }
-        let editing = self.timeline.editing.as_ref()?;
+        let editing = self.timeline.entry.editing.as_ref()?;
         match editing.target {
             editor::Target::New { tier, start, end } => Some(Ghost {
                 tier,
@@ -73,7 +79,7 @@ impl Drawing<'_, '_> {
             contents,
             seen: self.seen,
         };
-        let Some(editing) = &self.timeline.editing else {
+        let Some(editing) = &self.timeline.entry.editing else {
             return;
         };
         let span = editing.span(&scene).unwrap_or_default();

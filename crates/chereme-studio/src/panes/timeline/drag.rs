@@ -2,17 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use chereme_corpus::Contents;
+use chereme_corpus::snap::{Catch, Guides};
+use chereme_corpus::{Contents, requests};
 use chereme_motion::{Instant, Span};
 use eframe::egui::{CursorIcon, Key, Modifiers, Pos2, Rect, Ui};
 
 use super::dragged::{self, DraggedAnnotations};
 use super::edit::Scene;
 use super::gesture::{Dragging, Gesture};
-use super::snap::{Catch, Guides};
 use super::spans::{Grip, Item};
 use super::ui::Drawing;
-use super::{Ghost, Then, changes, tier_list};
+use super::{Ghost, Then, tier_list};
 use crate::command::Command;
 use crate::words::timeline as words;
 
@@ -85,10 +85,10 @@ impl Drawing<'_, '_> {
     /// Scrolls through time while the pointer is dragged past the edge.
     fn pan_at_edges(&mut self, ui: &Ui, lane: Rect, pointer: Pos2) {
         let past = (pointer.x - lane.right()).max(0.0) - (lane.left() - pointer.x).max(0.0);
-        if past != 0.0 && self.timeline.window.is_some() {
+        if past != 0.0 && self.timeline.view.window.is_some() {
             let whole = self.seen.shown.player.whole;
             self.window = self.window.panned(past * 0.2, whole, lane.width());
-            self.timeline.window = Some(self.window);
+            self.timeline.view.window = Some(self.window);
             ui.ctx().request_repaint();
         }
     }
@@ -233,7 +233,7 @@ impl Drawing<'_, '_> {
             let chosen = items.iter().map(|item| item.id).collect();
             let fits = scene.tier_of(to).is_some_and(|tier| {
                 tier_list::unfit(&scene, tier, &items).is_none()
-                    && !changes::has_below(contents, &chosen)
+                    && !requests::has_below(contents, &chosen)
             });
             it.to = Some((to, fits));
         }
@@ -319,7 +319,7 @@ impl Drawing<'_, '_> {
             let items: Vec<Item> = it.changed.iter().flatten().copied().collect();
             if !fits {
                 let chosen = items.iter().map(|item| item.id).collect();
-                let below = changes::has_below(scene.contents, &chosen);
+                let below = requests::has_below(scene.contents, &chosen);
                 self.hint(if below {
                     words::HAS_BELOW
                 } else {
@@ -327,7 +327,7 @@ impl Drawing<'_, '_> {
                 });
                 return;
             }
-            let asked = changes::to_tier(scene.contents, &items, to, true);
+            let asked = requests::to_tier(scene.contents, &items, to, true);
             let ghosts = items.iter().map(|item| Ghost::of(to, item)).collect();
             let then = Then {
                 select: items.len() == 1,
@@ -341,7 +341,7 @@ impl Drawing<'_, '_> {
         let mut asked = Vec::new();
         let mut ghosts = Vec::new();
         for (held, changed) in it.held.iter().zip(&it.changed) {
-            asked.extend(changes::respan(&held.asked(changed)));
+            asked.extend(requests::respan(&held.asked(changed)));
             ghosts.extend(changed.iter().map(|item| Ghost::of(held.tier, item)));
         }
         if asked.is_empty() {

@@ -2,15 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use chereme_corpus::{AnnotationChange, Contents, StoredInventory, TierContents};
+use chereme_corpus::snap::Frames;
+use chereme_corpus::tier_values::{self, TierValues};
+use chereme_corpus::{AnnotationChange, Contents, StoredInventory, TierContents, requests};
 use chereme_motion::Span;
 
 use super::dragged::{self, DraggedAnnotations, TierTiming};
 use super::editor::{Editing, Target};
-use super::snap::Frames;
 use super::spans::{Grip, Item};
-use super::values::{self, Choices};
-use super::{Begun, Ghost, Then, Timeline, changes};
+use super::{Begun, Ghost, Then, Timeline};
 use crate::action::Action;
 use crate::context::{Outbox, PaneInput};
 use crate::panes::Acted;
@@ -90,9 +90,9 @@ impl<'a> Scene<'a> {
         all.iter().find(|it| Some(it.id) == tier.row.inventory_id)
     }
 
-    pub(super) fn choices(&self, tier: &TierContents) -> Choices {
+    pub(super) fn choices(&self, tier: &TierContents) -> TierValues {
         let language = self.seen.language.code();
-        values::choices(tier, self.inventory(tier), language)
+        tier_values::values(tier, self.inventory(tier), language)
     }
 
     fn selection(&self) -> Option<(i64, i64)> {
@@ -134,15 +134,18 @@ pub(super) fn act(
             Acted::Cannot(shell::NEEDS_ANNOTATION)
         }
         Action::DeleteAnnotation => {
-            let changes = changes::remove(scene.contents, chosen);
+            let changes = requests::remove(scene.contents, chosen);
             timeline.change(changes, Then::default(), out)
         }
-        Action::ClearValue => timeline.change(changes::say(chosen, ""), Then::default(), out),
+        Action::ClearValue => {
+            timeline.change(requests::set_value(chosen, ""), Then::default(), out)
+        }
         Action::CopyToTier | Action::MoveToTier if chosen.is_empty() => {
             Acted::Cannot(shell::NEEDS_ANNOTATION)
         }
         Action::CopyToTier | Action::MoveToTier => {
-            timeline.choose = Some(super::tier_list::Choose::new(action == Action::MoveToTier));
+            timeline.boxes.choose =
+                Some(super::tier_list::Choose::new(action == Action::MoveToTier));
             Acted::Yes
         }
         _ => match digit {
@@ -173,7 +176,7 @@ fn create(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
 /// Opens the value field with pictures; if it is open already, switches between pictures and text.
 fn by_picture(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
     let chosen = &scene.seen.shown.annotations;
-    if timeline.editing.is_none() {
+    if timeline.entry.editing.is_none() {
         let opened = if chosen.is_empty() {
             create(timeline, scene)
         } else {
@@ -184,7 +187,7 @@ fn by_picture(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
             return opened;
         }
     }
-    let Some(editing) = &mut timeline.editing else {
+    let Some(editing) = &mut timeline.entry.editing else {
         return Acted::Yes;
     };
     let tier = editing.tier(scene);
@@ -223,8 +226,8 @@ fn begin_or_end(
         return Acted::Cannot(words::NEEDS_TIER);
     };
     let here = scene.playhead();
-    let Some(begun) = timeline.begun.take() else {
-        timeline.begun = Some(Begun {
+    let Some(begun) = timeline.entry.begun.take() else {
+        timeline.entry.begun = Some(Begun {
             recording: scene.contents.recording.id,
             tier: tier.row.id,
             start: here,
@@ -234,7 +237,7 @@ fn begin_or_end(
     };
     let next = value.filter(|value| *value != begun.value);
     if let Some(value) = next {
-        timeline.begun = Some(Begun {
+        timeline.entry.begun = Some(Begun {
             start: here,
             value: value.to_owned(),
             ..begun.clone()
@@ -246,7 +249,7 @@ fn begin_or_end(
     let wanted = (begun.start.min(here), begun.start.max(here));
     match dragged::room(scene.contents, tier, wanted) {
         Some(span) => {
-            let add = changes::add(begun.tier, span, &begun.value);
+            let add = requests::add(begun.tier, span, &begun.value);
             timeline.change(vec![add], Then::added(begun.tier, span), out)
         }
         None => Acted::Cannot(no_room(tier)),
@@ -260,18 +263,18 @@ fn by_digit(timeline: &mut Timeline, scene: &Scene<'_>, digit: usize, out: &mut 
         return Acted::Cannot(words::NEEDS_TIER);
     };
     let choices = scene.choices(tier);
-    let given = timeline.digits.of(tier.row.id, &choices);
+    let given = timeline.entry.digits.of(tier.row.id, &choices);
     let Some(value) = given.get(digit).cloned() else {
         return Acted::Cannot(words::NO_DIGIT);
     };
     let (shown, player) = (scene.seen.shown, &scene.seen.shown.player);
     let plays_on = player.is_playing() && player.part.is_none();
-    if plays_on || timeline.begun.is_some() {
+    if plays_on || timeline.entry.begun.is_some() {
         return begin_or_end(timeline, scene, Some(&value), out);
     }
     if !shown.annotations.is_empty() {
         return timeline.change(
-            changes::say(&shown.annotations, &value),
+            requests::set_value(&shown.annotations, &value),
             Then::default(),
             out,
         );
@@ -281,7 +284,7 @@ fn by_digit(timeline: &mut Timeline, scene: &Scene<'_>, digit: usize, out: &mut 
     };
     match dragged::room(scene.contents, tier, wanted) {
         Some(span) => {
-            let add = changes::add(tier.row.id, span, &value);
+            let add = requests::add(tier.row.id, span, &value);
             timeline.change(vec![add], Then::added(tier.row.id, span), out)
         }
         None => Acted::Cannot(no_room(tier)),
@@ -310,7 +313,7 @@ fn split(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted 
     if !inside {
         return Acted::Cannot(words::SPLIT_INSIDE);
     }
-    let change = changes::split(annotation, scene.playhead());
+    let change = requests::split(annotation, scene.playhead());
     timeline.change(vec![change], Then::default(), out)
 }
 
@@ -323,7 +326,7 @@ fn merge(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted 
         chosen.extend(alone(scene));
     }
     let closed = scene.inventory(tier).is_some();
-    match changes::merge(tier, &chosen, closed) {
+    match requests::merge(tier, &chosen, closed) {
         Some(changes) => timeline.change(changes, Then::default(), out),
         None => Acted::Cannot(words::NO_NEXT),
     }
@@ -385,7 +388,7 @@ fn drag(
     let mut ghosts = Vec::new();
     for held in all {
         let changed = held.dragged(grip, by, mode);
-        asked.extend(changes::respan(&held.asked(&changed)));
+        asked.extend(requests::respan(&held.asked(&changed)));
         ghosts.extend(changed.iter().map(|item| Ghost::of(held.tier, item)));
     }
     if asked.is_empty() {
@@ -436,7 +439,7 @@ fn to_selection(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) ->
             start - item.start
         };
         let changed = held.dragged(grip, by, mode);
-        asked.extend(changes::respan(&held.asked(&changed)));
+        asked.extend(requests::respan(&held.asked(&changed)));
         for new in changed {
             if let Some(old) = held.items.iter_mut().find(|old| old.id == new.id) {
                 *old = new;
@@ -452,7 +455,7 @@ fn to_selection(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) ->
 /// Stores a typed value: requests the change of the annotations, or the new annotation.
 pub(super) fn keep(timeline: &mut Timeline, editing: Editing, value: &str, out: &mut Outbox) {
     let (changes, ghosts, select) = match &editing.target {
-        Target::Of(annotations) => (changes::say(annotations, value), Vec::new(), false),
+        Target::Of(annotations) => (requests::set_value(annotations, value), Vec::new(), false),
         Target::New { tier, start, end } => {
             let ghost = Ghost {
                 tier: *tier,
@@ -461,7 +464,7 @@ pub(super) fn keep(timeline: &mut Timeline, editing: Editing, value: &str, out: 
                 end: *end,
             };
             (
-                vec![changes::add(*tier, (*start, *end), value)],
+                vec![requests::add(*tier, (*start, *end), value)],
                 vec![ghost],
                 true,
             )

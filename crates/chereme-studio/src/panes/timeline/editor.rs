@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use chereme_corpus::{StoredInventory, TierContents};
+use chereme_corpus::tier_values::TierValues;
+use chereme_corpus::{StoredInventory, TierContents, requests};
 use eframe::egui::{
     Align2, Area, Id, Key, Modifiers, Order, Rect, Response, Role, Ui, Vec2, WidgetInfo, pos2,
     text::CCursor, text::CCursorRange, vec2,
@@ -10,8 +11,7 @@ use eframe::egui::{
 use serde::{Deserialize, Serialize};
 
 use super::edit::{self, Scene};
-use super::values::Choices;
-use super::{Timeline, changes, select, value_list};
+use super::{Timeline, select, value_list};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::Outbox;
@@ -141,8 +141,8 @@ pub(super) fn show(
     below: Rect,
     out: &mut Outbox,
 ) {
-    let Some(mut editing) = timeline.editing.take() else {
-        timeline.left = false;
+    let Some(mut editing) = timeline.entry.editing.take() else {
+        timeline.entry.left = false;
         return;
     };
     if editing.recording != scene.contents.recording.id {
@@ -162,13 +162,13 @@ pub(super) fn show(
         return;
     };
     let choices = scene.choices(tier);
-    if std::mem::take(&mut timeline.left) {
+    if std::mem::take(&mut timeline.entry.left) {
         if let Some(value) = choices.kept(&editing.text, editing.marked) {
             return done(timeline, (editing, tier), FieldKey::Keep(value, false), out);
         }
         editing.aside = true;
     }
-    let digits = timeline.digits.of(tier.row.id, &choices).to_vec();
+    let digits = timeline.entry.digits.of(tier.row.id, &choices).to_vec();
     let stored = scene.inventory(tier);
     let pictured = stored.filter(|it| editing.pictures && edit::has_pictures(&it.inventory));
     if let Some(stored) = pictured {
@@ -179,7 +179,7 @@ pub(super) fn show(
             (&mut editing, stored),
             (&choices, &digits, below),
         );
-        timeline.picker.inspect(scene.seen, out);
+        timeline.entry.picker.inspect(scene.seen, out);
         return done(timeline, (editing, tier), said, out);
     }
     let said = field(ui, scene, (&mut editing, tier), (&choices, &digits), below);
@@ -194,7 +194,7 @@ fn done(
     out: &mut Outbox,
 ) {
     match said {
-        FieldKey::Nothing => timeline.editing = Some(editing),
+        FieldKey::Nothing => timeline.entry.editing = Some(editing),
         FieldKey::Drop => {}
         FieldKey::Keep(value, on) => {
             let next = if on { next(&editing, tier) } else { None };
@@ -204,7 +204,7 @@ fn done(
             }
             if let Some(at) = next {
                 select::select(tier, at, out);
-                timeline.to_select.clear();
+                timeline.asked.to_select.clear();
                 timeline.edit_at(tier, at);
             }
         }
@@ -228,7 +228,7 @@ fn field(
     ui: &mut Ui,
     scene: &Scene<'_>,
     (editing, tier): (&mut Editing, &TierContents),
-    (choices, digits): (&Choices, &[String]),
+    (choices, digits): (&TierValues, &[String]),
     below: Rect,
 ) -> FieldKey {
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
@@ -304,7 +304,7 @@ fn pictures(
     ui: &mut Ui,
     scene: &Scene<'_>,
     (editing, stored): (&mut Editing, &StoredInventory),
-    (choices, digits, below): (&Choices, &[String], Rect),
+    (choices, digits, below): (&TierValues, &[String], Rect),
 ) -> FieldKey {
     if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
         return FieldKey::Drop;
@@ -312,8 +312,8 @@ fn pictures(
     let opened = std::mem::replace(&mut editing.pictured, true);
     if !opened {
         // A digit picks the same value among the pictures as in the list.
-        timeline.picker = Picker::fresh();
-        timeline.picker.digits = digits.to_vec();
+        timeline.entry.picker = Picker::fresh();
+        timeline.entry.picker.digits = digits.to_vec();
     }
     let inventory = &stored.inventory;
     let screen = ui.ctx().content_rect();
@@ -328,7 +328,13 @@ fn pictures(
             ui.set_max_height((screen.height() - 80.0).min(460.0));
             back = switch(ui, scene, words::BY_TEXT);
             let chosen = inventory.find(&editing.text).map(|value| value.id.as_str());
-            let picked = pickers::pick(ui, &mut timeline.picker, scene.seen, inventory, chosen);
+            let picked = pickers::pick(
+                ui,
+                &mut timeline.entry.picker,
+                scene.seen,
+                inventory,
+                chosen,
+            );
             if let Some(value) = picked {
                 said = FieldKey::Keep(value, false);
             }
@@ -451,7 +457,7 @@ fn find_place(editing: Editing, scene: &Scene<'_>, out: &mut Outbox) -> Option<E
         if !there {
             return Some(editing);
         }
-        let before = changes::typed(columns, at);
+        let before = requests::typed(columns, at);
         let target = Target::Of(BTreeSet::from([columns.ids[at]]));
         return (before != editing.text).then_some(Editing {
             target,
@@ -464,7 +470,7 @@ fn find_place(editing: Editing, scene: &Scene<'_>, out: &mut Outbox) -> Option<E
             .iter()
             .filter_map(|id| scene.seen.snapshot.annotation(*id));
         if let Some(it) = found.next() {
-            let stored = changes::typed(&it.tier.annotations, it.at) == editing.text;
+            let stored = requests::typed(&it.tier.annotations, it.at) == editing.text;
             return (!stored || all.len() > 1).then_some(editing);
         }
     }

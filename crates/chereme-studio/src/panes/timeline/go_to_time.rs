@@ -1,6 +1,7 @@
 //! The field that goes to a typed time.
 
 use chereme_corpus::Moment;
+use chereme_corpus::snap::Frames;
 use chereme_motion::{Instant, Span};
 use eframe::egui::{
     Align2, Id, Key, Label, Modifiers, Role, TextEdit, Ui, WidgetInfo, Window, vec2,
@@ -9,7 +10,6 @@ use eframe::egui::{
 use super::Timeline;
 use super::data::time_text;
 use super::edit::Scene;
-use super::snap::Frames;
 use crate::command::Command;
 use crate::context::Outbox;
 use crate::words::{fill, shell, timeline as words};
@@ -59,7 +59,7 @@ fn target(text: &str, now: i64, whole: Span, frames: Option<Frames>) -> Option<i
 
 /// Shows the field, and moves the playhead to the entered time.
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
-    let Some(mut shown) = timeline.go_box.take() else {
+    let Some(mut shown) = timeline.boxes.go_box.take() else {
         return;
     };
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
@@ -119,7 +119,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
         });
     match to.filter(|_| go) {
         Some(at) => out.send(Command::Cue(Instant::from_micros(at))),
-        None if !drop => timeline.go_box = Some(shown),
+        None if !drop => timeline.boxes.go_box = Some(shown),
         None => {}
     }
 }

@@ -46,7 +46,7 @@ impl Drawing<'_, '_> {
             offset: frames.offset,
         });
         let whole = self.seen.shown.player.whole;
-        let sight = lanes::seen(&self.window, self.timeline.width, whole);
+        let sight = lanes::seen(&self.window, self.timeline.view.width, whole);
         self.timeline
             .curves
             .want(source, sight, scene.playhead(), self.out);

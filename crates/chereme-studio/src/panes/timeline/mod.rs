@@ -20,8 +20,6 @@
 
 mod above;
 pub(crate) mod bar;
-mod changes;
-mod copied;
 pub(crate) mod data;
 mod drag;
 mod dragged;
@@ -37,12 +35,12 @@ mod names;
 mod neighbours;
 mod overview;
 mod paint;
+mod parts;
 mod paste;
 mod paste_box;
 mod proposals;
 mod rows;
 mod select;
-mod snap;
 pub(crate) mod tier_box;
 mod tier_list;
 mod tiers;
@@ -52,23 +50,20 @@ mod values;
 mod view_settings;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
 
-use chereme_corpus::{AnnotateOptions, TierContents};
-use chereme_motion::Span;
+use chereme_corpus::{AnnotateOptions, TierContents, requests};
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
-use crate::model::Opened;
 use crate::panes::{Acted, Pane};
-use crate::pickers::Picker;
 use crate::work::{Ended, Outcome, Work, WorkId};
 use chereme_sign::tier::spans::{self, Item};
 use data::Window;
 use edit::Scene;
 use editor::{Editing, Target};
+use parts::{Asked, Boxes, Entry, View};
 pub(crate) use view_settings::TimelineSettings;
 
 /// Returns a recording with one tier of annotations, each given as id, start and end.
@@ -84,52 +79,13 @@ pub(crate) fn contents_of(annotations: &[(i64, i64, i64)]) -> chereme_corpus::Co
 /// The pane.
 #[derive(Default)]
 pub(crate) struct Timeline {
-    /// The visible part of the recording; the whole by default.
-    window: Option<Window>,
-    /// The recording of the window, and the windows of other recordings.
-    of: Option<i64>,
-    windows: BTreeMap<i64, Option<Window>>,
-    /// The width of the annotation area in the last frame, in points.
-    width: f32,
-    /// The playhead in the last frame, in microseconds.
-    playhead: i64,
-    /// Whether to bring the selected tier into sight.
-    reveal: bool,
-    /// Whether the pane was in sight in this frame, or the last.
-    drawn: bool,
+    view: View,
+    asked: Asked,
+    entry: Entry,
+    boxes: Boxes,
     /// The running gesture of the mouse, and the playhead at its beginning.
     gesture: Option<gesture::Gesture>,
     mark: i64,
-    /// Requested changes that the snapshot does not show yet.
-    pending: BTreeMap<WorkId, Then>,
-    /// Annotations at their future places, until the snapshot has them.
-    ghosts: Vec<Ghost>,
-    /// The address of the snapshot that the ghosts complement.
-    over: usize,
-    /// New annotations to select as soon as they exist.
-    to_select: BTreeSet<i64>,
-    /// Whether to type the value of an annotation as soon as it is selected.
-    to_edit: bool,
-    /// An annotation that was begun and not ended.
-    begun: Option<Begun>,
-    /// The value that is being typed.
-    editing: Option<Editing>,
-    /// Whether another pane was brought to the front while a value was typed.
-    left: bool,
-    picker: Picker,
-    digits: values::Digits,
-    choose: Option<tier_list::Choose>,
-    paste_box: Option<paste_box::PasteBox>,
-    go_box: Option<go_to_time::GoBox>,
-    /// The text to paste.
-    clip: Option<String>,
-    tier_box: Option<tier_box::TierBox>,
-    /// A requested tier, whose box opens again if it is refused.
-    tier_asked: Option<(WorkId, tier_box::TierBox)>,
-    /// The name of a tier to select as soon as it exists.
-    tier_named: Option<String>,
-    /// Whether typed text was restored, whose tier must be shown.
-    restored: bool,
     /// The tier that is being dragged by its name.
     tier_held: Option<i64>,
     curves: lanes::Curves,
@@ -204,39 +160,17 @@ pub(crate) struct Draft {
 }
 
 impl Timeline {
-    /// Returns the visible part of `whole` in `width` points.
-    fn window(&self, whole: Span, width: f32) -> Window {
-        self.window.unwrap_or_else(|| Window::whole(whole, width))
-    }
-
     /// Switches to a recording; returns whether it is shown for the first time.
     fn turn_to(&mut self, recording: i64) -> bool {
-        if self.of == Some(recording) {
+        if self.view.of == Some(recording) {
             return false;
         }
-        match self.of.replace(recording) {
-            Some(before) => drop(self.windows.insert(before, self.window)),
+        if self.view.of.is_none() {
             // The scroll offset for the tiers of another corpus is meaningless here.
-            None => self.layout.scroll_to = Some(0.0),
+            self.layout.scroll_to = Some(0.0);
         }
         self.gesture = None;
-        let known = self.windows.remove(&recording);
-        self.window = known.flatten();
-        known.is_none()
-    }
-
-    fn zoom(&mut self, factor: f64, seen: &PaneInput<'_>) {
-        let player = &seen.shown.player;
-        let window = self.window(player.whole, self.width);
-        let around = player.playhead().micros() as f64;
-        self.window = Some(window.zoomed(factor, around, player.whole, self.width));
-    }
-
-    /// Scrolls through time by a share of the visible span; the playhead stays.
-    fn page(&mut self, share: f32, seen: &PaneInput<'_>) {
-        let whole = seen.shown.player.whole;
-        let window = self.window(whole, self.width);
-        self.window = Some(window.panned(share * self.width, whole, self.width));
+        self.view.turn_to(recording)
     }
 
     /// Requests changes as one operation.
@@ -246,9 +180,9 @@ impl Timeline {
         then: Then,
         out: &mut Outbox,
     ) -> Acted {
-        self.ghosts.extend_from_slice(&then.ghosts);
+        self.asked.ghosts.extend_from_slice(&then.ghosts);
         let id = out.work(Work::Annotate(changes, AnnotateOptions::default()));
-        self.pending.insert(id, then);
+        self.asked.pending.insert(id, then);
         Acted::Yes
     }
 
@@ -257,124 +191,94 @@ impl Timeline {
         let found = annotations
             .first()
             .and_then(|id| scene.seen.snapshot.annotation(*id));
-        let text = found.map(|it| changes::typed(&it.tier.annotations, it.at));
+        let text = found.map(|it| requests::typed(&it.tier.annotations, it.at));
         let recording = scene.contents.recording.id;
         let target = Target::Of(annotations);
-        self.editing = Some(Editing::new(recording, target, text.unwrap_or_default()));
+        self.entry.editing = Some(Editing::new(recording, target, text.unwrap_or_default()));
     }
 
     /// Opens the value of the annotation at that index of a tier.
     fn edit_at(&mut self, tier: &TierContents, at: usize) {
-        let text = changes::typed(&tier.annotations, at);
+        let text = requests::typed(&tier.annotations, at);
         let target = Target::Of(BTreeSet::from([tier.annotations.ids[at]]));
-        self.editing = Some(Editing::new(tier.row.recording_id, target, text));
+        self.entry.editing = Some(Editing::new(tier.row.recording_id, target, text));
     }
 
     /// Opens the value of an annotation that does not exist yet.
     fn edit_new(&mut self, scene: &Scene<'_>, tier: i64, (start, end): (i64, i64)) {
         let recording = scene.contents.recording.id;
         let target = Target::New { tier, start, end };
-        self.editing = Some(Editing::new(recording, target, String::new()));
+        self.entry.editing = Some(Editing::new(recording, target, String::new()));
     }
 
     /// Brings the selected tier into sight.
     pub(crate) fn show_tier(&mut self) {
-        self.reveal = true;
+        self.view.reveal = true;
     }
 
     /// Returns whether a value is being typed, so that letters are not shortcuts.
     pub(crate) fn is_typing(&self) -> bool {
-        self.is_open() && self.drawn
-    }
-
-    /// Returns whether a field or a list is open.
-    fn is_open(&self) -> bool {
-        self.editing.is_some()
-            || self.choose.is_some()
-            || self.tier_box.is_some()
-            || self.paste_box.is_some()
-            || self.go_box.is_some()
+        self.is_open() && self.view.drawn
     }
 
     /// Takes the text to paste.
     pub(crate) fn hold_clip(&mut self, text: String) {
-        self.clip = Some(text);
-    }
-
-    /// Returns the visible part of each recording that is not shown as a whole.
-    pub(crate) fn windows(&self) -> BTreeMap<i64, Window> {
-        let now = self.of.map(|of| (of, self.window));
-        let all = self
-            .windows
-            .iter()
-            .map(|(of, window)| (*of, *window))
-            .chain(now);
-        all.filter_map(|(of, window)| Some((of, window?))).collect()
-    }
-
-    /// Sets the visible part of each recording from the settings.
-    pub(crate) fn remember(&mut self, windows: &BTreeMap<i64, Window>) {
-        let sane = windows
-            .iter()
-            .filter(|(_, it)| it.start.is_finite() && it.scale >= 1.0);
-        self.windows = sane.map(|(of, window)| (*of, Some(*window))).collect();
+        self.boxes.clip = Some(text);
     }
 
     /// Begins a frame, in which the pane may or may not be drawn.
     pub(crate) fn next_frame(&mut self) {
-        self.drawn = false;
+        self.view.drawn = false;
+    }
+
+    /// Returns the visible part of each recording that is not shown as a whole.
+    pub(crate) fn windows(&self) -> BTreeMap<i64, Window> {
+        self.view.windows()
+    }
+
+    /// Sets the visible part of each recording from the settings.
+    pub(crate) fn remember(&mut self, windows: &BTreeMap<i64, Window>) {
+        self.view.remember(windows);
+    }
+
+    /// Returns whether a field or a list is open.
+    fn is_open(&self) -> bool {
+        self.entry.editing.is_some() || self.boxes.is_any_open()
     }
 
     /// Returns the unfinished work, including typed text that is not stored yet.
     pub(crate) fn draft(&self) -> Option<Draft> {
-        let typed = self.pending.values().rev().find_map(|it| it.typed.clone());
-        let draft = Draft {
-            editing: self.editing.clone().or(typed),
-            begun: self.begun.clone(),
-        };
-        (draft != Draft::default()).then_some(draft)
+        self.entry.draft(self.asked.typed())
     }
 
     /// Returns the recording with unfinished work.
     pub(crate) fn wants(&self) -> Option<i64> {
-        let typed = self.editing.as_ref().map(|it| it.recording);
-        typed.or(self.begun.as_ref().map(|it| it.recording))
+        self.entry.recording()
     }
 
     /// Restores unfinished work.
     pub(crate) fn restore(&mut self, draft: Draft) {
-        self.editing = draft.editing.map(Editing::again);
-        self.begun = draft.begun;
-        self.restored = self.editing.is_some();
-    }
-
-    /// Forgets the ghosts once a newer snapshot is there.
-    fn settle(&mut self, open: Option<&Arc<Opened>>) {
-        let now = open.map_or(0, |open| Arc::as_ptr(open) as usize);
-        if self.over != now && self.pending.is_empty() {
-            self.over = now;
-            self.ghosts.clear();
-        }
+        self.entry.restore(draft);
     }
 }
 
 impl Pane for Timeline {
     fn leave(&mut self) {
-        self.left = self.editing.is_some();
+        self.entry.left = self.entry.editing.is_some();
     }
 
     fn ui(&mut self, ui: &mut eframe::egui::Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
-        self.drawn = true;
+        self.view.drawn = true;
         ui::show(self, ui, seen, out);
     }
 
     fn act(&mut self, action: Action, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
         match action {
-            Action::ZoomIn => self.zoom(0.6, seen),
-            Action::ZoomOut => self.zoom(1.0 / 0.6, seen),
-            Action::ZoomAll => self.window = None,
-            Action::PageBack => self.page(-0.9, seen),
-            Action::PageForward => self.page(0.9, seen),
+            Action::ZoomIn => self.view.zoom(0.6, seen),
+            Action::ZoomOut => self.view.zoom(1.0 / 0.6, seen),
+            Action::ZoomAll => self.view.window = None,
+            Action::PageBack => self.view.page(-0.9, seen),
+            Action::PageForward => self.view.page(0.9, seen),
             other => {
                 if let Some(ways) = seen.settings.timeline.after(other) {
                     view_settings::change(seen, out, ways);
@@ -384,8 +288,8 @@ impl Pane for Timeline {
                     return Acted::No;
                 };
                 if other == Action::GoToTime {
-                    self.go_box = Some(go_to_time::GoBox::default());
-                    if !self.drawn {
+                    self.boxes.go_box = Some(go_to_time::GoBox::default());
+                    if !self.view.drawn {
                         out.send(Command::Do(Action::ShowTimeline));
                     }
                     return Acted::Yes;
@@ -401,7 +305,7 @@ impl Pane for Timeline {
                 .into_iter()
                 .map(|act| act(self, other, &scene, out))
                 .find(|acted| *acted != Acted::No);
-                if self.is_open() && !self.drawn {
+                if self.is_open() && !self.view.drawn {
                     out.send(Command::Do(Action::ShowTimeline));
                 }
                 return acted.unwrap_or(Acted::No);
@@ -412,25 +316,25 @@ impl Pane for Timeline {
 
     fn hear(&mut self, id: WorkId, ended: &Ended) {
         self.curves.hear(id, ended);
-        if let Some((_, tier)) = self.tier_asked.take_if(|(asked, _)| *asked == id) {
+        if let Some((_, tier)) = self.boxes.tier_asked.take_if(|(asked, _)| *asked == id) {
             match ended {
-                Ok(_) => self.tier_named = tier.added(),
-                Err(_) => self.tier_box = Some(tier),
+                Ok(_) => self.boxes.tier_named = tier.added(),
+                Err(_) => self.boxes.tier_box = Some(tier),
             }
         }
-        let Some(then) = self.pending.remove(&id) else {
+        let Some(then) = self.asked.pending.remove(&id) else {
             return;
         };
         match ended {
             Ok(Outcome::Annotated(report)) if then.select => {
-                self.to_select = report.annotations.iter().copied().collect();
-                self.to_edit = then.edit;
+                self.asked.to_select = report.annotations.iter().copied().collect();
+                self.asked.to_edit = then.edit;
             }
             Ok(_) => {}
             Err(_) => {
-                self.ghosts.clear();
-                if let (Some(typed), None) = (then.typed, &self.editing) {
-                    self.editing = Some(typed.again());
+                self.asked.ghosts.clear();
+                if let (Some(typed), None) = (then.typed, &self.entry.editing) {
+                    self.entry.editing = Some(typed.again());
                 }
             }
         }

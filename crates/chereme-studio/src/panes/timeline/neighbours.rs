@@ -1,13 +1,13 @@
 //! Annotations created, merged and stretched beside the selected one, and created below it.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use chereme_corpus::{AnnotationAction, AnnotationChange, AnnotationName, TierContents, TierName};
+use chereme_corpus::{
+    AnnotationAction, AnnotationChange, AnnotationName, TierContents, TierName, paste, requests,
+};
 
 use super::dragged::{self, TierTiming};
 use super::edit::{self, Scene};
 use super::spans::{Grip, Item};
-use super::{Ghost, Then, Timeline, changes, paste};
+use super::{Ghost, Then, Timeline};
 use crate::action::Action;
 use crate::context::Outbox;
 use crate::panes::Acted;
@@ -133,7 +133,7 @@ fn new_below(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Ac
     if chosen.is_empty() {
         return Acted::Cannot(shell::NEEDS_ANNOTATION);
     }
-    let adds = below(&scene.contents.tiers, &chosen);
+    let adds = requests::missing_below(&scene.contents.tiers, &chosen);
     if adds.is_empty() {
         return Acted::Cannot(words::NOTHING_BELOW);
     }
@@ -149,47 +149,8 @@ fn new_below(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Ac
     };
     let asked = adds
         .iter()
-        .map(|(tier, span)| changes::add(*tier, *span, ""));
+        .map(|(tier, span)| requests::add(*tier, *span, ""));
     timeline.change(asked.collect(), then, out)
-}
-
-/// Returns the missing annotations below the chosen ones, parents first, as `(tier, span)`.
-fn below(tiers: &[TierContents], chosen: &BTreeSet<i64>) -> Vec<(i64, (i64, i64))> {
-    let mut under: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
-    // Tiers with a span of an annotation, and its id if it exists already.
-    let mut open: Vec<(i64, (i64, i64), Option<i64>)> = Vec::new();
-    for tier in tiers {
-        let columns = &tier.annotations;
-        for (at, parent) in columns.parents.iter().enumerate() {
-            if let Some(parent) = parent {
-                under.entry((tier.row.id, *parent)).or_default().push(at);
-            }
-        }
-        open.extend(dragged::places(tier, chosen).map(|at| {
-            let span = (columns.starts[at], columns.ends[at]);
-            (tier.row.id, span, Some(columns.ids[at]))
-        }));
-    }
-    let (mut adds, mut seen, mut at) = (Vec::new(), BTreeSet::new(), 0);
-    while let Some((above, span, id)) = open.get(at).copied() {
-        at += 1;
-        if id.is_some_and(|id| !seen.insert(id)) {
-            continue;
-        }
-        for tier in tiers.iter().filter(|it| it.row.parent_id == Some(above)) {
-            let columns = &tier.annotations;
-            let there = id.and_then(|id| under.get(&(tier.row.id, id)));
-            if there.is_none() {
-                adds.push((tier.row.id, span));
-                open.push((tier.row.id, span, None));
-            }
-            for at in there.into_iter().flatten() {
-                let span = (columns.starts[*at], columns.ends[*at]);
-                open.push((tier.row.id, span, Some(columns.ids[*at])));
-            }
-        }
-    }
-    adds
 }
 
 fn merge_previous(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
@@ -212,7 +173,7 @@ fn merge_previous(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) 
         select: true,
         ..Then::default()
     };
-    match changes::merge(tier, &both, closed) {
+    match requests::merge(tier, &both, closed) {
         Some(changes) => timeline.change(changes, then, out),
         None => Acted::Cannot(words::NO_PREVIOUS),
     }
@@ -253,7 +214,7 @@ fn stretch(timeline: &mut Timeline, scene: &Scene<'_>, grip: Grip, out: &mut Out
                 start: start.min(gap.0),
                 end: end.max(gap.1),
             };
-            changed.extend(changes::respan(&[item]));
+            changed.extend(requests::respan(&[item]));
             ghosts.push(Ghost::of(tier.row.id, &item));
         }
     }
@@ -265,28 +226,4 @@ fn stretch(timeline: &mut Timeline, scene: &Scene<'_>, grip: Grip, out: &mut Out
         ..Then::default()
     };
     timeline.change(changed, then, out)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::dragged::tests::contents;
-    use super::*;
-
-    #[test]
-    fn missing_child_annotations_are_added_on_every_level() {
-        let all = contents(&[
-            (1, None, "", &[(1, 0, 100, None), (2, 500, 600, None)]),
-            (2, Some(1), "Included_In", &[(3, 10, 20, Some(1))]),
-            (3, Some(2), "Symbolic_Association", &[]),
-            (4, Some(1), "Time_Subdivision", &[]),
-            (5, None, "", &[]),
-        ]);
-        let below = |ids: &[i64]| below(&all.tiers, &ids.iter().copied().collect());
-        assert_eq!(below(&[1]), [(4, (0, 100)), (3, (10, 20))]);
-        let whole = (500, 600);
-        assert_eq!(below(&[2]), [(2, whole), (4, whole), (3, whole)]);
-        assert_eq!(below(&[3]), [(3, (10, 20))]);
-        // An annotation below another chosen one is created once.
-        assert_eq!(below(&[1, 3]).len(), 2);
-    }
 }

@@ -96,7 +96,7 @@ impl Drawing<'_, '_> {
     /// Shows the strip if only a part of the recording is visible.
     pub(super) fn overview(&mut self, ui: &mut Ui, scene: &Scene<'_>) {
         let whole = self.seen.shown.player.whole;
-        if self.timeline.window.is_none()
+        if self.timeline.view.window.is_none()
             || whole.is_empty()
             || !self.seen.settings.timeline.overview
         {
@@ -110,7 +110,7 @@ impl Drawing<'_, '_> {
             .shrink2(vec2(0.0, 2.0));
         let id = ui.unique_id().with("overview");
         let response = ui.interact(strip, id, Sense::click_and_drag());
-        let seen_to = self.window.micros(self.timeline.width);
+        let seen_to = self.window.micros(self.timeline.view.width);
         let text = |micros: f64| {
             let at = Instant::from_micros(micros as i64);
             time_text(at.max(whole.start()).min(whole.end()))
@@ -131,7 +131,7 @@ impl Drawing<'_, '_> {
         let x = self.overview_x(strip);
         let (left, right) = (
             x(self.window.start),
-            x(self.window.micros(self.timeline.width)),
+            x(self.window.micros(self.timeline.view.width)),
         );
         let (left, right) = (left.max(strip.left()), right.min(strip.right()));
         let more = ((LEAST - (right - left)) / 2.0).max(0.0);
@@ -158,14 +158,17 @@ impl Drawing<'_, '_> {
         let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
         let by = [(Key::ArrowLeft, -0.25), (Key::ArrowRight, 0.25)];
         for (_, share) in by.into_iter().filter(|(key, _)| pressed(*key)) {
-            self.timeline.page(share, self.seen);
+            self.timeline.view.page(share, self.seen);
         }
     }
 
     fn overview_mouse(&mut self, ui: &Ui, response: &Response, strip: Rect) {
         let whole = self.seen.shown.player.whole;
         let bar = self.overview_box(strip);
-        let (from, to) = (self.window.start, self.window.micros(self.timeline.width));
+        let (from, to) = (
+            self.window.start,
+            self.window.micros(self.timeline.view.width),
+        );
         let near = |x: f32| {
             let edge = EDGE.min(bar.width() / 4.0);
             if (x - bar.left()).abs() <= edge {
@@ -207,13 +210,13 @@ impl Drawing<'_, '_> {
         if !response.dragged() && !response.clicked() && !response.is_pointer_button_down_on() {
             return;
         }
-        let width = self.timeline.width;
+        let width = self.timeline.view.width;
         let (start, end) = match held {
             Hold::Whole(before) => (at - before, at - before + (to - from)),
             Hold::Start(end) => (at.min(end - 1e4), end),
             Hold::End(start) => (start, at.max(start + 1e4)),
         };
-        self.timeline.window = Some(Window::showing(start, end, whole, width));
+        self.timeline.view.window = Some(Window::showing(start, end, whole, width));
     }
 
     fn paint_overview(&mut self, ui: &Ui, scene: &Scene<'_>, strip: Rect, response: &Response) {

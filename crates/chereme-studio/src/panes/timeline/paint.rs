@@ -1,5 +1,6 @@
 //! Painting of the timeline: ruler, bars, selection, playhead.
 
+use chereme_corpus::snap::Catch;
 use chereme_corpus::{TierContents, ValueState, proposed_for};
 use chereme_motion::{Instant, Span};
 use eframe::egui::text::{LayoutJob, TextWrapping};
@@ -10,7 +11,6 @@ use eframe::egui::{
 
 use super::data::{self, Bar, Window};
 use super::drag::Sight;
-use super::snap::Catch;
 use crate::context::PaneInput;
 use crate::pickers::data as pickers;
 use crate::words::{Language, timeline as words};

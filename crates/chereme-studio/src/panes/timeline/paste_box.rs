@@ -1,10 +1,11 @@
 //! The list of pasted lines without a place, shown before anything is pasted.
 
+use chereme_corpus::paste::PastePlan;
 use eframe::egui::{Align2, Id, Key, Label, Modifiers, ScrollArea, Ui, Window, vec2};
 
 use super::Timeline;
 use super::edit::Scene;
-use super::paste::{self, PastePlan};
+use super::paste;
 use crate::context::Outbox;
 use crate::words::{fill, shell, timeline as words};
 
@@ -19,7 +20,7 @@ pub(super) struct PasteBox {
 
 /// Shows the list, and pastes the other lines if the user agrees.
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
-    let Some(shown) = timeline.paste_box.take() else {
+    let Some(shown) = timeline.boxes.paste_box.take() else {
         return;
     };
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
@@ -40,7 +41,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
                 .max_height(room)
                 .show(ui, |ui| {
                     for odd in plan.odd.iter().take(MOST) {
-                        let what = fill(say(odd.why), &[("text", &odd.text)]);
+                        let what = paste::odd_text(scene, odd);
                         let said: [(&str, &dyn std::fmt::Display); 2] =
                             [("n", &odd.line), ("what", &what)];
                         ui.add(Label::new(fill(say(words::PASTE_LINE), &said)).wrap());
@@ -60,6 +61,6 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
     if keep && !plan.adds.is_empty() {
         paste::put(timeline, &plan.adds, out);
     } else if !drop && !keep {
-        timeline.paste_box = Some(shown);
+        timeline.boxes.paste_box = Some(shown);
     }
 }

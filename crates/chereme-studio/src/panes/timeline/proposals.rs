@@ -54,7 +54,7 @@ pub(super) fn act(
                 .filter(|it| !chosen.contains(&it.id))
                 .collect();
             let id = out.work(Work::Accept(chosen.into_iter().collect()));
-            timeline.pending.insert(id, Then::default());
+            timeline.asked.pending.insert(id, Then::default());
             if let Some(next) = next(&left, here(scene)) {
                 go(timeline, next, out);
             }
@@ -148,7 +148,7 @@ fn go(timeline: &mut Timeline, to: Proposal, out: &mut Outbox) {
     ))));
     out.seek(micros(to.start + (to.end - to.start) / 2));
     timeline.show_tier();
-    if !timeline.drawn {
+    if !timeline.view.drawn {
         out.send(Command::Do(Action::ShowTimeline));
     }
 }

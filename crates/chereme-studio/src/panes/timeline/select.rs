@@ -66,7 +66,7 @@ pub(super) fn act(
         Action::ExtendSecondForward => extend(scene, out, scene.playhead() + SECOND),
         _ => return Acted::No,
     }
-    timeline.reveal = true;
+    timeline.view.reveal = true;
     Acted::Yes
 }
 

@@ -255,7 +255,7 @@ fn parents(contents: &Contents, what: &What) -> Vec<String> {
 
 /// Shows the box while it is open, and carries out its buttons.
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
-    let Some(mut tier) = timeline.tier_box.take() else {
+    let Some(mut tier) = timeline.boxes.tier_box.take() else {
         return;
     };
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
@@ -292,7 +292,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
     }
     let ready = matches!(tier.what, What::Remove(_)) || !tier.name.trim().is_empty();
     if !ready || !(enter || done == Pressed::Done) {
-        timeline.tier_box = Some(tier);
+        timeline.boxes.tier_box = Some(tier);
         return;
     }
     let before = match tier.what {
@@ -303,7 +303,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
     };
     if let Some(work) = tier.work(scene.contents.recording.id, before.as_ref()) {
         let id = out.work(work);
-        timeline.tier_asked = Some((id, tier));
+        timeline.boxes.tier_asked = Some((id, tier));
     }
 }
 

@@ -1,6 +1,6 @@
 //! The list to choose the tier that annotations are copied or moved to.
 
-use chereme_corpus::TierContents;
+use chereme_corpus::{TierContents, requests};
 use chereme_sign::text::fold;
 use eframe::egui::{
     Align2, Button, Id, Key, Modifiers, Role, ScrollArea, Ui, WidgetInfo, Window, vec2,
@@ -9,7 +9,7 @@ use eframe::egui::{
 use super::dragged::{self, TierTiming};
 use super::edit::{Scene, no_room};
 use super::spans::Item;
-use super::{Then, Timeline, changes};
+use super::{Then, Timeline};
 use crate::context::Outbox;
 use crate::script::edit;
 use crate::words::{Text, timeline as words};
@@ -47,7 +47,7 @@ fn fitting<'a>(scene: &Scene<'a>, text: &str) -> Vec<&'a TierContents> {
 
 /// Shows the list, and copies or moves the selection to the chosen tier.
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
-    let Some(mut choose) = timeline.choose.take() else {
+    let Some(mut choose) = timeline.boxes.choose.take() else {
         return;
     };
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
@@ -120,7 +120,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
         }
     }
     if !escape && choose.chosen != usize::MAX {
-        timeline.choose = Some(choose);
+        timeline.boxes.choose = Some(choose);
     }
 }
 
@@ -139,13 +139,13 @@ pub(super) fn put(
         .filter(|item| chosen.contains(&item.id))
         .collect();
     let tier = scene.tier_of(to)?;
-    if moving && changes::has_below(scene.contents, chosen) {
+    if moving && requests::has_below(scene.contents, chosen) {
         return Some(words::HAS_BELOW);
     }
     if let Some(why) = unfit(scene, tier, &items) {
         return Some(why);
     }
-    let asked = changes::to_tier(scene.contents, &items, to, moving);
+    let asked = requests::to_tier(scene.contents, &items, to, moving);
     let ghosts = items.iter().map(|item| super::Ghost {
         id: None,
         ..super::Ghost::of(to, item)

@@ -44,7 +44,7 @@ pub(super) fn act(
         return Acted::No;
     }
     if action == Action::AddTier {
-        timeline.tier_box = Some(TierBox::add(scene));
+        timeline.boxes.tier_box = Some(TierBox::add(scene));
         return Acted::Yes;
     }
     if action == Action::UsualTiers {
@@ -68,7 +68,7 @@ pub(super) fn act(
     let (id, name) = (tier.row.id, tier.row.name.clone());
     match action {
         Action::CopyTier => {
-            timeline.tier_box = Some(TierBox::copy(scene, tier));
+            timeline.boxes.tier_box = Some(TierBox::copy(scene, tier));
             return Acted::Yes;
         }
         Action::ChangeTier | Action::RemoveTier => {
@@ -78,7 +78,7 @@ pub(super) fn act(
             } else {
                 What::Remove(id)
             };
-            timeline.tier_box = Some(TierBox::of(scene.contents, tier, what));
+            timeline.boxes.tier_box = Some(TierBox::of(scene.contents, tier, what));
             return Acted::Yes;
         }
         Action::TierUp | Action::TierDown => {

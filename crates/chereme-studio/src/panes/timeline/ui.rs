@@ -150,7 +150,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &PaneInput<'_>, o
     }
     // The rows can be scrolled to after the area knows how many there are.
     if std::mem::take(&mut timeline.layout.grown) {
-        (timeline.reveal, timeline.layout.fresh) = (true, true);
+        (timeline.view.reveal, timeline.layout.fresh) = (true, true);
     }
     if timeline.layout.update(ui, scene.contents, seen) {
         timeline.layout.grown = true;
@@ -160,11 +160,11 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &PaneInput<'_>, o
     let most = (ui.available_width() * NAMES_SHARE).max(NAMES);
     let names = timeline.layout.names.min(most);
     let width = (ui.available_width() - names).max(40.0);
-    timeline.width = width;
+    timeline.view.width = width;
     if fresh {
         let player = &scene.seen.shown.player;
         let at = scene.playhead() as f64;
-        timeline.window = data::first_window(&scene.contents.tiers, player.whole, at, width);
+        timeline.view.window = data::first_window(&scene.contents.tiers, player.whole, at, width);
     }
     let window = follow(timeline, &scene, width);
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -212,11 +212,11 @@ fn no_recordings(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
 
 /// Selects added annotations, and forgets ghosts that the snapshot contains.
 fn follow_up(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) {
-    timeline.settle(scene.seen.snapshot.open.as_ref());
-    let first = timeline.to_select.first();
+    timeline.asked.settle(scene.seen.snapshot.open.as_ref());
+    let first = timeline.asked.to_select.first();
     if first.is_some_and(|id| scene.seen.snapshot.annotation(*id).is_some()) {
-        let all = std::mem::take(&mut timeline.to_select);
-        if std::mem::take(&mut timeline.to_edit) {
+        let all = std::mem::take(&mut timeline.asked.to_select);
+        if std::mem::take(&mut timeline.asked.to_edit) {
             timeline.edit(scene, all.clone());
         }
         let one = all.first().filter(|_| all.len() == 1);
@@ -226,36 +226,40 @@ fn follow_up(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) {
         }
         out.send(Command::Annotations(all));
     }
-    let restored = timeline.editing.as_ref().filter(|_| timeline.restored);
+    let restored = timeline
+        .entry
+        .editing
+        .as_ref()
+        .filter(|_| timeline.entry.restored);
     if let Some(tier) = restored.and_then(|it| it.tier(scene)) {
         out.send(Command::Tier(Some(tier.row.id)));
-        timeline.restored = false;
+        timeline.entry.restored = false;
     }
-    if let Some(name) = &timeline.tier_named {
+    if let Some(name) = &timeline.boxes.tier_named {
         let tiers = &scene.contents.tiers;
         let id = tiers
             .iter()
             .find(|it| it.row.name == *name)
             .map(|it| it.row.id);
         if id.is_some() && scene.seen.shown.tier == id {
-            (timeline.tier_named, timeline.reveal) = (None, true);
+            (timeline.boxes.tier_named, timeline.view.reveal) = (None, true);
         } else if id.is_some() {
             out.send(Command::Tier(id));
         }
     }
     let recording = scene.contents.recording.id;
-    timeline.begun.take_if(|it| it.recording != recording);
+    timeline.entry.begun.take_if(|it| it.recording != recording);
 }
 
 /// Returns the visible part of the recording; it moves by a page when the playhead leaves it.
 fn follow(timeline: &mut Timeline, scene: &Scene<'_>, width: f32) -> Window {
     let player = &scene.seen.shown.player;
     let (whole, playhead) = (player.whole, scene.playhead());
-    let moved = std::mem::replace(&mut timeline.playhead, playhead) != playhead;
-    let mut window = timeline.window(whole, width);
-    if moved && timeline.window.is_some() && timeline.gesture.is_none() {
+    let moved = std::mem::replace(&mut timeline.view.playhead, playhead) != playhead;
+    let mut window = timeline.view.window(whole, width);
+    if moved && timeline.view.window.is_some() && timeline.gesture.is_none() {
         window = window.following(playhead as f64, whole, width);
-        timeline.window = Some(window);
+        timeline.view.window = Some(window);
     }
     window
 }
@@ -316,7 +320,7 @@ impl Drawing<'_, '_> {
             ui.set_cursor_icon(CursorIcon::Grabbing);
             let whole = self.seen.shown.player.whole;
             let by = -response.drag_delta().x;
-            self.timeline.window = Some(self.window.panned(by, whole, lane.width()));
+            self.timeline.view.window = Some(self.window.panned(by, whole, lane.width()));
         } else if let Some(at) = response.interact_pointer_pos()
             && (response.dragged() || response.clicked())
         {
@@ -329,7 +333,7 @@ impl Drawing<'_, '_> {
         let area = ui.available_rect_before_wrap();
         let all = std::mem::take(&mut self.timeline.layout.all);
         self.timeline.layout.rows.clear();
-        let ghosts = std::mem::take(&mut self.timeline.ghosts);
+        let ghosts = std::mem::take(&mut self.timeline.asked.ghosts);
         let mut moving: BTreeSet<i64> = ghosts.iter().filter_map(|ghost| ghost.id).collect();
         if let Some(gesture) = &self.timeline.gesture {
             moving.extend(gesture.moving());
@@ -339,7 +343,7 @@ impl Drawing<'_, '_> {
         let selected = self.seen.shown.tier;
         if selected != self.timeline.layout.seen && !ui.input(|input| input.pointer.any_down()) {
             self.timeline.layout.seen = selected;
-            self.timeline.reveal |= selected.is_some();
+            self.timeline.view.reveal |= selected.is_some();
         }
         let mut scroll = ScrollArea::vertical().auto_shrink(false);
         let held = self.timeline.layout.scroll_to.take();
@@ -359,12 +363,12 @@ impl Drawing<'_, '_> {
         });
         let before = self.timeline.layout.height.take();
         if !inside && before.is_some_and(|before| before != area.height()) {
-            self.timeline.reveal = true;
+            self.timeline.view.reveal = true;
             ui.ctx().request_repaint();
         }
         self.timeline.layout.height = inside.then_some(area.height());
         self.timeline.layout.all = all;
-        self.timeline.ghosts = ghosts;
+        self.timeline.asked.ghosts = ghosts;
         self.held_tier(ui, contents, area);
         let sight = self.gesture(ui, contents, area);
         let lane = area.with_min_x(area.left() + self.names);
@@ -382,7 +386,7 @@ impl Drawing<'_, '_> {
 
     /// Returns the distance to scroll to bring the selected tier into sight, on request.
     fn reveal(&mut self, all: &[TimelineRow], contents: &Contents, height: f32) -> Option<f32> {
-        if !std::mem::take(&mut self.timeline.reveal) {
+        if !std::mem::take(&mut self.timeline.view.reveal) {
             return None;
         }
         let is = |row: &TimelineRow| Some(contents.tiers[row.tier].row.id) == self.seen.shown.tier;
@@ -502,9 +506,9 @@ impl Drawing<'_, '_> {
             let window = self
                 .window
                 .zoomed(1.0 / f64::from(zoom), around, whole, width);
-            self.timeline.window = Some(window);
+            self.timeline.view.window = Some(window);
         } else if pan != 0.0 {
-            self.timeline.window = Some(self.window.panned(-pan, whole, width));
+            self.timeline.view.window = Some(self.window.panned(-pan, whole, width));
         }
     }
 

@@ -1,6 +1,7 @@
 //! The list below the field for values: matching values, with pictures if values have them, and digits.
 
 use chereme_corpus::StoredInventory;
+use chereme_corpus::tier_values::{TierValue, TierValues};
 use eframe::egui::{
     Align, Align2, Button, Layout, Rect, Response, Role, ScrollArea, TextStyle, Ui, Vec2,
     WidgetInfo, vec2,
@@ -8,7 +9,6 @@ use eframe::egui::{
 
 use super::edit::{self, Scene};
 use super::editor::Editing;
-use super::values::{Choice, Choices};
 use crate::panes::list_row_after;
 use crate::pickers;
 use crate::words::{fill, timeline as words};
@@ -35,7 +35,7 @@ pub(super) fn show(
     ui: &mut Ui,
     scene: &Scene<'_>,
     (editing, fitting): (&Editing, &[usize]),
-    (stored, choices, digits): (Option<&StoredInventory>, &Choices, &[String]),
+    (stored, choices, digits): (Option<&StoredInventory>, &TierValues, &[String]),
     moved: bool,
 ) -> Option<String> {
     let mut clicked = None;
@@ -86,7 +86,12 @@ pub(super) fn show(
     clicked
 }
 
-fn by_name(ui: &mut Ui, (choice, digit): (&Choice, String), chosen: bool, height: f32) -> Response {
+fn by_name(
+    ui: &mut Ui,
+    (choice, digit): (&TierValue, String),
+    chosen: bool,
+    height: f32,
+) -> Response {
     let text = match &choice.name {
         Some(name) => format!("{}  {name}", choice.value),
         None => choice.value.clone(),
@@ -108,7 +113,7 @@ fn by_picture(
     ui: &mut Ui,
     scene: &Scene<'_>,
     stored: &StoredInventory,
-    (choice, digit): (&Choice, &str),
+    (choice, digit): (&TierValue, &str),
     chosen: bool,
 ) -> Response {
     let about = choice.name.as_deref().unwrap_or_default();
@@ -142,7 +147,7 @@ fn by_picture(
 pub(super) fn picked<'a>(
     before: &str,
     typed: &str,
-    choices: &Choices,
+    choices: &TierValues,
     digits: &'a [String],
 ) -> Option<&'a String> {
     let mut letters = typed.chars();

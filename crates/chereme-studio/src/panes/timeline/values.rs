@@ -1,130 +1,8 @@
-//! The possible values on a tier: those of its inventory and those in use, filtered while typing.
+//! The values of the digits on each tier.
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::{StoredInventory, TierContents, ValueState};
-use chereme_sign::text::fold;
-
-/// A possible value.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Choice {
-    /// The stored text.
-    pub(crate) value: String,
-    /// Its name in the window's language, if it differs from the value.
-    pub(crate) name: Option<String>,
-    /// How often the tier has it.
-    pub(crate) used: usize,
-    /// Its other names, folded, for filtering.
-    known: Vec<String>,
-}
-
-/// The values of a tier, the most used first, then in the inventory's order.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Choices {
-    pub(crate) all: Vec<Choice>,
-    /// Whether other values are forbidden.
-    pub(crate) closed: bool,
-}
-
-/// Special values of coded tiers for a missing value, as they are typed.
-const MISSING: [&str; 2] = ["n/a", "unclear"];
-
-/// Returns the possible values of a tier.
-pub(crate) fn choices(
-    tier: &TierContents,
-    inventory: Option<&StoredInventory>,
-    language: &str,
-) -> Choices {
-    let columns = &tier.annotations;
-    let mut used: BTreeMap<&str, usize> = BTreeMap::new();
-    for (value, state) in columns.values.iter().zip(&columns.states) {
-        if *state == ValueState::Value && !value.trim().is_empty() {
-            *used.entry(value).or_default() += 1;
-        }
-    }
-    let mut all: Vec<Choice> = Vec::new();
-    for value in inventory.iter().flat_map(|it| &it.inventory.values) {
-        let names = value.names.values().chain(&value.aliases);
-        all.push(Choice {
-            value: value.id.clone(),
-            name: value
-                .names
-                .get(language)
-                .filter(|name| **name != value.id)
-                .cloned(),
-            used: used.remove(value.id.as_str()).unwrap_or_default(),
-            known: names.chain([&value.id]).map(|name| fold(name)).collect(),
-        });
-    }
-    all.extend(used.into_iter().map(|(value, used)| Choice {
-        value: value.to_owned(),
-        name: None,
-        used,
-        known: vec![fold(value)],
-    }));
-    all.sort_by_key(|choice| std::cmp::Reverse(choice.used));
-    let coded = inventory.is_some() || tier.row.role.is_coded();
-    all.extend(MISSING.iter().filter(|_| coded).map(|value| Choice {
-        value: (*value).to_owned(),
-        name: None,
-        used: 0,
-        known: vec![(*value).to_owned()],
-    }));
-    Choices {
-        all,
-        closed: inventory.is_some(),
-    }
-}
-
-impl Choices {
-    /// Returns the indices of the values that match the typed text: equal ones first, then those that begin with it,
-    /// then those that contain it.
-    pub(crate) fn fitting(&self, text: &str) -> Vec<usize> {
-        let wanted = fold(text.trim());
-        let rank = |choice: &Choice| {
-            let exact = choice.value == text.trim();
-            let ranks = choice.known.iter().filter_map(|known| {
-                if exact || *known == wanted {
-                    Some(u8::from(!exact))
-                } else if known.starts_with(&wanted) {
-                    Some(2)
-                } else {
-                    known.contains(&wanted).then_some(3)
-                }
-            });
-            ranks.min()
-        };
-        let ranked = self.all.iter().enumerate();
-        let mut ranked: Vec<(u8, usize)> = ranked
-            .filter_map(|(at, choice)| Some((rank(choice)?, at)))
-            .collect();
-        ranked.sort_unstable();
-        ranked.into_iter().map(|(_, at)| at).collect()
-    }
-
-    /// Returns the value that Enter stores: the marked one; else the typed text, if it is allowed; else, on a closed
-    /// tier, the best match. Returns `None` if nothing matches.
-    pub(crate) fn kept(&self, text: &str, marked: Option<usize>) -> Option<String> {
-        let text = text.trim();
-        if let Some(choice) = marked.and_then(|at| self.all.get(at)) {
-            return Some(choice.value.clone());
-        }
-        if !self.closed || text.is_empty() || text == "unset" {
-            return Some(text.to_owned());
-        }
-        let best = self.fitting(text).first().copied()?;
-        Some(self.all[best].value.clone())
-    }
-
-    /// Returns whether a value begins with that digit, so that the digit is typed and does not pick.
-    pub(crate) fn types_digit(&self, digit: char) -> bool {
-        !self.closed
-            || self
-                .all
-                .iter()
-                .any(|choice| choice.value.starts_with(digit))
-    }
-}
+use chereme_corpus::tier_values::{MISSING, TierValues};
 
 /// The values of the digits, tier by tier. An assignment stays for the session, so that users can learn it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -134,7 +12,7 @@ pub(crate) struct Digits {
 
 impl Digits {
     /// Returns the values of the digits 1 to 9 on a tier; newly used ones get the free digits.
-    pub(crate) fn of(&mut self, tier: i64, choices: &Choices) -> &[String] {
+    pub(crate) fn of(&mut self, tier: i64, choices: &TierValues) -> &[String] {
         let given = self.given.entry(tier).or_default();
         for choice in &choices.all {
             if given.len() >= 9 {
@@ -153,8 +31,7 @@ impl Digits {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_corpus::{AnnotationColumns, TierRow};
-    use chereme_sign::inventory::builtin;
+    use chereme_corpus::{AnnotationColumns, TierContents, TierRow, ValueState, tier_values};
 
     fn tier(role: &str, values: &[&str]) -> TierContents {
         TierContents {
@@ -171,55 +48,12 @@ mod tests {
         }
     }
 
-    fn shapes() -> StoredInventory {
-        let found = builtin().iter().find(|it| it.id == "configurations");
-        StoredInventory {
-            id: 1,
-            inventory: found.expect("built in").clone(),
-        }
-    }
-
-    fn fitting(choices: &Choices, text: &str) -> Vec<String> {
-        let places = choices.fitting(text);
-        places
-            .iter()
-            .map(|at| choices.all[*at].value.clone())
-            .collect()
-    }
-
-    #[test]
-    fn most_used_values_come_first_and_typing_filters_them() {
-        let free = choices(
-            &tier("gloss", &["BOL", "CHAT", "CHAT", "ÉCOLE"]),
-            None,
-            "en",
-        );
-        let values: Vec<&str> = free.all.iter().map(|it| it.value.as_str()).collect();
-        assert_eq!(values, ["CHAT", "BOL", "ÉCOLE", "n/a", "unclear"]);
-        assert_eq!(fitting(&free, "eco"), ["ÉCOLE"]);
-        assert_eq!(free.kept("NEW", None).as_deref(), Some("NEW"));
-        assert_eq!(free.kept("c", Some(0)).as_deref(), Some("CHAT"));
-        let inventory = shapes();
-        let coded = choices(
-            &tier("configuration", &["U", "U", "B"]),
-            Some(&inventory),
-            "fr",
-        );
-        assert_eq!((coded.all[0].value.as_str(), coded.all[0].used), ("U", 2));
-        assert_eq!(coded.all[1].value, "B");
-        assert_eq!(fitting(&coded, "u")[0], "U");
-        assert_eq!(coded.kept("u", None).as_deref(), Some("U"));
-        assert_eq!(coded.kept("no such shape", None), None);
-        assert_eq!(coded.kept("", None).as_deref(), Some(""));
-        assert!(coded.types_digit('5') && !coded.types_digit('9'));
-    }
-
     #[test]
     fn a_digit_keeps_its_value_during_an_editing_session() {
         let mut digits = Digits::default();
         let at = |digits: &mut Digits, values: &[&str]| {
             digits
-                .of(7, &choices(&tier("gloss", values), None, "en"))
+                .of(7, &tier_values::values(&tier("gloss", values), None, "en"))
                 .to_vec()
         };
         assert_eq!(at(&mut digits, &["BOL", "CHAT", "CHAT"]), ["CHAT", "BOL"]);

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use chereme_corpus::snap::Snaps;
 use serde::{Deserialize, Serialize};
 
 use super::lanes::Lane;
-use super::snap::Snaps;
 use super::spans::Mode;
 use crate::action::Action;
 use crate::command::Command;

@@ -4,43 +4,94 @@
 //! any order and by other names, or no titles and two times in each line; a single column is values, and a line
 //! without tabs one value.
 
-use chereme_corpus::Moment;
+use chereme_formats::table::annotations::Moment;
+use chereme_motion::Instant;
 use chereme_sign::text::fold;
-
-use crate::words::{Text, timeline as words};
 
 /// An annotation in a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct CopiedAnnotation {
+pub struct CopiedAnnotation {
     /// The line of the text, counted from 1.
-    pub(crate) line: usize,
+    pub line: usize,
     /// The name of its tier, if the text has one.
-    pub(crate) tier: Option<String>,
-    pub(crate) start: i64,
-    pub(crate) end: i64,
-    pub(crate) value: String,
+    pub tier: Option<String>,
+    /// Its start, in microseconds.
+    pub start: i64,
+    /// Its end, in microseconds.
+    pub end: i64,
+    /// Its value, as it is typed.
+    pub value: String,
 }
 
 /// A line that is not understood, or whose annotation has no place.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Odd {
-    pub(crate) line: usize,
-    /// The reason; it contains `{text}` as a placeholder for `text`.
-    pub(crate) why: Text,
-    pub(crate) text: String,
+pub struct OddLine {
+    /// The line of the text, counted from 1.
+    pub line: usize,
+    /// The reason.
+    pub why: OddReason,
+    /// The part of the line that the reason concerns, or the time.
+    pub text: String,
+    /// The time, if the reason concerns one.
+    pub at: Option<Instant>,
+}
+
+/// The reason why a line is not understood, or its annotation has no place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OddReason {
+    /// A time is not readable.
+    Time,
+    /// The line lacks a start or an end.
+    Row,
+    /// The end is not after the start.
+    Ends,
+    /// The recording lacks the tier.
+    Tier,
+    /// The tier does not allow the value.
+    Value,
+    /// The annotation is not within the recording.
+    Outside,
+    /// No annotation of the parent tier contains it.
+    Parent,
+    /// The time is occupied.
+    Taken,
+    /// More values than annotations.
+    Left,
+}
+
+impl OddLine {
+    /// Returns the fault as a sentence without a full stop.
+    #[must_use]
+    pub fn fault(&self) -> String {
+        let text = &self.text;
+        match self.why {
+            OddReason::Time => format!("{text:?} is no time: write 1.5, 0:01.500 or f12"),
+            OddReason::Row => format!("no start and end in {text:?}"),
+            OddReason::Ends => format!("it ends at {text}, which is not after its start"),
+            OddReason::Tier => format!("the recording has no tier {text:?}"),
+            OddReason::Value => format!("{text:?} is no value of its tier"),
+            OddReason::Outside => {
+                format!("the annotation that begins at {text} is not within the recording")
+            }
+            OddReason::Parent => format!("no annotation of the parent tier contains {text}"),
+            OddReason::Taken => format!("there is an annotation already at {text}"),
+            OddReason::Left => format!("no annotation is left for {text:?}"),
+        }
+    }
 }
 
 /// The contents of a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Clip {
+pub enum ClipboardText {
     /// Annotations, and lines that cannot be read.
-    Rows(Vec<CopiedAnnotation>, Vec<Odd>),
+    Rows(Vec<CopiedAnnotation>, Vec<OddLine>),
     /// Values, one below the other, each with its line number.
     Values(Vec<(usize, String)>),
 }
 
-/// Writes annotations, each given as `(tier, start, end, value)`, as text.
-pub(crate) fn write<'a>(rows: impl Iterator<Item = (&'a str, i64, i64, String)>) -> String {
+/// Returns annotations as text, each given as `(tier, start, end, value)` with times in microseconds.
+#[must_use]
+pub fn write<'a>(rows: impl Iterator<Item = (&'a str, i64, i64, String)>) -> String {
     let mut text = String::from("tier\tstart\tend\tvalue\n");
     for (tier, start, end, value) in rows {
         let cells = [cell(tier), seconds(start), seconds(end), cell(&value)];
@@ -68,13 +119,13 @@ fn cell(text: &str) -> String {
 }
 
 /// Reads a text; `frame` returns the time of a frame in microseconds.
-pub(crate) fn read(text: &str, frame: impl Fn(u64) -> Option<i64>) -> Clip {
+pub fn read(text: &str, frame: impl Fn(u64) -> Option<i64>) -> ClipboardText {
     let rows = cells(text);
     if rows.iter().all(|(_, cells)| cells.len() == 1) {
         let values = rows
             .into_iter()
             .map(|(line, mut cells)| (line, cells.remove(0)));
-        return Clip::Values(values.collect());
+        return ClipboardText::Values(values.collect());
     }
     let mut odd = Vec::new();
     let titled = rows.first().and_then(|(_, cells)| Columns::named(cells));
@@ -92,7 +143,7 @@ pub(crate) fn read(text: &str, frame: impl Fn(u64) -> Option<i64>) -> Clip {
             Err(why) => odd.push(why),
         }
     }
-    Clip::Rows(said, odd)
+    ClipboardText::Rows(said, odd)
 }
 
 /// The columns of a table, by index.
@@ -108,7 +159,7 @@ struct Columns {
 }
 
 impl Columns {
-    /// Reads a row of column titles, as this window, ELAN and people write them.
+    /// Reads a row of column titles, as this program, ELAN and people write them.
     fn named(cells: &[String]) -> Option<Self> {
         const NAMES: [&[&str]; 5] = [
             &["tier", "acteur"],
@@ -165,15 +216,16 @@ impl Columns {
         line: usize,
         cells: &[String],
         frame: &impl Fn(u64) -> Option<i64>,
-    ) -> Result<CopiedAnnotation, Odd> {
+    ) -> Result<CopiedAnnotation, OddLine> {
         let cell = |at: Option<usize>| {
             let text = at.and_then(|at| cells.get(at)).map(|it| it.trim());
             text.filter(|text| !text.is_empty())
         };
-        let odd = |why: Text, text: &str| Odd {
+        let odd = |why: OddReason, text: &str| OddLine {
             line,
             why,
             text: text.to_owned(),
+            at: None,
         };
         let time = |text: &str| {
             let at = match moment(text, self.millis) {
@@ -181,18 +233,18 @@ impl Columns {
                 Some(Moment::Frame(at)) => frame(at),
                 None => None,
             };
-            at.ok_or_else(|| odd(words::ODD_TIME, text))
+            at.ok_or_else(|| odd(OddReason::Time, text))
         };
         let (Some(start), Some(end)) = (cell(self.start), cell(self.end).or(cell(self.length)))
         else {
-            return Err(odd(words::ODD_ROW, cells.join(" ").trim()));
+            return Err(odd(OddReason::Row, cells.join(" ").trim()));
         };
         let (from, mut to) = (time(start)?, time(end)?);
         if cell(self.end).is_none() {
             to = to.saturating_add(from);
         }
         if to <= from {
-            return Err(odd(words::ODD_ENDS, end));
+            return Err(odd(OddReason::Ends, end));
         }
         let value = self.value.and_then(|at| cells.get(at));
         Ok(CopiedAnnotation {
@@ -256,10 +308,12 @@ fn cells(text: &str) -> Vec<(usize, Vec<String>)> {
 mod tests {
     use super::*;
 
-    fn rows(text: &str) -> (Vec<CopiedAnnotation>, Vec<(usize, Text)>) {
+    fn rows(text: &str) -> (Vec<CopiedAnnotation>, Vec<(usize, OddReason)>) {
         match read(text, |frame| (frame < 100).then_some(frame as i64 * 10_000)) {
-            Clip::Rows(said, odd) => (said, odd.into_iter().map(|it| (it.line, it.why)).collect()),
-            Clip::Values(values) => panic!("{values:?}"),
+            ClipboardText::Rows(said, odd) => {
+                (said, odd.into_iter().map(|it| (it.line, it.why)).collect())
+            }
+            ClipboardText::Values(values) => panic!("{values:?}"),
         }
     }
 
@@ -324,10 +378,10 @@ mod tests {
         let (found, odd) = rows(text);
         assert_eq!(found, [said(7, None, (1_000_000, 2_000_000), "D")]);
         let want = [
-            (2, words::ODD_TIME),
-            (3, words::ODD_ENDS),
-            (5, words::ODD_ROW),
-            (6, words::ODD_TIME),
+            (2, OddReason::Time),
+            (3, OddReason::Ends),
+            (5, OddReason::Row),
+            (6, OddReason::Time),
         ];
         assert_eq!(odd, want);
         assert_eq!(rows("a\tb\nc\td").1.len(), 2);
@@ -341,7 +395,7 @@ mod tests {
             ("", vec![]),
         ] {
             let want = want.into_iter().map(|(line, it)| (line, it.to_owned()));
-            assert_eq!(read(text, |_| None), Clip::Values(want.collect()));
+            assert_eq!(read(text, |_| None), ClipboardText::Values(want.collect()));
         }
     }
 }

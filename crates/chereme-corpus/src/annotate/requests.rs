@@ -1,22 +1,23 @@
-//! Changes of the timeline as requests to the corpus; each list is one operation, undone at once.
+//! Changes that people make on a timeline, as lists of annotation changes; each list is one operation.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_corpus::{
-    AnnotationAction, AnnotationChange, AnnotationColumns, AnnotationName, Contents, Moment,
-    TierContents, TierName, ValueState,
-};
+use chereme_formats::table::annotations::Moment;
 use chereme_motion::Instant;
+use chereme_sign::tier::spans::Item;
 
-use super::dragged::places;
-use super::spans::Item;
+use super::drag_limits::places;
+use super::{AnnotationAction, AnnotationChange, AnnotationName, TierName};
+use crate::contents::{AnnotationColumns, Contents, TierContents};
+use crate::db::columns::ValueState;
 
 fn moment(micros: i64) -> Moment {
     Moment::Time(Instant::from_micros(micros))
 }
 
 /// Returns the change that adds an annotation.
-pub(crate) fn add(tier: i64, (start, end): (i64, i64), value: &str) -> AnnotationChange {
+#[must_use]
+pub fn add(tier: i64, (start, end): (i64, i64), value: &str) -> AnnotationChange {
     let action = AnnotationAction::Add {
         tier: TierName::Number(tier),
         start: Some(moment(start)),
@@ -30,7 +31,8 @@ pub(crate) fn add(tier: i64, (start, end): (i64, i64), value: &str) -> Annotatio
 }
 
 /// Returns the changes that set the times of annotations, in this order.
-pub(crate) fn respan(items: &[Item]) -> Vec<AnnotationChange> {
+#[must_use]
+pub fn respan(items: &[Item]) -> Vec<AnnotationChange> {
     let set = items.iter().map(|item| AnnotationAction::Set {
         annotation: AnnotationName::Number(item.id),
         start: Some(moment(item.start)),
@@ -41,14 +43,16 @@ pub(crate) fn respan(items: &[Item]) -> Vec<AnnotationChange> {
 }
 
 /// Returns the change that cuts an annotation in two.
-pub(crate) fn split(annotation: i64, at: i64) -> AnnotationChange {
+#[must_use]
+pub fn split(annotation: i64, at: i64) -> AnnotationChange {
     let annotation = AnnotationName::Number(annotation);
     let at = moment(at);
     AnnotationAction::Split { annotation, at }.into()
 }
 
 /// Returns the changes that set the value of annotations.
-pub(crate) fn say(annotations: &BTreeSet<i64>, value: &str) -> Vec<AnnotationChange> {
+#[must_use]
+pub fn set_value(annotations: &BTreeSet<i64>, value: &str) -> Vec<AnnotationChange> {
     let set = annotations.iter().map(|id| AnnotationAction::Set {
         annotation: AnnotationName::Number(*id),
         start: None,
@@ -59,7 +63,8 @@ pub(crate) fn say(annotations: &BTreeSet<i64>, value: &str) -> Vec<AnnotationCha
 }
 
 /// Returns the changes that remove annotations; children of removed ones are removed with them.
-pub(crate) fn remove(contents: &Contents, annotations: &BTreeSet<i64>) -> Vec<AnnotationChange> {
+#[must_use]
+pub fn remove(contents: &Contents, annotations: &BTreeSet<i64>) -> Vec<AnnotationChange> {
     let mut changes = Vec::new();
     for tier in &contents.tiers {
         for at in places(tier, annotations) {
@@ -93,7 +98,8 @@ fn goes_with_another(
 }
 
 /// Returns the value of an annotation as one would type it.
-pub(crate) fn typed(columns: &AnnotationColumns, at: usize) -> String {
+#[must_use]
+pub fn typed(columns: &AnnotationColumns, at: usize) -> String {
     match columns.states[at] {
         ValueState::Value => columns.values[at].to_string(),
         ValueState::NotApplicable => "n/a".to_owned(),
@@ -104,7 +110,8 @@ pub(crate) fn typed(columns: &AnnotationColumns, at: usize) -> String {
 
 /// Returns the changes that copy annotations to another tier at the same times; with `and_remove`, also those that
 /// remove the originals.
-pub(crate) fn to_tier(
+#[must_use]
+pub fn to_tier(
     contents: &Contents,
     items: &[Item],
     to: i64,
@@ -128,7 +135,8 @@ pub(crate) fn to_tier(
 /// Returns the changes that merge the annotations of a tier from the first to the last of `chosen`, or a single one
 /// with the next. Different values are joined; `closed` tiers keep the first. Returns `None` if there is no next
 /// annotation.
-pub(crate) fn merge(
+#[must_use]
+pub fn merge(
     tier: &TierContents,
     chosen: &BTreeSet<i64>,
     closed: bool,
@@ -161,14 +169,55 @@ pub(crate) fn merge(
 }
 
 /// Returns whether any of the annotations has children.
-pub(crate) fn has_below(contents: &Contents, annotations: &BTreeSet<i64>) -> bool {
+#[must_use]
+pub fn has_below(contents: &Contents, annotations: &BTreeSet<i64>) -> bool {
     let mut parents = contents.tiers.iter().flat_map(|it| &it.annotations.parents);
     parents.any(|parent| parent.is_some_and(|id| annotations.contains(&id)))
 }
 
+/// Returns the missing annotations below the chosen ones, parents first, as `(tier, span)`.
+#[must_use]
+pub fn missing_below(tiers: &[TierContents], chosen: &BTreeSet<i64>) -> Vec<(i64, (i64, i64))> {
+    let mut under: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+    // Tiers with a span of an annotation, and its id if it exists already.
+    let mut open: Vec<(i64, (i64, i64), Option<i64>)> = Vec::new();
+    for tier in tiers {
+        let columns = &tier.annotations;
+        for (at, parent) in columns.parents.iter().enumerate() {
+            if let Some(parent) = parent {
+                under.entry((tier.row.id, *parent)).or_default().push(at);
+            }
+        }
+        open.extend(places(tier, chosen).map(|at| {
+            let span = (columns.starts[at], columns.ends[at]);
+            (tier.row.id, span, Some(columns.ids[at]))
+        }));
+    }
+    let (mut adds, mut seen, mut at) = (Vec::new(), BTreeSet::new(), 0);
+    while let Some((above, span, id)) = open.get(at).copied() {
+        at += 1;
+        if id.is_some_and(|id| !seen.insert(id)) {
+            continue;
+        }
+        for tier in tiers.iter().filter(|it| it.row.parent_id == Some(above)) {
+            let columns = &tier.annotations;
+            let there = id.and_then(|id| under.get(&(tier.row.id, id)));
+            if there.is_none() {
+                adds.push((tier.row.id, span));
+                open.push((tier.row.id, span, None));
+            }
+            for at in there.into_iter().flatten() {
+                let span = (columns.starts[*at], columns.ends[*at]);
+                open.push((tier.row.id, span, Some(columns.ids[*at])));
+            }
+        }
+    }
+    adds
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::dragged::tests::contents;
+    use super::super::testing::contents;
     use super::*;
 
     fn recording() -> Contents {
@@ -235,5 +284,23 @@ mod tests {
         assert_eq!(copied, [add(2, (310, 410), "v5")]);
         assert_eq!(to_tier(&all, &[item], 2, true).len(), 2);
         assert!(has_below(&all, &BTreeSet::from([2])) && !has_below(&all, &BTreeSet::from([5])));
+    }
+
+    #[test]
+    fn missing_child_annotations_are_added_on_every_level() {
+        let all = contents(&[
+            (1, None, "", &[(1, 0, 100, None), (2, 500, 600, None)]),
+            (2, Some(1), "Included_In", &[(3, 10, 20, Some(1))]),
+            (3, Some(2), "Symbolic_Association", &[]),
+            (4, Some(1), "Time_Subdivision", &[]),
+            (5, None, "", &[]),
+        ]);
+        let below = |ids: &[i64]| missing_below(&all.tiers, &ids.iter().copied().collect());
+        assert_eq!(below(&[1]), [(4, (0, 100)), (3, (10, 20))]);
+        let whole = (500, 600);
+        assert_eq!(below(&[2]), [(2, whole), (4, whole), (3, whole)]);
+        assert_eq!(below(&[3]), [(3, (10, 20))]);
+        // An annotation below another chosen one is created once.
+        assert_eq!(below(&[1, 3]).len(), 2);
     }
 }

@@ -2,17 +2,21 @@
 
 use std::collections::BTreeSet;
 
-use chereme_corpus::TierContents;
 use chereme_motion::{Instant, Rate};
 use serde::{Deserialize, Serialize};
+
+use crate::contents::TierContents;
 
 /// The kinds of times that a drag snaps to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
-pub(crate) struct Snaps {
-    pub(crate) frames: bool,
-    pub(crate) boundaries: bool,
-    pub(crate) minima: bool,
+pub struct Snaps {
+    /// Starts of frames.
+    pub frames: bool,
+    /// Boundaries of annotations.
+    pub boundaries: bool,
+    /// Minima of wrist speed.
+    pub minima: bool,
 }
 
 impl Default for Snaps {
@@ -27,29 +31,43 @@ impl Default for Snaps {
 
 /// The kind of target that a time snapped to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Catch {
+pub enum Catch {
+    /// The boundary of an annotation, or a mark.
     Boundary,
+    /// A minimum of wrist speed.
     Minimum,
+    /// The start of a frame.
     Frame,
 }
 
 /// Frame times of a recording: the rate, and the offset of the first frame on the recording's clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Frames {
-    pub(crate) rate: Rate,
-    pub(crate) offset: i64,
+pub struct Frames {
+    /// The number of frames per second.
+    pub rate: Rate,
+    /// The start of the first frame, in microseconds.
+    pub offset: i64,
 }
 
 impl Frames {
+    /// Returns the start of a frame, in microseconds.
+    #[must_use]
+    pub fn start(&self, frame: u64) -> i64 {
+        let frame = usize::try_from(frame).unwrap_or(usize::MAX);
+        self.rate.instant(frame).micros() + self.offset
+    }
+
     /// Returns the start of the frame nearest to a time.
-    pub(crate) fn nearest(&self, micros: i64) -> i64 {
+    #[must_use]
+    pub fn nearest(&self, micros: i64) -> i64 {
         let own = (micros - self.offset).max(0);
         let frame = self.rate.frame_at(Instant::from_micros(own));
         self.rate.instant(frame).micros() + self.offset
     }
 
     /// Returns the start of the frame `by` frames after the one nearest to a time.
-    pub(crate) fn stepped(&self, micros: i64, by: i64) -> i64 {
+    #[must_use]
+    pub fn stepped(&self, micros: i64, by: i64) -> i64 {
         let own = (self.nearest(micros) - self.offset).max(0);
         let frame = self.rate.frame_at(Instant::from_micros(own)) as i64 + by;
         let frame = usize::try_from(frame).unwrap_or_default();
@@ -58,23 +76,28 @@ impl Frames {
 }
 
 /// The snapping targets of a drag.
-pub(crate) struct Guides<'a> {
-    pub(crate) snaps: Snaps,
-    pub(crate) tiers: &'a [TierContents],
+#[derive(Debug)]
+pub struct Guides<'a> {
+    /// The kinds of times to snap to.
+    pub snaps: Snaps,
+    /// The tiers whose boundaries are targets.
+    pub tiers: &'a [TierContents],
     /// The dragged annotations, whose boundaries are no targets.
-    pub(crate) except: &'a BTreeSet<i64>,
+    pub except: &'a BTreeSet<i64>,
     /// Further times that are treated as boundaries, such as the playhead.
-    pub(crate) marks: &'a [i64],
+    pub marks: &'a [i64],
     /// Minima of wrist speed, in order, in microseconds.
-    pub(crate) minima: &'a [i64],
-    pub(crate) frames: Option<Frames>,
+    pub minima: &'a [i64],
+    /// The frames of the recording's movement.
+    pub frames: Option<Frames>,
     /// The distance within which a time snaps to a boundary or minimum, in microseconds.
-    pub(crate) reach: i64,
+    pub reach: i64,
 }
 
 impl Guides<'_> {
     /// Returns the time to snap to and the reason; the time itself if nothing is near.
-    pub(crate) fn settle(&self, micros: i64) -> (i64, Option<Catch>) {
+    #[must_use]
+    pub fn settle(&self, micros: i64) -> (i64, Option<Catch>) {
         let boundary = self
             .snaps
             .boundaries
@@ -130,7 +153,7 @@ fn nearest(sorted: &[i64], micros: i64) -> Option<i64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_corpus::AnnotationColumns;
+    use crate::contents::AnnotationColumns;
 
     fn tier(spans: &[(i64, i64)]) -> TierContents {
         let count = spans.len();
