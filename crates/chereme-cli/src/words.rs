@@ -73,6 +73,7 @@ fn french(command: Command) -> Command {
     let mut command = command
         .help_template(TEMPLATE)
         .subcommand_help_heading("Commandes ")
+        .subcommand_value_name("COMMANDE")
         .disable_help_flag(true)
         .disable_version_flag(true)
         .disable_help_subcommand(true)
@@ -111,19 +112,92 @@ fn flag(name: &'static str, short: char, help: &'static str, action: ArgAction) 
         .long(name)
         .action(action)
         .help(help)
+        .help_heading("Options ")
 }
 
+/// Returns an argument with its help in French, with its possible values and its default, which clap would introduce in
+/// English.
 fn argument(argument: Arg) -> Arg {
-    let help = argument.get_help().map(translated);
-    let long = argument.get_long_help().map(translated);
-    let mut argument = argument;
-    if let Some(help) = help {
+    let heading = match argument.is_positional() {
+        true => "Arguments ",
+        false => "Options ",
+    };
+    let values = values(&argument);
+    let explained = values.iter().any(|(_, help)| help.is_some());
+    let names: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
+    let mut short = argument.get_help().map(translated);
+    let mut long = argument.get_long_help().map(translated);
+    if explained {
+        let text = long.take().or_else(|| short.clone()).unwrap_or_default();
+        long = Some(format!(
+            "{text}\n\nValeurs possibles :\n{}",
+            listed(&values)
+        ));
+    }
+    let defaults =
+        match argument.get_action().takes_values() && !argument.is_hide_default_value_set() {
+            true => argument.get_default_values(),
+            false => &[],
+        };
+    let defaults: Vec<_> = defaults.iter().map(|it| it.to_string_lossy()).collect();
+    let mut notes = Vec::new();
+    if !defaults.is_empty() {
+        notes.push(format!("[défaut : {}]", defaults.join(", ")));
+    }
+    let of_short = match names.is_empty() {
+        true => None,
+        false => Some(format!("[valeurs possibles : {}]", names.join(", "))),
+    };
+    let of_long = of_short.clone().filter(|_| !explained);
+    let noted = |text: Option<String>, own: Option<String>, blank: &str| {
+        let all: Vec<String> = notes.iter().cloned().chain(own).collect();
+        match (text, all.is_empty()) {
+            (text, true) => text,
+            (Some(text), false) => Some(format!("{text}{blank}{}", all.join(" "))),
+            (None, false) => Some(all.join(" ")),
+        }
+    };
+    short = noted(short, of_short, " ");
+    if long.is_some() {
+        long = noted(long, of_long, "\n\n");
+    }
+    let mut argument = argument
+        .hide_possible_values(true)
+        .hide_default_value(true)
+        .help_heading(heading);
+    if let Some(help) = short {
         argument = argument.help(help);
     }
     if let Some(long) = long {
         argument = argument.long_help(long);
     }
     argument
+}
+
+/// Returns the possible values of an argument that its help shows, with their French help.
+fn values(argument: &Arg) -> Vec<(String, Option<String>)> {
+    if argument.is_hide_possible_values_set() || !argument.get_action().takes_values() {
+        return Vec::new();
+    }
+    let all = argument.get_possible_values().into_iter();
+    let shown = all.filter(|value| !value.is_hide_set());
+    shown
+        .map(|value| {
+            (
+                value.get_name().to_owned(),
+                value.get_help().map(translated),
+            )
+        })
+        .collect()
+}
+
+/// Returns values as lines, with their help.
+fn listed(values: &[(String, Option<String>)]) -> String {
+    let line = |(name, help): &(String, Option<String>)| match help {
+        Some(help) => format!("- {name} : {help}"),
+        None => format!("- {name}"),
+    };
+    values.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
 /// Returns a text of the help in French, paragraph by paragraph, and guides line by line; one without French words stays
@@ -180,6 +254,9 @@ mod tests {
         take(command.get_about());
         for argument in command.get_arguments() {
             take(argument.get_help());
+            for value in argument.get_possible_values() {
+                take(value.get_help());
+            }
         }
         for command in command.get_subcommands() {
             texts(command, into);
@@ -221,6 +298,27 @@ mod tests {
             "{help}"
         );
         assert!(help.contains("Annuler la dernière modification"), "{help}");
+        let mut annotate = command
+            .find_subcommand("annotate")
+            .expect("annotate")
+            .clone();
+        for help in [annotate.render_help(), annotate.render_long_help()] {
+            let help = help.to_string();
+            let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(
+                help.contains("bulldozer") && help.contains("[défaut : normal]"),
+                "{help}"
+            );
+            for english in [
+                "default:",
+                "ossible values",
+                "Options:",
+                "Arguments:",
+                "<COMMAND>",
+            ] {
+                assert!(!help.contains(english), "{english}: {help}");
+            }
+        }
         let mut undo = command.find_subcommand("undo").expect("undo").clone();
         let long = undo.render_long_help().to_string();
         let flat: Vec<&str> = long.split_whitespace().collect();
