@@ -1,6 +1,7 @@
 //! The help of the command line in French, found by its English form.
 
 mod help;
+pub(crate) mod kinds;
 mod titles;
 
 use chereme_corpus::words::{Language, guide, message};
@@ -161,10 +162,10 @@ fn argument(argument: Arg) -> Arg {
     if long.is_some() {
         long = noted(long, of_long, "\n\n");
     }
-    let mut argument = argument
-        .hide_possible_values(true)
-        .hide_default_value(true)
-        .help_heading(heading);
+    let mut argument = argument.help_heading(heading);
+    if argument.get_action().takes_values() {
+        argument = argument.hide_possible_values(true).hide_default_value(true);
+    }
     if let Some(help) = short {
         argument = argument.help(help);
     }

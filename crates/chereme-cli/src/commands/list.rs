@@ -8,6 +8,7 @@ use chereme_corpus::{AttributeInfo, Info, ListFilter, ListKind, cell_text};
 
 use crate::args::Cli;
 use crate::output::Output;
+use crate::words::kinds;
 
 /// List rows: recordings, tracks, signs, tokens, tiers, annotations, inventories, values, signers, searches, operations
 #[derive(Debug, clap::Args)]
@@ -104,13 +105,13 @@ pub(super) fn info(cli: &Cli, args: &InfoArgs, output: &mut Output) -> Result<()
 }
 
 fn print(info: &Info, output: &mut Output) -> Result<()> {
+    let language = output.language();
     let counts = |map: &std::collections::BTreeMap<String, u64>| {
         map.iter()
-            .map(|(what, count)| format!("{count} {what}"))
+            .map(|(what, count)| kinds::counted(*count, what, language))
             .collect::<Vec<_>>()
             .join(", ")
     };
-    let language = output.language();
     let counted = |(what, count): (&&str, &u64)| counted_in(*count, what, language);
     output.line(format!(
         "{}: {:.1} MB, schema version {}",

@@ -309,6 +309,11 @@ pub(super) const LINES: &[(&str, &str)] = &[
         "signer {name}: handedness not known, {n}",
         "signeur {name} : latéralité inconnue, {n}",
     ),
+    (
+        "signer {name}: right, {n}",
+        "signeur {name} : droitier, {n}",
+    ),
+    ("signer {name}: left, {n}", "signeur {name} : gaucher, {n}"),
     ("signer {name}: {hand}, {n}", "signeur {name} : {hand}, {n}"),
     ("inventories: {list}", "inventaires : {list}"),
     (

@@ -502,14 +502,38 @@ fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
 }
 
 fn in_french(text: &str) -> Option<String> {
-    let part = |part: &str| in_french(part).unwrap_or_else(|| part.to_owned());
+    let part = |blank: &str, part: &str| {
+        let side = side_in_french(blank, part).map(str::to_owned);
+        side.or_else(|| in_french(part))
+            .unwrap_or_else(|| part.to_owned())
+    };
     let said = all().find_map(|(english, french)| carried(text, english, french, &part));
     said.or_else(|| counted_in_french(text))
 }
 
+/// Returns a side in French: feminine for `{side}`, as hands are, masculine for `{limb}`, as arms and wrists are, and
+/// as a direction for `{sideways}`.
+fn side_in_french(blank: &str, side: &str) -> Option<&'static str> {
+    Some(match (blank, side) {
+        ("side", "right") => "droite",
+        ("limb", "right") => "droit",
+        ("side" | "limb", "left") => "gauche",
+        ("sideways", "right") => "à droite",
+        ("sideways", "left") => "à gauche",
+        _ => return None,
+    })
+}
+
 /// Returns `other` filled with the variable parts of `text`, each converted by `said`; nothing if `text` does not have
 /// the form `form`.
-fn carried(text: &str, form: &str, other: &str, said: &dyn Fn(&str) -> String) -> Option<String> {
+///
+/// `said` also gets the name of the blank.
+fn carried(
+    text: &str,
+    form: &str,
+    other: &str,
+    said: &dyn Fn(&str, &str) -> String,
+) -> Option<String> {
     let mut values = Vec::new();
     let mut parts = form.split('{');
     let mut rest = text.strip_prefix(parts.next()?)?;
@@ -524,7 +548,7 @@ fn carried(text: &str, form: &str, other: &str, said: &dyn Fn(&str) -> String) -
     }
     rest.is_empty().then(|| {
         let filled = |filled: String, (name, value): &(&str, &str)| {
-            filled.replace(&format!("{{{name}}}"), &said(value))
+            filled.replace(&format!("{{{name}}}"), &said(name, value))
         };
         values.iter().fold(other.to_owned(), filled)
     })
@@ -547,7 +571,7 @@ mod tests {
         };
         for (english, french) in all().copied() {
             assert_eq!(blanks(english), blanks(french), "{english}");
-            let same = carried(english, english, english, &str::to_owned);
+            let same = carried(english, english, english, &|_, it| it.to_owned());
             assert_eq!(same.as_deref(), Some(english), "it is of its own form");
         }
     }
@@ -555,8 +579,8 @@ mod tests {
     #[test]
     fn no_form_hides_a_later_one() {
         for (english, _) in all() {
-            let mut fitting =
-                all().filter(|(form, _)| carried(english, form, form, &str::to_owned).is_some());
+            let mut fitting = all()
+                .filter(|(form, _)| carried(english, form, form, &|_, it| it.to_owned()).is_some());
             assert_eq!(fitting.next().map(|first| first.0), Some(*english));
         }
     }

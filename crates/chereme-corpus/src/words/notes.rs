@@ -13,6 +13,65 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{sign} (son {value} modifié)",
     ),
     ("(no value)", "(sans valeur)"),
+    (
+        "{address} ({gloss}), {n} frames at {rate} fps",
+        "{address} ({gloss}), {n} images à {rate} par seconde",
+    ),
+    ("right fingers  {from}", "doigts droits  {from}"),
+    ("left fingers   {from}", "doigts gauches {from}"),
+    ("right arm      {from}", "bras droit     {from}"),
+    ("left arm       {from}", "bras gauche    {from}"),
+    ("head           {from}", "tête           {from}"),
+    ("trunk          {from}", "tronc          {from}"),
+    ("legs           {from}", "jambes         {from}"),
+    (
+        "right {from}–{to}: position {mm} mm, velocity {v} m/s, acceleration {a} m/s²   ({what})",
+        "droite {from}–{to} : position {mm} mm, vitesse {v} m/s, accélération {a} m/s²   ({what})",
+    ),
+    (
+        "left  {from}–{to}: position {mm} mm, velocity {v} m/s, acceleration {a} m/s²   ({what})",
+        "gauche {from}–{to} : position {mm} mm, vitesse {v} m/s, accélération {a} m/s²   ({what})",
+    ),
+    (
+        "repetition {one} to {next}",
+        "de la répétition {one} à {next}",
+    ),
+    (
+        "letters are held for {time} s, the median of {n} in the corpus",
+        "les lettres sont tenues {time} s, la médiane de {n} dans le corpus",
+    ),
+    (
+        "letters are held for {time} s: the corpus shows too few to learn from",
+        "les lettres sont tenues {time} s : le corpus en montre trop peu pour apprendre",
+    ),
+    (
+        "from letter to letter it takes {time} s, the median of {n} in the corpus",
+        "d’une lettre à l’autre il faut {time} s, la médiane de {n} dans le corpus",
+    ),
+    (
+        "from letter to letter it takes {time} s: the corpus shows too few to learn from",
+        "d’une lettre à l’autre il faut {time} s : le corpus en montre trop peu pour apprendre",
+    ),
+    (
+        "{letter} from {sign} (same signer)",
+        "{letter} de {sign} (même signeur)",
+    ),
+    (
+        "{x} cm {sideways}, {y} cm up, {z} cm forward",
+        "{x} cm {sideways}, {y} cm vers le haut, {z} cm en avant",
+    ),
+    (
+        "{x} cm {sideways}, {y} cm up, {z} cm back",
+        "{x} cm {sideways}, {y} cm vers le haut, {z} cm en arrière",
+    ),
+    (
+        "{x} cm {sideways}, {y} cm down, {z} cm forward",
+        "{x} cm {sideways}, {y} cm vers le bas, {z} cm en avant",
+    ),
+    (
+        "{x} cm {sideways}, {y} cm down, {z} cm back",
+        "{x} cm {sideways}, {y} cm vers le bas, {z} cm en arrière",
+    ),
     ("the movement ends at {time}", "le mouvement finit à {time}"),
     ("left out {what}", "laissé de côté : {what}"),
     (
@@ -28,8 +87,8 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "la main {side} est tournée de {angle}",
     ),
     (
-        "the {side} wrist bends by {angle}, more than wrists can",
-        "le poignet {side} se plie de {angle}, plus qu’un poignet ne peut",
+        "the {limb} wrist bends by {angle}, more than wrists can",
+        "le poignet {limb} se plie de {angle}, plus qu’un poignet ne peut",
     ),
     (
         "the place is from {origin}",
@@ -109,8 +168,8 @@ pub(super) const NOTES: &[(&str, &str)] = &[
     ("right-palm", "paume droite"),
     ("left-palm", "paume gauche"),
     (
-        "the {side} index finger's line passes {mm} mm beside the target",
-        "la ligne de l’index {side} passe à {mm} mm de la cible",
+        "the {limb} index finger's line passes {mm} mm beside the target",
+        "la ligne de l’index {limb} passe à {mm} mm de la cible",
     ),
     (
         "{n} frames played backwards",

@@ -1,0 +1,54 @@
+//! French words for the kinds of rows that an overview counts.
+
+use chereme_corpus::words::Language;
+
+/// Kinds as commands and queries spell them, and in French: one, and several.
+const KINDS: [(&str, &str, &str); 14] = [
+    ("captured", "capté", "captés"),
+    ("annotated", "annoté", "annotés"),
+    ("generated", "produit", "produits"),
+    ("made", "composé", "composés"),
+    ("lexicon", "de lexique", "de lexique"),
+    ("gloss", "de gloses", "de gloses"),
+    ("translation", "de traduction", "de traduction"),
+    ("comment", "de remarques", "de remarques"),
+    ("free", "libre", "libres"),
+    ("configuration", "de configuration", "de configuration"),
+    ("placement", "d’emplacement", "d’emplacement"),
+    ("movement", "de mouvement", "de mouvement"),
+    ("orientation", "d’orientation", "d’orientation"),
+    ("nonmanual", "non manuel", "non manuels"),
+];
+
+/// Returns a number of rows of a kind in a language; in French the word of queries follows in brackets if it differs.
+pub(crate) fn counted(count: u64, kind: &str, language: Language) -> String {
+    let known = KINDS.iter().find(|(english, ..)| *english == kind);
+    match (language, known) {
+        (Language::French, Some((english, one, several))) => {
+            let word = if count < 2 { one } else { several };
+            match word.ends_with(english) {
+                true => format!("{count} {word}"),
+                false => format!("{count} {word} ({english})"),
+            }
+        }
+        _ => format!("{count} {kind}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kinds_have_french_words_and_keep_those_of_queries() {
+        for (count, kind, french) in [
+            (1, "made", "1 composé (made)"),
+            (2, "free", "2 libres (free)"),
+            (2, "orientation", "2 d’orientation"),
+            (3, "skeleton", "3 skeleton"),
+        ] {
+            assert_eq!(counted(count, kind, Language::French), french);
+        }
+        assert_eq!(counted(2, "made", Language::English), "2 made");
+    }
+}
