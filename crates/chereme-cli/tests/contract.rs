@@ -293,7 +293,7 @@ fn copied_annotations_are_pasted_once() {
     let json: serde_json::Value = serde_json::from_slice(&done.stdout).expect("JSON");
     assert_eq!(json["added"], 2, "{}", text(&done.stderr));
     let again = desk.pipe(&line, copied.as_bytes());
-    let json: serde_json::Value = serde_json::from_slice(&again.stderr).expect("JSON");
+    let json: serde_json::Value = serde_json::from_slice(&again.stdout).expect("JSON");
     let message = json["error"]["message"].as_str().unwrap_or_default();
     assert!(
         message.contains("there is an annotation already at 1.600s"),

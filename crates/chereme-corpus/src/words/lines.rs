@@ -631,4 +631,5 @@ pub(super) const LINES: &[(&str, &str)] = &[
         "{tier} de {recording} à {time} s : {from} -> {to}",
     ),
     ("{names} and {n} more", "{names} et {n} autres"),
+    ("{file}, line {n}: {what}", "{file}, ligne {n} : {what}"),
 ];

@@ -6,6 +6,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{value} becomes {other} over {span}, from {origin}",
         "{value} devient {other} sur {span}, d’après {origin}",
     ),
+    (
+        "{letter} from {sign} (same signer)",
+        "{letter} de {sign} (même signeur)",
+    ),
     ("{sign} (same signer)", "{sign} (même signeur)"),
     ("{sign} (another signer)", "{sign} (autre signeur)"),
     (
@@ -51,10 +55,6 @@ pub(super) const NOTES: &[(&str, &str)] = &[
     (
         "from letter to letter it takes {time} s: the corpus shows too few to learn from",
         "d’une lettre à l’autre il faut {time} s : le corpus en montre trop peu pour apprendre",
-    ),
-    (
-        "{letter} from {sign} (same signer)",
-        "{letter} de {sign} (même signeur)",
     ),
     (
         "{x} cm {sideways}, {y} cm up, {z} cm forward",
