@@ -10,7 +10,7 @@ use super::{DtwError, Local, Options, Policy, Series, check, distance};
 
 /// Frames of a candidate whose bounds are computed together.
 const RUN: usize = 16;
-/// One run out of this many frames is sampled for a first bound.
+/// Distance in frames between the runs whose bounds are computed first, as a sample.
 const SAMPLED: usize = 4 * RUN;
 
 /// A candidate with its distance.
@@ -182,7 +182,7 @@ fn total(bounds: &[f64]) -> f64 {
     sums.iter().chain(rest).sum()
 }
 
-/// Turns bounds of single frames into bounds of all later frames.
+/// Replaces the bound of each frame by the sum of those of all later frames.
 fn remaining(bounds: &mut [f64]) {
     let mut sum = 0.0;
     for bound in bounds.iter_mut().rev() {
@@ -278,8 +278,8 @@ impl pulp::NullaryFnOnce for Bounds<'_> {
     }
 }
 
-/// Returns the first value of each range under the order `before`, by a queue of the values that
-/// no later one precedes (Lemire 2009, doi 10.1016/j.patcog.2008.11.030).
+/// Returns the value of each range that comes first in the order `before`. A queue keeps the values before which no
+/// later one comes (Lemire 2009, doi 10.1016/j.patcog.2008.11.030).
 fn sliding(column: &[f64], ranges: &[Range<usize>], before: fn(f64, f64) -> bool) -> Vec<f64> {
     let mut queue: VecDeque<usize> = VecDeque::new();
     let mut next = 0;

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::{Local, Series};
 
-/// Bounds are lowered by this share, far more than rounding can raise them.
+/// Factor on lower bounds: it lowers them by far more than rounding can raise them.
 pub(super) const SLACK: f64 = 1.0 - 1e-9;
 
 /// Rows that are processed together.

@@ -117,8 +117,8 @@ pub(super) fn cut(
         .collect()
 }
 
-/// Returns the paths that are long enough to be meant, given how loosely the hands move, and shorter ones
-/// that alternate back and forth.
+/// Returns the paths that are long enough to be intended, and shorter ones that alternate back and forth; the more
+/// loosely the hands move, the longer an intended path must be.
 pub(super) fn sure(
     scene: &Scene<'_>,
     mover: &Mover<'_>,

@@ -46,9 +46,9 @@ impl Wrist {
         })
     }
 
-    /// Returns the orientations at which a hand stops that cannot reach the `asked` one: at the limits of
-    /// wrist and forearm, with both bends reduced in proportion or to the nearest point of the limit, and
-    /// turned to either end. Empty if the hand can reach it.
+    /// Returns the orientations that a hand takes if it cannot reach `asked`: the wrist bends to its limit, in the same
+    /// proportion or at the nearest point, and the forearm turns to either end of its range. Empty if the hand can
+    /// reach `asked`.
     pub(super) fn stopped(&self, asked: Axes) -> Vec<Axes> {
         let asked = self.angles(asked.map(|axis| axis * self.mirror));
         let [less, more] = self.limits.turn;

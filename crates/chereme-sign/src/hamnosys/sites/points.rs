@@ -1,5 +1,5 @@
-//! Points of hands: the points that sites of a hand name, their positions about its bones, and which of
-//! them comes first to a place.
+//! Points of hands: those that notation names, their positions relative to the bones, and the one that reaches a place
+//! first.
 
 use chereme_motion::{Finger, Part, Side as Half};
 
