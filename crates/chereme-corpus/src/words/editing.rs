@@ -28,10 +28,6 @@ pub(super) const EDITING: &[(&str, &str)] = &[
         "elle finit à {text}, ce qui n’est pas après son début",
     ),
     (
-        "the recording has no tier {text}",
-        "l’enregistrement n’a pas d’acteur {text}",
-    ),
-    (
         "{text} is no value of its tier",
         "{text} n’est pas une valeur de son acteur",
     ),
@@ -410,5 +406,9 @@ pub(super) const EDITING: &[(&str, &str)] = &[
     (
         "write recording:3, recording:NAME or sign:GLOSS",
         "écrivez recording:3, recording:NOM ou sign:GLOSE",
+    ),
+    (
+        "the recording has no tier {text}",
+        "l’enregistrement n’a pas d’acteur {text}",
     ),
 ];

@@ -37,10 +37,6 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "gauche {from}–{to} : position {mm} mm, vitesse {v} m/s, accélération {a} m/s²   ({what})",
     ),
     (
-        "repetition {one} to {next}",
-        "de la répétition {one} à {next}",
-    ),
-    (
         "letters are held for {time} s, the median of {n} in the corpus",
         "les lettres sont tenues {time} s, la médiane de {n} dans le corpus",
     ),
@@ -206,4 +202,8 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "le mouvement du second signeur est mis sur le corps du premier",
     ),
     ("{from} s became {to} s", "{from} s sont devenus {to} s"),
+    (
+        "repetition {one} to {next}",
+        "de la répétition {one} à {next}",
+    ),
 ];
