@@ -511,15 +511,12 @@ fn in_french(text: &str) -> Option<String> {
     said.or_else(|| counted_in_french(text))
 }
 
-/// Returns a side in French: feminine for `{side}`, as hands are, masculine for `{limb}`, as arms and wrists are, and
-/// as a direction for `{sideways}`.
+/// Returns a side in French: feminine for `{side}`, as hands are, and masculine for `{limb}`, as arms and wrists are.
 fn side_in_french(blank: &str, side: &str) -> Option<&'static str> {
     Some(match (blank, side) {
         ("side", "right") => "droite",
         ("limb", "right") => "droit",
         ("side" | "limb", "left") => "gauche",
-        ("sideways", "right") => "à droite",
-        ("sideways", "left") => "à gauche",
         _ => return None,
     })
 }

@@ -17,10 +17,6 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "{sign} (son {value} modifié)",
     ),
     ("(no value)", "(sans valeur)"),
-    (
-        "{address} ({gloss}), {n} frames at {rate} fps",
-        "{address} ({gloss}), {n} images à {rate} par seconde",
-    ),
     ("right fingers  {from}", "doigts droits  {from}"),
     ("left fingers   {from}", "doigts gauches {from}"),
     ("right arm      {from}", "bras droit     {from}"),
@@ -51,22 +47,6 @@ pub(super) const NOTES: &[(&str, &str)] = &[
     (
         "from letter to letter it takes {time} s: the corpus shows too few to learn from",
         "d’une lettre à l’autre il faut {time} s : le corpus en montre trop peu pour apprendre",
-    ),
-    (
-        "{x} cm {sideways}, {y} cm up, {z} cm forward",
-        "{x} cm {sideways}, {y} cm vers le haut, {z} cm en avant",
-    ),
-    (
-        "{x} cm {sideways}, {y} cm up, {z} cm back",
-        "{x} cm {sideways}, {y} cm vers le haut, {z} cm en arrière",
-    ),
-    (
-        "{x} cm {sideways}, {y} cm down, {z} cm forward",
-        "{x} cm {sideways}, {y} cm vers le bas, {z} cm en avant",
-    ),
-    (
-        "{x} cm {sideways}, {y} cm down, {z} cm back",
-        "{x} cm {sideways}, {y} cm vers le bas, {z} cm en arrière",
     ),
     ("the movement ends at {time}", "le mouvement finit à {time}"),
     ("left out {what}", "laissé de côté : {what}"),
