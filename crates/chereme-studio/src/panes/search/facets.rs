@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use chereme_corpus::StoredInventory;
 use chereme_sign::query::{facet_condition, narrow, wants, without};
 use chereme_sign::{Component, Field};
 use eframe::egui::text::{LayoutJob, TextWrapping};
@@ -28,16 +29,39 @@ const PARTS: [(&str, Text); 6] = [
     ("final", words::FINAL),
 ];
 
-/// Returns whether a query has a facet's value as a condition, and the query after a click on it: narrowed by the value
-/// as a whole, or without that condition. Returns `None` for a field that queries cannot name.
-fn clicked(query: &str, field: &str, value: &str) -> Option<(bool, String)> {
+/// The facets' values that a query has as conditions. Each is determined once, as that takes several times as long as
+/// drawing the value.
+#[derive(Debug, Default)]
+pub(super) struct Conditions {
+    query: String,
+    known: BTreeMap<String, BTreeMap<String, bool>>,
+}
+
+impl Conditions {
+    /// Returns whether `query` has a facet's value as a condition.
+    fn has(&mut self, query: &str, field: &str, value: &str) -> bool {
+        if self.query != query {
+            query.clone_into(&mut self.query);
+            self.known.clear();
+        }
+        if let Some(on) = self.known.get(field).and_then(|it| it.get(value)) {
+            return *on;
+        }
+        let on = facet_condition(field, value).is_some_and(|it| wants(query, &it));
+        let of_field = self.known.entry(field.to_owned()).or_default();
+        of_field.insert(value.to_owned(), on);
+        on
+    }
+}
+
+/// Returns the query after a click on a facet's value: narrowed by the value as a whole, or without that condition.
+/// Returns `None` for a field that queries cannot name.
+fn clicked(query: &str, field: &str, value: &str) -> Option<String> {
     let condition = facet_condition(field, value)?;
-    let on = wants(query, &condition);
-    let turned = match on {
+    Some(match wants(query, &condition) {
         true => without(query, &condition),
         false => narrow(query, &condition),
-    };
-    Some((on, turned))
+    })
 }
 
 /// Draws how often each value occurs; a click returns the query with a condition for that value, or without it if the
@@ -46,7 +70,7 @@ pub(super) fn show(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     facets: &BTreeMap<String, Vec<(String, usize)>>,
-    query: &str,
+    (query, conditions): (&str, &mut Conditions),
     height: f32,
     out: &mut Outbox,
 ) -> Option<String> {
@@ -61,19 +85,21 @@ pub(super) fn show(
                 let name = facet_name(field, seen);
                 ui.label(RichText::new(name).small().weak());
                 let most = values.iter().map(|(_, count)| *count).max().unwrap_or(1);
+                let stored = inventory(field, seen);
                 for (value, count) in values {
                     let share = *count as f32 / most as f32;
-                    let turned = clicked(query, field, value);
-                    let on = turned.as_ref().is_some_and(|(on, _)| *on);
-                    let (response, of) = facet(ui, seen, (field, value), (share, *count), on);
-                    let thing = of.map(|of| Thing::Value(of, value.clone()));
+                    let on = conditions.has(query, field, value);
+                    let of = (field.as_str(), stored);
+                    let response = facet(ui, seen, of, value, (share, *count), on);
+                    let known = stored.filter(|it| it.inventory.get(value).is_some());
+                    let thing = known.map(|it| Thing::Value(it.id, value.clone()));
                     let asks = ui.input(|input| input.modifiers.command);
                     match thing {
                         Some(thing) if response.clicked() && asks => {
                             out.send(Command::Inspect(thing));
                         }
                         _ if response.clicked() => {
-                            chosen = turned.map(|(_, query)| query);
+                            chosen = clicked(query, field, value);
                         }
                         Some(thing) => menu(seen, &response, thing, out),
                         None => {}
@@ -143,23 +169,25 @@ fn menu(seen: &PaneInput<'_>, response: &Response, thing: Thing, out: &mut Outbo
     });
 }
 
-/// Draws one value with its picture, its count, and a bar of a length proportional to the count; returns the row id of
-/// its inventory too, if it has one.
+/// Returns the inventory with the values of a field.
+fn inventory<'a>(field: &str, seen: &PaneInput<'a>) -> Option<&'a StoredInventory> {
+    let field = field.parse::<Field>().ok()?;
+    let mut all = seen.snapshot.overview.inventories.iter();
+    all.find(|it| {
+        let inventory = &it.inventory;
+        inventory.component == field.component && inventory.feature == field.feature
+    })
+}
+
+/// Draws one value with its picture, its count, and a bar of a length proportional to the count.
 fn facet(
     ui: &mut Ui,
     seen: &PaneInput<'_>,
-    (field, value): (&str, &str),
+    (field, stored): (&str, Option<&StoredInventory>),
+    value: &str,
     (share, count): (f32, usize),
     on: bool,
-) -> (Response, Option<i64>) {
-    let parsed = field.parse::<Field>().ok();
-    let stored = parsed.as_ref().and_then(|field| {
-        let mut all = seen.snapshot.overview.inventories.iter();
-        all.find(|it| {
-            let inventory = &it.inventory;
-            inventory.component == field.component && inventory.feature == field.feature
-        })
-    });
+) -> Response {
     let inventory = stored.map(|it| &it.inventory);
     let size = vec2(ui.available_width() - 4.0, 26.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -213,8 +241,7 @@ fn facet(
         words::FACET_TIP
     };
     let tip = fill(seen.say(tip), &[("value", &value)]);
-    let known = stored.filter(|it| it.inventory.get(value).is_some());
-    (response.on_hover_text(tip), known.map(|it| it.id))
+    response.on_hover_text(tip)
 }
 
 #[cfg(test)]
@@ -224,15 +251,19 @@ mod tests {
     #[test]
     fn a_facet_narrows_the_whole_query_and_is_switched_off_again() {
         let query = "movement=arc or movement=circle";
-        let (on, narrowed) = clicked(query, "dominant.configuration", "5_folded").expect("a facet");
-        assert!(!on);
+        let (field, value) = ("dominant.configuration", "5_folded");
+        let mut conditions = Conditions::default();
+        assert!(!conditions.has(query, field, value));
+        let narrowed = clicked(query, field, value).expect("a facet");
         assert_eq!(
             narrowed,
             "(movement=arc or movement=circle) dominant.configuration==5_folded"
         );
-        let (on, again) =
-            clicked(&narrowed, "dominant.configuration", "5_folded").expect("a facet");
-        assert!(on);
+        // The answer for another query is not remembered.
+        assert!(conditions.has(&narrowed, field, value));
+        assert!(conditions.has(&narrowed, field, value));
+        assert!(!conditions.has(query, field, value));
+        let again = clicked(&narrowed, field, value).expect("a facet");
         assert_eq!(again, query);
     }
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use chereme_corpus::{Answer, Around, Finding, Hit, Order};
 use chereme_motion::{Instant, Span};
@@ -50,7 +51,7 @@ pub(crate) struct Found {
     /// The query in its canonical form.
     pub(crate) query: String,
     pub(crate) total: usize,
-    pub(crate) facets: BTreeMap<String, Vec<(String, usize)>>,
+    pub(crate) facets: Arc<BTreeMap<String, Vec<(String, usize)>>>,
     pub(crate) notes: Vec<String>,
     pub(crate) findings: Vec<Finding>,
     pages: BTreeMap<usize, Vec<Hit>>,
@@ -64,7 +65,7 @@ impl Found {
         Self {
             query: answer.query.clone(),
             total: answer.total,
-            facets: answer.facets.clone(),
+            facets: Arc::new(answer.facets.clone()),
             notes: answer.notes.clone(),
             findings: answer.findings.clone(),
             pages: BTreeMap::from([(0, answer.hits.clone())]),

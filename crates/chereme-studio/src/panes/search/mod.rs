@@ -80,6 +80,7 @@ pub(crate) struct Search {
     close: bool,
     /// Whether facets are shown; if `None`, that depends on the width of the pane.
     counted: Option<bool>,
+    conditions: facets::Conditions,
     /// The height of the query in the last frame, with everything between it and the results.
     head: f32,
     /// Whether that left too little room for the results.
@@ -131,6 +132,7 @@ impl Default for Search {
             symbols: String::new(),
             playing: true,
             counted: None,
+            conditions: facets::Conditions::default(),
             head: 0.0,
             low: false,
             field: Field::default(),

@@ -230,12 +230,14 @@ impl Search {
                     ui.set_width(room.x - side - 10.0);
                     ui.vertical(|ui| results::show(self, ui, seen, out));
                 });
-                ui.vertical(|ui| wanted = facets::show(ui, seen, &facets, &query, room.y, out));
+                let of = (query.as_str(), &mut self.conditions);
+                ui.vertical(|ui| wanted = facets::show(ui, seen, &facets, of, room.y, out));
             });
         } else {
             let high = (ui.available_height() * 0.35).min(150.0);
             ui.allocate_ui(vec2(ui.available_width(), high), |ui| {
-                wanted = facets::show(ui, seen, &facets, &query, high, out);
+                let of = (query.as_str(), &mut self.conditions);
+                wanted = facets::show(ui, seen, &facets, of, high, out);
             });
             results::show(self, ui, seen, out);
         }
