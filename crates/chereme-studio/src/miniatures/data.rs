@@ -68,10 +68,27 @@ const LARGEST: f32 = 288.0;
 /// Sizes are rounded to this, so that a cell that grows a little needs no new pictures.
 const STEP: f32 = 8.0;
 
-/// Returns columns and rows of a picture for a cell of that size in pixels.
+/// Returns columns and rows of a picture for a cell of that size in pixels: at least as large as the cell, unless that
+/// is larger than any picture.
 pub(crate) fn pixels(cell: [f32; 2]) -> [u16; 2] {
     let shrink = (LARGEST / cell[0].max(cell[1]).max(1.0)).min(1.0);
-    cell.map(|side| ((side * shrink / STEP).round().max(2.0) * STEP) as u16)
+    cell.map(|side| ((side * shrink / STEP).ceil().max(2.0) * STEP) as u16)
+}
+
+/// Returns the part of a picture, in shares of its sides, that covers a cell of whole pixels one to one: the middle of
+/// it. `None` if the cell is larger than the picture, so that the picture must be scaled.
+pub(crate) fn one_to_one(picture: [usize; 2], cell: [f32; 2]) -> Option<Rect> {
+    let mut corners = [[0.0; 2]; 2];
+    for axis in 0..2 {
+        let (whole, part) = (picture[axis] as f32, cell[axis].round());
+        if part > whole || whole < 1.0 {
+            return None;
+        }
+        let start = ((whole - part) * 0.5).floor();
+        corners[0][axis] = start / whole;
+        corners[1][axis] = (start + part) / whole;
+    }
+    Some(Rect::from_min_max(corners[0].into(), corners[1].into()))
 }
 
 /// Returns the middle part of a picture, in shares of its sides, that fills a cell without being stretched.
@@ -165,9 +182,22 @@ mod tests {
 
     #[test]
     fn sizes_are_rounded_and_bounded() {
-        assert_eq!(pixels([150.0, 149.0]), [152, 152]);
+        assert_eq!(pixels([150.0, 144.0]), [152, 144]);
         assert_eq!(pixels([3.0, 0.0]), [16, 16]);
         assert_eq!(pixels([2880.0, 1440.0]), [288, 144]);
+    }
+
+    #[test]
+    fn a_picture_covers_a_smaller_cell_pixel_by_pixel() {
+        for cell in [[145.0, 149.0], [152.0, 152.0], [144.0, 150.0]] {
+            let part = one_to_one([152, 152], cell).expect("large enough");
+            for (share, pixels) in [part.width(), part.height()].into_iter().zip(cell) {
+                assert!((share * 152.0 - pixels).abs() < 1e-3, "{cell:?}");
+            }
+            let first = part.min.x * 152.0;
+            assert!((first - first.round()).abs() < 1e-3, "{cell:?}");
+        }
+        assert_eq!(one_to_one([152, 152], [153.0, 100.0]), None);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use chereme_motion::{HandAngles, Side};
+use eframe::egui::emath::GuiRounding;
 use eframe::egui::epaint::RectShape;
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{
@@ -69,6 +70,7 @@ impl Figures {
         if !ui.is_rect_visible(rect) {
             return;
         }
+        let rect = rect.round_to_pixels(ui.pixels_per_point());
         let key = key(ui, Source::of(&cell.motion), cell.focus, rect.size());
         self.begin(ui);
         let sight = {
@@ -95,6 +97,7 @@ impl Figures {
         if !ui.is_rect_visible(rect) {
             return;
         }
+        let rect = rect.round_to_pixels(ui.pixels_per_point());
         let motion = Motion::Made(made.clone());
         let key = key(ui, Source::of(&motion), focus, rect.size());
         self.begin(ui);
@@ -139,6 +142,7 @@ impl Figures {
         let source = Source::Hand(side == Side::Left, angles.to_array().map(f64::to_bits));
         let square = Vec2::splat(rect.size().min_elem());
         let rect = Rect::from_center_size(rect.center(), square);
+        let rect = rect.round_to_pixels(ui.pixels_per_point());
         let key = key(ui, source, Focus::default(), square);
         self.begin(ui);
         let sight = look(&mut self.board.state(), &key, None);
@@ -201,8 +205,16 @@ impl Figures {
     }
 
     fn put(&self, ui: &Ui, language: Language, key: &Key, sight: Sight, rect: Rect) {
+        let pixels = rect.size() * ui.pixels_per_point();
+        let mut options = TextureOptions::LINEAR;
         let (index, image, part) = match sight {
-            Sight::Picture(index, image) => (index, image, WHOLE),
+            Sight::Picture(index, image) => {
+                let exact = data::one_to_one(image.size, [pixels.x, pixels.y]);
+                if exact.is_some() {
+                    options = TextureOptions::NEAREST;
+                }
+                (index, image, exact.unwrap_or(WHOLE))
+            }
             Sight::Still(image) => {
                 let part = data::middle(image.size, [rect.width(), rect.height()]);
                 (0, image, part)
@@ -213,16 +225,12 @@ impl Figures {
         let mut own = self.own.borrow_mut();
         let now = ui.ctx().cumulative_pass_nr();
         let texture = own.textures.entry(key.clone()).or_insert_with(|| Texture {
-            handle: ui
-                .ctx()
-                .load_texture("little", image.clone(), TextureOptions::LINEAR),
+            handle: ui.ctx().load_texture("little", image.clone(), options),
             picture: index,
             wanted: now,
         });
         if texture.picture != index {
-            texture
-                .handle
-                .set_partial([0, 0], image, TextureOptions::LINEAR);
+            texture.handle.set_partial([0, 0], image, options);
             texture.picture = index;
         }
         texture.wanted = now;
