@@ -3,7 +3,7 @@
 use chereme_motion::{Anatomy, Face, ModelPose, Side, Skeleton, anatomy::Part};
 use glam::{Mat3, Quat, Vec3};
 
-use super::clothed::{Clothed, FORE, SHOULDER, TRUNK, UPPER};
+use super::clothed::{COLLAR_BACK, Cloth, Clothed, FORE, NECK, SHOULDER, TRUNK, UPPER};
 use super::contact::Contact;
 use super::group;
 use super::hand::{HandAxes, HandFit, Seat};
@@ -209,17 +209,27 @@ impl<'a> Builder<'a> {
                     true => bones.iter().sum(),
                     false => apart,
                 };
-                (apart * 0.5 + 0.072 * self.size) / 0.160
+                (apart * 0.5 + 0.080 * self.size) / 0.160
             }
             _ => self.size,
         };
+        let neck = self.neck_line();
+        let head = neck.as_ref().map_or(chest, |neck| {
+            let (joint, turn, at) = neck.head;
+            self.rig.add(Follower::Joint { joint, turn, at })
+        });
+        let legs = [0, 1].map(|side| self.thigh_follower(thighs[side], pelvis));
         let shape = Shape {
             trunk,
             wide,
             collar,
             hips: hips.clamp(self.size, self.size * 1.4),
+            neck: neck.clone(),
         };
-        self.clothes(&shape, [pelvis, chest], shoulders, &limbs);
+        self.clothes(&shape, [pelvis, chest, head], (legs, shoulders), &limbs);
+        if let Some(neck) = neck {
+            self.neck(&neck, [chest, head]);
+        }
         for side in Side::BOTH {
             let at = usize::from(side == Side::Left);
             let Some(arm) = &self.rig.arms[at] else {
@@ -259,12 +269,27 @@ impl<'a> Builder<'a> {
         }
     }
 
+    /// Returns the follower of a thigh that moves the seat of the clothes, or the pelvis if there is none.
+    fn thigh_follower(&mut self, thigh: Option<usize>, pelvis: usize) -> usize {
+        let standing = self.rig.trunk.as_ref().filter(|trunk| trunk.stands());
+        let (Some(joint), Some(trunk)) = (thigh, standing) else {
+            return pelvis;
+        };
+        let seat = trunk.posed(self.rest).pelvis;
+        let back = seat.turn.inverse();
+        self.rig.add(Follower::Joint {
+            joint,
+            turn: (rotation(self.rest, joint).inverse() * seat.turn).normalize(),
+            at: back * (place(self.rest, joint) - seat.to) + seat.from,
+        })
+    }
+
     /// Adds the canonical clothes, fitted to the body.
     fn clothes(
         &mut self,
         shape: &Shape,
-        [pelvis, chest]: [usize; 2],
-        shoulders: [usize; 2],
+        [pelvis, chest, head]: [usize; 3],
+        (legs, shoulders): ([usize; 2], [usize; 2]),
         limbs: &[ArmFollowers; 2],
     ) {
         let clothed = Clothed::get();
@@ -273,19 +298,24 @@ impl<'a> Builder<'a> {
         for cloth in &clothed.cloths {
             let at = usize::from(cloth.side == Side::Left);
             let (limb, shares) = (limbs[at], cloth.shares);
+            let places = self.rig.arms[at]
+                .as_ref()
+                .map_or([Vec3::ZERO; 3], |arm| arm.places);
+            let own = shape.place(cloth, size, places);
+            let nod = shape.nod(cloth, own);
+            let [right, left] = shares.thighs.map(|share| share * shares.pelvis);
             let mut all = vec![
-                (pelvis, shares.pelvis),
-                (chest, shares.chest),
-                (shoulders[at], shares.shoulder),
+                (pelvis, shares.pelvis - right - left),
+                (legs[0], right),
+                (legs[1], left),
+                (chest, shares.chest * (1.0 - nod)),
+                (head, (shares.chest + shares.shoulder) * nod),
+                (shoulders[at], shares.shoulder * (1.0 - nod)),
                 (limb.armpit, shares.armpit),
                 (limb.elbow, shares.elbow),
             ];
             all.extend(between(&limb.upper, shares.upper_turn, shares.upper));
             all.extend(between(&limb.fore, shares.fore_turn, shares.fore));
-            let places = self.rig.arms[at]
-                .as_ref()
-                .map_or([Vec3::ZERO; 3], |arm| arm.places);
-            let own = shape.place(cloth, size, places);
             self.bound.push(Bound::new(own, &all));
             let share = ((cloth.along - 60.0) / 80.0).clamp(0.0, 1.0);
             let colour = self.palette.torso.mixed(self.palette.sleeves, share);
@@ -317,9 +347,6 @@ impl<'a> Builder<'a> {
         let Some(head) = self.head_form(joint) else {
             return;
         };
-        if dressed {
-            self.neck(joint, &head);
-        }
         let start = self.out.mesh.vertices.len();
         self.out
             .rigid(joint, &head.mesh(self.palette, &Face::default()));
@@ -372,30 +399,32 @@ impl Builder<'_> {
         Some((at + turn.inverse() * head.centre).y - head.height * 0.5)
     }
 
-    /// Adds the skin between chest and head.
-    fn neck(&mut self, joint: usize, head: &Head) {
-        const RINGS: usize = 6;
-        let (at, turn) = self.head_seat(joint, head);
-        let follower = self.rig.add(Follower::Joint { joint, turn, at });
-        let chest = self
-            .rig
-            .followers
-            .iter()
-            .position(|it| *it == Follower::Chest);
-        let Some(chest) = chest else { return };
+    /// Returns the neck, if there is a head.
+    fn neck_line(&self) -> Option<NeckLine> {
+        let joint = self.joint(Part::Head)?;
+        let head = self.head_form(joint)?;
+        let (at, turn) = self.head_seat(joint, &head);
         let middle = at + turn.inverse() * head.centre;
         let size = self.size * 0.001;
-        let low = (Vec3::new(0.0, 12.0, -16.0) * size, 48.0 * size);
-        let high = (
-            middle + Vec3::new(0.0, -0.22, -0.04) * head.height,
-            0.215 * head.height,
-        );
+        Some(NeckLine {
+            head: (joint, turn, at),
+            low: (Vec3::new(0.0, 12.0, -16.0) * size, 48.0 * size),
+            high: (
+                middle + Vec3::new(0.0, -0.22, -0.04) * head.height,
+                0.215 * head.height,
+            ),
+        })
+    }
+
+    /// Adds the skin between chest and head.
+    fn neck(&mut self, neck: &NeckLine, [chest, head]: [usize; 2]) {
+        const RINGS: usize = 6;
         let grid = crate::mesh::Grid::new(20, RINGS);
         let base = self.surface.vertices.len() as u32;
         let skin = self.palette.face;
         let mut add = |at: Vec3, share: f32| {
             self.bound
-                .push(Bound::new(at, &[(chest, 1.0 - share), (follower, share)]));
+                .push(Bound::new(at, &[(chest, 1.0 - share), (head, share)]));
             let shade = 0.97 - 0.20 * ((share - 0.35) / 0.5).clamp(0.0, 1.0);
             self.surface.vertices.push(Vertex {
                 position: at,
@@ -404,18 +433,41 @@ impl Builder<'_> {
                 group: group::HEAD,
             });
         };
-        add(low.0, 0.0);
+        add(neck.low.0, 0.0);
         for ring in 0..RINGS {
             let share = ring as f32 / (RINGS - 1) as f32;
-            let centre = low.0.lerp(high.0, share);
-            let waist = 1.0 - 0.10 * (std::f32::consts::PI * share).sin();
-            let radius = (low.1 + (high.1 - low.1) * share) * waist;
+            let (centre, radius) = neck.at(share);
             for spoke in &grid.circle {
                 add(centre + Vec3::new(spoke.x, 0.0, -spoke.y) * radius, share);
             }
         }
-        add(high.0, 1.0);
+        add(neck.high.0, 1.0);
         self.surface.triangles.extend(grid.triangles(base));
+    }
+}
+
+/// The neck in bind space, from the chest to the head.
+#[derive(Debug, Clone)]
+struct NeckLine {
+    /// The head's joint, the rotation from bind space to its space, and its position.
+    head: (usize, Quat, Vec3),
+    /// The middle and the radius of its lowest and of its highest ring.
+    low: (Vec3, f32),
+    high: (Vec3, f32),
+}
+
+impl NeckLine {
+    /// Returns the middle and the radius of the ring at a share of the way up.
+    fn at(&self, share: f32) -> (Vec3, f32) {
+        let waist = 1.0 - 0.10 * (std::f32::consts::PI * share).sin();
+        let radius = self.low.1 + (self.high.1 - self.low.1) * share;
+        (self.low.0.lerp(self.high.0, share), radius * waist)
+    }
+
+    /// Returns the share of the way up at a height.
+    fn share(&self, height: f32) -> f32 {
+        let whole = (self.high.0.y - self.low.0.y).max(1e-3);
+        ((height - self.low.0.y) / whole).clamp(0.0, 1.0)
     }
 }
 
@@ -427,11 +479,18 @@ struct Shape {
     collar: f32,
     /// The factor on breadths of the hips.
     hips: f32,
+    neck: Option<NeckLine>,
 }
 
 impl Shape {
+    /// Returns how much a vertex of the clothes in bind space moves with the head, as the neck does there.
+    fn nod(&self, cloth: &Cloth, at: Vec3) -> f32 {
+        let neck = self.neck.as_ref();
+        neck.map_or(0.0, |neck| cloth.shares.neck * neck.share(at.y))
+    }
+
     /// Returns the position of a vertex of the clothes in bind space.
-    fn place(&self, cloth: &super::clothed::Cloth, size: f32, places: [Vec3; 3]) -> Vec3 {
+    fn place(&self, cloth: &Cloth, size: f32, places: [Vec3; 3]) -> Vec3 {
         let metre = 0.001;
         let low = ((-cloth.at.y - 120.0) / 300.0).clamp(0.0, 1.0);
         let wide = self.wide / (2.0 * SHOULDER * metre);
@@ -442,7 +501,14 @@ impl Shape {
         } else {
             self.collar
         };
-        let trunk = cloth.at * Vec3::new(across, tall, size) * metre;
+        let mut trunk = cloth.at * Vec3::new(across, tall, size) * metre;
+        if let Some(neck) = self.neck.as_ref().filter(|_| cloth.shares.neck > 0.0) {
+            // The collar stands around the neck, wherever that leads.
+            let (middle, radius) = neck.at(neck.share(trunk.y));
+            let [x, z] = [cloth.at.x, cloth.at.z - COLLAR_BACK].map(|it| it * radius / NECK);
+            let around = Vec3::new(x, trunk.y, middle.z + z);
+            trunk = trunk.lerp(around, cloth.shares.neck);
+        }
         let along = arm_direction(cloth.side);
         let from = Vec3::X * (SHOULDER * cloth.side.sign() as f32);
         let lengths = [places[0].distance(places[1]), places[1].distance(places[2])];

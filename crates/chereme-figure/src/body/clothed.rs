@@ -25,6 +25,10 @@ pub(super) const FORE: f32 = 245.0;
 pub(super) struct Shares {
     pub(super) pelvis: f32,
     pub(super) chest: f32,
+    /// The thighs' part of the pelvis's share, right and left: the seat of the clothes bends with them.
+    pub(super) thighs: [f32; 2],
+    /// The neck's part of the chest's share; it counts as far up the neck as the vertex is.
+    pub(super) neck: f32,
     pub(super) shoulder: f32,
     /// The joint halfway between chest and upper arm.
     pub(super) armpit: f32,
@@ -85,13 +89,18 @@ const ROWS: [[f32; 3]; 15] = [
     [4.0, 152.0, 86.0],
     [36.0, 140.0, 72.0],
 ];
+/// Half the breadth and half the depth of the collar, and the position of its middle.
+const COLLAR: [f32; 2] = [58.0, 55.0];
+pub(super) const COLLAR_BACK: f32 = -14.0;
+/// The radius of the neck in that collar.
+pub(super) const NECK: f32 = 46.5;
 /// The rows about an arm that have no faces: the hole for the arm.
 const HOLE_ROWS: std::ops::Range<usize> = 10..14;
 /// Positions of an arm's rings along it, with half their height and half their breadth.
 const ARM: [[f32; 3]; 19] = [
-    [44.0, 43.0, 47.0],
-    [72.0, 45.0, 48.0],
-    [100.0, 47.0, 48.5],
+    [44.0, 39.0, 45.0],
+    [72.0, 42.0, 47.0],
+    [100.0, 45.0, 48.0],
     [132.0, 47.5, 47.0],
     [168.0, 48.5, 45.5],
     [204.0, 47.0, 44.5],
@@ -155,7 +164,7 @@ impl Maker {
             ),
             (
                 both(
-                    &[([136.0, -6.0, -8.0], [28.0, 66.0, -18.0], [42.0, 46.0])],
+                    &[([132.0, -6.0, -8.0], [28.0, 66.0, -18.0], [37.0, 46.0])],
                     1.0,
                 ),
                 34.0,
@@ -166,6 +175,14 @@ impl Maker {
                     [0.0, 56.0, -4.0],
                     [58.0, 46.0],
                 )],
+                34.0,
+            ),
+            // The upper back, from the nape to the shoulder blades.
+            (
+                both(
+                    &[([24.0, 62.0, -20.0], [56.0, -110.0, -4.0], [44.0, 84.0])],
+                    1.0,
+                ),
                 34.0,
             ),
             (
@@ -186,7 +203,7 @@ impl Maker {
                 )
             };
             vec![
-                rod(0.0, 120.0, [46.0, 47.0]),
+                rod(0.0, 120.0, [40.0, 47.0]),
                 rod(120.0, UPPER, [47.0, 45.0]),
                 rod(UPPER, UPPER + 70.0, [45.0, 47.0]),
                 rod(UPPER + 70.0, UPPER + FORE, [47.0, 32.0]),
@@ -253,9 +270,9 @@ impl Maker {
             .map(|[cosine, sine]| {
                 let low = sine.max(0.0);
                 Vec3::new(
-                    cosine * 63.0,
+                    cosine * COLLAR[0],
                     88.0 - 30.0 * low - 4.0 * sine.min(0.0),
-                    sine * 60.0 - 14.0,
+                    sine * COLLAR[1] + COLLAR_BACK,
                 )
             })
             .collect();
@@ -274,7 +291,7 @@ impl Maker {
         let lip: Vec<usize> = collar
             .iter()
             .map(|&at| {
-                let inwards = Vec3::new(-at.x, 0.0, -14.0 - at.z).normalize_or(Vec3::Y);
+                let inwards = Vec3::new(-at.x, 0.0, COLLAR_BACK - at.z).normalize_or(Vec3::Y);
                 self.add(at + Vec3::Y * 7.0 + inwards * 3.0)
             })
             .collect();
@@ -284,7 +301,7 @@ impl Maker {
                 self.add(Vec3::new(
                     at.x * 0.7,
                     at.y - 22.0,
-                    (at.z + 14.0) * 0.7 - 14.0,
+                    (at.z - COLLAR_BACK) * 0.7 + COLLAR_BACK,
                 ))
             })
             .collect();
@@ -453,6 +470,12 @@ impl Maker {
             let far = step as f32 * 14.0;
             dark += (far - self.whole(cloth.at + normal * far)).max(0.0) / 14.0 * 0.5f32.powi(step);
         }
+        let hem = smooth_step((-cloth.at.y - 470.0) / 110.0) * 0.85;
+        let left = smooth_step((cloth.at.x + 50.0) / 100.0);
+        let neck = match cloth.hem {
+            true if !of_arm => 1.0,
+            _ => smooth_step((cloth.at.y - 22.0) / 40.0),
+        };
         let cloth = &mut self.cloths[index];
         cloth.along = if of_arm { s } else { s.min(60.0) };
         cloth.arm = smooth_step((s - 10.0) / 90.0) * rising;
@@ -464,6 +487,8 @@ impl Maker {
         cloth.shares = Shares {
             pelvis: rest * (1.0 - near) * (1.0 - up),
             chest: rest * (1.0 - near) * up,
+            thighs: [hem * (1.0 - left), hem * left],
+            neck: if of_arm { 0.0 } else { neck },
             shoulder: rest * near,
             armpit,
             upper: arm * upper,
