@@ -9,8 +9,8 @@ use chereme_corpus::SignMap;
 use chereme_motion::Span;
 use chereme_sign::Component;
 use eframe::egui::{
-    Align2, Checkbox, Color32, FontId, Pos2, Rect, Response, RichText, Role, Sense, Stroke,
-    StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, Checkbox, FontId, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui,
+    Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::Pane;
@@ -33,6 +33,10 @@ const COMPONENTS: [(Component, crate::words::Text); 4] = [
 /// The side of a little figure, in points, and the most of them at once.
 const FIGURE: f32 = 84.0;
 const MOST_FIGURES: usize = 40;
+/// The number of signs in sight from which their points are small and faint.
+const DENSE: usize = 800;
+/// The most glosses.
+const MOST_NAMES: usize = 120;
 /// The distance in points within which the pointer selects a sign.
 const REACH: f32 = 14.0;
 
@@ -165,7 +169,12 @@ impl Map {
         }
         let mut rooms: Vec<Rect> = Vec::new();
         let font = FontId::proportional(11.0);
-        let mut labels = Labels::default();
+        let (mut labels, mut names) = (Labels::default(), Vec::new());
+        // Where many signs lie close together, their density is visible.
+        let (small, weak) = match visible.len() > DENSE {
+            true => (1.6, weak.gamma_multiply(0.6)),
+            false => (2.5, weak),
+        };
         let first = [self.chosen, under].into_iter().flatten();
         let order = first.chain(visible.iter().copied());
         for at in order {
@@ -184,7 +193,10 @@ impl Map {
                     painter.rect_stroke(room, 6.0, Stroke::new(2.0, colour), StrokeKind::Inside);
                 }
             } else {
-                painter.circle_filled(places[at], if marked { 4.5 } else { 2.5 }, colour);
+                painter.circle_filled(places[at], if marked { 4.5 } else { small }, colour);
+            }
+            if names.len() >= MOST_NAMES && !marked {
+                continue;
             }
             let below = if moves.is_some() { FIGURE / 2.0 } else { 4.0 };
             let at = places[at] + vec2(0.0, below);
@@ -193,7 +205,17 @@ impl Map {
             } else {
                 ui.visuals().text_color()
             };
-            label(&painter, &mut labels, at, &sign.gloss, &font, text, marked);
+            let galley = painter.layout_no_wrap(sign.gloss.clone(), font.clone(), text);
+            let room = Align2::CENTER_TOP.anchor_size(at, galley.size());
+            if labels.take(room) || marked {
+                names.push((room, galley, text));
+            }
+        }
+        // Glosses stay readable on top of all points.
+        let back = ui.visuals().extreme_bg_color.gamma_multiply(0.75);
+        for (room, galley, text) in names {
+            painter.rect_filled(room.expand2(vec2(2.0, 0.0)), 2.0, back);
+            painter.galley(room.min, galley, text);
         }
         if self.lasso.len() > 1 {
             let stroke = Stroke::new(1.5, colours.accent);
@@ -301,23 +323,6 @@ fn open(seen: &PaneInput<'_>, token: i64, out: &mut Outbox) {
             out.send(Command::Look);
         }
         None => out.send(Command::Inspect(Thing::Token(token))),
-    }
-}
-
-/// Paints a gloss below a point if it covers no other gloss, or in any case if `marked`.
-fn label(
-    painter: &eframe::egui::Painter,
-    labels: &mut Labels,
-    at: Pos2,
-    gloss: &str,
-    font: &FontId,
-    colour: Color32,
-    marked: bool,
-) {
-    let galley = painter.layout_no_wrap(gloss.to_owned(), font.clone(), colour);
-    let room = Align2::CENTER_TOP.anchor_size(at, galley.size());
-    if labels.take(room) || marked {
-        painter.galley(room.min, galley, colour);
     }
 }
 
