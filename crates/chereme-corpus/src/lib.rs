@@ -144,6 +144,7 @@ pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};
 pub use pairs::{Dense, Empty, FIELD_SETS, Pair, PairOptions, Pairs};
 pub use paths::paths_like;
+pub use picture::values as value_pictures;
 pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
 pub use propose::{ProposeOptions, ProposeScope, Proposed, proposed_for};

@@ -4,6 +4,7 @@ mod atomic_write;
 mod faces;
 mod points;
 mod svg;
+pub mod values;
 
 use std::io::Write;
 use std::ops::ControlFlow;

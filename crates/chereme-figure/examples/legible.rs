@@ -14,6 +14,11 @@ use chereme_figure::{HandView, HandshapeOptions, Image, handshape_picture};
 use chereme_motion::{FingerAngles, HandAngles, ThumbAngles};
 use serde_json::Value;
 
+#[path = "common/likeness.rs"]
+mod likeness;
+
+use likeness::{Random, Tones, nearest, summary, tones};
+
 /// The shapes of the noise test among the twelve that differ most.
 const CLEAR: [&str; 12] = [
     "flat", "S", "1", "V", "Y", "claw", "F", "O", "L", "C", "5", "pinch",
@@ -47,42 +52,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         let drawn = shapes.iter().map(|(_, it)| picture(it, (size, views)));
         let drawn: Result<Vec<Tones>, _> = drawn.collect();
         let drawn = drawn?;
-        let mut near: Vec<(f32, usize, usize)> = (0..drawn.len())
-            .filter_map(|a| nearest(&drawn, &drawn[a], Some(a)).map(|(far, b)| (far, a, b)))
-            .collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mean = near.iter().map(|it| it.0).sum::<f32>() / near.len().max(1) as f32;
-        let fifth = near.get(near.len() / 20).map_or(0.0, |it| it.0);
-        let close = near.iter().filter(|it| it.0 < 0.08).count();
         let all: Vec<usize> = (0..shapes.len()).collect();
         let clear: Vec<usize> = all
             .iter()
             .copied()
             .filter(|&i| CLEAR.contains(&shapes[i].0.as_str()))
             .collect();
-        let pairs: Vec<String> = near
-            .iter()
-            .step_by(2)
-            .take(4)
-            .map(|&(_, a, b)| format!("{}/{}", shapes[a].0, shapes[b].0))
-            .collect();
+        let names: Vec<&str> = shapes.iter().map(|it| it.0.as_str()).collect();
         let [few, many] = [clear, all].map(|set| noise(&shapes, &drawn, &set, (size, views)));
-        println!(
-            "| {size} | {mean:.3} | {fifth:.3} | {close} | {:.0} % | {:.0} % | {} |",
-            few? * 100.0,
-            many? * 100.0,
-            pairs.join(", ")
-        );
+        let shares = [few?, many?].map(|share| format!("{:.0} %", share * 100.0));
+        println!("| {size} | {} |", summary(&drawn, &names, &shares));
     }
     Ok(())
-}
-
-/// Lightness of a picture, and which pixels differ from the paper.
-struct Tones {
-    /// Columns and rows.
-    size: [usize; 2],
-    light: Vec<f32>,
-    inked: Vec<bool>,
 }
 
 fn picture(
@@ -101,72 +82,6 @@ fn picture(
     Ok(tones(&all))
 }
 
-fn tones(image: &Image) -> Tones {
-    let paper = image.pixel(0, 0);
-    Tones {
-        size: [image.width(), image.height()],
-        light: image
-            .pixels()
-            .iter()
-            .map(|pixel| lightness(pixel.0))
-            .collect(),
-        inked: image.pixels().iter().map(|&pixel| pixel != paper).collect(),
-    }
-}
-
-/// Returns the lightness of a colour as in CIE L*a*b*, from 0 to 100.
-fn lightness(rgb: [u8; 3]) -> f32 {
-    let [r, g, b] = rgb.map(|part| {
-        let part = f32::from(part) / 255.0;
-        if part <= 0.04045 {
-            part / 12.92
-        } else {
-            ((part + 0.055) / 1.055).powf(2.4)
-        }
-    });
-    let bright = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    if bright > 0.008_856 {
-        116.0 * bright.cbrt() - 16.0
-    } else {
-        903.3 * bright
-    }
-}
-
-/// Returns the root mean square difference of lightness over the pixels of both hands, the least over small shifts.
-fn distance(a: &Tones, b: &Tones) -> f32 {
-    let [wide, high] = a.size.map(|side| side as i64);
-    let most = (high / 32).max(1);
-    let mut least = f32::INFINITY;
-    for dy in -most..=most {
-        for dx in -most..=most {
-            let (mut sum, mut count) = (0.0f32, 0usize);
-            for y in 0..high {
-                for x in 0..wide {
-                    let own = (y * wide + x) as usize;
-                    let (u, v) = (x + dx, y + dy);
-                    let inside = (0..wide).contains(&u) && (0..high).contains(&v);
-                    let other = inside.then_some((v * wide + u) as usize);
-                    let inked = a.inked[own] || other.is_some_and(|other| b.inked[other]);
-                    if inked {
-                        let light = other.map_or(b.light[0], |other| b.light[other]);
-                        sum += (a.light[own] - light).powi(2);
-                        count += 1;
-                    }
-                }
-            }
-            least = least.min((sum / count.max(1) as f32).sqrt() / 100.0);
-        }
-    }
-    least
-}
-
-fn nearest(all: &[Tones], one: &Tones, without: Option<usize>) -> Option<(f32, usize)> {
-    (0..all.len())
-        .filter(|&index| Some(index) != without)
-        .map(|index| (distance(&all[index], one), index))
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-}
-
 /// Returns the share of noisy pictures whose nearest template is their own shape.
 fn noise(
     shapes: &[(String, HandAngles)],
@@ -174,13 +89,8 @@ fn noise(
     set: &[usize],
     (size, views): (usize, &[HandView]),
 ) -> Result<f32, Box<dyn Error>> {
-    let mut random = 0x2545_F491_4F6C_DD1Du64;
-    let mut next = move || {
-        random ^= random << 13;
-        random ^= random >> 7;
-        random ^= random << 17;
-        (random >> 40) as f64 / f64::from(1u32 << 24) * 2.0 - 1.0
-    };
+    let mut random = Random::default();
+    let mut next = move || random.next();
     let (mut right, mut count) = (0, 0);
     for &index in set {
         for _ in 0..TRIES {
@@ -200,11 +110,8 @@ fn noise(
                 }
             }
             let noisy = picture(&angles, (size, views))?;
-            let best = set
-                .iter()
-                .map(|&other| (distance(&drawn[other], &noisy), other))
-                .min_by(|a, b| a.0.total_cmp(&b.0));
-            right += usize::from(best.is_some_and(|(_, other)| other == index));
+            let own = nearest(drawn, &noisy, set.iter().copied());
+            right += usize::from(own.is_some_and(|(_, other)| other == index));
             count += 1;
         }
     }

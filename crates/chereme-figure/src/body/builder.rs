@@ -269,7 +269,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Returns the follower of a thigh that moves the seat of the clothes, or the pelvis if there is none.
+    /// Returns the follower of a thigh that moves the seat of the clothes; the pelvis if the skeleton has no thigh.
     fn thigh_follower(&mut self, thigh: Option<usize>, pelvis: usize) -> usize {
         let standing = self.rig.trunk.as_ref().filter(|trunk| trunk.stands());
         let (Some(joint), Some(trunk)) = (thigh, standing) else {

@@ -6,14 +6,15 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use chereme_corpus::value_pictures::Panel;
+use chereme_figure::Theme;
 use chereme_sign::Inventory;
 use eframe::egui::{
     Color32, ColorImage, Context, Id, Painter, Pos2, Rect, TextureHandle, TextureOptions, Vec2,
     pos2, vec2,
 };
 
-use super::paint;
-use super::places::{self, Panel, Zone};
+use super::places::{self, Zone};
 
 /// Half of the least distance between the middles of two areas, in points.
 const RADIUS: f32 = 9.0;
@@ -53,9 +54,9 @@ impl Areas {
         let values = scene.in_sight(inventory, &wanted.values, wanted.view);
         let zones = places::zones(scene, inventory, &values, wanted.view, rect, RADIUS);
         let size = [wanted.size.x, wanted.size.y].map(|side| ((side / GRAIN) as usize).max(1));
-        let picture = scene.draw(wanted.view.0, wanted.view.1, size, false)?;
-        let paper = paint::paper(false);
-        let body: Vec<bool> = picture.pixels.iter().map(|it| *it != paper).collect();
+        let picture = scene.draw(wanted.view.0, wanted.view.1, size, Theme::Light)?;
+        let paper = Theme::Light.background();
+        let body: Vec<bool> = picture.pixels().iter().map(|it| *it != paper).collect();
         Some(Self::of(zones, &body, size, wanted))
     }
 
@@ -256,8 +257,7 @@ mod tests {
                 .filter(|at| {
                     let value = &inventory.values[*at];
                     let landmark = value.landmark.as_ref();
-                    landmark.map(places::panel) == Some(panel)
-                        && !places::is_part(inventory, &value.id)
+                    landmark.map(Panel::of) == Some(panel) && !places::is_part(inventory, &value.id)
                 })
                 .collect();
             let high = 330.0;

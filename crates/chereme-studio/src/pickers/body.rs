@@ -3,6 +3,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use chereme_corpus::value_pictures::Panel;
 use chereme_sign::inventory::InventoryValue;
 use eframe::egui::{
     Align2, Color32, Painter, Rect, ScrollArea, Sense, TextStyle, TextureId, Ui, Vec2, pos2, vec2,
@@ -10,7 +11,7 @@ use eframe::egui::{
 
 use super::areas::{self, Wanted};
 use super::cells::{Cell, Cells, State};
-use super::places::{self, Panel, is_part};
+use super::places::{self, is_part};
 use super::{Picker, gallery, paint};
 use crate::context::PaneInput;
 use crate::words::{Text, pickers as words};
@@ -87,7 +88,7 @@ fn follow(picker: &mut Picker, cells: &Cells<'_>) {
     if walked || !picker.filter.is_empty() || std::mem::take(&mut picker.turns) {
         let at = picker.at.as_deref().and_then(|id| cells.inventory.get(id));
         if let Some(landmark) = at.and_then(|value| value.landmark.as_ref()) {
-            picker.tab = Tab::of(places::panel(landmark));
+            picker.tab = Tab::of(Panel::of(landmark));
         }
     }
 }
@@ -323,7 +324,7 @@ fn belongs(
     let Some(landmark) = &value.landmark else {
         return false;
     };
-    if places::panel(landmark) != panel || is_part(inventory, &value.id) {
+    if Panel::of(landmark) != panel || is_part(inventory, &value.id) {
         return false;
     }
     if panel != Panel::Space {
@@ -345,45 +346,13 @@ fn depth_of(value: &InventoryValue) -> usize {
     }
 }
 
-/// Paints a small picture of a place's position; returns whether the place has one.
-pub(super) fn icon(ui: &Ui, rect: Rect, seen: &PaneInput<'_>, value: &InventoryValue) -> bool {
-    let Some(landmark) = &value.landmark else {
-        return false;
-    };
-    let panel = places::panel(landmark);
-    let Some(scene) = places::ready() else {
-        gallery::picture(ui.ctx(), key(("scene", 0)), || {
-            places::scene();
-            None
-        });
-        return true;
-    };
-    let aspect = panel.aspect();
-    let size = vec2(rect.width().min(rect.height() * aspect), rect.height());
-    let rect = Rect::from_center_size(rect.center(), vec2(size.x, size.x / aspect));
-    if let Some(texture) = picture(ui, panel, false, seen.dark) {
-        image(ui.painter(), texture, rect);
-    }
-    let camera = scene.camera(panel, false).zip(scene.at(landmark));
-    if let Some((camera, at)) = camera {
-        let projection = camera.projection(rect.width() as usize, rect.height() as usize);
-        let seen_at = projection.project(at);
-        let at = rect
-            .shrink(2.0)
-            .clamp(rect.min + vec2(seen_at.x, seen_at.y));
-        let radius = (rect.height() * 0.07).clamp(3.0, 6.0);
-        ui.painter()
-            .circle_filled(at, radius, seen.colours().playhead);
-    }
-    true
-}
-
 /// Returns the picture of a panel once it is drawn.
 fn picture(ui: &Ui, panel: Panel, turned: bool, dark: bool) -> Option<TextureId> {
     gallery::picture(ui.ctx(), key((panel, turned, dark)), move || {
         let height = 300.0 * FINER;
         let size = [(height * panel.aspect()) as usize, height as usize];
-        places::scene()?.draw(panel, turned, size, dark)
+        let image = places::scene()?.draw(panel, turned, size, paint::theme(dark))?;
+        Some(paint::colour_image(&image))
     })
 }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
+use chereme_corpus::value_pictures::expression;
 use chereme_motion::HandAngles;
 use chereme_sign::inventory::{InventoryValue, builtin_by_id};
 use chereme_sign::text::fold;
@@ -22,6 +23,8 @@ pub(crate) enum PickerForm {
     Rose,
     /// Drawn movements.
     Glyphs,
+    /// Facial expressions.
+    Faces,
     /// Names only.
     Names,
 }
@@ -37,8 +40,14 @@ pub(crate) fn kind(inventory: &Inventory) -> PickerForm {
         Component::Placement if any(|value| value.landmark.is_some()) => PickerForm::Body,
         Component::Movement | Component::Orientation if any(directed) => PickerForm::Rose,
         Component::Movement if inventory.feature.is_none() => PickerForm::Glyphs,
+        Component::NonManual if any_face(inventory) => PickerForm::Faces,
         _ => PickerForm::Names,
     }
+}
+
+fn any_face(inventory: &Inventory) -> bool {
+    let mut values = inventory.values.iter();
+    values.any(|value| expression(inventory, value).is_some())
 }
 
 /// Returns the hand posture of a value: its own, or that of the built-in handshape that it names or shares its name
@@ -121,7 +130,7 @@ pub(crate) fn has_numbers(inventory: &Inventory) -> bool {
 /// Returns the least size of a cell, in points.
 pub(crate) fn cell(kind: PickerForm) -> Vec2 {
     match kind {
-        PickerForm::Hands => vec2(84.0, 98.0),
+        PickerForm::Hands | PickerForm::Faces => vec2(84.0, 98.0),
         PickerForm::Glyphs => vec2(84.0, 72.0),
         _ => vec2(150.0, 30.0),
     }
@@ -131,7 +140,7 @@ pub(crate) fn cell(kind: PickerForm) -> Vec2 {
 pub(crate) fn width(kind: PickerForm) -> f32 {
     match kind {
         PickerForm::Body => 780.0,
-        PickerForm::Hands => 660.0,
+        PickerForm::Hands | PickerForm::Faces => 660.0,
         PickerForm::Rose | PickerForm::Glyphs => 460.0,
         PickerForm::Names => 340.0,
     }
@@ -256,6 +265,11 @@ mod tests {
                 ("directions", PickerForm::Rose),
                 ("palm", PickerForm::Rose),
                 ("fingers", PickerForm::Rose),
+                ("brows", PickerForm::Faces),
+                ("lids", PickerForm::Faces),
+                ("gaze", PickerForm::Faces),
+                ("nose", PickerForm::Faces),
+                ("mouth", PickerForm::Faces),
             ]
         );
         let configurations = builtin_by_id("configurations").expect("of the house");

@@ -2,29 +2,35 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use chereme_corpus::value_pictures::expression;
 use chereme_figure::palette::Theme;
 use chereme_figure::raster::Style;
 use chereme_figure::{HandshapeOptions, Image, handshape_picture};
 use chereme_motion::HandAngles;
 use chereme_sign::Inventory;
 use chereme_sign::inventory::InventoryValue;
+use eframe::egui::emath::GuiRounding;
 use eframe::egui::{
-    Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextStyle, Ui, pos2, vec2,
+    Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextStyle, Ui, Vec2, pos2, vec2,
 };
 
 use super::cells::{Cells, State};
 use super::data::{self, PickerForm};
-use super::{body, gallery, glyph, rose};
+use super::{gallery, glyph, places, rose};
 use crate::context::PaneInput;
 
 /// Width and height of a hand's picture, in pixels.
 const HAND: usize = 144;
+/// The least and the greatest width of the picture of a place or a face, in pixels.
+const LEAST: usize = 16;
+const MOST: usize = 400;
 
 /// Returns whether a value has a picture.
 pub(super) fn has(inventory: &Inventory, value: &InventoryValue) -> bool {
     match data::kind(inventory) {
         PickerForm::Hands => data::hand(value).is_some(),
         PickerForm::Body => value.landmark.is_some(),
+        PickerForm::Faces => expression(inventory, value).is_some(),
         PickerForm::Rose => value.direction.is_some() || value.roll.is_some(),
         PickerForm::Glyphs => glyph::of(&value.id).is_some(),
         PickerForm::Names => false,
@@ -45,7 +51,7 @@ pub(super) fn value(
             hand(ui, rect, seen.dark, &angles);
             true
         }),
-        PickerForm::Body => body::icon(ui, rect, seen, value),
+        PickerForm::Body | PickerForm::Faces => small(ui, rect, seen, (inventory, value)),
         PickerForm::Rose => rose::arrow(ui.painter(), rect, value, colour),
         PickerForm::Glyphs => glyph::paint(ui.painter(), rect, &value.id, colour),
         PickerForm::Names => false,
@@ -78,7 +84,7 @@ pub(super) fn cell(
         value(ui, square, cells.seen, cells.inventory, it);
     }
     let label = if pictured {
-        it.id.clone()
+        data::said(it, cells.seen.language).to_owned()
     } else {
         data::label(it, cells.seen.language)
     };
@@ -147,6 +153,44 @@ pub(super) fn paper(dark: bool) -> Color32 {
 
 pub(super) fn theme(dark: bool) -> Theme {
     if dark { Theme::Dark } else { Theme::Light }
+}
+
+/// Paints the picture of a place or a face, drawn at the size of `rect`; returns whether the value has one.
+fn small(
+    ui: &Ui,
+    rect: Rect,
+    seen: &PaneInput<'_>,
+    (inventory, value): (&Inventory, &InventoryValue),
+) -> bool {
+    let face = expression(inventory, value);
+    if value.landmark.is_none() && face.is_none() {
+        return false;
+    }
+    let scale = ui.pixels_per_point();
+    let square = Rect::from_center_size(rect.center(), Vec2::splat(rect.size().min_elem()));
+    let rect = square.round_to_pixels(scale);
+    let size = ((rect.width() * scale).round() as usize).clamp(LEAST, MOST);
+    let mut hasher = DefaultHasher::new();
+    ("small", seen.dark, size, &inventory.id, &value.id).hash(&mut hasher);
+    // A changed value has another picture.
+    format!("{face:?} {:?} {:?}", inventory.feature, value.landmark).hash(&mut hasher);
+    let (theme, inventory, value) = (theme(seen.dark), inventory.clone(), value.clone());
+    let texture = gallery::picture(ui.ctx(), hasher.finish(), move || {
+        let scene = places::scene()?;
+        let image = match face {
+            Some(face) => {
+                let feature = inventory.feature.as_deref().unwrap_or_default();
+                scene.face(&face, feature, size, theme)?
+            }
+            None => scene.place(&inventory, &value, size, theme)?,
+        };
+        Some(colour_image(&image))
+    });
+    if let Some(texture) = texture {
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        ui.painter().image(texture, rect, whole, Color32::WHITE);
+    }
+    true
 }
 
 fn hand(ui: &Ui, rect: Rect, dark: bool, angles: &HandAngles) {
