@@ -74,10 +74,7 @@ fn measure(sets: &[Set<'_>], folder: Option<&Path>) -> Result<(), Box<dyn Error>
                 (0..count).map(|at| (set.draw)(at, size, None)).collect();
             let images = images.ok_or("a value without a picture")?;
             let seen = |image: &Image| match set.placed {
-                true => Tones {
-                    shift: 0,
-                    ..tones(image)
-                },
+                true => tones(image).fixed(),
                 false => tones(image),
             };
             let drawn: Vec<Tones> = images.iter().map(seen).collect();

@@ -69,6 +69,8 @@ pub const ACTING: Side = Side::Right;
 const BEHIND: f32 = 0.045;
 /// The same for the mark of a place on the hand, which is thin.
 const HAND_BEHIND: f32 = 0.004;
+/// The beginning of the names of landmarks on the lower side of a part.
+const UNDER: &str = "under-";
 /// Distance of the camera as a multiple of half the visible height: a long lens.
 const DISTANCE: f32 = 9.0;
 
@@ -325,6 +327,8 @@ impl Scene {
         let mark = match around.filter(|_| panel != Panel::Space) {
             Some((_, share)) => Mark::Around(share * size as f32),
             None if shown.is_some() => Mark::Around(MOUTH * size as f32),
+            // The eye does not see what lies under a part.
+            None if landmark.name.starts_with(UNDER) => Mark::Hidden,
             None if self.depth(panel, at, camera) > hidden => Mark::Hidden,
             None => Mark::Disc,
         };
