@@ -4,8 +4,8 @@
 //! Draws every place of the built-in inventory, those of the head alone, and every mouth picture at 24, 48 and 96
 //! pixels, as the window's cells and pickers do. Prints for each size the mean and the fifth percentile of the distance
 //! to the nearest other picture, the pictures nearer than 0.08, and the share of noisy pictures whose nearest template
-//! is their own: places with the camera turned by up to 6 degrees, faces with their numbers changed by up to 10 %. The
-//! rows `panel` show places in the wide view of the place picker. FOLDER gets a sheet of the pictures of each size.
+//! is their own: places with the camera turned by up to 6 degrees, faces with their numbers changed by up to 10 %.
+//! FOLDER gets a sheet of the pictures of each size.
 
 use std::error::Error;
 use std::fs::File;
@@ -13,7 +13,6 @@ use std::io::BufWriter;
 use std::path::Path;
 
 use chereme_corpus::value_pictures::{Panel, Scene, expression, turned};
-use chereme_figure::camera::Camera;
 use chereme_figure::{Image, Theme, write_png};
 use chereme_motion::Face;
 use chereme_sign::Inventory;
@@ -51,13 +50,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let head: Vec<&InventoryValue> = places.values.iter().filter(on_head).collect();
     let all: Vec<&InventoryValue> = places.values.iter().collect();
-    let wide = |panel| scene.camera(panel, false);
-    let close = |panel| scene.close_camera(panel);
     let sets = [
-        set_of_places("head, panel", (&scene, places), &head, wide),
-        set_of_places("head", (&scene, places), &head, close),
-        set_of_places("all places, panel", (&scene, places), &all, wide),
-        set_of_places("all places", (&scene, places), &all, close),
+        set_of_places("places of the head", (&scene, places), &head),
+        set_of_places("all places", (&scene, places), &all),
         set_of_faces("mouth", &scene, mouth),
     ];
     measure(&sets, folder.as_deref().map(Path::new))
@@ -90,7 +85,7 @@ fn measure(sets: &[Set<'_>], folder: Option<&Path>) -> Result<(), Box<dyn Error>
             let row = summary(&drawn, &set.names, &[format!("{share:.0} %")]);
             println!("| {} | {count} | {size} | {row} |", set.name);
             if let Some(folder) = folder {
-                let file = folder.join(format!("{}-{size}.png", set.name.replace(", ", "-")));
+                let file = folder.join(format!("{}-{size}.png", set.name.replace(' ', "-")));
                 write_png(&sheet(&images, size), BufWriter::new(File::create(file)?))?;
             }
         }
@@ -102,13 +97,12 @@ fn set_of_places<'a>(
     name: &'static str,
     (scene, inventory): (&'a Scene, &'a Inventory),
     values: &[&'a InventoryValue],
-    camera: impl Fn(Panel) -> Option<Camera> + 'a,
 ) -> Set<'a> {
     let values = values.to_vec();
     let names = values.iter().map(|it| it.id.as_str()).collect();
     let draw = move |at: usize, size, noise: Option<&mut Random>| {
         let value = values[at];
-        let mut camera = camera(Panel::of(value.landmark.as_ref()?))?;
+        let mut camera = scene.camera(Panel::of(value.landmark.as_ref()?), false)?;
         if let Some(random) = noise {
             let most = 6f64.to_radians();
             let mut next = || (random.next() * most) as f32;

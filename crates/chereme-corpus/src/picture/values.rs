@@ -1,7 +1,7 @@
 //! Pictures of the values of inventories on the program's own body: places, and facial expressions.
 //!
 //! [`Scene`] is the body at rest, [`Panel`] is one view of it. [`Scene::place`] and [`Scene::face`] draw small pictures
-//! at the size at which they are shown: a close view, clear lines, and a mark that stands out from skin and clothes.
+//! at the size at which they are shown, with a mark that stands out from skin and clothes.
 
 use chereme_figure::camera::Camera;
 use chereme_figure::mesh::Mesh;
@@ -230,33 +230,6 @@ impl Scene {
         })
     }
 
-    /// Returns the camera of the small picture of a place: closer than the panel's, and for places in space turned, so
-    /// that those before each other lie apart.
-    #[must_use]
-    pub fn close_camera(&self, panel: Panel) -> Option<Camera> {
-        let frame = self.anatomy.body_frame(&self.model)?;
-        let (left, forward) = (frame.left.as_vec3(), frame.forward.as_vec3());
-        let (top, chin) = (self.landmark("head-top")?, self.landmark("chin")?);
-        let own = left * ACTING.sign() as f32;
-        Some(match panel {
-            Panel::Head => {
-                let high = (top - chin).length();
-                let target = (top + chin) * 0.5 + Vec3::Y * (0.08 * high) + own * (0.06 * high);
-                look(target, forward, Vec3::Y, high * 0.74)
-            }
-            Panel::Space => {
-                let middle = self.landmark("neutral-space")?;
-                let towards = forward + own * 0.55 + Vec3::Y * 0.50;
-                look(middle, towards, Vec3::Y, 1.15 * frame.scale as f32)
-            }
-            Panel::Trunk => {
-                let usual = self.camera(panel, false)?;
-                look(usual.target, forward, Vec3::Y, usual.half_height * 0.93)
-            }
-            Panel::Hand => self.camera(panel, false)?,
-        })
-    }
-
     /// Draws a panel.
     #[must_use]
     pub fn draw(
@@ -296,7 +269,7 @@ impl Scene {
         size: usize,
         theme: Theme,
     ) -> Option<Image> {
-        let camera = self.close_camera(Panel::of(value.landmark.as_ref()?))?;
+        let camera = self.camera(Panel::of(value.landmark.as_ref()?), false)?;
         self.place_from((inventory, value), &camera, size, theme)
     }
 
@@ -353,7 +326,7 @@ impl Scene {
         let (up, high) = ((top - chin).normalize_or(Vec3::Y), (top - chin).length());
         // From the chin, as shares of the head.
         let (middle, half) = match feature {
-            "mouth" | "mouthing" => (0.20, 0.24),
+            "mouth" => (0.20, 0.24),
             "brows" | "lids" | "gaze" => (0.55, 0.27),
             "nose" => (0.38, 0.30),
             _ => (0.45, 0.60),
@@ -369,7 +342,8 @@ impl Scene {
 #[must_use]
 pub fn expression(inventory: &Inventory, value: &InventoryValue) -> Option<Face> {
     let feature = inventory.feature.as_deref()?;
-    if inventory.component != Component::NonManual {
+    // The values of mouthings are shares of a word, no shapes.
+    if inventory.component != Component::NonManual || feature == "mouthing" {
         return None;
     }
     let mut spellings = value.spellings();
@@ -526,7 +500,7 @@ mod tests {
     #[test]
     fn a_place_behind_the_hand_is_marked_by_a_ring() {
         let (scene, places) = (scene(), builtin_by_id("placements").expect("of the house"));
-        let camera = scene.close_camera(Panel::Hand).expect("a hand");
+        let camera = scene.camera(Panel::Hand, false).expect("a hand");
         let behind = |id: &str| {
             let landmark = places.get(id).and_then(|it| it.landmark.as_ref());
             let at = scene.at(landmark.expect("a place")).expect("on the body");
