@@ -1,6 +1,6 @@
 //! The bulk of hands: keeps two hands from penetrating each other.
 
-use chereme_motion::glam::DVec3;
+use chereme_motion::glam::{DQuat, DVec3};
 
 use super::hands_apart::Parted;
 use super::solve::eased;
@@ -36,6 +36,9 @@ pub(crate) struct Cleared {
     /// The remaining depth of the hands in each other, in metres, if it is large enough to report.
     pub(crate) left: Option<f64>,
 }
+
+/// The point of the outline at the knuckle of the middle finger.
+const MIDDLE_KNUCKLE: usize = 8;
 
 /// A bone with its flesh.
 #[derive(Debug, Clone, Copy)]
@@ -126,13 +129,14 @@ fn way_out(
     second: &Wanted<'_>,
     frame: usize,
 ) -> DVec3 {
-    let (Some(a), Some(b)) = (tubes(first, frame, length), tubes(second, frame, length)) else {
+    let [Some(a), Some(b)] = [first, second].map(|wanted| Placed::of(wanted, frame)) else {
         return DVec3::ZERO;
     };
-    let palms = a[0].ends[1] - b[0].ends[1];
+    let palms = a.at(MIDDLE_KNUCKLE) - b.at(MIDDLE_KNUCKLE);
     if palms.length() > FAR * length {
         return DVec3::ZERO;
     }
+    let [a, b] = [a, b].map(|hand| tubes(&hand, length));
     let (mut sum, mut deepest) = (DVec3::ZERO, 0.0_f64);
     for one in &a {
         let middle = (one.ends[0] + one.ends[1]) * 0.5;
@@ -159,22 +163,43 @@ fn way_out(
     way.unwrap_or(usual) * (deepest - GIVES)
 }
 
-/// Returns the bones of a hand in its intended pose, the middle of the palm first; `None` if its skeleton
-/// has no fingers.
-fn tubes(wanted: &Wanted<'_>, frame: usize, length: f64) -> Option<[Tube; 18]> {
-    let [_, outline] = wanted.outlines.at(frame);
-    if outline.len() < 22 {
-        return None;
+/// A hand in its intended pose.
+struct Placed<'a> {
+    wrist: DVec3,
+    turned: DQuat,
+    points: &'a [DVec3],
+}
+
+impl<'a> Placed<'a> {
+    /// Returns the hand in a frame; `None` if its skeleton has no fingers.
+    fn of(wanted: &'a Wanted<'_>, frame: usize) -> Option<Self> {
+        let [_, outline] = wanted.outlines.at(frame);
+        if outline.points.len() < 22 {
+            return None;
+        }
+        let (turned, offset) = match wanted.wrist[frame] {
+            Some(turn) => (
+                wanted.turns[frame] * turn,
+                turn.inverse() * wanted.offsets[frame],
+            ),
+            None => (wanted.turns[frame], wanted.offsets[frame]),
+        };
+        Some(Self {
+            wrist: wanted.points[frame] - turned * offset,
+            turned,
+            points: &outline.points,
+        })
     }
-    let (turned, offset) = match wanted.wrist[frame] {
-        Some(turn) => (
-            wanted.turns[frame] * turn,
-            turn.inverse() * wanted.offsets[frame],
-        ),
-        None => (wanted.turns[frame], wanted.offsets[frame]),
-    };
-    let wrist = wanted.points[frame] - turned * offset;
-    let at = |n: usize| wrist + turned * outline[n];
+
+    /// Returns the position of a point of the outline.
+    fn at(&self, n: usize) -> DVec3 {
+        self.wrist + self.turned * self.points[n]
+    }
+}
+
+/// Returns the bones of a hand, the middle of the palm first.
+fn tubes(hand: &Placed<'_>, length: f64) -> [Tube; 18] {
+    let (wrist, at) = (hand.wrist, |n: usize| hand.at(n));
     let [finger, root, palm] = FLESH.map(|radius| radius * length);
     let knuckle = |digit: usize| at(2 + 3 * digit);
     let tube = |a: DVec3, b: DVec3, radius: f64| Tube {
@@ -195,7 +220,7 @@ fn tubes(wanted: &Wanted<'_>, frame: usize, length: f64) -> Option<[Tube; 18]> {
         all[n + 1] = tube(mid, last, finger);
         all[n + 2] = tube(last, shortened(last, tip, finger), finger);
     }
-    Some(all)
+    all
 }
 
 /// Returns the end of a bone whose flesh ends at the tip.

@@ -9,6 +9,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Motion, Place};
 
 use super::motion::Env;
+use super::place::is_at_hand;
 use super::plan::{Planner, Who, acting};
 use super::solve::Arm;
 
@@ -96,6 +97,8 @@ impl Planner<'_> {
                 };
                 self.shift(room, axes, named, follows);
             }
+            // A hand at the other one would not shift with it.
+            Place::Split(a, b) if [a, b].into_iter().flatten().any(|place| is_at_hand(place)) => {}
             Place::Split(a, b) => {
                 for (n, place) in [a, b].into_iter().enumerate() {
                     let mut only: Who = [None, None];

@@ -12,6 +12,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::{Bearing, Posed};
 use super::solve::{Arm, BENDING, Want};
+use super::stage::HandOutline;
 
 /// Candidate planes relative to the rule's: the first, the last and the step, in degrees.
 const PLANES: (f64, f64, f64) = (-50.0, 120.0, 10.0);
@@ -47,6 +48,16 @@ const PUMPED: f64 = 20.0;
 const MISSED: f64 = 1.2e4;
 /// Cost of an upper arm one arm's length inside the trunk; grows with the square.
 const WITHIN: f64 = 9e4;
+/// Distance (arm lengths) of an elbow behind its shoulder that costs nothing, and the cost of an arm's length beyond it;
+/// grows with the square.
+const BEHIND: (f64, f64) = (0.12, 300.0);
+/// Costs of a wrist that is bent to its limit and of a forearm that is turned to its own, from the shares of the limit on
+/// that cost nothing; grow with the square.
+const BENT: f64 = 20.0;
+const TWISTED: f64 = 3.0;
+/// A plane whose cost without the hand exceeds that of the rule's plane, with the hand, by this much is not tried with the
+/// hand.
+const UNTRIED: f64 = 100.0;
 /// Candidate shrugs if the hand's orientation would suffer, as shares of the largest.
 const SHRUGS: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
 /// Cost of the largest shrug.
@@ -84,7 +95,7 @@ impl Arm<'_> {
             point: wrist,
             offset: DVec3::ZERO,
             turned,
-            outlines: [&[], &[]],
+            outlines: [HandOutline::NONE; 2],
             touch: 0.0,
         };
         let mut choices = self.choices(&want, false);
@@ -178,11 +189,14 @@ impl Arm<'_> {
 
     /// Returns the cost of an elbow that stands out beside a low hand.
     fn flared(&self, posed: &Posed) -> f64 {
-        let upper = posed.elbow - posed.shoulder;
         let low = (posed.shoulder.y - posed.wrist.y) / self.rig().length() - LOW;
+        if low <= 0.0 {
+            return 0.0;
+        }
+        let upper = posed.elbow - posed.shoulder;
         let outside = self.stage.left * self.rig().side.sign();
         let out = upper.dot(outside).atan2(-upper.y) - FLARED.0;
-        if low <= 0.0 || out <= 0.0 {
+        if out <= 0.0 {
             return 0.0;
         }
         FLARED.1 * out * out * (low / LOW).min(1.0)
@@ -194,6 +208,13 @@ impl Arm<'_> {
         let inwards = -(posed.elbow - posed.shoulder).dot(outside) / self.rig().length();
         let over = (inwards - CROSSED.0).max(0.0);
         CROSSED.1 * over * over
+    }
+
+    /// Returns the cost of an elbow behind its shoulder.
+    fn behind(&self, posed: &Posed) -> f64 {
+        let back = -(posed.elbow - posed.shoulder).dot(self.stage.forward) / self.rig().length();
+        let over = (back - BEHIND.0).max(0.0);
+        BEHIND.1 * over * over
     }
 
     /// Returns the cost of an upper arm inside the trunk.
@@ -245,17 +266,46 @@ impl Arm<'_> {
     /// Returns the candidate planes with their costs, for either limit of the forearm.
     fn choices(&self, want: &Want<'_>, free: bool) -> Vec<Choice> {
         let mut choices: Vec<Choice> = Vec::with_capacity(2 * planes().count());
-        let usual = self.usual(want.wrist());
+        let wrist = want.wrist();
+        let usual = self.usual(wrist);
+        let rule = self.choice(want, Bearing::default(), (false, free), usual);
         for high in [false, true] {
             for (n, plane) in planes().enumerate() {
                 if high && !choices[n].over {
                     continue;
                 }
                 let bearing = Bearing { plane, shrug: 0.0 };
-                choices.push(self.choice(want, bearing, (high, free), usual));
+                if plane == 0.0 && !high {
+                    choices.push(rule);
+                    continue;
+                }
+                let posed = self.rig().reach(wrist, bearing, self.limits);
+                let held = self.held(&posed, bearing, usual);
+                choices.push(match held > rule.cost + UNTRIED {
+                    true => Choice {
+                        bearing,
+                        high,
+                        over: false,
+                        elbow: posed.elbow / self.rig().length(),
+                        wrist: posed.wrist / self.rig().length(),
+                        cost: held,
+                        ..rule
+                    },
+                    false => self.choice(want, bearing, (high, free), usual),
+                });
             }
         }
         choices
+    }
+
+    /// Returns the cost of a posture whatever the orientation of its hand.
+    fn held(&self, posed: &Posed, bearing: Bearing, usual: f64) -> f64 {
+        off_rule(bearing.plane.to_degrees())
+            + self.raised(posed, usual)
+            + self.flared(posed)
+            + self.crossed(posed)
+            + self.behind(posed)
+            + self.within(posed)
     }
 
     /// Adds shrugged postures for the planes in which the hand suffers.
@@ -292,7 +342,7 @@ impl Arm<'_> {
         let (tries, outlines) = if want.touch > 0.0 {
             (4, want.outlines)
         } else {
-            (2, [&[][..]; 2])
+            (2, [HandOutline::NONE; 2])
         };
         let coarse = Want { outlines, ..*want };
         let hung = self.hang(&coarse, bearing, high, tries);
@@ -300,14 +350,13 @@ impl Arm<'_> {
         let twist = (hung.angles.turned(&self.limits.wrist) - 0.75).max(0.0);
         let apart = hung.rotation.angle_between(want.turned);
         let missed = hung.residual / self.rig().length();
-        let amiss = given * self.off(apart) + self.within(&hung.posed) + MISSED * missed * missed;
-        let cost = off_rule(bearing.plane.to_degrees())
+        let off = given * self.off(apart) + MISSED * missed * missed;
+        let cost = self.held(&hung.posed, bearing, usual)
             + SHRUGGED * bearing.shrug * bearing.shrug
-            + 3.0 * (bend * bend + twist * twist)
-            + self.raised(&hung.posed, usual)
-            + self.flared(&hung.posed)
-            + self.crossed(&hung.posed)
-            + amiss;
+            + BENT * bend * bend
+            + TWISTED * twist * twist
+            + off;
+        let amiss = off + self.within(&hung.posed);
         Choice {
             bearing,
             angles: hung.angles,

@@ -161,5 +161,5 @@ fn bones(wanted: &Wanted<'_>, frame: usize) -> [DVec3; BONES.len()] {
     let [_, outline] = wanted.outlines.at(frame);
     let turned = wanted.turns[frame];
     let wrist = wanted.points[frame] - turned * wanted.offsets[frame];
-    BONES.map(|n| wrist + turned * outline.get(n).copied().unwrap_or(DVec3::ZERO))
+    BONES.map(|n| wrist + turned * outline.points.get(n).copied().unwrap_or(DVec3::ZERO))
 }

@@ -7,6 +7,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `plan` | from the tree to events: postures, transitions, acting hands and their frames |
+//! | `orient` | directions and palms of hands |
 //! | `transit` | transitions of hands from one state to another |
 //! | `approach` | transitions to movements, no faster than these |
 //! | `place` | positions of hands: on the body, in space, in constellations |
@@ -42,6 +43,7 @@ mod motion;
 mod natural;
 mod nonmanual;
 mod notes;
+mod orient;
 mod pace;
 mod path;
 mod perform;

@@ -1,19 +1,21 @@
 //! Tests that synthesised movement looks natural.
 
-use chereme_motion::glam::DVec3;
+use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Part, Side};
 use chereme_sign::Handedness;
 use chereme_sign::hamnosys::angles::hand_angles;
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 use chereme_sign::hamnosys::{
-    Act, BodyLanguage, BodyLocation, Contact, Digit, Digits, HandClass, HandsUsed, Handshape,
-    Motion, MotionKind, NonmanualPart, Posture, Size, ThumbPosition, Zigzag,
+    Act, BodyLanguage, BodyLocation, Contact, Digit, Digits, HandClass, HandLocation, HandSite,
+    HandsUsed, Handshape, Motion, MotionKind, NonmanualPart, Place, Posture, Size, ThumbPosition,
+    Zigzag,
 };
 
 use super::plan::{Phase, PhaseKind, Planner};
 use super::stage::Stage;
 use super::tests::{at, directed, mirrored, model, notated, posture, stage};
 use super::*;
+use crate::outcome::About;
 use crate::testing::Axes;
 
 fn alive(sign: &Notated) -> Generated {
@@ -29,7 +31,7 @@ fn phases(sign: &Notated) -> Vec<Phase> {
     planner.signs(&[sign]).phases
 }
 
-fn flat(place: Option<chereme_sign::hamnosys::Place>) -> Posture {
+fn flat(place: Option<Place>) -> Posture {
     posture(HandClass::Flat, "ol", "d", place)
 }
 
@@ -272,4 +274,135 @@ fn two_hands_do_not_merge() {
     });
     let nearest = nearest.fold(f64::INFINITY, f64::min);
     assert!(nearest > 0.011, "{nearest}");
+}
+
+/// Returns the notated sign of HamNoSys symbol names.
+fn symbols(names: &str) -> Notated {
+    let text = chereme_sign::hamnosys::from_names(names.split(' ')).expect("names of symbols");
+    Notated {
+        sign: chereme_sign::hamnosys::parse(&text).expect("HamNoSys").sign,
+        ..Notated::default()
+    }
+}
+
+/// Returns the rotations of the right hand from the first stroke on, frame by frame, with the frame rate.
+fn rotations(made: &Generated) -> Vec<DQuat> {
+    let hand = made.anatomy.joint(Part::Hand(Side::Right)).expect("a hand");
+    let gloss = made.notes.iter().find(|note| note.about == About::Gloss);
+    let span = gloss.expect("a gloss").span;
+    let rate = made.clip.rate();
+    let frames = rate.frame_at(span.start())..rate.frame_at(span.end());
+    frames
+        .map(|frame| made.clip.model_pose(frame).rotation(hand))
+        .collect()
+}
+
+#[test]
+fn an_upright_hand_that_leans_back_does_not_turn_over() {
+    // The letter of the palm reads "away" before the vertical and "towards the signer" behind it.
+    for (names, over) in [
+        (
+            "hamflathand hamextfingeru hampalmd hamshoulders hamlrat hamreplace hamextfingerui hampalmd",
+            false,
+        ),
+        (
+            "hamflathand hamextfingeru hampalmd hamshoulders hamlrat hamreplace hamextfingeru hampalmu",
+            true,
+        ),
+    ] {
+        let turned = rotations(&alive(&symbols(names)));
+        let most = turned.iter().map(|at| at.angle_between(turned[0]));
+        let most = most.fold(0.0, f64::max).to_degrees();
+        assert_eq!(most > 100.0, over, "{names}: {most} degrees");
+    }
+}
+
+#[test]
+fn a_hand_that_turns_far_takes_time_to_turn() {
+    let lasts = |palm: &str| {
+        let names = "hamflathand hamextfingerl hampalmd hamchest hamreplace hamextfingerl";
+        let strokes = phases(&symbols(&format!("{names} {palm}")));
+        let mut strokes = strokes
+            .iter()
+            .filter(|phase| phase.kind == PhaseKind::Stroke);
+        let stroke = strokes.next().expect("a stroke");
+        stroke.to - stroke.from
+    };
+    let [quarter, half] = ["hampalml", "hampalmu"].map(lasts);
+    assert!(
+        (0.2..0.4).contains(&quarter),
+        "{quarter} s for a right angle"
+    );
+    assert!((0.45..0.6).contains(&half), "{half} s for half a turn");
+}
+
+#[test]
+fn an_elbow_stays_beside_the_trunk_while_its_hand_rises() {
+    let sign = notated(
+        HandsUsed::Dominant,
+        flat(Some(at(BodyLocation::Chest, None))),
+        vec![directed("u")],
+    );
+    let made = alive(&sign);
+    let arm = made.anatomy.arm(Side::Right).expect("an arm");
+    for frame in 0..made.clip.frames() {
+        let model = made.clip.model_pose(frame);
+        let body = made.anatomy.body_frame(&model).expect("a body");
+        let upper = model.position(arm.forearm) - model.position(arm.upper);
+        let back = -upper.dot(body.forward);
+        assert!(back < 0.09, "frame {frame}: {back} m behind the shoulder");
+    }
+}
+
+#[test]
+fn what_is_clear_of_the_trunk_is_not_pushed_out_of_it() {
+    let body = Stage::of(&stage(Axes::Odd)).expect("a body");
+    let middle = body.middle();
+    let mut clear = 0;
+    for n in 0..4000 {
+        let part = |by: usize| ((n * by) % 997) as f64 / 996.0 - 0.5;
+        let at = middle + DVec3::new(part(31) * 1.2, part(57) * 1.6 - 0.3, part(83));
+        let around = 0.15 * (part(7) + 0.5);
+        if !body.torso.is_clear(at, around + 0.008) {
+            continue;
+        }
+        clear += 1;
+        let way = DVec3::new(part(11), part(13), part(17)).normalize_or(DVec3::X);
+        let out = body.torso.way_out(at + way * around, 0.008);
+        assert_eq!(out, DVec3::ZERO, "{at} and {around} m along {way}");
+    }
+    assert!((500..3800).contains(&clear), "{clear}");
+}
+
+#[test]
+fn a_hand_that_is_placed_at_the_other_follows_it_to_its_own_place() {
+    let tip = |contact: Option<Contact>, by: Option<HandSite>| HandSite {
+        at: Some(HandLocation::Tip),
+        digits: Digits(vec![Digit::Index]),
+        contact,
+        by: by.map(Box::new),
+        ..HandSite::default()
+    };
+    let at_other = Place::Hand(tip(Some(Contact::Touch), Some(tip(None, None))));
+    let high = at(BodyLocation::Shoulders, Some(Contact::Close));
+    for first in [true, false] {
+        let mut both = [
+            Some(Box::new(at_other.clone())),
+            Some(Box::new(high.clone())),
+        ];
+        if !first {
+            both.reverse();
+        }
+        let [a, b] = both;
+        let sign = notated(mirrored(), flat(Some(Place::Split(a, b))), Vec::new());
+        let made = alive(&sign);
+        let posture = model(&made, 0.5);
+        let tips = ["left-index-tip", "right-index-tip"].map(|name| {
+            let skeleton = made.clip.skeleton();
+            let tip = made.anatomy.landmark(skeleton, &posture, name);
+            tip.expect("a landmark")
+        });
+        let apart = tips[0].distance(tips[1]);
+        assert!(apart < 0.02, "dominant first {first}: {apart} m");
+    }
 }

@@ -16,6 +16,11 @@ use super::lift::inside;
 use super::plan::{Frame, Planner, Who, acting};
 use super::solve::Arm;
 
+/// Returns whether a place is at the other hand.
+pub(super) fn is_at_hand(place: &Place) -> bool {
+    matches!(place, Place::Hand(_))
+}
+
 /// The goal of a hand's reference point.
 #[derive(Debug, Clone)]
 pub(super) struct Goal {
@@ -49,7 +54,10 @@ impl Planner<'_> {
             Place::Hands(hands) if self.is_lone(hands, named) => self.alone(hands, named),
             Place::Hands(constellation) => self.by_each_other(constellation, named),
             Place::Split(a, b) => {
-                for (n, place) in [a, b].into_iter().enumerate() {
+                let mut each = [(0, a), (1, b)];
+                // A hand that is placed at the other one follows it.
+                each.sort_by_key(|(_, place)| place.as_deref().is_some_and(is_at_hand));
+                for (n, place) in each {
                     let Some(place) = place else { continue };
                     let mut only: Who = [None, None];
                     let mut frame = named[n].unwrap_or_else(|| self.own_frame());

@@ -7,15 +7,15 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::Handedness;
 use chereme_sign::hamnosys::Frame::Relative;
 use chereme_sign::hamnosys::angles::hand_angles;
-use chereme_sign::hamnosys::orientation;
 use chereme_sign::hamnosys::sites::HandPoint;
 use chereme_sign::hamnosys::{
-    Aim, BodyLanguage, BodyPlace, Compass, Constellation, Direction, Each, HandsUsed, Handshape,
-    Manual, Notated, Place, Posture, Symmetry,
+    Aim, BodyLanguage, BodyPlace, Constellation, Direction, Each, HandsUsed, Handshape, Manual,
+    Notated, Place, Posture, Symmetry,
 };
 
 use super::approach::Course;
 use super::arm::Limits;
+use super::orient::palm_angle;
 use super::pace::{Pace, Paces};
 use super::path::Path;
 use super::stage::{Shape, Stage};
@@ -325,7 +325,7 @@ impl<'a> Planner<'a> {
         let lifted = self.lift(&posture, named);
         self.begun = false;
         if !part.holdover || !part.posture.is_empty() {
-            self.assume(&posture, named);
+            self.assume(&posture, named, false);
         }
         self.begun = true;
         self.start_behind(part, who);
@@ -494,9 +494,11 @@ impl<'a> Planner<'a> {
         sum / points.len().max(1) as f64
     }
 
-    /// Sets the posture of hands at the current end of the plan: shape, orientation, place.
-    pub(crate) fn assume(&mut self, posture: &Posture, named: Who) {
+    /// Sets the posture of hands at the current end of the plan: shape, orientation, place. In a change of posture a hand
+    /// whose palm has the same letter before and after does not turn over between.
+    pub(crate) fn assume(&mut self, posture: &Posture, named: Who, changes: bool) {
         for (n, frame) in acting(named) {
+            let before = self.state[n].clone();
             self.state[n].used = true;
             if let Some(shape) = pick(&posture.shape, n) {
                 self.reshape(n, shape);
@@ -516,6 +518,9 @@ impl<'a> Planner<'a> {
                 self.state[n].follows = relative.contains(&Some(Relative));
                 self.state[n].heading = None;
                 self.turn(n);
+                if changes && before.used {
+                    self.keep_side(n, &before);
+                }
             }
         }
         if let Some(place) = &posture.place {
@@ -552,19 +557,6 @@ impl<'a> Planner<'a> {
             self.own_frame().axes
         } else {
             frame.axes
-        }
-    }
-
-    /// Rotates a hand to its notated direction and palm.
-    pub(crate) fn turn(&mut self, n: usize) {
-        let state = &self.state[n];
-        let [pointing, facing] = state.axes;
-        // The palm's letter applies to a hand that points in this direction in its own frame.
-        let direction = state.direction * pointing * facing;
-        let [direction, palm] =
-            oriented(direction, state.palm).map(|v| self.stage.direction(v * facing));
-        if let Some(rotation) = self.stage.turned(self.sides[n], direction, palm) {
-            self.state[n].rotation = rotation;
         }
     }
 
@@ -643,17 +635,6 @@ pub(crate) fn mean(first: Direction, second: Option<Direction>) -> DVec3 {
     (first + DVec3::from(second.vector())).normalize_or(first)
 }
 
-/// Returns the angle of a palm (rad); half-way on the shorter side if there are two.
-fn palm_angle(aim: &Aim<Compass>) -> f64 {
-    let first = aim.first.angle();
-    let Some(second) = aim.second else {
-        return first;
-    };
-    let apart = second.angle() - first;
-    let turns = (apart / std::f64::consts::TAU).round();
-    first + (apart - turns * std::f64::consts::TAU) / 2.0
-}
-
 /// Returns the shortest rotation from forward to a direction; for straight back it turns over the top.
 pub(crate) fn shortest(direction: DVec3) -> DQuat {
     if direction.z < -1.0 + 1e-9 {
@@ -665,10 +646,4 @@ pub(crate) fn shortest(direction: DVec3) -> DQuat {
 /// Returns a compass direction about forward (left, up, forward): down at 0, right a quarter turn on.
 pub(crate) fn about(angle: f64) -> DVec3 {
     DVec3::new(-angle.sin(), -angle.cos(), 0.0)
-}
-
-/// Returns the directions of a hand's axis and palm (left, up, forward).
-fn oriented(direction: DVec3, palm: f64) -> [DVec3; 2] {
-    let faces = orientation::palm(direction.to_array(), palm);
-    [direction, DVec3::from(faces)]
 }

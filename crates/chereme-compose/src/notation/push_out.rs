@@ -11,6 +11,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::Bearing;
 use super::solve::{AROUND, Arm, ArmFrame, Got, eased};
+use super::stage::HandOutline;
 use super::track::{Outlines, Wanted};
 
 /// The number of rounds of this correction.
@@ -95,7 +96,7 @@ impl Arm<'_> {
     pub(crate) fn clear<'o>(
         &self,
         frames: &mut [[DQuat; 4]],
-        outlines: impl Fn(usize) -> [&'o [DVec3]; 2],
+        outlines: impl Fn(usize) -> [&'o HandOutline; 2],
         rate: f64,
     ) {
         let rig = self.rig();

@@ -10,7 +10,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::{Bearing, HeldDirections, Limits, Posed, Rig};
 use super::freedom::Choice;
-use super::stage::{Hand, Stage};
+use super::stage::{Hand, HandOutline, Stage};
 use super::track::Wanted;
 
 /// Seconds between two choices of the arm's plane; it is interpolated smoothly in between.
@@ -101,7 +101,7 @@ pub(crate) struct Want<'a> {
     pub(crate) point: DVec3,
     pub(crate) offset: DVec3,
     pub(crate) turned: DQuat,
-    pub(crate) outlines: [&'a [DVec3]; 2],
+    pub(crate) outlines: [&'a HandOutline; 2],
     /// Degree of contact, from 0 to 1: in contact, the hand turns about its reference point to leave the
     /// trunk instead of moving.
     pub(crate) touch: f64,
@@ -333,15 +333,17 @@ impl<'a> Arm<'a> {
         &self,
         wrist: DVec3,
         turned: DQuat,
-        outlines: [&[DVec3]; 2],
+        outlines: [&HandOutline; 2],
     ) -> (DVec3, DVec3) {
         let torso = &self.stage.torso;
-        if torso.is_clear(wrist, 1.3 * self.hand.length()) {
-            return (DVec3::ZERO, wrist);
-        }
         let [a, b] = outlines;
         let count = if std::ptr::eq(a, b) { 1 } else { 2 };
-        let points = [a, b].into_iter().take(count).flatten();
+        let outlines = [a, b].into_iter().take(count);
+        let near = |outline: &&HandOutline| {
+            let middle = wrist + turned * outline.middle;
+            !torso.is_clear(middle, outline.radius + MARGIN)
+        };
+        let points = outlines.filter(near).flat_map(|outline| &outline.points);
         let own = (torso.way_out(wrist, MARGIN), wrist);
         points.fold(own, |most, &point| {
             let at = wrist + turned * point;

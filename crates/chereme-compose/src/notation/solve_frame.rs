@@ -4,6 +4,7 @@ use chereme_motion::glam::{DMat3, DQuat, DVec3};
 
 use super::arm::{Bearing, Posed};
 use super::solve::{Arm, ArmFrame, Got};
+use super::stage::HandOutline;
 
 /// Distance (m) from the goal above which a point is not settled.
 const UNSETTLED: f64 = 1e-3;
@@ -20,7 +21,7 @@ impl Arm<'_> {
     pub(crate) fn settle(
         &self,
         row: &ArmFrame,
-        outlines: [&[DVec3]; 2],
+        outlines: [&HandOutline; 2],
         before: Option<&Got>,
     ) -> Got {
         let rig = self.rig();

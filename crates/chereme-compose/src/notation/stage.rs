@@ -57,8 +57,43 @@ pub(crate) struct Shape {
     pub(crate) rotations: Vec<DQuat>,
     /// Positions and rotations of the joints in the hand's space, in the order of [`Hand::fingers`].
     places: Vec<(DVec3, DQuat)>,
-    /// Points of the hand's outline in its space: knuckles, middle joints, tips.
-    pub(crate) outline: Vec<DVec3>,
+    /// Points of the hand in its space.
+    pub(crate) outline: HandOutline,
+}
+
+/// Points of a hand in its space: wrist, palm, then knuckles, middle joints and tips.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct HandOutline {
+    pub(crate) points: Vec<DVec3>,
+    /// The middle of the smallest box around the points.
+    pub(crate) middle: DVec3,
+    /// Distance (m) of the farthest point from the middle.
+    pub(crate) radius: f64,
+}
+
+impl HandOutline {
+    /// A hand without points: its wrist alone counts.
+    pub(crate) const NONE: &'static Self = &Self {
+        points: Vec::new(),
+        middle: DVec3::ZERO,
+        radius: 0.0,
+    };
+
+    fn of(points: Vec<DVec3>) -> Self {
+        let Some(&first) = points.first() else {
+            return Self::default();
+        };
+        let (low, high) = points.iter().fold((first, first), |(low, high), &point| {
+            (low.min(point), high.max(point))
+        });
+        let middle = low.midpoint(high);
+        let far = points.iter().map(|point| point.distance(middle));
+        Self {
+            radius: far.fold(0.0, f64::max),
+            middle,
+            points,
+        }
+    }
 }
 
 impl Stage {
@@ -138,7 +173,7 @@ impl Stage {
                 angles,
                 rotations: Vec::new(),
                 places: Vec::new(),
-                outline: Vec::new(),
+                outline: HandOutline::default(),
             };
         };
         let rotations = hand.fingers.iter().map(|&j| pose.rotations[j]).collect();
@@ -146,9 +181,9 @@ impl Stage {
     }
 
     /// Returns the outline of a hand with these finger rotations.
-    pub(crate) fn outline(&self, side: Side, rotations: Vec<DQuat>) -> Vec<DVec3> {
+    pub(crate) fn outline(&self, side: Side, rotations: Vec<DQuat>) -> HandOutline {
         let Some(hand) = self.hand(side) else {
-            return Vec::new();
+            return HandOutline::default();
         };
         let angles = HandAngles::default();
         let shape = self.shape_with(hand, angles, rotations, &self.base.translations);
@@ -173,7 +208,7 @@ impl Stage {
             angles,
             rotations,
             places,
-            outline: Vec::new(),
+            outline: HandOutline::default(),
         };
         let mut outline = vec![DVec3::ZERO, hand.along * (0.55 * hand.base)];
         for digit in Digit::ALL {
@@ -192,7 +227,7 @@ impl Stage {
             Some(shape.places[n].0)
         });
         outline.extend(ends);
-        shape.outline = outline;
+        shape.outline = HandOutline::of(outline);
         shape
     }
 
@@ -443,9 +478,19 @@ impl Torso {
         (along(body.left)? + along(body.up)? + along(body.forward)?).try_normalize()
     }
 
-    /// Returns whether everything within a distance of a position is surely outside the trunk.
+    /// Returns whether everything within a distance of a position is surely outside the trunk: outside the box around
+    /// it.
     pub(crate) fn is_clear(&self, at: DVec3, around: f64) -> bool {
-        self.way_out(at, around) == DVec3::ZERO
+        let Some(body) = &self.body else {
+            return true;
+        };
+        let v = at - body.origin;
+        let outside = |at: f64, from: f64, to: f64| at < from - around || at > to + around;
+        let [top, bottom] = [OUTLINE[0].0, OUTLINE[OUTLINE.len() - 1].0].map(|y| y * self.trunk);
+        let [front, back, wide] = [FRONT, -BACK, WIDE].map(|share| share * body.scale);
+        outside(v.dot(body.forward), back, front)
+            || outside(v.dot(body.left), -wide, wide)
+            || outside(v.dot(body.up), bottom, top)
     }
 
     /// Returns the offset by which an elbow nearer than `margin` metres to the trunk leaves it; sideways

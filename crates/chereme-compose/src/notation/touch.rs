@@ -39,7 +39,12 @@ impl Planner<'_> {
         let out = self.stage.outward(hand, shape, *point);
         let own = self.stage.point(hand, shape, *point).dot(out);
         let flesh = FLESH * hand.length();
-        let far = shape.outline.iter().skip(2).map(|at| at.dot(out) + flesh);
+        let far = shape
+            .outline
+            .points
+            .iter()
+            .skip(2)
+            .map(|at| at.dot(out) + flesh);
         let far = far.fold(own, f64::max);
         out * (far - own)
     }
@@ -121,7 +126,7 @@ impl Planner<'_> {
         let torso = &self.stage.torso;
         let inside = |by: f64| {
             let wrist = state.wrist() + skin * by;
-            let mut points = shape.outline.iter();
+            let mut points = shape.outline.points.iter();
             points.any(|&at| torso.way_out(wrist + state.rotation * at, MARGIN) != DVec3::ZERO)
         };
         let most = (BEHIND * hand.length() / STEP) as u32;

@@ -9,7 +9,7 @@ use super::arm::Limits;
 use super::pace::{Pace, Paces};
 use super::plan::{Act, Event, HandState, SignPlan};
 use super::solve::{Arm, ArmFrame, Got, Hindrance};
-use super::stage::{Hand, Stage};
+use super::stage::{Hand, HandOutline, Stage};
 use super::stretch_time::{Moved, Warp};
 
 /// The movement of one arm and hand, frame by frame.
@@ -635,13 +635,13 @@ pub(crate) struct Outlines<'a> {
     /// Index of the first frame.
     first: usize,
     from: Vec<(usize, [Outline<'a>; 2])>,
-    between: Vec<Vec<DVec3>>,
+    between: Vec<HandOutline>,
 }
 
 /// The outline of a shape, or an intermediate one by its index.
 #[derive(Clone, Copy)]
 enum Outline<'a> {
-    Shape(&'a [DVec3]),
+    Shape(&'a HandOutline),
     Between(usize),
 }
 
@@ -650,7 +650,7 @@ const STEPS: usize = 4;
 
 fn outlines<'a>(stage: &Stage, plan: &'a SignPlan, n: usize, timing: &Timing<'_>) -> Outlines<'a> {
     let shapes = &plan.shapes[n];
-    let of = |shape: usize| Outline::Shape(shapes[shape].outline.as_slice());
+    let of = |shape: usize| Outline::Shape(&shapes[shape].outline);
     let mut now = plan.start[n].shape;
     let mut from = vec![(0, [of(now); 2])];
     let mut between = Vec::new();
@@ -683,14 +683,14 @@ fn outlines<'a>(stage: &Stage, plan: &'a SignPlan, n: usize, timing: &Timing<'_>
 }
 
 impl Outlines<'_> {
-    pub(crate) fn at(&self, frame: usize) -> [&[DVec3]; 2] {
+    pub(crate) fn at(&self, frame: usize) -> [&HandOutline; 2] {
         let n = self
             .from
             .partition_point(|&(from, ..)| from <= self.first + frame);
         self.from[n.saturating_sub(1)]
             .1
             .map(|outline| match outline {
-                Outline::Shape(points) => points,
+                Outline::Shape(outline) => outline,
                 Outline::Between(n) => &self.between[n],
             })
     }

@@ -1,11 +1,22 @@
 //! Transitions of hands from one state to another.
 
+use std::f64::consts::PI;
+
+use chereme_motion::glam::DVec3;
+
+use super::arm::{Bearing, Rig};
 use super::pace::Pace;
 use super::path::Path;
 use super::plan::{Act, Event, HandState, PhaseKind, Planner};
 
 /// Smallest distance (arm lengths) between a wrist in transition and its shoulder.
 const ROUND: f64 = 0.42;
+/// Largest distance (arm lengths) of an elbow behind its shoulder on the way from one posture to another, and the steps in
+/// which the path is bent until the elbow keeps to it.
+const BEHIND: f64 = 0.1;
+const BENT: [f64; 6] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3];
+/// Shares of the path at which the elbow is looked at.
+const LOOKED_AT: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Planner<'_> {
     /// Plans the transition of a hand from its current state to another, within a time span (s).
@@ -35,7 +46,8 @@ impl Planner<'_> {
         self.state[n] = goal.clone();
     }
 
-    /// Leads a transition round the own shoulder if the forearm would have to fold up.
+    /// Leads a transition round the own shoulder if the forearm would have to fold up, and bends its path forward if the
+    /// elbow would go behind the trunk.
     pub(super) fn swing(&mut self, n: usize, goal: &HandState, from: f64, to: f64, pace: Pace) {
         let Some(hand) = self.stage.hand(self.sides[n]) else {
             return;
@@ -51,6 +63,14 @@ impl Planner<'_> {
         let ends = start.distance(shoulder).min(end.distance(shoulder));
         let missing = (ROUND * self.stage.arm).min(ends) - far;
         if missing <= 0.0 || !(0.0..1.0).contains(&share) {
+            if let Some(out) = self.ahead(&hand.rig, [start, end], along) {
+                self.plan.events[n].push(Event {
+                    from,
+                    to,
+                    pace,
+                    act: Act::Move(Path::Spring(out)),
+                });
+            }
             return;
         }
         let outside = self.stage.left * self.sides[n].sign();
@@ -59,13 +79,37 @@ impl Planner<'_> {
             return;
         };
         // A spring is farthest out half-way.
-        let there = (std::f64::consts::PI * share).sin().max(0.3);
+        let there = (PI * share).sin().max(0.3);
         self.plan.events[n].push(Event {
             from,
             to,
             pace,
             act: Act::Move(Path::Spring(out * (missing / there))),
         });
+    }
+
+    /// Returns by how much the middle of a straight path between two wrists must lie farther ahead so that the elbow does
+    /// not go behind the trunk; `None` if it does not.
+    fn ahead(&self, rig: &Rig, [start, end]: [DVec3; 2], along: DVec3) -> Option<DVec3> {
+        let forward = self.stage.forward;
+        let out = forward.reject_from_normalized(along).try_normalize()?;
+        let back = |wrist: DVec3| {
+            let posed = rig.reach(wrist, Bearing::default(), &self.limits);
+            -(posed.elbow - rig.shoulder).dot(forward) / self.stage.arm
+        };
+        let most = BEHIND.max(back(start)).max(back(end));
+        let behind = |by: DVec3| {
+            LOOKED_AT
+                .map(|share| back(start.lerp(end, share) + by * (PI * share).sin()))
+                .into_iter()
+                .any(|back| back > most)
+        };
+        if !behind(DVec3::ZERO) {
+            return None;
+        }
+        let tried = BENT.map(|by| out * (by * self.stage.arm));
+        let last = tried[BENT.len() - 1];
+        Some(tried.into_iter().find(|by| !behind(*by)).unwrap_or(last))
     }
 
     /// Returns the duration of a transition between two states.

@@ -5,6 +5,10 @@ use super::*;
 /// Angle (rad) between the written direction and the way to the goal above which the path bends from the
 /// one to the other.
 const BENDS: f64 = 0.45;
+/// Least time (s) for each radian by which a hand turns during a movement.
+const TURNING: f64 = 0.16;
+/// The factor on that time if the hand hits something: its speed peaks late.
+const HIT: f64 = 1.6;
 
 impl Planner<'_> {
     pub(super) fn target(
@@ -30,7 +34,7 @@ impl Planner<'_> {
         }
         self.fixed = staying(motion, who);
         let lifted = self.lift(posture, named);
-        self.assume(posture, named);
+        self.assume(posture, named, true);
         if let Some(place) = &posture.place {
             self.placed();
             if self.fixed.is_none() {
@@ -52,6 +56,10 @@ impl Planner<'_> {
             Some(_) => end,
             None => end.max(time + 0.6 * self.longest(&before, &goal) * env.slower.min(1.0)),
         };
+        let turned = acting(named).map(|(n, _)| before[n].rotation.angle_between(goal[n].rotation));
+        let turned = turned.fold(0.0, f64::max);
+        let steep = if contact { HIT } else { 1.0 };
+        let end = end.max(time + TURNING * steep * turned * env.slower);
         let pace = Pace::of(
             manner,
             if contact {

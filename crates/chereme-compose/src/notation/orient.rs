@@ -1,0 +1,58 @@
+//! Turns hands to their notated direction and palm.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_sign::hamnosys::{Aim, Compass, orientation};
+
+use super::plan::{HandState, Planner};
+
+/// Largest change of a hand's direction (rad) for which the hand leans instead of pointing elsewhere.
+const LEANS: f64 = 1.1;
+/// Rotation (rad) above which a leaning hand would turn over.
+const TURNED_OVER: f64 = 1.7;
+
+impl Planner<'_> {
+    /// Rotates a hand to its notated direction and palm.
+    pub(crate) fn turn(&mut self, n: usize) {
+        let state = &self.state[n];
+        let [pointing, facing] = state.axes;
+        // The palm's letter applies to a hand that points in this direction in its own frame.
+        let direction = state.direction * pointing * facing;
+        let [direction, palm] =
+            oriented(direction, state.palm).map(|v| self.stage.direction(v * facing));
+        if let Some(rotation) = self.stage.turned(self.sides[n], direction, palm) {
+            self.state[n].rotation = rotation;
+        }
+    }
+
+    /// Keeps the palm on its side if the hand's direction changes a little and the palm's letter does not: upright hands
+    /// that lean to either side of the vertical read one letter in opposite ways.
+    pub(crate) fn keep_side(&mut self, n: usize, before: &HandState) {
+        let state = &self.state[n];
+        let same = state.palm == before.palm && state.axes[1] == before.axes[1];
+        let Some(hand) = self.stage.hand(self.sides[n]).filter(|_| same) else {
+            return;
+        };
+        let [from, to] = [before.rotation, state.rotation].map(|turned| turned * hand.along);
+        let led = (DQuat::from_rotation_arc(from, to) * before.rotation).normalize();
+        if from.angle_between(to) < LEANS && led.angle_between(state.rotation) > TURNED_OVER {
+            self.state[n].rotation = led;
+        }
+    }
+}
+
+/// Returns the angle of a palm (rad); half-way on the shorter side if there are two.
+pub(crate) fn palm_angle(aim: &Aim<Compass>) -> f64 {
+    let first = aim.first.angle();
+    let Some(second) = aim.second else {
+        return first;
+    };
+    let apart = second.angle() - first;
+    let turns = (apart / std::f64::consts::TAU).round();
+    first + (apart - turns * std::f64::consts::TAU) / 2.0
+}
+
+/// Returns the directions of a hand's axis and palm (left, up, forward).
+fn oriented(direction: DVec3, palm: f64) -> [DVec3; 2] {
+    let faces = orientation::palm(direction.to_array(), palm);
+    [direction, DVec3::from(faces)]
+}
