@@ -184,22 +184,23 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>) -> Seam {
     let (least, most, speed) = TIMES;
     let seconds = time.map_or((longest / speed).clamp(least, most), |time| time.0);
     let gap = (seconds / first.rate.frame_time()).round().max(1.0) as usize;
-    // The hand whose cuts leave out the fewest frames sets the pace: its transition takes exactly the wanted time.
-    let spare = hands
-        .iter()
-        .map(|cut| last - cut.leave + cut.enter)
-        .min()
-        .unwrap_or(0);
+    // The hand whose cuts leave out the fewest frames sets the pace: its transition takes exactly the wanted time, and
+    // trunk, head and legs go with it.
+    let left_out = |cut: &Cut| last - cut.leave + cut.enter;
+    let [right, left] = hands;
+    let body = if left_out(&left) < left_out(&right) {
+        left
+    } else {
+        right
+    };
+    let spare = left_out(&body);
     let offset = (first.frames + gap)
         .saturating_sub(spare)
         .max(first.frames.saturating_sub(spare).max(1));
     Seam {
         offset,
         hands,
-        body: Cut {
-            leave: last.min(offset - 1),
-            enter: 0,
-        },
+        body,
     }
 }
 

@@ -54,6 +54,27 @@ fn another_signer_s_sign_follows_on_the_first_one_s_body() {
 }
 
 #[test]
+fn trunk_and_legs_change_over_as_slowly_as_the_hands() {
+    for recipe in [
+        "BOL then LIMACE",
+        "(ESCARGOT | span 0.3s..0.8s) then (LIMACE | span 0.4s..0.9s)",
+        "(BOL | span 0.2s..0.7s) then (ESCARGOT | span 0.3s..0.8s)",
+    ] {
+        let made = made(recipe);
+        let hands = made.report.joins.iter().map(|join| join.span.seconds());
+        let fastest = hands.fold(f64::INFINITY, f64::min);
+        let mut notes = made.notes.iter();
+        let body = notes.find(|note| note.about == About::Transition);
+        let body = body.expect("a transition").span.seconds();
+        assert!(
+            (body - fastest).abs() < 1e-6,
+            "{recipe}: {body} and {fastest} s"
+        );
+        assert!(body >= 0.14, "{recipe}: {body} s");
+    }
+}
+
+#[test]
 fn a_repetition_joins_its_copies_smoothly() {
     let made = made("LIMACE | repeat 3 gap 0.1s");
     assert_eq!(made.clip.frames(), 3 * 120 + 2 * 12);
