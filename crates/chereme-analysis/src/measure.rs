@@ -92,7 +92,7 @@ pub fn measure(
                 ..Measured::default()
             })
         }
-        MeasuredKind::Round => match path::fit(&path(), path::exact()).way {
+        MeasuredKind::Round => match path::fit(&path(), path::exact()).path {
             PathForm::Circle {
                 turns,
                 long,
@@ -106,7 +106,7 @@ pub fn measure(
             }),
             _ => None,
         },
-        MeasuredKind::Wave => match path::fit(&path(), path::exact()).way {
+        MeasuredKind::Wave => match path::fit(&path(), path::exact()).path {
             PathForm::Wave { chord, width, .. } => Some(Measured {
                 seconds: whole,
                 length: chord.length(),

@@ -173,7 +173,7 @@ fn lids(curves: &Curves<'_>) -> Vec<Proposal> {
 fn gaze(curves: &Curves<'_>) -> Vec<Proposal> {
     let (left, up) = (from_median(curves.gaze_left), from_median(curves.gaze_up));
     let back = |curve: &[f64]| -> Vec<f64> { curve.iter().map(|it| -it).collect() };
-    let ways = [
+    let directions = [
         ("left", left.clone()),
         ("right", back(&left)),
         ("up", up.clone()),
@@ -182,7 +182,7 @@ fn gaze(curves: &Curves<'_>) -> Vec<Proposal> {
     let one = |(value, curve): &(&'static str, Vec<f64>)| {
         found(curve, curves.rate, GAZE, LEAST, "gaze", value)
     };
-    ways.iter().flat_map(one).collect()
+    directions.iter().flat_map(one).collect()
 }
 
 fn mouth(curves: &Curves<'_>) -> Vec<Proposal> {

@@ -175,9 +175,9 @@ pub(crate) fn between_minima(speeds: &[f64], least: f64) -> Vec<Range<usize>> {
 
 /// Searches from a peak for the minimum that ends its transition; `None` if the speed first rises above
 /// the peak, or the movement ends without falling far enough.
-fn minimum(speeds: &[f64], top: usize, way: impl Iterator<Item = usize>) -> Option<usize> {
+fn minimum(speeds: &[f64], top: usize, frames: impl Iterator<Item = usize>) -> Option<usize> {
     let mut lowest = top;
-    for n in way {
+    for n in frames {
         if speeds[n] < speeds[lowest] {
             lowest = n;
         } else if speeds[lowest] < REST * speeds[top] || speeds[n] * DIP > speeds[lowest] {

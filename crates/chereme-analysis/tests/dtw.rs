@@ -125,7 +125,7 @@ fn every_path(d: &dyn Fn(usize, usize) -> f64, name: &str, i: usize, j: usize) -
             d(i - a, j - b)
         }
     };
-    let ways = match name {
+    let costs = match name {
         "symmetric1" => vec![g(1, 1) + l(0, 0), g(0, 1) + l(0, 0), g(1, 0) + l(0, 0)],
         "symmetric2" => vec![
             g(1, 1) + 2.0 * l(0, 0),
@@ -150,7 +150,7 @@ fn every_path(d: &dyn Fn(usize, usize) -> f64, name: &str, i: usize, j: usize) -
             g(2, 2) + l(1, 0) + l(0, 0),
         ],
     };
-    ways.into_iter().fold(f64::INFINITY, f64::min)
+    costs.into_iter().fold(f64::INFINITY, f64::min)
 }
 
 fn rows(frames: std::ops::Range<usize>, channels: usize) -> impl Strategy<Value = Vec<Vec<f64>>> {

@@ -251,7 +251,7 @@ fn two_bodies_are_compared_by_the_parts_that_both_have() {
 }
 
 #[test]
-fn symmetric_patterns_give_the_same_score_both_ways() {
+fn symmetric_patterns_give_the_same_score_in_both_directions() {
     let clip = performance(signer(1.0, "", true), 70);
     let other = clip.slice(5..60);
     for pattern in [

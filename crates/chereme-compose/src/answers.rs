@@ -288,7 +288,7 @@ impl<'a> Given<'a> {
         usual: Profile,
     ) -> Result<Courses, Cause> {
         let learned = self.get(slot);
-        self.aside.extend(learned.map(course::told));
+        self.aside.extend(learned.map(course::describe));
         Courses::of(via.profile.unwrap_or(usual), learned).ok_or(Cause::NoProfile)
     }
 }

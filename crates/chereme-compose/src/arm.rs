@@ -178,7 +178,7 @@ struct Turns {
     /// The rotation of the forearm about its length, in addition to that of its bone, in radians.
     twist: f64,
     /// The reliability of that angle, from 0 to 1.
-    told: f64,
+    reliability: f64,
 }
 
 impl<'a> Source<'a> {
@@ -237,14 +237,14 @@ impl<'a> Source<'a> {
         }
         let clavicle = self.arm.clavicle?;
         let root = self.columns.positions(clavicle)[frame];
-        let (bone, way) = (shoulder - root, target - root);
-        let (b, w) = (bone.length(), way.length());
+        let (bone, to_target) = (shoulder - root, target - root);
+        let (b, w) = (bone.length(), to_target.length());
         if b <= 1e-9 * length {
             return None;
         }
-        let axis = bone.cross(way).try_normalize()?;
+        let axis = bone.cross(to_target).try_normalize()?;
         let cosine = (b * b + w * w - enough * enough) / (2.0 * b * w);
-        let wanted = bone.angle_between(way) - cosine.clamp(-1.0, 1.0).acos();
+        let wanted = bone.angle_between(to_target) - cosine.clamp(-1.0, 1.0).acos();
         let wanted = wanted.clamp(0.0, missing / b);
         let turn = DQuat::from_axis_angle(axis, HELP_MOST * (wanted / HELP_MOST).tanh());
         Some(Help {
@@ -276,13 +276,13 @@ impl<'a> Source<'a> {
         let points = self.points(frame);
         let shoulder = help.map_or(points[0], |help| help.shoulder);
         let soft = soft * length(points);
-        let (way, edge) = (target - shoulder, folded(points) + soft);
-        let distance = way.length();
+        let (to_target, edge) = (target - shoulder, folded(points) + soft);
+        let distance = to_target.length();
         if distance >= edge {
             return target;
         }
         let kept = edge - soft + soft * ((distance - edge) / soft).exp();
-        shoulder + way.normalize_or(line(points)) * kept
+        shoulder + to_target.normalize_or(line(points)) * kept
     }
 
     fn step(
@@ -297,7 +297,7 @@ impl<'a> Source<'a> {
         let was = self.points(frame);
         let pole = match self.pole {
             Pole::Arm(out) => self.turned(self.arm.upper, frame) * out,
-            Pole::Model(way) => way,
+            Pole::Model(direction) => direction,
         };
         let old = line(was);
         let across = pole.reject_from_normalized(old).try_normalize();
@@ -355,14 +355,14 @@ impl<'a> Source<'a> {
             .map(|joint| self.turned(joint, frame));
         let hand = hand.unwrap_or(held).normalize();
         let whole = step.carry;
-        let ways = |points: [DVec3; 3]| [points[1] - points[0], points[2] - points[1]];
-        let ([first, second], [to, on]) = (ways(step.was), ways(step.is));
+        let bones = |points: [DVec3; 3]| [points[1] - points[0], points[2] - points[1]];
+        let ([first, second], [to, on]) = (bones(step.was), bones(step.is));
         let turned =
             |from: DVec3, to: DVec3| least_turn((whole * from).normalize(), to.normalize()) * whole;
         let straight = (turned(second, on) * forearm).normalize();
         let bone = (forearm.inverse() * second).normalize();
         let (was, _) = twist_about(forearm.inverse() * held, bone);
-        let (now, told) = twist_about(straight.inverse() * hand, bone);
+        let (now, reliability) = twist_about(straight.inverse() * hand, bone);
         Turns {
             old: [upper, forearm],
             upper: (turned(first, to) * upper).normalize(),
@@ -370,7 +370,7 @@ impl<'a> Source<'a> {
             hand,
             bone,
             twist: now - was,
-            told,
+            reliability,
         }
     }
 
@@ -549,8 +549,8 @@ mod tests {
         let within = softened(&[0.5; 50], 1.0 / 120.0);
         assert_eq!(within, vec![SOFT.0; 50]);
         let leaving = |per_frame: f64| {
-            let way = (0..300).map(|n| 1.0 + per_frame * (f64::from(n) - 150.0));
-            softened(&way.collect::<Vec<f64>>(), 1.0 / 120.0)
+            let distances = (0..300).map(|n| 1.0 + per_frame * (f64::from(n) - 150.0));
+            softened(&distances.collect::<Vec<f64>>(), 1.0 / 120.0)
         };
         let (slow, fast) = (leaving(1e-4), leaving(0.02));
         assert!(slow.iter().all(|soft| (soft - SOFT.0).abs() < 1e-9));

@@ -87,8 +87,8 @@ impl Frame {
 
     /// Returns one leg in model space, in metres.
     pub(crate) fn leg(&self, leg: &Leg) -> DVec3 {
-        let way = towards(&leg.towards).unwrap_or(DVec3::ZERO);
-        self.direction(way) * leg.distance.metres(self.arm)
+        let direction = towards(&leg.towards).unwrap_or(DVec3::ZERO);
+        self.direction(direction) * leg.distance.metres(self.arm)
     }
 
     /// Returns the point at these distances to the left of the body's middle, above the floor, and in front of the
@@ -138,8 +138,8 @@ impl Frame {
             Spot::Me => chest + self.forward * (0.3 * self.arm),
             Spot::You => chest + self.forward * (0.85 * self.arm),
             Spot::Towards(directions) => {
-                let way = self.direction(towards(directions)?);
-                chest + (way + self.forward * 0.5).normalize_or(way) * (0.85 * self.arm)
+                let direction = self.direction(towards(directions)?);
+                chest + (direction + self.forward * 0.5).normalize_or(direction) * (0.85 * self.arm)
             }
             Spot::Point(at) => self.point(at),
             Spot::Value(_) => self.place(work, place?, hand)?,

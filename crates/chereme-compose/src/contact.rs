@@ -49,7 +49,7 @@ struct Contact {
     place: usize,
     frames: Range<usize>,
     /// The vectors from the point to the place at each of these frames.
-    ways: Vec<DVec3>,
+    offsets: Vec<DVec3>,
     /// The frame at which they are nearest.
     nearest: usize,
 }
@@ -65,16 +65,16 @@ impl Contacts {
 }
 
 impl Contact {
-    fn way(&self, tracks: &Tracks<'_>, frame: usize) -> Option<DVec3> {
+    fn offset(&self, tracks: &Tracks<'_>, frame: usize) -> Option<DVec3> {
         let from = tracks.hand(self.side, self.point, frame)?;
         Some(tracks.touched(self.other, self.place, frame)? - from)
     }
 
     /// Returns the change of the point's position relative to the place, at the frame where they were nearest.
     fn moved(&self, tracks: &Tracks<'_>) -> f64 {
-        let was = self.ways[self.nearest - self.frames.start];
-        self.way(tracks, self.nearest)
-            .map_or(0.0, |way| way.distance(was))
+        let was = self.offsets[self.nearest - self.frames.start];
+        self.offset(tracks, self.nearest)
+            .map_or(0.0, |offset| offset.distance(was))
     }
 
     fn names(&self) -> (String, String) {
@@ -105,7 +105,7 @@ impl Contacts {
         let within = of_hand.filter_map(|contact| {
             let start = contact.frames.start.max(frames.start);
             let end = contact.frames.end.min(frames.end);
-            let far = |frame: &usize| contact.ways[frame - contact.frames.start].length();
+            let far = |frame: &usize| contact.offsets[frame - contact.frames.start].length();
             let frame = (start..end).min_by(|a, b| far(a).total_cmp(&far(b)))?;
             Some((far(&frame), contact, frame))
         });
@@ -179,12 +179,12 @@ fn contact(tracks: &Tracks<'_>, side: Side, other: Option<Side>, run: &[Near]) -
         point: nearest.point,
         place: nearest.place,
         frames: run.first()?.frame..run.last()?.frame + 1,
-        ways: Vec::new(),
+        offsets: Vec::new(),
         nearest: nearest.frame,
     };
     let frames = contact.frames.clone();
-    let ways = frames.map(|frame| contact.way(tracks, frame));
-    contact.ways = ways.collect::<Option<_>>()?;
+    let offsets = frames.map(|frame| contact.offset(tracks, frame));
+    contact.offsets = offsets.collect::<Option<_>>()?;
     Some(contact)
 }
 
@@ -292,8 +292,8 @@ impl Carry {
 
     /// Returns the distance of the expected contact now, and its increase.
     fn off(self, contact: &Contact, tracks: &Tracks<'_>, frames: usize) -> Option<(f64, f64)> {
-        let was = contact.ways[contact.nearest - contact.frames.start].length();
-        let at = |frame: usize| contact.way(tracks, frame).map(DVec3::length);
+        let was = contact.offsets[contact.nearest - contact.frames.start].length();
+        let at = |frame: usize| contact.offset(tracks, frame).map(DVec3::length);
         let is = match self {
             Self::Anytime => (0..frames).filter_map(at).min_by(f64::total_cmp)?,
             _ => at(contact.nearest)?,
@@ -312,7 +312,7 @@ pub(crate) fn lost(before: &Contacts, work: &Work, carry: Carry) -> Vec<String> 
         return Vec::new();
     }
     let tracks = before.anchors.tracks(work);
-    let told = |contact: &Contact| {
+    let describe = |contact: &Contact| {
         let now = carry.carried(contact)?;
         let (is, more) = carry.off(&now, &tracks, work.frames)?;
         if more < if carry == Carry::Same { KEPT } else { ALIKE } {
@@ -335,5 +335,5 @@ pub(crate) fn lost(before: &Contacts, work: &Work, carry: Carry) -> Vec<String> 
             ),
         })
     };
-    before.found.iter().filter_map(told).collect()
+    before.found.iter().filter_map(describe).collect()
 }

@@ -32,7 +32,7 @@ impl Courses {
 const NAMED: usize = 3;
 
 /// Describes the source of learned courses for people.
-pub(crate) fn told(learned: &LearnedProfile) -> String {
+pub(crate) fn describe(learned: &LearnedProfile) -> String {
     let count = |course: &Option<LearnedCourse>, whose: &str| {
         let course = course.as_ref()?;
         let names = &course.recordings;
@@ -81,7 +81,7 @@ impl Course {
     /// Returns the share of the path covered at the share `w` of the time, from 0 to 1.
     pub(crate) fn share(&self, w: f64) -> f64 {
         match self {
-            Self::Formula(way) => way.share(w),
+            Self::Formula(formula) => formula.share(w),
             Self::Learned(table) => {
                 let at = w.clamp(0.0, 1.0) * (table.len() - 1) as f64;
                 let first = (at.floor() as usize).min(table.len() - 2);
@@ -93,7 +93,7 @@ impl Course {
     /// Returns the rotation from `a` to `b` at the share `w` of the time.
     pub(crate) fn rotation(&self, a: DQuat, b: DQuat, w: f64) -> DQuat {
         match self {
-            Self::Formula(way) => way.rotation(a, b, w),
+            Self::Formula(formula) => formula.rotation(a, b, w),
             Self::Learned(_) => a.slerp(b, self.share(w)).normalize(),
         }
     }

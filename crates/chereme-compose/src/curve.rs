@@ -91,7 +91,7 @@ impl Spline {
         let turned = self.turned();
         if chord < 0.3 * length && turned > 4.5 {
             "circle"
-        } else if chord > 0.3 * length && self.bends_one_way() {
+        } else if chord > 0.3 * length && self.bends_to_one_side() {
             "arc"
         } else {
             "path"
@@ -112,7 +112,7 @@ impl Spline {
     }
 
     /// Returns whether the curve stays on one side of the line between its ends.
-    fn bends_one_way(&self) -> bool {
+    fn bends_to_one_side(&self) -> bool {
         let end = self.places[self.places.len() - 1];
         let along = end.normalize_or(DVec3::X);
         let off = |at: &DVec3| *at - along * at.dot(along);

@@ -85,7 +85,7 @@ impl Language {
 
     /// Describes each number and place for people; empty if all are the default ones.
     #[must_use]
-    pub fn told(&self) -> Vec<String> {
+    pub fn describe(&self) -> Vec<String> {
         let unit = |name: &str| {
             let known = BodyLanguage::NAMES.iter().find(|(own, _)| *own == name);
             known.map_or("", |(_, unit)| *unit)
@@ -125,7 +125,7 @@ mod tests {
         let quiet = Language::quiet();
         let whole = quiet.whole().expect("known names");
         assert_eq!(whole, BodyLanguage::usual().without_life());
-        assert!(!quiet.is_usual() && quiet.told()[0].contains("a quiet body"));
+        assert!(!quiet.is_usual() && quiet.describe()[0].contains("a quiet body"));
     }
 
     #[test]
@@ -134,7 +134,7 @@ mod tests {
             from: "measured".into(),
             ..Language::default()
         };
-        assert!(language.is_usual() && language.told().is_empty());
+        assert!(language.is_usual() && language.describe().is_empty());
         assert_eq!(&language.whole().expect("usual"), BodyLanguage::usual());
         let value = LanguageValue {
             value: 0.31,
@@ -147,12 +147,12 @@ mod tests {
         let whole = language.whole().expect("in range");
         assert_eq!(whole.move_normal, 0.31);
         assert_eq!(whole.places["chin"], [0.0, 0.1, 0.0]);
-        let told = language.told();
+        let lines = language.describe();
         assert!(
-            told[0].contains("0.310 arm, half of 12 from 0.250 to 0.400 (signer:Anna"),
-            "{told:?}"
+            lines[0].contains("0.310 arm, half of 12 from 0.250 to 0.400 (signer:Anna"),
+            "{lines:?}"
         );
-        assert!(told[1].contains("chin moved 0 left, 0.1 up"));
+        assert!(lines[1].contains("chin moved 0 left, 0.1 up"));
         let text = serde_json::to_string(&language).expect("JSON");
         let back: Language = serde_json::from_str(&text).expect("the same");
         assert_eq!(back, language);

@@ -147,18 +147,21 @@ fn shares(stretch: &Stretch<'_>) -> Option<Vec<f64>> {
         .map(|&joint| &stretch.clip.channel(joint).rotations[stretch.frames.clone()])
         .collect();
     let last = stretch.frames.len() - 1;
-    let ways: Vec<DVec3> = columns
+    let displacements: Vec<DVec3> = columns
         .iter()
         .map(|column| turn(column[0], column[last]))
         .collect();
-    let whole: f64 = ways.iter().map(|way| way.length_squared()).sum();
+    let whole: f64 = displacements
+        .iter()
+        .map(|displacement| displacement.length_squared())
+        .sum();
     if whole.sqrt() < LEAST_TURN {
         return None;
     }
     let share = |frame: usize| {
-        let along = columns.iter().zip(&ways);
+        let along = columns.iter().zip(&displacements);
         along
-            .map(|(column, way)| turn(column[0], column[frame]).dot(*way))
+            .map(|(column, displacement)| turn(column[0], column[frame]).dot(*displacement))
             .sum::<f64>()
             / whole
     };

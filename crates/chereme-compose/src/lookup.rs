@@ -127,13 +127,15 @@ fn letter(all: &[&Inventory], alphabet: &Inventory, value: &InventoryValue) -> L
         .as_ref()
         .and_then(|orientation| feature(Component::Orientation, "palm", &orientation.palm)?.roll);
     let strokes = value.strokes.iter().map(|stroke| {
-        let way = stroke
+        let displacement = stroke
             .direction
             .as_deref()
             .and_then(|id| feature(Component::Movement, "direction", id)?.direction)
-            .map_or(DVec3::ZERO, |way| DVec3::from(way) * stroke.size);
+            .map_or(DVec3::ZERO, |displacement| {
+                DVec3::from(displacement) * stroke.size
+            });
         LetterStroke {
-            way: way.to_array(),
+            displacement: displacement.to_array(),
             turn: stroke.turn,
         }
     });

@@ -337,7 +337,8 @@ pub struct Letter {
 #[serde(deny_unknown_fields)]
 pub struct LetterStroke {
     /// The displacement to the left, up and forward in shoulder widths, for a right hand.
-    pub way: [f64; 3],
+    #[serde(rename = "way")]
+    pub displacement: [f64; 3],
     /// The rotation of the forearm during the stroke in radians, positive when the palm turns to face up.
     pub turn: f64,
 }

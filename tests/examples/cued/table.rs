@@ -394,7 +394,7 @@ fn found_phases(
         for ((key, own), kind) in take.keys.iter().zip(shown).zip(sounds_of(take)) {
             if own.hand.measured {
                 let truth = [key.times[0], key.times[1]];
-                let found = [own.hand.way.start, own.hand.way.end];
+                let found = [own.hand.movement.start, own.hand.movement.end];
                 all.push((kind.kind, key.sound[0], truth, found));
             }
         }

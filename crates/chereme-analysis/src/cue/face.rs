@@ -154,9 +154,9 @@ impl FaceModel {
                         let at = &direction[3 * marker..3 * marker + 3];
                         still += DVec3::new(at[0], at[1], at[2]) * *parameter;
                     }
-                    let way = motion.apply(still) - still;
-                    along += way.dot(frame[marker] - still);
-                    square += way.length_squared();
+                    let displacement = motion.apply(still) - still;
+                    along += displacement.dot(frame[marker] - still);
+                    square += displacement.length_squared();
                 }
                 if square > 1e-9 {
                     weights[marker] = (along / square).clamp(0.0, 1.0);

@@ -178,10 +178,10 @@ impl HandModel {
                 let turned = forearm.rotation * points[marker];
                 let apart = *seen - turned - forearm.translation;
                 let weight = 1.0 / self.missed[marker].max(LEAST_ERROR);
-                let ways = self.ways(&forearm, turned, &slopes, marker);
+                let derivatives = self.derivatives(&forearm, turned, &slopes, marker);
                 for axis in 0..3 {
-                    for (own, way) in row.iter_mut().zip(&ways) {
-                        *own = way[axis];
+                    for (own, derivative) in row.iter_mut().zip(&derivatives) {
+                        *own = derivative[axis];
                     }
                     left.add_outer(&row, &row, weight);
                     for (right, value) in right.iter_mut().zip(&row) {
@@ -214,10 +214,13 @@ impl HandModel {
         let (points, slopes) = self.linear(&parameters);
         let sd = (0..HAND).map(|marker| {
             let turned = forearm.rotation * points[marker];
-            let ways = self.ways(&forearm, turned, &slopes, marker);
+            let derivatives = self.derivatives(&forearm, turned, &slopes, marker);
             let spread: f64 = (0..3)
                 .map(|axis| {
-                    let row: Vec<f64> = ways.iter().map(|way| way[axis]).collect();
+                    let row: Vec<f64> = derivatives
+                        .iter()
+                        .map(|derivative| derivative[axis])
+                        .collect();
                     let solved = factor.solve_factored(&row);
                     row.iter().zip(&solved).map(|(a, b)| a * b).sum::<f64>()
                 })
@@ -317,19 +320,19 @@ impl HandModel {
             .directions
             .iter()
             .map(|direction| {
-                let way = self.levers.angles(direction);
-                self.slope(&angles, &way, (turn, &local))
+                let rates = self.levers.angles(direction);
+                self.slope(&angles, &rates, (turn, &local))
             })
             .collect();
         (points, slopes)
     }
 
-    /// Returns the derivative of each marker's position if the angles change in the direction `way`.
-    fn slope(&self, angles: &[f64], way: &[f64], (turn, local): (DMat3, &[DVec3])) -> Vec<DVec3> {
+    /// Returns the derivative of each marker's position if the angles change at the given `rates`.
+    fn slope(&self, angles: &[f64], rates: &[f64], (turn, local): (DMat3, &[DVec3])) -> Vec<DVec3> {
         const STEP: f64 = 1e-6;
-        let later: Vec<f64> = (0..3).map(|k| angles[k] + STEP * way[k]).collect();
+        let later: Vec<f64> = (0..3).map(|k| angles[k] + STEP * rates[k]).collect();
         let turning = (turn_of(&later) - turn) * (1.0 / STEP);
-        let change = self.terms.slopes(angles, way);
+        let change = self.terms.slopes(angles, rates);
         (0..HAND)
             .map(|marker| {
                 let own = point(&self.moved, &change, marker);
@@ -342,7 +345,7 @@ impl HandModel {
     }
 
     /// Returns the derivatives of a marker's position by the forearm's rotation and translation, and by each parameter.
-    fn ways(
+    fn derivatives(
         &self,
         forearm: &Rigid,
         turned: DVec3,
@@ -350,10 +353,10 @@ impl HandModel {
         marker: usize,
     ) -> Vec<DVec3> {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-        let mut ways: Vec<DVec3> = axes.iter().map(|unit| unit.cross(turned)).collect();
-        ways.extend(axes);
-        ways.extend(slopes.iter().map(|slope| forearm.rotation * slope[marker]));
-        ways
+        let mut derivatives: Vec<DVec3> = axes.iter().map(|unit| unit.cross(turned)).collect();
+        derivatives.extend(axes);
+        derivatives.extend(slopes.iter().map(|slope| forearm.rotation * slope[marker]));
+        derivatives
     }
 
     /// Returns the angles of a frame computed from visible markers; NaN for those that cannot be computed.
@@ -543,20 +546,23 @@ impl Levers {
             let input = terms.of(row);
             let slopes: Vec<Vec<f64>> = (0..ANGLES)
                 .map(|n| {
-                    let mut way = vec![0.0; ANGLES];
-                    way[n] = 1.0;
-                    terms.slopes(row, &way)
+                    let mut rates = vec![0.0; ANGLES];
+                    rates[n] = 1.0;
+                    terms.slopes(row, &rates)
                 })
                 .collect();
             for marker in 0..HAND {
                 let at = point(moved, &input, marker) - wrist;
-                let ways = (0..ANGLES).map(|n| match n {
+                let derivatives = (0..ANGLES).map(|n| match n {
                     0..3 if marker >= TURNED => DVec3::AXES[n].cross(at),
                     _ => point(moved, &slopes[n], marker),
                 });
-                let ways: Vec<DVec3> = ways.collect();
+                let derivatives: Vec<DVec3> = derivatives.collect();
                 for axis in 0..3 {
-                    let row: Vec<f64> = ways.iter().map(|way| way[axis]).collect();
+                    let row: Vec<f64> = derivatives
+                        .iter()
+                        .map(|derivative| derivative[axis])
+                        .collect();
                     gram.add_outer(&row, &row, 1.0 / some.len() as f64);
                 }
             }
@@ -607,15 +613,15 @@ fn angles(frame: &Frame, back: &[DVec3]) -> Vec<f64> {
     let local: Frame = frame.iter().map(|at| at.map(|at| hand.undo(at))).collect();
     let axes = palm_axes(back);
     let along = |from: usize, to: usize| -> Option<DVec3> {
-        let way = (local[to]? - local[from]?).try_normalize()?;
+        let direction = (local[to]? - local[from]?).try_normalize()?;
         Some(DVec3::new(
-            way.dot(axes[0]),
-            way.dot(axes[1]),
-            way.dot(axes[2]),
+            direction.dot(axes[0]),
+            direction.dot(axes[1]),
+            direction.dot(axes[2]),
         ))
     };
     // In hand space: x is forward, y towards the thumb, z out of the back of the hand.
-    let bend = |way: DVec3| (-way.z).atan2(way.x);
+    let bend = |direction: DVec3| (-direction.z).atan2(direction.x);
     for n in 0..4 {
         let first = finger(n);
         let at = 3 + 4 * n;
@@ -634,9 +640,9 @@ fn angles(frame: &Frame, back: &[DVec3]) -> Vec<f64> {
         }
     }
     for n in 0..3 {
-        if let Some(way) = along(THUMB + 2 * n, THUMB + 2 * n + 1) {
-            row[19 + 2 * n] = way.y.atan2(way.x);
-            row[20 + 2 * n] = way.z.clamp(-1.0, 1.0).asin();
+        if let Some(direction) = along(THUMB + 2 * n, THUMB + 2 * n + 1) {
+            row[19 + 2 * n] = direction.y.atan2(direction.x);
+            row[20 + 2 * n] = direction.z.clamp(-1.0, 1.0).asin();
         }
     }
     row

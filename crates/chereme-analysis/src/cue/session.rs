@@ -231,7 +231,7 @@ pub struct Gesture {
     /// The frame of the target.
     pub frame: usize,
     /// The movement to the target.
-    pub way: MinimumJerkFit,
+    pub movement: MinimumJerkFit,
     /// Whether the movement was long and clear enough to be measured.
     pub measured: bool,
     /// The most probable class at the target.
@@ -478,7 +478,7 @@ fn gestures(
         let before = n.checked_sub(1);
         let around = |frames: &[usize], gesture: fn(&KeyGestures) -> Gesture| Around {
             before: before.map(|n| frames[n]),
-            arrived: all.last().map(gesture).map_or(0.0, |it| it.way.end),
+            arrived: all.last().map(gesture).map_or(0.0, |it| it.movement.end),
             frame: frames[n],
             after: frames.get(n + 1).copied(),
         };
@@ -596,7 +596,7 @@ fn gesture<'a>(
     });
     Gesture {
         frame,
-        way: found.unwrap_or(still),
+        movement: found.unwrap_or(still),
         measured,
         recognised,
         log,
@@ -644,9 +644,9 @@ pub fn phases<'a>(
                     } else {
                         key.a3
                     };
-                    begins.push(own.way.start - key.a1);
-                    arrives.push(own.way.end - key.a1);
-                    shares.push((own.way.end - key.a1) / (end - key.a1).max(0.01));
+                    begins.push(own.movement.start - key.a1);
+                    arrives.push(own.movement.end - key.a1);
+                    shares.push((own.movement.end - key.a1) / (end - key.a1).max(0.01));
                 }
             }
             if let (Some(begins), Some(arrives), Some(share)) = (

@@ -135,7 +135,7 @@ pub(super) const LEAST: usize = 6;
 /// refined to a twentieth of a frame. Returns nothing if fewer than six frames have numbers, or if the numbers do not
 /// change.
 #[must_use]
-pub fn way<'a>(
+pub fn fit_movement<'a>(
     row: impl Fn(usize) -> Option<&'a [f64]>,
     range: (usize, usize),
     frame_time: f64,
@@ -145,7 +145,7 @@ pub fn way<'a>(
 
 /// Fits a movement that one point begins and another ends, as when the middle finger points first and the index finger
 /// later: in the course of the movement, the first of the two rows of each frame gives way to the second. Otherwise as
-/// [`way`].
+/// [`fit_movement`].
 #[must_use]
 pub fn handed_over<'a>(
     rows: impl Fn(usize) -> Option<[&'a [f64]; 2]>,

@@ -53,20 +53,24 @@ impl Terms {
         row
     }
 
-    /// Returns the derivatives of the terms if the angles change in the direction `way`.
-    pub(super) fn slopes(&self, angles: &[f64], way: &[f64]) -> Vec<f64> {
-        let (sums, ways) = (self.added(angles), self.added(way));
+    /// Returns the derivatives of the terms if the angles change at the given `rates`.
+    pub(super) fn slopes(&self, angles: &[f64], rates: &[f64]) -> Vec<f64> {
+        let (sums, rate_sums) = (self.added(angles), self.added(rates));
         let mut row = Vec::with_capacity(self.len());
         row.push(0.0);
         row.extend(
             sums.iter()
-                .zip(&ways)
-                .map(|(angle, way)| -angle.sin() * way),
+                .zip(&rate_sums)
+                .map(|(angle, rate)| -angle.sin() * rate),
         );
-        row.extend(sums.iter().zip(&ways).map(|(angle, way)| angle.cos() * way));
+        row.extend(
+            sums.iter()
+                .zip(&rate_sums)
+                .map(|(angle, rate)| angle.cos() * rate),
+        );
         let both = |(angle, sum): &(usize, usize)| {
-            angles[*angle].cos() * way[*angle] * sums[*sum].cos()
-                - angles[*angle].sin() * sums[*sum].sin() * ways[*sum]
+            angles[*angle].cos() * rates[*angle] * sums[*sum].cos()
+                - angles[*angle].sin() * sums[*sum].sin() * rate_sums[*sum]
         };
         row.extend(self.products.iter().map(both));
         row
@@ -86,16 +90,16 @@ mod tests {
     fn slopes_equal_finite_differences() {
         let terms = Terms::of_a_hand();
         let angles: Vec<f64> = (0..ANGLES).map(|n| (n as f64 * 0.7).sin()).collect();
-        let way: Vec<f64> = (0..ANGLES).map(|n| (n as f64 * 1.3).cos()).collect();
+        let rates: Vec<f64> = (0..ANGLES).map(|n| (n as f64 * 1.3).cos()).collect();
         let step = 1e-6;
         let later: Vec<f64> = angles
             .iter()
-            .zip(&way)
-            .map(|(x, way)| x + step * way)
+            .zip(&rates)
+            .map(|(x, rate)| x + step * rate)
             .collect();
         let (now, then) = (terms.of(&angles), terms.of(&later));
         assert_eq!(now.len(), terms.len());
-        for ((slope, now), then) in terms.slopes(&angles, &way).iter().zip(now).zip(then) {
+        for ((slope, now), then) in terms.slopes(&angles, &rates).iter().zip(now).zip(then) {
             assert!((slope - (then - now) / step).abs() < 1e-5);
         }
     }

@@ -10,7 +10,7 @@ use super::labels::{FACE, HAND, RIGID, THROAT, finger};
 use super::linear::{Matrix, eigen};
 use super::pca::{Pca, guided};
 use super::rigid::{Rigid, RigidError};
-use super::targets::{Quartiles, Sought, TargetOptions, targets, way};
+use super::targets::{Quartiles, Sought, TargetOptions, fit_movement, targets};
 use super::{labels, pca};
 
 fn clean() -> Settings {
@@ -363,7 +363,7 @@ fn the_start_and_end_of_a_minimum_jerk_movement_are_recovered() {
                     .to_vec()
             })
             .collect();
-        let found = way(
+        let found = fit_movement(
             |frame| rows.get(frame).map(Vec::as_slice),
             (20, 80),
             1.0 / RATE,
@@ -377,12 +377,15 @@ fn the_start_and_end_of_a_minimum_jerk_movement_are_recovered() {
         );
     }
     assert_eq!(
-        way(|_| Some(&[1.0][..]), (0, 50), 1.0 / RATE),
+        fit_movement(|_| Some(&[1.0][..]), (0, 50), 1.0 / RATE),
         None,
         "nothing moves"
     );
-    assert_eq!(way(|_| None, (0, 50), 1.0 / RATE), None);
-    assert_eq!(way(|_| Some(&[f64::NAN][..]), (0, 50), 1.0 / RATE), None);
+    assert_eq!(fit_movement(|_| None, (0, 50), 1.0 / RATE), None);
+    assert_eq!(
+        fit_movement(|_| Some(&[f64::NAN][..]), (0, 50), 1.0 / RATE),
+        None
+    );
     assert_eq!(
         Quartiles::of(&[4.0, 1.0, 3.0, 2.0, 5.0]).map(|q| (q.low, q.median, q.high)),
         Some((2.0, 3.0, 4.0))

@@ -47,40 +47,40 @@ pub(crate) struct Production {
     pub(crate) via: &'static [(usize, usize, f64)],
 }
 
-const fn way(from: (usize, usize), via: &'static [(usize, usize, f64)]) -> Production {
+const fn production(from: (usize, usize), via: &'static [(usize, usize, f64)]) -> Production {
     Production { from, via }
 }
 
 const SYMMETRIC1: &[Production] = &[
-    way((1, 1), &[(0, 0, 1.0)]),
-    way((0, 1), &[(0, 0, 1.0)]),
-    way((1, 0), &[(0, 0, 1.0)]),
+    production((1, 1), &[(0, 0, 1.0)]),
+    production((0, 1), &[(0, 0, 1.0)]),
+    production((1, 0), &[(0, 0, 1.0)]),
 ];
 const SYMMETRIC2: &[Production] = &[
-    way((1, 1), &[(0, 0, 2.0)]),
-    way((0, 1), &[(0, 0, 1.0)]),
-    way((1, 0), &[(0, 0, 1.0)]),
+    production((1, 1), &[(0, 0, 2.0)]),
+    production((0, 1), &[(0, 0, 1.0)]),
+    production((1, 0), &[(0, 0, 1.0)]),
 ];
 const ASYMMETRIC: &[Production] = &[
-    way((1, 0), &[(0, 0, 1.0)]),
-    way((1, 1), &[(0, 0, 1.0)]),
-    way((1, 2), &[(0, 0, 1.0)]),
+    production((1, 0), &[(0, 0, 1.0)]),
+    production((1, 1), &[(0, 0, 1.0)]),
+    production((1, 2), &[(0, 0, 1.0)]),
 ];
 const SYMMETRIC_P1: &[Production] = &[
-    way((1, 2), &[(0, 1, 2.0), (0, 0, 1.0)]),
-    way((1, 1), &[(0, 0, 2.0)]),
-    way((2, 1), &[(1, 0, 2.0), (0, 0, 1.0)]),
+    production((1, 2), &[(0, 1, 2.0), (0, 0, 1.0)]),
+    production((1, 1), &[(0, 0, 2.0)]),
+    production((2, 1), &[(1, 0, 2.0), (0, 0, 1.0)]),
 ];
 const ASYMMETRIC_P1: &[Production] = &[
-    way((1, 2), &[(0, 1, 0.5), (0, 0, 0.5)]),
-    way((1, 1), &[(0, 0, 1.0)]),
-    way((2, 1), &[(1, 0, 1.0), (0, 0, 1.0)]),
+    production((1, 2), &[(0, 1, 0.5), (0, 0, 0.5)]),
+    production((1, 1), &[(0, 0, 1.0)]),
+    production((2, 1), &[(1, 0, 1.0), (0, 0, 1.0)]),
 ];
 const TYPE_III_C: &[Production] = &[
-    way((1, 2), &[(0, 0, 1.0)]),
-    way((1, 1), &[(0, 0, 1.0)]),
-    way((2, 1), &[(1, 0, 1.0), (0, 0, 1.0)]),
-    way((2, 2), &[(1, 0, 1.0), (0, 0, 1.0)]),
+    production((1, 2), &[(0, 0, 1.0)]),
+    production((1, 1), &[(0, 0, 1.0)]),
+    production((2, 1), &[(1, 0, 1.0), (0, 0, 1.0)]),
+    production((2, 2), &[(1, 0, 1.0), (0, 0, 1.0)]),
 ];
 
 impl StepPattern {

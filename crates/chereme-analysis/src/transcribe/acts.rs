@@ -17,7 +17,7 @@ use super::aim;
 use super::path::{Fitted, PathForm, fit};
 use super::scene::{HandTrajectory, Scene, length};
 use crate::transcribe::tuned::tuned;
-use cuts::{cut, is_brief, joined, sure, ways};
+use cuts::{cut, is_brief, joined, stretches, sure};
 use fold::folded;
 use sway::{play, wrist};
 
@@ -50,7 +50,7 @@ pub(super) struct Act {
 #[derive(Debug, Clone)]
 pub(super) enum ActKind {
     /// The hand moves along a path.
-    Way(Box<Fitted>),
+    Path(Box<Fitted>),
     /// Wrist or fingers move to and fro while the hand stays in place.
     Sway(Sway),
     /// The hand changes orientation or handshape while it stays in place.
@@ -127,7 +127,7 @@ impl<'a> Mover<'a> {
     fn fit(&self, first: usize, last: usize) -> Fitted {
         let fits = self.points[..self.meant]
             .iter()
-            .map(|way| fit(&way[first..=last], self.exact()));
+            .map(|trajectory| fit(&trajectory[first..=last], self.exact()));
         fits.min_by(|a, b| self.score(a).total_cmp(&self.score(b)))
             .unwrap_or_else(|| fit(&self.track.palm[first..=last], self.exact()))
     }
@@ -141,7 +141,7 @@ impl<'a> Mover<'a> {
         let turns = track.turn(first, last).length();
         let changes = track.reshaped(first, last);
         let reshaped = tuned().acts.reshaped * self.seen.loose;
-        if matches!(plain.way, PathForm::Straight { .. })
+        if matches!(plain.path, PathForm::Straight { .. })
             || (turns < tuned().acts.turned && changes < reshaped)
         {
             return plain;
@@ -163,7 +163,7 @@ impl<'a> Mover<'a> {
         if changes > reshaped {
             to.extend(self.own_parts(first, last).into_iter().map(|at| (at, 0.0)));
         }
-        let told = to.len();
+        let likely = to.len();
         to.extend(self.other_parts(last, last));
         if changes > reshaped {
             to.extend(self.other_parts(last, first));
@@ -175,14 +175,14 @@ impl<'a> Mover<'a> {
                     continue;
                 }
                 let weight = (less / tuned().acts.per).exp();
-                let mut take = |way: Vec<DVec3>| {
-                    let found = fit(&way, self.exact());
+                let mut take = |trajectory: Vec<DVec3>| {
+                    let found = fit(&trajectory, self.exact());
                     // No signer draws a circle with one part after the other; and less likely parts count
                     // only if they make the path straight.
-                    let taken = match found.way {
+                    let taken = match found.path {
                         PathForm::Straight { .. } => true,
                         PathForm::Circle { .. } => false,
-                        _ => n < told,
+                        _ => n < likely,
                     };
                     if taken && weight * self.score(&found) < self.score(&best) {
                         best = found;
@@ -220,8 +220,8 @@ impl<'a> Mover<'a> {
     /// Returns the score of a path: its error (m), weighted by how much notation it takes; lower is
     /// better.
     fn score(&self, fitted: &Fitted) -> f64 {
-        let aside = tuned().acts.aside * aside(&fitted.way) / self.seen.loose.powi(4);
-        (fitted.residual.hypot(aside) + self.exact()) * plain(&fitted.way)
+        let aside = tuned().acts.aside * aside(&fitted.path) / self.seen.loose.powi(4);
+        (fitted.residual.hypot(aside) + self.exact()) * plain(&fitted.path)
     }
 
     /// Returns the less likely parts of frame `meant`, as positions in frame `frame` in the hand's own
@@ -246,7 +246,10 @@ impl<'a> Mover<'a> {
 
     /// Returns the length of the shortest trajectory among the points, in metres.
     fn shortest(&self, first: usize, last: usize) -> f64 {
-        let lengths = self.points.iter().map(|way| length(&way[first..=last]));
+        let lengths = self
+            .points
+            .iter()
+            .map(|trajectory| length(&trajectory[first..=last]));
         lengths.fold(f64::MAX, f64::min)
     }
 }
@@ -260,18 +263,18 @@ fn own(track: &HandTrajectory, at: &[DVec3], frame: usize) -> Vec<DVec3> {
 
 /// Returns the distance between a path and the same one along the nearest direction that notation has: the
 /// root of the mean square over the path, in metres.
-fn aside(way: &PathForm) -> f64 {
-    let course = way.line().normalize_or(DVec3::Z);
+fn aside(path: &PathForm) -> f64 {
+    let course = path.line().normalize_or(DVec3::Z);
     let off = aim::nearest(course, false).residual.to_radians().sin();
-    match way {
+    match path {
         PathForm::Circle { long, .. } => off * long.length() * FRAC_1_SQRT_2,
-        _ => off * way.chord().length() / 3f64.sqrt(),
+        _ => off * path.chord().length() / 3f64.sqrt(),
     }
 }
 
 /// Factor on the error of a path for the notation it takes; 1 for a straight path.
-fn plain(way: &PathForm) -> f64 {
-    match way {
+fn plain(path: &PathForm) -> f64 {
+    match path {
         PathForm::Straight { .. } => 1.0,
         PathForm::Arc { .. } => 1.4,
         PathForm::Circle { turns, .. } if turns * TAU < TAU * tuned().path.round => 1.6,
@@ -296,17 +299,17 @@ pub(super) fn acts(
     let plays = play(scene, track, first, last);
     let mut found = Vec::new();
     let mut from = first;
-    let (mut ways, speeds) = ways(scene, mover, first, last);
+    let (mut stretches, speeds) = stretches(scene, mover, first, last);
     if sways(scene, mover, first, last) {
-        ways.clear();
+        stretches.clear();
     }
-    let ways = joined(scene, mover, &ways, |n| speeds[n - first]);
-    let ways = sure(scene, mover, ways);
-    let left = ways.first().map(|way| *way.start());
-    let several = ways.len() > 1;
+    let stretches = joined(scene, mover, &stretches, |n| speeds[n - first]);
+    let stretches = sure(scene, mover, stretches);
+    let left = stretches.first().map(|stretch| *stretch.start());
+    let several = stretches.len() > 1;
     let mut begun = None;
-    for way in ways {
-        let (start, end) = (*way.start(), *way.end());
+    for stretch in stretches {
+        let (start, end) = (*stretch.start(), *stretch.end());
         if several && is_brief(scene, mover, start, end) {
             from = end;
             continue;
@@ -334,8 +337,8 @@ pub(super) fn acts(
 
 /// Returns whether the acts in the `frames` before or after a path only continue the movement of wrist or
 /// fingers during that path.
-fn lulls(scene: &Scene<'_>, way: &Act, beside: &[Act], frames: usize) -> bool {
-    let same = |act: &Act| match (&act.kind, &way.with) {
+fn lulls(scene: &Scene<'_>, path: &Act, beside: &[Act], frames: usize) -> bool {
+    let same = |act: &Act| match (&act.kind, &path.with) {
         (ActKind::Sway(Sway::Play { .. }), Some(Sway::Play { .. })) => true,
         (ActKind::Sway(Sway::Wrist { .. }) | ActKind::Change, Some(Sway::Wrist { .. })) => {
             !act.reshaped
@@ -350,8 +353,10 @@ fn sways(scene: &Scene<'_>, mover: &Mover<'_>, first: usize, last: usize) -> boo
     let Some(Sway::Wrist { angle, cycles, .. }) = wrist(scene, mover.track, first, last) else {
         return false;
     };
-    let extent = |way: &Vec<DVec3>| {
-        let far = way[first..=last].iter().map(|at| at.distance(way[first]));
+    let extent = |trajectory: &Vec<DVec3>| {
+        let far = trajectory[first..=last]
+            .iter()
+            .map(|at| at.distance(trajectory[first]));
         far.fold(0.0, f64::max)
     };
     let least = mover.points.iter().map(extent).fold(f64::MAX, f64::min);
@@ -385,7 +390,7 @@ fn going(
         turned: track.turn(first, last).length() > least,
         reshaped: plays.is_none()
             && track.reshaped(first, last) > tuned().acts.reshaped * scene.loose,
-        kind: ActKind::Way(Box::new(fitted)),
+        kind: ActKind::Path(Box::new(fitted)),
         with,
         repeat: None,
         times: 1,

@@ -96,7 +96,7 @@ fn pointings() -> &'static [Pointing] {
 }
 
 /// Returns the candidate directions, with or without those half-way between two.
-fn told(between: bool) -> impl Iterator<Item = &'static Pointing> {
+fn candidates(between: bool) -> impl Iterator<Item = &'static Pointing> {
     let all = pointings().iter();
     all.filter(move |it| between || it.aim.second.is_none())
 }
@@ -134,7 +134,7 @@ fn nearer_first(aim: &Aim<Direction>, to: DVec3) -> Aim<Direction> {
 /// Returns the direction nearest to a unit vector (left, up, forward): one of the 26, or half-way
 /// between two that have symbols and are neighbours. Residuals are in degrees.
 pub(super) fn nearest(direction: DVec3, between: bool) -> Found<Aim<Direction>> {
-    let found = told(between).map(|it| {
+    let found = candidates(between).map(|it| {
         let off = it.at.angle_between(direction);
         let cost = it.aim.second.map_or(0.0, |_| it.cost);
         let aim = nearer_first(&it.aim, direction);
@@ -191,7 +191,7 @@ pub(super) fn turned(
     let palms = palms(how.between);
     let mut all: Vec<Meant> = Vec::new();
     let far = |it: &&Pointing| it.at.angle_between(along) > tuned().aim.looked_at;
-    for pointing in told(how.between).filter(|it| !far(it)) {
+    for pointing in candidates(how.between).filter(|it| !far(it)) {
         all.extend(palms.iter().map(|&(palm, angle, cost)| {
             let facing = orientation::palm(pointing.at.to_array(), angle);
             let (likely, beyond) = likely(own, [pointing.at, facing.into()], wrist, how.loose);
@@ -204,7 +204,7 @@ pub(super) fn turned(
         }));
     }
     all.sort_by(|a, b| a.score.total_cmp(&b.score));
-    let as_told = |best: &Meant| {
+    let as_turned = |best: &Meant| {
         let is_best = |it: &&Meant| std::ptr::eq(it.pointing, best.pointing);
         let is_same = |it: &&Meant| std::ptr::eq(*it, best);
         let to = |it: &Meant| {
@@ -231,7 +231,7 @@ pub(super) fn turned(
             less: best.score - all[0].score,
         }
     };
-    all.iter().take(most).map(as_told).collect()
+    all.iter().take(most).map(as_turned).collect()
 }
 
 /// Returns the log-likelihood of an observed orientation given the intended one, and by how many degrees a

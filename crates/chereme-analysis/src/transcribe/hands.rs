@@ -121,8 +121,8 @@ pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Rel
     let (first, last) = (*frames.start(), *frames.end());
     let middle = first + (last - first) / 2;
     let still = |track: &HandTrajectory| {
-        let mut way = track.palm[first..=last].iter();
-        way.all(|at| at.distance(track.palm[first]) < tuned().hands.stays * scene.arm)
+        let mut positions = track.palm[first..=last].iter();
+        positions.all(|at| at.distance(track.palm[first]) < tuned().hands.stays * scene.arm)
     };
     let lies = still(other) && other.palm[middle].y < tuned().cuts.lap * scene.arm;
     let resting = [first, middle, last]

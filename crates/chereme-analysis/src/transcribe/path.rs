@@ -56,7 +56,7 @@ pub(crate) enum PathForm {
 /// A fitted path, with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fitted {
-    pub(crate) way: PathForm,
+    pub(crate) path: PathForm,
     /// The root of the mean square of the distance, in metres.
     pub(super) residual: f64,
     /// The next simpler or deeper kind, with its residual.
@@ -102,14 +102,14 @@ pub(crate) fn fit(points: &[DVec3], exact: f64) -> Fitted {
     let off_straight = off(&points, |s| first + chord * s);
     if let Some((circle, residual)) = circle(&points, exact) {
         return Fitted {
-            way: circle,
+            path: circle,
             residual,
             runner_up: Some((straight, off_straight)),
         };
     }
     if let Some((wave, residual)) = wave(&points, exact) {
         return Fitted {
-            way: wave,
+            path: wave,
             residual,
             runner_up: Some((straight, off_straight)),
         };
@@ -123,13 +123,13 @@ pub(crate) fn fit(points: &[DVec3], exact: f64) -> Fitted {
         && deep > tuned().path.shallow.1 * wide
         && off_arc < tuned().path.shallow.2 * off_straight;
     let curved = sure || (deep > tuned().path.curved * wide && off_arc < off_straight);
-    let (way, residual, other) = if curved && deep > exact {
+    let (path, residual, other) = if curved && deep > exact {
         (arc, off_arc, (straight, off_straight))
     } else {
         (straight, off_straight, (arc, off_arc))
     };
     Fitted {
-        way,
+        path,
         residual,
         runner_up: Some(other),
     }
@@ -245,7 +245,7 @@ fn circle(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
     };
     (residual < most * long).then(|| {
         let spoke = |point: DVec3| (point - centre).reject_from_normalized(axis);
-        let way = PathForm::Circle {
+        let path = PathForm::Circle {
             axis,
             turns: swept / TAU,
             long: (x * cos + y * sin) * long,
@@ -253,7 +253,7 @@ fn circle(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
             start: spoke(points[0]).normalize_or(x),
             end: spoke(points[points.len() - 1]).normalize_or(x),
         };
-        (way, residual)
+        (path, residual)
     })
 }
 
@@ -338,13 +338,13 @@ mod tests {
             &along(30, |s| DVec3::new(0.2, 0.1, 0.0) * ease(s)),
             tuned().path.exact,
         );
-        assert_eq!(line.way.kind(), "straight");
+        assert_eq!(line.path.kind(), "straight");
         assert!(line.residual < 1e-9);
         let arc = fit(
             &along(30, |s| along_arc(DVec3::X * 0.2, DVec3::Z * 0.06, ease(s))),
             tuned().path.exact,
         );
-        let PathForm::Arc { bow, .. } = arc.way else {
+        let PathForm::Arc { bow, .. } = arc.path else {
             panic!("{arc:?}");
         };
         assert!(bow.distance(DVec3::Z * 0.06) < 1e-3, "{bow}");
@@ -361,7 +361,7 @@ mod tests {
         for wavy in [true, false] {
             let PathForm::Wave {
                 width, wavy: is, ..
-            } = wave(wavy).way
+            } = wave(wavy).path
             else {
                 panic!("{:?}", wave(wavy));
             };
@@ -385,7 +385,7 @@ mod tests {
                 long,
                 narrow: shape,
                 ..
-            } = found.way
+            } = found.path
             else {
                 panic!("{found:?}");
             };
@@ -407,8 +407,8 @@ mod tests {
                 tuned().path.exact,
             )
         };
-        assert_eq!(turn(0.5).way.kind(), "arc");
-        let PathForm::Circle { end, turns, .. } = turn(0.79).way else {
+        assert_eq!(turn(0.5).path.kind(), "arc");
+        let PathForm::Circle { end, turns, .. } = turn(0.79).path else {
             panic!("{:?}", turn(0.79));
         };
         let (sin, cos) = (TAU * 0.79).sin_cos();

@@ -32,12 +32,12 @@ pub const MOST_POSTURES: usize = 1000;
 
 /// Writes the notation of a scene; with `performs`, verifies the places by re-synthesis.
 pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>) -> Transcription {
-    let (told, begun) = tree::written(sight, Picked::default());
+    let (transcription, begun) = tree::written(sight, Picked::default());
     let (Some(begun), Some(performs)) = (begun, performs) else {
-        return told;
+        return transcription;
     };
     let Some(mut body) = sight.look(begun.frame) else {
-        return told;
+        return transcription;
     };
     if let Some(by) = begun.behind {
         body.shift(1, by);
@@ -46,14 +46,14 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
         sight,
         performs,
         begun: &begun,
-        told: &told.sign,
+        inferred: &transcription.sign,
         body,
         left: Cell::new(MOST_POSTURES),
     };
     let Some((picked, mut off)) = proof.best() else {
-        return told;
+        return transcription;
     };
-    let mut found = told.clone();
+    let mut found = transcription.clone();
     if let Some(picked) = picked {
         found = tree::written(sight, picked).0;
         // The trial may have left out the actions or written them in other words.
@@ -128,8 +128,8 @@ impl Trial {
         }
     }
 
-    /// Returns the sign `told` with this trial's places and orientations.
-    fn sign(&self, told: &Sign) -> Sign {
+    /// Returns the sign `inferred` with this trial's places and orientations.
+    fn sign(&self, inferred: &Sign) -> Sign {
         fn put<T>(each: &mut Each<T>, n: usize, value: T) {
             match each {
                 Each::Shared(own) => *own = value,
@@ -137,7 +137,7 @@ impl Trial {
                 Each::Unset => {}
             }
         }
-        let mut sign = told.clone();
+        let mut sign = inferred.clone();
         for part in &mut sign.parts {
             part.posture.place = self.stand.place();
             if self.still {
@@ -159,7 +159,7 @@ impl Trial {
 
 impl Tried {
     /// Returns the readings that the trial fixes, and the error of each hand (m).
-    fn told(self) -> (Option<Picked>, [f64; 2]) {
+    fn picked(self) -> (Option<Picked>, [f64; 2]) {
         let middle = |placed: &Placed| {
             let mut sites = placed.place.site.iter().chain(&placed.place.second);
             sites.all(|site| site.side.is_none())
@@ -185,7 +185,7 @@ struct Proof<'a, 'p> {
     sight: &'a Sight<'a>,
     performs: &'p dyn Performs,
     begun: &'p Begun,
-    told: &'p Sign,
+    inferred: &'p Sign,
     body: Body<'a>,
     /// The number of postures that may still be synthesised.
     left: Cell<usize>,
@@ -201,7 +201,7 @@ impl Proof<'_, '_> {
             mirrored: false,
             still: false,
         };
-        let begun = self.off(&self.performs.begins(self.told)?)?;
+        let begun = self.off(&self.performs.begins(self.inferred)?)?;
         if self.open(begun).is_empty() {
             return None;
         }
@@ -210,10 +210,10 @@ impl Proof<'_, '_> {
         }
         let mut best = self.tried(
             first,
-            &self.performs.performs(self.told)?,
+            &self.performs.performs(self.inferred)?,
             tuned().resynthesis.exact,
         )?;
-        let told = best.off;
+        let first_off = best.off;
         let mut near = self.moved(&mut best, &ranks());
         for other in self.other_forms(&best.trial) {
             if self.open(best.off).is_empty() {
@@ -253,13 +253,13 @@ impl Proof<'_, '_> {
             }
         }
         let fewer = |within: f64| {
-            let [best, told] = [best.off, told].map(|off| self.beyond(off, within).len());
-            best < told
+            let [best, first_off] = [best.off, first_off].map(|off| self.beyond(off, within).len());
+            best < first_off
         };
         if !fewer(tuned().resynthesis.nearly) && !fewer(tuned().resynthesis.almost) {
-            return Some((None, told));
+            return Some((None, first_off));
         }
-        Some(best.told())
+        Some(best.picked())
     }
 
     /// Returns the reading without any place, if re-synthesis of it puts the hands where they were
@@ -269,15 +269,15 @@ impl Proof<'_, '_> {
         if !self.open(begun.off).is_empty() {
             return None;
         }
-        let whole = self.performs.performs(&begun.trial.sign(self.told))?;
+        let whole = self.performs.performs(&begun.trial.sign(self.inferred))?;
         let whole = self.tried(begun.trial, &whole, tuned().resynthesis.exact)?;
         self.beyond(whole.off, tuned().resynthesis.exact)
             .is_empty()
-            .then(|| whole.told())
+            .then(|| whole.picked())
     }
 
     fn begun_as(&self, trial: Trial) -> Option<Tried> {
-        let clip = self.performs.begins(&trial.sign(self.told))?;
+        let clip = self.performs.begins(&trial.sign(self.inferred))?;
         self.tried(trial, &clip, tuned().resynthesis.nearly)
     }
 
@@ -322,11 +322,11 @@ impl Proof<'_, '_> {
     /// Returns the hands whose error is above `within` metres; a hand at rest, which has no notation, does
     /// not count.
     fn beyond(&self, off: [f64; 2], within: f64) -> Vec<usize> {
-        let told = |n: &usize| match &self.begun.stand {
+        let counts = |n: &usize| match &self.begun.stand {
             Stand::One(own, _) if self.begun.alone => own == n,
             _ => true,
         };
-        (0..2).filter(told).filter(|&n| off[n] > within).collect()
+        (0..2).filter(counts).filter(|&n| off[n] > within).collect()
     }
 
     /// Returns trials with other places for hand `n`, or for both in a constellation, the likeliest first.
@@ -431,7 +431,10 @@ impl Proof<'_, '_> {
             left > 0
         });
         let trials: Vec<Trial> = likely.collect();
-        let signs: Vec<Sign> = trials.iter().map(|trial| trial.sign(self.told)).collect();
+        let signs: Vec<Sign> = trials
+            .iter()
+            .map(|trial| trial.sign(self.inferred))
+            .collect();
         let clips = self.performs.begin_all(&signs).into_iter();
         let begun = trials.into_iter().zip(clips);
         let begun =
@@ -442,7 +445,7 @@ impl Proof<'_, '_> {
             if nearest.trial.cost() >= best.total {
                 continue;
             }
-            let whole = self.performs.performs(&nearest.trial.sign(self.told));
+            let whole = self.performs.performs(&nearest.trial.sign(self.inferred));
             let whole = whole.and_then(|clip| {
                 self.tried(nearest.trial.clone(), &clip, tuned().resynthesis.exact)
             });

@@ -244,14 +244,14 @@ impl<'a> Scene<'a> {
 
     /// Returns whether an arm hangs down.
     fn hangs(&self, reach: DVec3) -> bool {
-        let way = reach.normalize_or(DVec3::NEG_Y);
-        way.y < -0.78 && reach.length() > 0.8 * self.arm && reach.z < 0.35 * self.arm
+        let direction = reach.normalize_or(DVec3::NEG_Y);
+        direction.y < -0.78 && reach.length() > 0.8 * self.arm && reach.z < 0.35 * self.arm
     }
 
     /// Returns whether an arm sticks out sideways, as both do in a reference posture.
     fn sticks(&self, reach: DVec3) -> bool {
-        let way = reach.normalize_or(DVec3::NEG_Y);
-        way.x.abs() > 0.85 && reach.length() > 0.93 * self.arm && way.z.abs() < 0.4
+        let direction = reach.normalize_or(DVec3::NEG_Y);
+        direction.x.abs() > 0.85 && reach.length() > 0.93 * self.arm && direction.z.abs() < 0.4
     }
 
     /// Converts a time in seconds to frames; at least one.

@@ -388,21 +388,21 @@ fn every_feature_and_stage_is_reported_in_symbols_with_its_frames() {
     });
     let written = transcribe(&clip, &anatomy, &Options::made()).expect("a sign");
     let names = |text: &str| to_names(text).expect("symbols").join(" ");
-    let told = |kind: FeatureKind| {
+    let reading = |kind: FeatureKind| {
         let feature = written.features.iter().find(|it| it.kind == kind);
         let feature = feature.expect("told");
         let next = feature.runner_up.as_ref();
         let next = next.map(|next| names(&next.text)).unwrap_or_default();
         (names(&feature.text), next)
     };
-    assert_eq!(told(FeatureKind::Handshape).0, "hamflathand");
-    assert_eq!(told(FeatureKind::Direction).0, "hamextfingeru");
-    assert_eq!(told(FeatureKind::Palm).0, "hampalml");
-    assert_eq!(told(FeatureKind::Course).0, "hammoved");
-    assert_eq!(told(FeatureKind::Movement).0, "hammoved hamsmallmod");
-    assert!(told(FeatureKind::Movement).1.contains("hamarc"));
+    assert_eq!(reading(FeatureKind::Handshape).0, "hamflathand");
+    assert_eq!(reading(FeatureKind::Direction).0, "hamextfingeru");
+    assert_eq!(reading(FeatureKind::Palm).0, "hampalml");
+    assert_eq!(reading(FeatureKind::Course).0, "hammoved");
+    assert_eq!(reading(FeatureKind::Movement).0, "hammoved hamsmallmod");
+    assert!(reading(FeatureKind::Movement).1.contains("hamarc"));
     assert_eq!(
-        told(FeatureKind::Size),
+        reading(FeatureKind::Size),
         ("hamsmallmod".into(), String::new())
     );
     let [posture, action] = written.stages.as_slice() else {
@@ -425,7 +425,7 @@ fn transitions_from_and_to_rest_are_left_out() {
         [Some(own.moved(DVec3::X * (0.13 * ease(time)))), None]
     });
     let (rest, _) = clip(0.1, |_| [None, None]);
-    let way = |a: &Clip, b: &Clip| -> Vec<_> {
+    let transition = |a: &Clip, b: &Clip| -> Vec<_> {
         let (from, to) = (a.pose(a.frames() - 1), b.pose(0));
         (1..24)
             .map(|n| {
@@ -443,9 +443,9 @@ fn transitions_from_and_to_rest_are_left_out() {
     let all = |clip: &Clip| (0..clip.frames()).map(|n| clip.pose(n)).collect::<Vec<_>>();
     let poses = [
         all(&rest),
-        way(&rest, &sign),
+        transition(&rest, &sign),
         all(&sign),
-        way(&sign, &rest),
+        transition(&sign, &rest),
         all(&rest),
     ]
     .concat();
@@ -459,16 +459,16 @@ fn transitions_from_and_to_rest_are_left_out() {
 #[test]
 fn drift_and_small_bends_of_captured_hands_are_no_separate_movement() {
     let own = before_chest(HandClass::Flat);
-    let way = |by: &dyn Fn(f64) -> DVec3| {
+    let actions = |by: &dyn Fn(f64) -> DVec3| {
         let (made, anatomy) = clip(0.9, |time| [Some(own.moved(by(time))), None]);
         let found = transcribe(&made, &anatomy, &Options::default()).expect("a sign");
         let mut parts = found.sign.parts.into_iter();
         parts.next().expect("one part").actions
     };
     // A drift of 2.5 cm during a hold.
-    assert!(way(&|time| DVec3::Y * (0.025 * ease(time))).is_empty());
+    assert!(actions(&|time| DVec3::Y * (0.025 * ease(time))).is_empty());
     // The movement slows down half-way, and its path is bent by 7 mm.
-    let slowing = way(&|time| {
+    let slowing = actions(&|time| {
         let gone = time - 0.03 * (2.0 * TAU * time).sin();
         DVec3::new(0.3 * gone, 0.007 * (TAU / 2.0 * gone).sin(), 0.0)
     });
@@ -512,14 +512,17 @@ fn a_hand_that_trembles_in_the_lap_is_not_transcribed() {
 fn clips_that_are_no_token_are_refused_and_missing_joints_reported() {
     let (whole, anatomy) = clip(0.3, |_| [Some(before_chest(HandClass::Flat)), None]);
     let empty = whole.slice(0..0);
-    let told = |clip: &Clip, options: &Options| transcribe(clip, &anatomy, options).map(|_| ());
-    assert_eq!(told(&empty, &Options::made()), Err(TranscribeError::Empty));
+    let outcome = |clip: &Clip, options: &Options| transcribe(clip, &anatomy, options).map(|_| ());
+    assert_eq!(
+        outcome(&empty, &Options::made()),
+        Err(TranscribeError::Empty)
+    );
     let short = Options {
         longest: 0.2,
         ..Options::made()
     };
     assert!(matches!(
-        told(&whole, &short),
+        outcome(&whole, &short),
         Err(TranscribeError::TooLong { .. })
     ));
 
@@ -595,25 +598,25 @@ fn the_residual_of_a_location_is_the_distance_of_the_hand_from_it() {
     let Some(Place::Body(place)) = &found.sign.parts[0].posture.place else {
         panic!("{:?}", found.sign);
     };
-    let told = found
+    let location = found
         .features
         .iter()
         .find(|it| it.kind == FeatureKind::Location);
-    let told = told.expect("a location");
+    let location = location.expect("a location");
     let (off, apart) = off_place(
         &clip,
         &anatomy,
         &options,
-        told.frame,
+        location.frame,
         (place, Some(place)),
         false,
     )
     .expect("it has a body")
     .expect("it has the place");
     assert!(
-        apart < 1e-12 && off * 100.0 + 1e-9 >= told.residual,
+        apart < 1e-12 && off * 100.0 + 1e-9 >= location.residual,
         "{off} {}",
-        told.residual
+        location.residual
     );
 }
 

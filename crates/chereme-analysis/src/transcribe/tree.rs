@@ -166,7 +166,7 @@ impl<'a> Writer<'a> {
             true => mirrored(&relation),
             false => relation,
         };
-        self.told_hands(&beginning, start);
+        self.record_hands(&beginning, start);
         let mut body = self.sight.look(start);
         let shift = behind(&relation, all.first());
         if let (Some(body), Some(by)) = (&mut body, shift) {
@@ -227,7 +227,7 @@ impl<'a> Writer<'a> {
     }
 
     fn done(self, manual: Manual, first: usize, end: usize) -> (Transcription, Option<Begun>) {
-        let told = Transcription {
+        let transcription = Transcription {
             sign: Sign {
                 parts: vec![manual],
             },
@@ -236,7 +236,7 @@ impl<'a> Writer<'a> {
             frames: (first, end),
             findings: self.findings,
         };
-        (told, self.begun)
+        (transcription, self.begun)
     }
 
     /// Reports what the skeleton does not show.
@@ -349,16 +349,16 @@ impl<'a> Writer<'a> {
     ) -> Motion {
         let (first, last) = (*act.frames.start(), *act.frames.end());
         let mut motion = match &act.kind {
-            ActKind::Way(_) => Some(self.way(track, act)),
+            ActKind::Path(_) => Some(self.path(track, act)),
             ActKind::Sway(sway) => Some(self.sway(track, sway, first)),
             ActKind::Change => {
-                self.told_change(track, first);
+                self.record_change(track, first);
                 None
             }
         };
         if let Some(with) = &act.with {
             let with = self.sway(track, with, first);
-            motion = motion.map(|way| Motion::new(MotionKind::Parallel(vec![way, with])));
+            motion = motion.map(|main| Motion::new(MotionKind::Parallel(vec![main, with])));
         }
         let changed = self.changed(track, act, first, last);
         let place = self.reached(hand, act, relation, first, last);
@@ -375,7 +375,7 @@ impl<'a> Writer<'a> {
                 })
             };
             motion = Some(match motion {
-                Some(way) => Motion::new(MotionKind::Parallel(vec![way, target])),
+                Some(main) => Motion::new(MotionKind::Parallel(vec![main, target])),
                 None => target,
             });
         }
@@ -396,7 +396,7 @@ impl<'a> Writer<'a> {
         let Some(repeat) = act.repeat else {
             return motion;
         };
-        self.told_repetition(track, act, repeat);
+        self.record_repetition(track, act, repeat);
         Motion::new(MotionKind::Repeated {
             motion: Box::new(motion),
             repetition: Repetition {

@@ -87,7 +87,9 @@ pub(super) fn course(aim: &Aim<Direction>, round: bool) -> WordsAndSymbols {
         None => vec![aim.first],
         Some((one, two)) => vec![one, two],
     };
-    let symbols = text.into_iter().filter_map(|way| Symbol::of(kind(way)));
+    let symbols = text
+        .into_iter()
+        .filter_map(|direction| Symbol::of(kind(direction)));
     WordsAndSymbols::new(aimed(aim), symbols.map(Symbol::char).collect::<String>())
 }
 

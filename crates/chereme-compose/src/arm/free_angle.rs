@@ -45,11 +45,11 @@ impl Circle {
         let turn = before.angle_between(now);
         let sine = turn.sin();
         (turn > most && sine > 1e-9).then(|| {
-            let ways = [
+            let slopes = [
                 two[0].line.cross(before).dot(now),
                 two[1].line.cross(now).dot(before),
             ];
-            (turn - most, ways.map(|way| -way / sine))
+            (turn - most, slopes.map(|slope| -slope / sine))
         })
     }
 }
@@ -72,14 +72,17 @@ impl Turned {
     /// Returns the change of the rotation beyond `most` from one frame to the next.
     pub(super) fn excess(two: [&Self; 2], angles: [f64; 2], most: f64) -> Excess {
         let at = |n: usize| DQuat::from_axis_angle(two[n].line, angles[n]) * two[n].start;
-        let way = |n: usize, at: DQuat| DQuat::from_vec4(two[n].line.extend(0.0)) * at;
+        let rotated = |n: usize, at: DQuat| DQuat::from_vec4(two[n].line.extend(0.0)) * at;
         let [before, now] = [at(0), at(1)];
         let cosine = before.dot(now);
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
         let turn = 2.0 * sine.atan2(cosine.abs());
         (turn > most && sine > 1e-9).then(|| {
-            let ways = [way(0, before).dot(now), way(1, now).dot(before)];
-            (turn - most, ways.map(|way| -way * cosine.signum() / sine))
+            let slopes = [rotated(0, before).dot(now), rotated(1, now).dot(before)];
+            (
+                turn - most,
+                slopes.map(|slope| -slope * cosine.signum() / sine),
+            )
         })
     }
 }
@@ -131,8 +134,8 @@ pub(super) fn eased(
         let mut equations = Equations::new(&weights, &angles, damping);
         for n in 1..angles.len() {
             equations.add(n, stiff, angles[n] - angles[n - 1], [-1.0, 1.0]);
-            for &(excess, ways) in far[n - 1].iter().flatten() {
-                equations.add(n, TOO_FAR, excess, ways);
+            for &(excess, slopes) in far[n - 1].iter().flatten() {
+                equations.add(n, TOO_FAR, excess, slopes);
             }
         }
         let steps = equations.solved().into_iter();
@@ -271,13 +274,16 @@ mod tests {
         let forms: [&dyn Fn([f64; 2]) -> Excess; 2] = [&circle, &turn];
         for form in forms {
             let value = |a, b| form([a, b]).expect("it turns").0;
-            let (_, ways) = form([0.3, -0.2]).expect("it turns");
+            let (_, slopes) = form([0.3, -0.2]).expect("it turns");
             let [before, now] = [
                 value(0.3 + 1e-6, -0.2) - value(0.3 - 1e-6, -0.2),
                 value(0.3, -0.2 + 1e-6) - value(0.3, -0.2 - 1e-6),
             ];
-            assert!((ways[0] - before / 2e-6).abs() < 1e-6, "{ways:?} {before}");
-            assert!((ways[1] - now / 2e-6).abs() < 1e-6, "{ways:?} {now}");
+            assert!(
+                (slopes[0] - before / 2e-6).abs() < 1e-6,
+                "{slopes:?} {before}"
+            );
+            assert!((slopes[1] - now / 2e-6).abs() < 1e-6, "{slopes:?} {now}");
         }
     }
 }

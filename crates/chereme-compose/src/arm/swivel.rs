@@ -257,7 +257,7 @@ fn calm_forearm(was: &[DQuat], turns: &mut [Turns], stay: &[bool], frame_time: f
     }));
     let trust = turns.iter().zip(stay).map(|(turn, stay)| match stay {
         true => 2.0,
-        false => (2.0 * turn.told).min(1.0),
+        false => (2.0 * turn.reliability).min(1.0),
     });
     let angles = Angles {
         trust: trust.collect(),

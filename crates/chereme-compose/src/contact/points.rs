@@ -67,7 +67,7 @@ impl Anchors {
     /// trunk, the uppermost of these.
     pub(super) fn of(work: &Work) -> Self {
         let anatomy = &work.anatomy;
-        let twisted = [1.0, 2.0].map(|way| twisted(work, way));
+        let twisted = [1.0, 2.0].map(|variant| twisted(work, variant));
         let anchor = |name: &str, joints: &[usize], loose: Option<usize>| {
             let at = |model: &ModelPose| anatomy.landmark(&work.skeleton, model, name);
             let [a, b] = [at(&twisted[0])?, at(&twisted[1])?];
@@ -160,13 +160,13 @@ fn local(model: &ModelPose, joint: usize, at: DVec3) -> DVec3 {
     model.rotation(joint).inverse() * (at - model.position(joint))
 }
 
-/// Returns the first posture with every joint rotated differently; each `way` gives other rotations.
-fn twisted(work: &Work, way: f64) -> ModelPose {
+/// Returns the first posture with every joint rotated differently; each `variant` gives other rotations.
+fn twisted(work: &Work, variant: f64) -> ModelPose {
     let mut pose = work.pose(0);
     for (n, rotation) in pose.rotations.iter_mut().enumerate() {
         let n = n as f64;
-        let axis = DVec3::new((n * way).sin(), (n + way).cos(), 0.5);
-        *rotation *= DQuat::from_axis_angle(axis.normalize(), 0.2 * (1.7 * n + way).sin());
+        let axis = DVec3::new((n * variant).sin(), (n + variant).cos(), 0.5);
+        *rotation *= DQuat::from_axis_angle(axis.normalize(), 0.2 * (1.7 * n + variant).sin());
     }
     ModelPose::of(&work.skeleton, &pose)
 }

@@ -78,9 +78,12 @@ pub(crate) fn mend(
             if slots.iter().any(Option::is_some) {
                 continue;
             }
-            let most = shift.iter().map(|way| way.length()).fold(0.0, f64::max);
-            for (slot, way) in slots.iter_mut().zip(shift) {
-                *slot = Some(way);
+            let most = shift
+                .iter()
+                .map(|displacement| displacement.length())
+                .fold(0.0, f64::max);
+            for (slot, displacement) in slots.iter_mut().zip(shift) {
+                *slot = Some(displacement);
             }
             let was = contact.names();
             if contact.side == side {
@@ -88,18 +91,20 @@ pub(crate) fn mend(
             } else {
                 contact.place = point;
             }
-            did.push(told(contact, &was, side, most));
+            did.push(describe(contact, &was, side, most));
         }
         if shifts.iter().all(Option::is_none) {
             continue;
         }
-        let ways = blended(&shifts, (BLEND / work.rate.frame_time()).round() as usize);
+        let displacements = blended(&shifts, (BLEND / work.rate.frame_time()).round() as usize);
         let Some(hand) = work.anatomy.arm(side).map(|arm| arm.hand) else {
             continue;
         };
         let columns = Columns::of(work, [hand]);
-        let wrists = columns.positions(hand).iter().zip(&ways);
-        let targets: Vec<DVec3> = wrists.map(|(wrist, way)| *wrist + *way).collect();
+        let wrists = columns.positions(hand).iter().zip(&displacements);
+        let targets: Vec<DVec3> = wrists
+            .map(|(wrist, displacement)| *wrist + *displacement)
+            .collect();
         arm::move_wrist(work, side, &columns, &targets, None, Solver::Analytic);
         work.changed([Group::Arm(side)], &format!("{operator} (contact kept)"));
     }
@@ -115,36 +120,39 @@ fn shift(contact: &Contact, tracks: &Tracks<'_>, side: Side) -> Option<(Vec<DVec
     }
     let acts = contact.side == side;
     let own = if acts { contact.point } else { contact.place };
-    let ways = |point: usize| -> Option<(Vec<DVec3>, f64)> {
+    let displacements = |point: usize| -> Option<(Vec<DVec3>, f64)> {
         let mut same = contact.clone();
         if acts {
             same.point = point;
         } else {
             same.place = point;
         }
-        let ways: Option<Vec<DVec3>> = contact
+        let displacements: Option<Vec<DVec3>> = contact
             .frames
             .clone()
-            .zip(&contact.ways)
+            .zip(&contact.offsets)
             .map(|(frame, was)| {
-                let way = same.way(tracks, frame)? - *was;
-                Some(if acts { way } else { -way })
+                let displacement = same.offset(tracks, frame)? - *was;
+                Some(if acts { displacement } else { -displacement })
             })
             .collect();
-        let ways = ways?;
-        let most = ways.iter().map(|way| way.length()).fold(0.0, f64::max);
-        Some((ways, most))
+        let displacements = displacements?;
+        let most = displacements
+            .iter()
+            .map(|displacement| displacement.length())
+            .fold(0.0, f64::max);
+        Some((displacements, most))
     };
-    let (same, most) = ways(own)?;
+    let (same, most) = displacements(own)?;
     if most <= SAME {
         return Some((same, own));
     }
-    let others = (0..POINTS.len()).filter_map(|point| Some((ways(point)?, point)));
+    let others = (0..POINTS.len()).filter_map(|point| Some((displacements(point)?, point)));
     let ((best, most), point) = others.min_by(|a, b| a.0.1.total_cmp(&b.0.1))?;
     (most <= MOST).then_some((best, point))
 }
 
-fn told(contact: &Contact, was: &(String, String), side: Side, most: f64) -> String {
+fn describe(contact: &Contact, was: &(String, String), side: Side, most: f64) -> String {
     let now = contact.names();
     let instead = match now == *was {
         true => String::new(),
@@ -166,13 +174,13 @@ pub(crate) fn blended(shifts: &[Option<DVec3>], blend: usize) -> Vec<DVec3> {
         let w = share.clamp(0.0, 1.0);
         w * w * w * (10.0 + w * (6.0 * w - 15.0))
     };
-    let mut ways = Vec::with_capacity(shifts.len());
+    let mut displacements = Vec::with_capacity(shifts.len());
     let mut before: Option<(usize, DVec3)> = None;
     let mut after: Option<(usize, DVec3)> = None;
     for (frame, shift) in shifts.iter().enumerate() {
-        if let Some(way) = *shift {
-            before = Some((frame, way));
-            ways.push(way);
+        if let Some(displacement) = *shift {
+            before = Some((frame, displacement));
+            displacements.push(displacement);
             continue;
         }
         if after.is_none_or(|(at, _)| at < frame) {
@@ -180,7 +188,7 @@ pub(crate) fn blended(shifts: &[Option<DVec3>], blend: usize) -> Vec<DVec3> {
             after = next.or(Some((usize::MAX, DVec3::ZERO)));
         }
         let next = after.filter(|(at, _)| *at != usize::MAX);
-        let way = match (before, next) {
+        let displacement = match (before, next) {
             (Some((from, a)), Some((to, b))) if to - from <= 2 * blend => {
                 a.lerp(b, smooth((frame - from) as f64 / (to - from) as f64))
             }
@@ -190,9 +198,9 @@ pub(crate) fn blended(shifts: &[Option<DVec3>], blend: usize) -> Vec<DVec3> {
                 out + next.map_or(DVec3::ZERO, |(to, b)| b * fade(to - frame))
             }
         };
-        ways.push(way);
+        displacements.push(displacement);
     }
-    ways
+    displacements
 }
 
 #[cfg(test)]
@@ -204,13 +212,23 @@ mod tests {
         let mut shifts = vec![None; 100];
         shifts[30..40].fill(Some(DVec3::X));
         shifts[50..55].fill(Some(DVec3::X * 3.0));
-        let ways = blended(&shifts, 10);
+        let displacements = blended(&shifts, 10);
         assert_eq!(
-            (ways[19], ways[35], ways[52], ways[65]),
+            (
+                displacements[19],
+                displacements[35],
+                displacements[52],
+                displacements[65]
+            ),
             (DVec3::ZERO, DVec3::X, DVec3::X * 3.0, DVec3::ZERO)
         );
-        assert!(ways[24].x > 0.0 && ways[24].x < 0.5 && ways[45].x > 1.0 && ways[45].x < 3.0);
-        let step = ways
+        assert!(
+            displacements[24].x > 0.0
+                && displacements[24].x < 0.5
+                && displacements[45].x > 1.0
+                && displacements[45].x < 3.0
+        );
+        let step = displacements
             .windows(2)
             .map(|w| w[0].distance(w[1]))
             .fold(0.0, f64::max);

@@ -326,18 +326,18 @@ fn notes(
     for (n, target) in targets.iter().enumerate().skip(1) {
         let (before, times) = (&targets[n - 1], target.times);
         let name = |it: &Target| format!("{}-{}", it.placement, it.shape);
-        let way = format!("{}>{}", name(before), name(target));
+        let transition = format!("{}>{}", name(before), name(target));
         add(
             None,
             About::Cue(CueTier::Hand),
-            &way,
+            &transition,
             between(times.m1, times.m2),
         );
-        let way = format!("{}>{}", before.shape, target.shape);
+        let transition = format!("{}>{}", before.shape, target.shape);
         add(
             None,
             About::Cue(CueTier::Fingers),
-            &way,
+            &transition,
             between(times.d1, times.d2),
         );
         let Some(key) = target.key else { continue };

@@ -85,11 +85,11 @@ impl Head {
 
     /// Converts a point from model space to the space of the head.
     pub(super) fn local(&self, at: DVec3) -> DVec3 {
-        let way = (at - self.origin) / self.size;
+        let offset = (at - self.origin) / self.size;
         DVec3::new(
-            way.dot(self.axes[0]),
-            way.dot(self.axes[1]),
-            way.dot(self.axes[2]),
+            offset.dot(self.axes[0]),
+            offset.dot(self.axes[1]),
+            offset.dot(self.axes[2]),
         )
     }
 

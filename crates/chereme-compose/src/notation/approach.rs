@@ -38,18 +38,18 @@ pub(crate) struct Course {
 
 impl Course {
     /// Returns the completed share of the acts after a share of the wrist's path.
-    pub(crate) fn share(&self, way: f64) -> f64 {
+    pub(crate) fn share(&self, travelled: f64) -> f64 {
         let last = self.table.len() - 1;
-        let at = way.clamp(0.0, 1.0) * last as f64;
+        let at = travelled.clamp(0.0, 1.0) * last as f64;
         let first = (at as usize).min(last - 1);
         self.table[first] + (self.table[first + 1] - self.table[first]) * (at - first as f64)
     }
 
     /// Returns the course of a wrist on its path, and the length (m) that the path would have at its top speed; `None` if
     /// the wrist hardly moves.
-    fn along(way: &Goals) -> Option<(Vec<f64>, f64)> {
-        let wrists: Vec<DVec3> = way.wrists().collect();
-        let steps = wrists.windows(2).zip(way.turns.windows(2));
+    fn along(path: &Goals) -> Option<(Vec<f64>, f64)> {
+        let wrists: Vec<DVec3> = path.wrists().collect();
+        let steps = wrists.windows(2).zip(path.turns.windows(2));
         let steps = steps.map(|(at, turned)| {
             let far = at[0].distance(at[1]);
             (far, far + LEVER * turned[0].angle_between(turned[1]))
@@ -175,8 +175,8 @@ impl Planner<'_> {
         let tops = self.tops(part, who);
         let top = tops.into_iter().fold(0.0, f64::max);
         for (n, _) in acting(named) {
-            let way = self.way(n, &before[n], &goal[n]);
-            let Some((table, longest)) = Course::along(&way) else {
+            let path = self.path(n, &before[n], &goal[n]);
+            let Some((table, longest)) = Course::along(&path) else {
                 continue;
             };
             approach.tables[n] = Some(table);
@@ -226,7 +226,7 @@ impl Planner<'_> {
     }
 
     /// Returns the path of a hand from one state to another, in [`STEPS`] equal shares of its acts.
-    fn way(&mut self, n: usize, before: &HandState, goal: &HandState) -> Goals {
+    fn path(&mut self, n: usize, before: &HandState, goal: &HandState) -> Goals {
         let known = self.plan.events[n].len();
         let now = std::mem::replace(&mut self.state[n], before.clone());
         self.swing(n, goal, 0.0, 1.0, Pace::Calm);
@@ -246,36 +246,39 @@ mod tests {
     #[test]
     fn a_wrist_that_would_hurry_over_half_of_its_path_moves_steadily() {
         let wrist = |n: usize| DVec3::X * if n < 20 { 0.0 } else { 0.02 * (n - 20) as f64 };
-        let way = Goals {
+        let path = Goals {
             points: (0..=40).map(wrist).collect(),
             turns: vec![DQuat::IDENTITY; 41],
             offsets: vec![DVec3::ZERO; 41],
             wrist: vec![None; 41],
-            ways: Vec::new(),
+            transitions: Vec::new(),
         };
-        let (table, longest) = Course::along(&way).expect("it moves");
+        let (table, longest) = Course::along(&path).expect("it moves");
         assert!((longest - 0.4).abs() < 1e-9, "{longest}");
         let course = Course {
             from: 0.0,
             to: 1.0,
             table,
         };
-        for way in [0.1, 0.5, 0.9] {
-            let share = course.share(way);
-            assert!((share - 0.5 - way / 2.0).abs() < 1e-6, "{way}: {share}");
+        for travelled in [0.1, 0.5, 0.9] {
+            let share = course.share(travelled);
+            assert!(
+                (share - 0.5 - travelled / 2.0).abs() < 1e-6,
+                "{travelled}: {share}"
+            );
         }
         assert_eq!(course.share(1.0), 1.0);
     }
 
     #[test]
     fn a_wrist_that_stays_gets_no_speed_profile() {
-        let way = Goals {
+        let path = Goals {
             points: vec![DVec3::ONE; 41],
             turns: vec![DQuat::IDENTITY; 41],
             offsets: vec![DVec3::ZERO; 41],
             wrist: vec![None; 41],
-            ways: Vec::new(),
+            transitions: Vec::new(),
         };
-        assert!(Course::along(&way).is_none());
+        assert!(Course::along(&path).is_none());
     }
 }

@@ -262,10 +262,10 @@ impl Rig {
         turn: f64,
         limits: &Limits,
     ) -> Posed {
-        let way = self.not_too_near(wrist - shoulder, limits);
+        let to_wrist = self.not_too_near(wrist - shoulder, limits);
         let length = self.length();
-        let line = way.normalize_or(self.forward);
-        let reach = self.soften(way.length());
+        let line = to_wrist.normalize_or(self.forward);
+        let reach = self.soften(to_wrist.length());
         let [first, second] = self.lengths;
         let x = ((first * first - second * second + reach * reach) / (2.0 * reach))
             .clamp(-first, first);
@@ -318,11 +318,11 @@ impl Rig {
     /// Solves the arm for another wrist position from the same shoulder, with the plane turned outwards by
     /// an angle (rad).
     pub(crate) fn moved(&self, posed: &Posed, wrist: DVec3, outwards: f64) -> Posed {
-        let way = wrist - posed.shoulder;
-        let line = way.normalize_or(self.forward);
+        let to_wrist = wrist - posed.shoulder;
+        let line = to_wrist.normalize_or(self.forward);
         let [first, second] = self.lengths;
         let least = (first - second).abs() + 0.02 * self.length();
-        let reach = way.length().clamp(least, 0.9999 * self.length());
+        let reach = to_wrist.length().clamp(least, 0.9999 * self.length());
         let x = ((first * first - second * second + reach * reach) / (2.0 * reach))
             .clamp(-first, first);
         let off = (first * first - x * x).max(0.0).sqrt();
@@ -357,14 +357,14 @@ impl Rig {
 
     /// Returns the vector from shoulder to wrist, lengthened outwards and forward if the elbow cannot bend
     /// enough.
-    fn not_too_near(&self, way: DVec3, limits: &Limits) -> DVec3 {
-        let missing = way.length_squared() - self.nearest(limits);
+    fn not_too_near(&self, to_wrist: DVec3, limits: &Limits) -> DVec3 {
+        let missing = to_wrist.length_squared() - self.nearest(limits);
         if missing >= 0.0 {
-            return way;
+            return to_wrist;
         }
         let out = (self.forward * 0.8 + self.outside * 0.6).normalize();
-        let along = way.dot(out);
-        way + out * ((along * along - missing).sqrt() - along)
+        let along = to_wrist.dot(out);
+        to_wrist + out * ((along * along - missing).sqrt() - along)
     }
 
     /// Returns the square of the least distance from shoulder to wrist.

@@ -63,33 +63,36 @@ pub(crate) fn clear(
     let mut sums = vec![DVec3::ZERO; total];
     let mut left = 0.0;
     for round in 0..=ROUNDS {
-        let mut ways = vec![DVec3::ZERO; total];
+        let mut displacements = vec![DVec3::ZERO; total];
         let mut same: Option<(usize, DVec3)> = None;
         left = 0.0_f64;
-        for (frame, out) in ways.iter_mut().enumerate() {
-            if let Some((n, way)) = same
+        for (frame, out) in displacements.iter_mut().enumerate() {
+            if let Some((n, displacement)) = same
                 && stays(first, frame, n)
                 && stays(second, frame, n)
             {
-                *out = way;
+                *out = displacement;
                 continue;
             }
-            let way = way_out(stage, length, first, second, frame);
-            left = left.max(way.length());
-            *out = way;
-            same = Some((frame, way));
+            let displacement = separation(stage, length, first, second, frame);
+            left = left.max(displacement.length());
+            *out = displacement;
+            same = Some((frame, displacement));
         }
         if left <= SOFT || round == ROUNDS {
             break;
         }
-        for (frame, way) in eased(&ways, near).into_iter().enumerate() {
-            let way = match touch(contacts, frame as f64 / rate) {
-                true => (sums[frame] * 2.0 + way).clamp_length_max(TOUCHING) - sums[frame] * 2.0,
-                false => way,
+        for (frame, displacement) in eased(&displacements, near).into_iter().enumerate() {
+            let displacement = match touch(contacts, frame as f64 / rate) {
+                true => {
+                    (sums[frame] * 2.0 + displacement).clamp_length_max(TOUCHING)
+                        - sums[frame] * 2.0
+                }
+                false => displacement,
             };
-            first.points[frame] += way * 0.5;
-            second.points[frame] -= way * 0.5;
-            sums[frame] += way * 0.5;
+            first.points[frame] += displacement * 0.5;
+            second.points[frame] -= displacement * 0.5;
+            sums[frame] += displacement * 0.5;
         }
     }
     for (frame, sum) in sums.iter().enumerate() {
@@ -122,7 +125,7 @@ fn stays(wanted: &Wanted<'_>, a: usize, b: usize) -> bool {
 
 /// Returns the displacement by which the first hand leaves the second: as long as the depth of the deepest place, along
 /// the mean of the displacements of all places.
-fn way_out(
+fn separation(
     stage: &Stage,
     length: f64,
     first: &Wanted<'_>,
@@ -147,10 +150,10 @@ fn way_out(
             if middle.distance_squared(centre) > reach * reach {
                 continue;
             }
-            let way = between(one.ends, other.ends);
-            let deep = one.radius + other.radius - way.length();
+            let gap = between(one.ends, other.ends);
+            let deep = one.radius + other.radius - gap.length();
             if deep > SOFT {
-                sum += way.normalize_or(DVec3::ZERO) * deep;
+                sum += gap.normalize_or(DVec3::ZERO) * deep;
                 deepest = deepest.max(deep);
             }
         }
@@ -159,8 +162,8 @@ fn way_out(
         return DVec3::ZERO;
     }
     let usual = stage.forward * 0.8 + DVec3::Y * 0.6;
-    let way = sum.try_normalize().or(palms.try_normalize());
-    way.unwrap_or(usual) * (deepest - GIVES)
+    let direction = sum.try_normalize().or(palms.try_normalize());
+    direction.unwrap_or(usual) * (deepest - GIVES)
 }
 
 /// A hand in its intended pose.

@@ -219,7 +219,7 @@ impl Planner<'_> {
             return 0.0;
         };
         let point = stance.point + by;
-        let deep = self.stage.torso.way_out(point, NEAR).length() / self.stage.arm;
+        let deep = self.stage.torso.offset_out(point, NEAR).length() / self.stage.arm;
         let wrist = point - stance.rotation * stance.offset;
         let arm = Arm::of(self.stage, hand, &self.limits);
         arm.strain(wrist, stance.rotation) + 1.2e4 * deep * deep
@@ -285,10 +285,10 @@ fn lowest(cost: impl Fn(DVec3, f64) -> f64, room: [DVec3; 2]) -> DVec3 {
     let (mut best, mut step) = (DVec3::ZERO, 0.7);
     let mut least = cost(best, f64::INFINITY);
     for _ in 0..7 {
-        let ways = [DVec3::X, DVec3::Y, DVec3::Z];
-        let near = ways
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let near = axes
             .into_iter()
-            .flat_map(|way| [best - way * room[0] * step, best + way * room[1] * step]);
+            .flat_map(|axis| [best - axis * room[0] * step, best + axis * room[1] * step]);
         let mut next = (best, least - 1e-3);
         for at in near.filter(|at| share(*at, room) <= 1.0) {
             let cost = cost(at, next.1);

@@ -67,7 +67,7 @@ const SHRUGGING: f64 = 8.0;
 /// A choice whose cost exceeds this multiple of the best plus this constant is not tried with a shrug.
 const HOPELESS: (f64, f64) = (3.0, 60.0);
 /// Cost of orientation and place above which a hand is tried with a shrug.
-const GIVES_WAY: f64 = 1.0;
+const SHRUGS_ABOVE: f64 = 1.0;
 /// Seconds around such a moment in which shrugs are tried, too.
 const AROUND: f64 = 0.2;
 
@@ -99,7 +99,7 @@ impl Arm<'_> {
             touch: 0.0,
         };
         let mut choices = self.choices(&want, false);
-        if choices[best(&choices)].amiss > GIVES_WAY {
+        if choices[best(&choices)].amiss > SHRUGS_ABOVE {
             self.shrug(&mut choices, &want, false);
         }
         refined(&choices, best(&choices))
@@ -121,7 +121,7 @@ impl Arm<'_> {
             })
         };
         let still = least(0.0, f64::INFINITY);
-        if still < GIVES_WAY {
+        if still < SHRUGS_ABOVE {
             return still;
         }
         SHRUGS
@@ -222,7 +222,7 @@ impl Arm<'_> {
         [0.6, 1.0]
             .map(|share| {
                 let at = posed.shoulder.lerp(posed.elbow, share);
-                let deep = self.stage.torso.way_out(at, 0.035).length() / self.rig().length();
+                let deep = self.stage.torso.offset_out(at, 0.035).length() / self.rig().length();
                 WITHIN * deep * deep
             })
             .iter()
@@ -248,7 +248,7 @@ impl Arm<'_> {
         let near = (AROUND / dt) as usize;
         let mut shrugs = vec![false; lists.len()];
         for (n, choice) in chosen.iter().enumerate() {
-            if choice.amiss > GIVES_WAY {
+            if choice.amiss > SHRUGS_ABOVE {
                 let around = n.saturating_sub(near)..(n + near + 1).min(of.len());
                 of[around].iter().for_each(|&list| shrugs[list] = true);
             }
@@ -315,7 +315,7 @@ impl Arm<'_> {
         let least = choices[best(choices)].cost;
         // A shrug turns a forearm by about 20°, which cannot save a far worse candidate.
         let hopeful = |choice: &&Choice| {
-            choice.amiss > 0.2 * GIVES_WAY && choice.cost < HOPELESS.0 * least + HOPELESS.1
+            choice.amiss > 0.2 * SHRUGS_ABOVE && choice.cost < HOPELESS.0 * least + HOPELESS.1
         };
         for shrug in SHRUGS {
             for choice in still.iter().filter(hopeful) {

@@ -34,7 +34,7 @@ struct Meeting {
     frames: Range<usize>,
     nearest: usize,
     /// The offset between the hands' bones there, from the second hand to the first.
-    way: DVec3,
+    offset: DVec3,
 }
 
 /// Separates hands that would pass through each other, each by half of the distance. Hands that touch, or
@@ -58,7 +58,7 @@ pub(crate) fn part(
         for meeting in meetings {
             let (n, total) = (meeting.nearest, first.points.len());
             let aside = aside(stage, &meeting, first, second);
-            let along = meeting.way.dot(aside);
+            let along = meeting.offset.dot(aside);
             let by = 0.5 * (NEAR * length * 1.1 - along).max(0.0);
             let frames = meeting.frames.start.saturating_sub(around)
                 ..(meeting.frames.end + around).min(total);
@@ -96,13 +96,13 @@ fn passes(meeting: &Meeting, first: &Wanted<'_>, second: &Wanted<'_>) -> bool {
 fn aside(stage: &Stage, meeting: &Meeting, first: &Wanted<'_>, second: &Wanted<'_>) -> DVec3 {
     let n = meeting.nearest;
     let last = first.points.len() - 1;
-    let way =
+    let step =
         |wanted: &Wanted<'_>| wanted.points[(n + 1).min(last)] - wanted.points[n.saturating_sub(1)];
-    let across = |v: DVec3| match (way(first) - way(second)).try_normalize() {
+    let across = |v: DVec3| match (step(first) - step(second)).try_normalize() {
         Some(going) => v.reject_from_normalized(going),
         None => v,
     };
-    let own = across(meeting.way);
+    let own = across(meeting.offset);
     if own.length() > 4e-3 {
         return own.normalize();
     }
@@ -120,8 +120,8 @@ fn meetings(length: f64, first: &Wanted<'_>, second: &Wanted<'_>) -> Vec<Meeting
         {
             continue;
         }
-        let way = nearest(bones(first, frame), bones(second, frame));
-        let apart = way.length();
+        let offset = nearest(bones(first, frame), bones(second, frame));
+        let apart = offset.length();
         if apart >= NEAR * length {
             continue;
         }
@@ -129,7 +129,7 @@ fn meetings(length: f64, first: &Wanted<'_>, second: &Wanted<'_>) -> Vec<Meeting
             Some(last) => {
                 last.frames.end = frame + 1;
                 if apart < least {
-                    (last.nearest, last.way) = (frame, way);
+                    (last.nearest, last.offset) = (frame, offset);
                     least = apart;
                 }
             }
@@ -137,7 +137,7 @@ fn meetings(length: f64, first: &Wanted<'_>, second: &Wanted<'_>) -> Vec<Meeting
                 all.push(Meeting {
                     frames: frame..frame + 1,
                     nearest: frame,
-                    way,
+                    offset,
                 });
                 least = apart;
             }

@@ -170,10 +170,10 @@ fn after(body: &Stage, hands: [&Wanted<'_>; 2], rate: f64) -> Vec<DVec3> {
         if weight < 1e-6 {
             return DVec3::ZERO;
         }
-        let way = sum / weight;
-        let ahead = way.dot(body.forward).max(0.12 * body.arm);
-        let down = (-way.y).atan2(ahead.hypot(way.dot(body.left)));
-        let aside = way.dot(body.left).atan2(ahead);
+        let direction = sum / weight;
+        let ahead = direction.dot(body.forward).max(0.12 * body.arm);
+        let down = (-direction.y).atan2(ahead.hypot(direction.dot(body.left)));
+        let aside = direction.dot(body.left).atan2(ahead);
         DVec3::new(down, aside, 0.0) * (weight.min(1.0) * away)
     });
     let own: Vec<DVec3> = own.collect();

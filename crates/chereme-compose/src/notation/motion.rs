@@ -111,7 +111,7 @@ impl Planner<'_> {
             MotionKind::FingerPlay(digits) => self.play(digits, who, time, env),
             MotionKind::Still => {
                 let end = time + self.language.time_still * env.slower;
-                self.told(who, PhaseKind::Hold, time, end, "still");
+                self.add_phase(who, PhaseKind::Hold, time, end, "still");
                 end
             }
             MotionKind::Body(action) => self.body(action, time),
@@ -161,7 +161,7 @@ impl Planner<'_> {
         }
     }
 
-    fn told(&mut self, who: Who, kind: PhaseKind, from: f64, to: f64, says: &str) {
+    fn add_phase(&mut self, who: Who, kind: PhaseKind, from: f64, to: f64, says: &str) {
         for (n, _) in acting(who) {
             self.phase(n, kind, from, to, says);
         }
@@ -184,9 +184,9 @@ impl Planner<'_> {
     ) -> f64 {
         let l = self.language;
         let size = amount(&directed.size, [l.move_small, l.move_normal, l.move_big]);
-        let way = mean(directed.direction, directed.second);
+        let direction = mean(directed.direction, directed.second);
         let sign = if env.back { -1.0 } else { 1.0 };
-        let chord = way * (size * env.size * self.stage.arm * sign);
+        let chord = direction * (size * env.size * self.stage.arm * sign);
         let usual = if directed.curve.is_some() || directed.zigzag.is_some() {
             l.time_arc
         } else {
@@ -195,7 +195,7 @@ impl Planner<'_> {
         let path = match &directed.curve {
             Some(curve) => Path::Arc {
                 chord,
-                bow: self.bow(way, curve) * chord.length(),
+                bow: self.bow(direction, curve) * chord.length(),
             },
             None => Path::Line(chord),
         };
@@ -211,7 +211,7 @@ impl Planner<'_> {
         if let Some(zigzag) = &directed.zigzag {
             let wide = sized(zigzag.size, [l.zigzag_small, l.zigzag_normal, l.zigzag_big]);
             let wave = Path::Wave {
-                side: across(way) * (wide * env.size * self.stage.arm),
+                side: across(direction) * (wide * env.size * self.stage.arm),
                 waves: l.zigzag_waves,
                 wavy: zigzag.wavy,
                 grown: grown(zigzag.growth, 2.0 * l.growth),
@@ -223,15 +223,15 @@ impl Planner<'_> {
             if directed.curve.is_some() { "arc " } else { "" },
             directed.direction
         );
-        self.told(who, PhaseKind::Stroke, time, end, &says);
+        self.add_phase(who, PhaseKind::Stroke, time, end, &says);
         end
     }
 
     /// Returns the bulge of an arc: its direction, with its depth as a share of the chord as length.
-    fn bow(&self, way: DVec3, curve: &Curve) -> DVec3 {
+    fn bow(&self, direction: DVec3, curve: &Curve) -> DVec3 {
         let l = self.language;
         let deep = sized(curve.size, [l.arc_small, l.arc_normal, l.arc_big]);
-        shortest(way) * about(curve.to.angle()) * deep
+        shortest(direction) * about(curve.to.angle()) * deep
     }
 
     fn circular(
@@ -260,7 +260,7 @@ impl Planner<'_> {
         let end = time + self.timed(usual, path.length(), env);
         self.along(&path, who, [time, end], Pace::of(manner, Pace::Linear));
         let says = format!("circle {}", circular.axis);
-        self.told(who, PhaseKind::Stroke, time, end, &says);
+        self.add_phase(who, PhaseKind::Stroke, time, end, &says);
         end
     }
 
@@ -373,7 +373,7 @@ impl Planner<'_> {
                 act: Act::Wrist { axes, cycles },
             });
         }
-        self.told(who, PhaseKind::Stroke, time, end, wrist_name(motion));
+        self.add_phase(who, PhaseKind::Stroke, time, end, wrist_name(motion));
         end
     }
 
@@ -388,7 +388,7 @@ impl Planner<'_> {
         let path = Path::Through(points.map(|[x, y]| DVec3::new(x, y, 0.0) * size).to_vec());
         let end = time + self.timed(2.2 * l.time_straight, path.length(), env);
         self.along(&path, who, [time, end], Pace::of(manner, Pace::Linear));
-        self.told(who, PhaseKind::Stroke, time, end, "cross");
+        self.add_phase(who, PhaseKind::Stroke, time, end, "cross");
         end
     }
 
@@ -413,7 +413,7 @@ impl Planner<'_> {
                 },
             });
         }
-        self.told(who, PhaseKind::Stroke, time, end, "fingers play");
+        self.add_phase(who, PhaseKind::Stroke, time, end, "fingers play");
         end
     }
 
@@ -497,11 +497,11 @@ impl Planner<'_> {
             .collect();
         let longest = lengths.iter().copied().fold(0.0, f64::max);
         // Plan paths first, so that the postures at their end are solved at the final positions.
-        let (ways, ends): (Vec<_>, Vec<_>) = motions
+        let (paths, ends): (Vec<_>, Vec<_>) = motions
             .iter()
             .zip(lengths)
             .partition(|(motion, _)| !matches!(motion.kind, MotionKind::Target { .. }));
-        for (motion, length) in ways.into_iter().chain(ends) {
+        for (motion, length) in paths.into_iter().chain(ends) {
             let stretch = if length > 1e-6 { longest / length } else { 1.0 };
             let env = at_tempo(motion);
             let env = Env {

@@ -207,8 +207,8 @@ fn a_movement_with_a_target_starts_in_its_direction_and_ends_there() {
             .landmark(skeleton, &model, "right-index-tip")
             .expect("a fingertip")
     };
-    let ways = (1..50).map(|n| tip(0.02 * f64::from(n)) - tip(0.0));
-    let early = ways.into_iter().find(|way| way.length() > 0.03);
+    let offsets = (1..50).map(|n| tip(0.02 * f64::from(n)) - tip(0.0));
+    let early = offsets.into_iter().find(|offset| offset.length() > 0.03);
     let early = early.expect("it moves");
     assert!(early.x > early.y.abs(), "to the left: {early}");
     let model = model(&made, 0.9);
@@ -235,8 +235,8 @@ fn a_hand_at_the_face_follows_the_head() {
                 .expect("a landmark")
         };
         let head = made.anatomy.joint(Part::Head).expect("a head");
-        let way: DVec3 = place("right-index-tip") - place("chin");
-        model.rotation(head).inverse() * way
+        let offset: DVec3 = place("right-index-tip") - place("chin");
+        model.rotation(head).inverse() * offset
     };
     let straight = off(&alive(&sign));
     for tag in ["SL", "TR", "NF"] {
@@ -367,9 +367,9 @@ fn what_is_clear_of_the_trunk_is_not_pushed_out_of_it() {
             continue;
         }
         clear += 1;
-        let way = DVec3::new(part(11), part(13), part(17)).normalize_or(DVec3::X);
-        let out = body.torso.way_out(at + way * around, 0.008);
-        assert_eq!(out, DVec3::ZERO, "{at} and {around} m along {way}");
+        let direction = DVec3::new(part(11), part(13), part(17)).normalize_or(DVec3::X);
+        let out = body.torso.offset_out(at + direction * around, 0.008);
+        assert_eq!(out, DVec3::ZERO, "{at} and {around} m along {direction}");
     }
     assert!((500..3800).contains(&clear), "{clear}");
 }

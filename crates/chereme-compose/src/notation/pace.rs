@@ -106,8 +106,8 @@ fn controlled(gain: f64, power: f64, ratio: f64, brake: f64) -> Vec<f64> {
     const STEP: f64 = 1e-3;
     let arrival = if ratio < 4.0 { 1.0 } else { 0.99 };
     let (mut x, mut v) = (0.0_f64, 0.0_f64);
-    let mut way = vec![0.0];
-    while x < arrival && way.len() < 40_000 {
+    let mut course = vec![0.0];
+    while x < arrival && course.len() < 40_000 {
         let push = |x: f64, v: f64| {
             let k = 1.0 + gain * x.clamp(0.0, 1.0).powf(power);
             ratio * k * (k * (1.0 - x) - v)
@@ -115,17 +115,17 @@ fn controlled(gain: f64, power: f64, ratio: f64, brake: f64) -> Vec<f64> {
         let half = (x + v * STEP / 2.0, v + push(x, v) * STEP / 2.0);
         x += half.1 * STEP;
         v += push(half.0, half.1) * STEP;
-        way.push(x);
+        course.push(x);
     }
-    let steps = (way.len() as f64 * brake.clamp(0.0, 0.5)) as usize;
+    let steps = (course.len() as f64 * brake.clamp(0.0, 0.5)) as usize;
     for n in 0..steps {
         x += v * STEP * (1.0 - (n as f64 + 0.5) / steps as f64);
-        way.push(x);
+        course.push(x);
     }
     sampled(|time| {
-        let at = time * (way.len() - 1) as f64;
-        let first = (at as usize).min(way.len() - 2);
-        way[first] + (way[first + 1] - way[first]) * (at - first as f64)
+        let at = time * (course.len() - 1) as f64;
+        let first = (at as usize).min(course.len() - 2);
+        course[first] + (course[first + 1] - course[first]) * (at - first as f64)
     })
 }
 

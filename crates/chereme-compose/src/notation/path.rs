@@ -38,8 +38,8 @@ impl Path {
     /// Returns the point at the share `s` of the length.
     pub(crate) fn at(&self, s: f64) -> DVec3 {
         match self {
-            Self::Line(way) => *way * s,
-            Self::Late(way) => *way * (s * s * s),
+            Self::Line(displacement) => *displacement * s,
+            Self::Late(displacement) => *displacement * (s * s * s),
             Self::Arc { chord, bow } => arc(*chord, *bow, s),
             Self::Wave {
                 side,
@@ -69,7 +69,7 @@ impl Path {
                 (*start * cos + *quarter * sin) * size - *start
             }
             Self::Through(points) => through(points, s),
-            Self::Spring(way) => *way * (PI * s).sin(),
+            Self::Spring(displacement) => *displacement * (PI * s).sin(),
         }
     }
 
@@ -110,8 +110,8 @@ impl Path {
     /// Returns the path with the linear map `f` applied to every vector.
     pub(crate) fn map(&self, f: impl Fn(DVec3) -> DVec3) -> Self {
         match self {
-            Self::Line(way) => Self::Line(f(*way)),
-            Self::Late(way) => Self::Late(f(*way)),
+            Self::Line(displacement) => Self::Line(f(*displacement)),
+            Self::Late(displacement) => Self::Late(f(*displacement)),
             Self::Arc { chord, bow } => Self::Arc {
                 chord: f(*chord),
                 bow: f(*bow),
@@ -139,7 +139,7 @@ impl Path {
                 grown: *grown,
             },
             Self::Through(points) => Self::Through(points.iter().map(|&point| f(point)).collect()),
-            Self::Spring(way) => Self::Spring(f(*way)),
+            Self::Spring(displacement) => Self::Spring(f(*displacement)),
         }
     }
 }

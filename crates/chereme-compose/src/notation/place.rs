@@ -259,13 +259,13 @@ impl Planner<'_> {
         Some((at, inner.try_normalize().filter(|_| bent)))
     }
 
-    /// Returns the point of a hand that comes first when the hand moves along `way` (model space).
-    fn facing(&self, n: usize, way: DVec3, region: Region) -> HandPoint {
+    /// Returns the point of a hand that comes first when the hand moves along `direction` (model space).
+    fn facing(&self, n: usize, direction: DVec3, region: Region) -> HandPoint {
         let Some(hand) = self.stage.hand(self.sides[n]) else {
             return HandPoint::Palm;
         };
         let state = &self.state[n];
-        let v = state.rotation.inverse() * way;
+        let v = state.rotation.inverse() * direction;
         let [along, palm, radial] = [hand.along, hand.palm, hand.radial].map(|axis| v.dot(axis));
         coming_first(&state.handshape, [along, palm, radial], region)
     }
@@ -366,8 +366,8 @@ impl Planner<'_> {
             _ => 2.0 * far,
         };
         let unlike = hands.other.is_some() && hands.other != hands.dominant;
-        let (points, way) = if mirrored && !unlike {
-            let point = |n: usize, site: &Option<HandSite>, way: DVec3| match site {
+        let (points, direction) = if mirrored && !unlike {
+            let point = |n: usize, site: &Option<HandSite>, direction: DVec3| match site {
                 Some(site) => self.site_points(n, site, frames[n]),
                 None if hands.contact == Some(Contact::Cross) => {
                     vec![HandPoint::Wrist(Face::Palmar)]
@@ -377,7 +377,7 @@ impl Planner<'_> {
                     HandPoint::Base(Digit::Middle, Face::Palmar),
                     HandPoint::Middle(Digit::Middle, Face::Palmar),
                 ],
-                None => vec![self.facing(n, way, Region::Trunk)],
+                None => vec![self.facing(n, direction, Region::Trunk)],
             };
             let other = hands.other.as_ref().or(hands.dominant.as_ref()).cloned();
             (
@@ -394,8 +394,8 @@ impl Planner<'_> {
             skin: None,
         });
         let [mut first, mut second] = goals;
-        first.at += way * (apart / 2.0);
-        second.at -= way * (apart / 2.0);
+        first.at += direction * (apart / 2.0);
+        second.at -= direction * (apart / 2.0);
         if let (Some(fixed), None) = (self.fixed.filter(|_| self.begun), &hands.at) {
             let points = [&first.points, &second.points][fixed].clone();
             let by = self.at_hand(fixed, &points).0 - [first.at, second.at][fixed];
@@ -442,18 +442,18 @@ impl Planner<'_> {
         let other = match &hands.other {
             Some(site) => self.site_points(1, site, frames[1]),
             None => {
-                let way = match &own {
+                let direction = match &own {
                     Some(points) => -self.at_hand(0, points).1,
                     None => (DVec3::Y + across * 0.6 + self.stage.forward * 0.3).normalize(),
                 };
-                vec![self.facing(1, way, Region::Trunk)]
+                vec![self.facing(1, direction, Region::Trunk)]
             }
         };
         let out = self.at_hand(1, &other).1;
         let own = own.unwrap_or_else(|| vec![self.facing(0, -out, region)]);
         let facing = self.at_hand(0, &own).1;
-        let way = (out - facing).try_normalize().unwrap_or(across);
-        ([own, other], way)
+        let direction = (out - facing).try_normalize().unwrap_or(across);
+        ([own, other], direction)
     }
 
     /// Returns the position of two hands in a constellation: at their place if named, else at their

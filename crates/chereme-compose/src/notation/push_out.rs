@@ -37,8 +37,8 @@ impl Arm<'_> {
     /// Solves the arm for all frames, clear of the trunk: returns the settings and the resulting posture
     /// of each frame.
     pub(crate) fn over_time(&self, wanted: &Wanted<'_>, rate: f64) -> (Vec<ArmFrame>, Vec<Got>) {
-        let mut ways = self.ways(wanted, rate);
-        let mut rows = self.laid(wanted, &ways, rate);
+        let mut bearings = self.bearings(wanted, rate);
+        let mut rows = self.laid(wanted, &bearings, rate);
         let mut got = self.settled(&rows, &wanted.outlines);
         let near = ((AROUND * rate).ceil() as usize).max(1);
         let mut more = vec![DVec3::ZERO; rows.len()];
@@ -48,26 +48,26 @@ impl Arm<'_> {
                 .map(|(got, row)| DVec3::X * self.turned_out(got, row.bearing))
                 .collect();
             let mut outs: Vec<DVec3> = got.iter().map(|got| if_deep(got.within)).collect();
-            one_way(&mut outs, &self.ways_out(), |frame, by| {
+            in_one_direction(&mut outs, &self.directions_out(), |frame, by| {
                 let Got {
                     posed, rotation, ..
                 } = got[frame];
-                let out = self.way_out(posed.wrist + by, rotation, wanted.outlines.at(frame));
+                let out = self.offset_out(posed.wrist + by, rotation, wanted.outlines.at(frame));
                 out.0 == DVec3::ZERO
             });
             for ((out, got), turn) in outs.iter_mut().zip(&got).zip(&turns) {
                 if *out == DVec3::ZERO && *turn == DVec3::ZERO {
                     // Pushes the hand out so that its elbow leaves the trunk.
-                    *out = if_deep(self.stage.torso.way_out(got.posed.elbow, 0.0));
+                    *out = if_deep(self.stage.torso.offset_out(got.posed.elbow, 0.0));
                 }
             }
             let [turned, pushed] =
                 [&turns, &outs].map(|all| all.iter().any(|by| *by != DVec3::ZERO));
             if turned {
-                for ((bearing, _), by) in ways.iter_mut().zip(eased(&turns, near)) {
+                for ((bearing, _), by) in bearings.iter_mut().zip(eased(&turns, near)) {
                     bearing.plane += by.x;
                 }
-                rows = self.laid(wanted, &ways, rate);
+                rows = self.laid(wanted, &bearings, rate);
             }
             let outs = eased(&outs, near);
             for (more, by) in more.iter_mut().zip(&outs) {
@@ -105,13 +105,13 @@ impl Arm<'_> {
         for _ in 0..ROUNDS {
             let amiss = frames.iter().enumerate().map(|(frame, turned)| {
                 let (posed, hand) = rig.posed(*turned);
-                let out = if_deep(self.way_out(posed.wrist, hand, outlines(frame)).0);
+                let out = if_deep(self.offset_out(posed.wrist, hand, outlines(frame)).0);
                 let tried = |by: f64| rig.moved(&posed, posed.wrist, by.to_radians()).elbow;
-                let deep = torso.way_aside(posed.elbow, -0.003).length() > DEEP;
+                let deep = torso.offset_aside(posed.elbow, -0.003).length() > DEEP;
                 let turn = (1..30).map(|n| 4.0 * f64::from(n)).filter(|_| deep);
                 let turn = turn
                     .into_iter()
-                    .find(|by| torso.way_aside(tried(*by), 0.0) == DVec3::ZERO);
+                    .find(|by| torso.offset_aside(tried(*by), 0.0) == DVec3::ZERO);
                 (out, DVec3::X * turn.unwrap_or(0.0).to_radians())
             });
             let (mut outs, turns): (Vec<DVec3>, Vec<DVec3>) = amiss.unzip();
@@ -121,9 +121,9 @@ impl Arm<'_> {
             {
                 break;
             }
-            one_way(&mut outs, &self.ways_out(), |frame, by| {
+            in_one_direction(&mut outs, &self.directions_out(), |frame, by| {
                 let (posed, hand) = rig.posed(frames[frame]);
-                self.way_out(posed.wrist + by, hand, outlines(frame)).0 == DVec3::ZERO
+                self.offset_out(posed.wrist + by, hand, outlines(frame)).0 == DVec3::ZERO
             });
             let (outs, turns) = (eased(&outs, near), eased(&turns, near));
             for ((turned, out), turn) in frames.iter_mut().zip(outs).zip(turns) {
@@ -138,7 +138,7 @@ impl Arm<'_> {
     }
 
     /// Returns the directions in which a hand may leave the trunk: forward, to its own side, and between.
-    fn ways_out(&self) -> [DVec3; 3] {
+    fn directions_out(&self) -> [DVec3; 3] {
         let forward = self.stage.forward;
         let outside = self.stage.left * self.hand.side.sign();
         [forward, (forward + outside).normalize(), outside]
@@ -162,7 +162,7 @@ impl Arm<'_> {
     /// outwards; if none does, the one with the least depth.
     fn turned_out(&self, got: &Got, bearing: Bearing) -> f64 {
         let torso = &self.stage.torso;
-        let own = torso.way_aside(got.posed.elbow, -0.003).length();
+        let own = torso.offset_aside(got.posed.elbow, -0.003).length();
         if own < DEEP {
             return 0.0;
         }
@@ -172,8 +172,8 @@ impl Arm<'_> {
             let tried = Bearing { plane, ..bearing };
             let posed = self.rig().reach(got.posed.wrist, tried, self.limits);
             let upper = posed.shoulder.lerp(posed.elbow, 0.6);
-            let deep =
-                torso.way_aside(posed.elbow, NEAR).length() + torso.way_out(upper, 0.0).length();
+            let deep = torso.offset_aside(posed.elbow, NEAR).length()
+                + torso.offset_out(upper, 0.0).length();
             if deep == 0.0 {
                 return by.to_radians();
             }
@@ -196,7 +196,11 @@ fn if_deep(out: DVec3) -> DVec3 {
 
 /// Makes successive frames leave the trunk in one direction until they are `clear`: of the given
 /// directions and its own, the one with the shortest push for the deepest frame.
-fn one_way(outs: &mut [DVec3], ways: &[DVec3], clear: impl Fn(usize, DVec3) -> bool) {
+fn in_one_direction(
+    outs: &mut [DVec3],
+    directions: &[DVec3],
+    clear: impl Fn(usize, DVec3) -> bool,
+) {
     let mut start = 0;
     while let Some(first) = (start..outs.len()).find(|&n| outs[n] != DVec3::ZERO) {
         let within = outs[first..].iter().take_while(|out| **out != DVec3::ZERO);
@@ -209,9 +213,9 @@ fn one_way(outs: &mut [DVec3], ways: &[DVec3], clear: impl Fn(usize, DVec3) -> b
         let own = outs[farthest.unwrap_or(first)].normalize_or_zero();
         let mut least = f64::INFINITY;
         let mut best: Option<Vec<DVec3>> = None;
-        for way in ways.iter().copied().chain([own]) {
+        for direction in directions.iter().copied().chain([own]) {
             let needed = |frame: usize| {
-                let mut tried = (1..=FARTHEST).map(|n| way * (STEP * f64::from(n)));
+                let mut tried = (1..=FARTHEST).map(|n| direction * (STEP * f64::from(n)));
                 tried.find(|by| clear(frame, *by))
             };
             let Some(all) = run.clone().map(needed).collect::<Option<Vec<_>>>() else {

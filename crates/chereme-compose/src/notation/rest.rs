@@ -35,8 +35,8 @@ pub(crate) fn resting(stage: &Stage, side: Side) -> (HandState, Shape) {
         return (state, stage.shape_of(side, angles, &stage.base));
     }
     let outside = stage.left * side.sign();
-    let way = DVec3::NEG_Y + outside * 0.16 + stage.forward * 0.10;
-    state.point = hand.rig.shoulder + way.normalize() * (0.965 * hand.rig.length());
+    let hanging = DVec3::NEG_Y + outside * 0.16 + stage.forward * 0.10;
+    state.point = hand.rig.shoulder + hanging.normalize() * (0.965 * hand.rig.length());
     let direction = (DVec3::NEG_Y + stage.forward * 0.18 - outside * 0.02).normalize();
     let palm = -outside - stage.forward * 0.35;
     if let Some(turned) = stage.turned(side, direction, palm) {

@@ -139,7 +139,7 @@ impl<'a> Arm<'a> {
     }
 
     /// Returns the bearing of the arm in each frame, and the limit at which its forearm stops.
-    pub(super) fn ways(&self, wanted: &Wanted<'_>, rate: f64) -> Vec<(Bearing, bool)> {
+    pub(super) fn bearings(&self, wanted: &Wanted<'_>, rate: f64) -> Vec<(Bearing, bool)> {
         let total = wanted.points.len();
         let step = ((CHOSEN * rate) as usize).max(1);
         let free = settled(&wanted.free(), (LEAD * rate).round() as usize);
@@ -167,19 +167,19 @@ impl<'a> Arm<'a> {
     pub(super) fn laid(
         &self,
         wanted: &Wanted<'_>,
-        ways: &[(Bearing, bool)],
+        bearings: &[(Bearing, bool)],
         rate: f64,
     ) -> Vec<ArmFrame> {
-        let mut rows: Vec<ArmFrame> = Vec::with_capacity(ways.len());
+        let mut rows: Vec<ArmFrame> = Vec::with_capacity(bearings.len());
         let mut before: Option<(Want<'_>, (Bearing, bool))> = None;
-        for (frame, &way) in ways.iter().enumerate() {
+        for (frame, &setting) in bearings.iter().enumerate() {
             let want = self.want(wanted, frame);
-            let same = before.replace((want, way)) == before;
+            let same = before.replace((want, setting)) == before;
             if let (true, Some(&row)) = (same && before.is_some(), rows.last()) {
                 rows.push(row);
                 continue;
             }
-            let (bearing, high) = way;
+            let (bearing, high) = setting;
             let hung = self.hang(&want, bearing, high, TRIES);
             rows.push(ArmFrame {
                 point: want.point,
@@ -200,7 +200,7 @@ impl<'a> Arm<'a> {
     /// Leads hands from one orientation to the next within the wrist's limits, if the shortest rotation
     /// exceeds them.
     fn lead(&self, rows: &mut [ArmFrame], wanted: &Wanted<'_>) {
-        for (span, shares) in &wanted.ways {
+        for (span, shares) in &wanted.transitions {
             let Some(last) = rows.get(span.end).map(|row| row.angles) else {
                 continue;
             };
@@ -258,7 +258,7 @@ impl<'a> Arm<'a> {
             } else {
                 rig.hung(&posed, &angles, &self.held)
             };
-            let (out, deepest) = self.way_out(posed.wrist, rotation, want.outlines);
+            let (out, deepest) = self.offset_out(posed.wrist, rotation, want.outlines);
             let amiss = posed.wrist - wrist;
             let mut about = rotation;
             let mut turn = |at: DVec3, by: DVec3, share: f64| {
@@ -329,7 +329,7 @@ impl<'a> Arm<'a> {
     }
 
     /// Returns the offset by which the deepest point of a hand leaves the trunk, and that point.
-    pub(super) fn way_out(
+    pub(super) fn offset_out(
         &self,
         wrist: DVec3,
         turned: DQuat,
@@ -344,10 +344,10 @@ impl<'a> Arm<'a> {
             !torso.is_clear(middle, outline.radius + MARGIN)
         };
         let points = outlines.filter(near).flat_map(|outline| &outline.points);
-        let own = (torso.way_out(wrist, MARGIN), wrist);
+        let own = (torso.offset_out(wrist, MARGIN), wrist);
         points.fold(own, |most, &point| {
             let at = wrist + turned * point;
-            let out = torso.way_out(at, MARGIN);
+            let out = torso.offset_out(at, MARGIN);
             if out.length_squared() > most.0.length_squared() {
                 (out, at)
             } else {

@@ -86,14 +86,14 @@ impl Arm<'_> {
             (posed, rotation) = self.near(row, goal, before.posed.wrist);
         }
         let mut pushed = row.push.length();
-        let mut within = self.way_out(posed.wrist, rotation, outlines).0;
+        let mut within = self.offset_out(posed.wrist, rotation, outlines).0;
         for _ in 0..4 {
             if within.length() < 2e-4 {
                 break;
             }
             pushed += within.length();
             (posed, rotation) = at(posed.wrist + within);
-            within = self.way_out(posed.wrist, rotation, outlines).0;
+            within = self.offset_out(posed.wrist, rotation, outlines).0;
         }
         Got {
             residual: (posed.wrist + rotation * row.offset).distance(row.point),

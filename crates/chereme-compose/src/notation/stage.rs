@@ -495,13 +495,13 @@ impl Torso {
 
     /// Returns the offset by which an elbow nearer than `margin` metres to the trunk leaves it; sideways
     /// next to the back.
-    pub(crate) fn way_aside(&self, at: DVec3, margin: f64) -> DVec3 {
+    pub(crate) fn offset_aside(&self, at: DVec3, margin: f64) -> DVec3 {
         let Some(body) = &self.body else {
             return DVec3::ZERO;
         };
         let v = body.to_body(at);
         if !(-BACK..0.0).contains(&v.z) {
-            return self.way_out(at, margin);
+            return self.offset_out(at, margin);
         }
         let Some((_, wide)) =
             outline(v.y * body.scale / self.trunk).filter(|(front, _)| *front > 0.0)
@@ -514,7 +514,7 @@ impl Torso {
 
     /// Returns the level offset by which a point nearer than `margin` metres to the trunk leaves it: along
     /// the surface normal, preferably to the front.
-    pub(crate) fn way_out(&self, at: DVec3, margin: f64) -> DVec3 {
+    pub(crate) fn offset_out(&self, at: DVec3, margin: f64) -> DVec3 {
         let Some(body) = &self.body else {
             return DVec3::ZERO;
         };

@@ -56,17 +56,19 @@ impl Warp {
         for (which, arm) in arms.iter().enumerate() {
             for (n, pair) in arm.windows(2).enumerate() {
                 let [a, b] = [pair[0], pair[1]];
-                let way = a.wrist.distance(b.wrist) * rate / fastest.wrist;
+                let travel = a.wrist.distance(b.wrist) * rate / fastest.wrist;
                 let turn = a.turned.iter().zip(b.turned);
                 let turn = turn
                     .map(|(a, b)| a.angle_between(b) * rate / fastest.joint)
                     .fold(0.0, f64::max);
-                let mut last = way.max(turn);
+                let mut last = travel.max(turn);
                 if last > 1.0 {
                     // Joints interpolate each on its own between the two frames.
                     let each = a.local.iter().zip(b.local);
                     let sum: f64 = each.map(|(a, b)| a.angle_between(b)).sum();
-                    last = (1.2 * turn).max(1.6 * way).max(sum * rate / fastest.joint);
+                    last = (1.2 * turn)
+                        .max(1.6 * travel)
+                        .max(sum * rate / fastest.joint);
                     let needed = needed(hasty(which, n), rate, fastest);
                     if needed < LONGER * last {
                         last = last.max(needed);
@@ -88,12 +90,12 @@ impl Warp {
         let mut lasts = vec![1.0_f64; total.saturating_sub(1)];
         for arm in arms {
             for (last, pair) in lasts.iter_mut().zip(arm.windows(2)) {
-                let way = pair[0].wrist.distance(pair[1].wrist) * rate / fastest.wrist;
+                let travel = pair[0].wrist.distance(pair[1].wrist) * rate / fastest.wrist;
                 let turns = pair[0].turned.iter().zip(pair[1].turned);
                 let turns = turns.map(|(a, b)| a.angle_between(b));
                 let turn = turns.fold(0.0, f64::max) * rate / fastest.joint;
-                if way.max(turn) > 1.0 {
-                    *last = last.max(1.2 * way.max(turn));
+                if travel.max(turn) > 1.0 {
+                    *last = last.max(1.2 * travel.max(turn));
                 }
             }
         }
@@ -200,8 +202,8 @@ impl Warp {
 
 /// Returns the factor on a step's duration for a rotation (rad) of a joint and a distance (m) of the
 /// wrist.
-fn needed([turn, way]: [f64; 2], rate: f64, fastest: &Fastest) -> f64 {
-    (turn * rate / fastest.joint).max(way * rate / fastest.wrist)
+fn needed([turn, travel]: [f64; 2], rate: f64, fastest: &Fastest) -> f64 {
+    (turn * rate / fastest.joint).max(travel * rate / fastest.wrist)
 }
 
 /// Stretches steps in which a wrist or an elbow accelerates too much, measured over a sixtieth of a second

@@ -17,8 +17,8 @@ fn fastest(made: &Generated) -> [f64; 2] {
         let [a, b] = [frame - 1, frame].map(|frame| made.clip.model_pose(frame));
         for side in Side::BOTH {
             let arm = made.anatomy.arm(side).expect("an arm");
-            let way = a.position(arm.hand).distance(b.position(arm.hand));
-            fastest[0] = fastest[0].max(way * rate);
+            let distance = a.position(arm.hand).distance(b.position(arm.hand));
+            fastest[0] = fastest[0].max(distance * rate);
             for joint in [arm.upper, arm.forearm, arm.hand] {
                 let turn = a.rotation(joint).angle_between(b.rotation(joint));
                 fastest[1] = fastest[1].max(turn * rate);

@@ -391,8 +391,8 @@ fn nothing_of_a_hand_enters_the_trunk() {
     for n in 0..4000 {
         let part = |by: usize| ((n * by) % 997) as f64 / 996.0 - 0.5;
         let at = middle + DVec3::new(part(31) * 0.6, part(57) * 1.2 - 0.3, part(83) * 0.5);
-        let out = body.torso.way_out(at, 0.004);
-        let left = body.torso.way_out(at + out, 0.0);
+        let out = body.torso.offset_out(at, 0.004);
+        let left = body.torso.offset_out(at + out, 0.0);
         assert!(left.length() < 1e-9, "{at}: {left}");
         assert!(out.length() < 0.35 && out.y.abs() < 1e-9, "{at}: {out}");
     }
@@ -410,7 +410,7 @@ fn nothing_of_a_hand_enters_the_trunk() {
     for frame in 0..made.clip.frames() {
         let model = made.clip.model_pose(frame);
         for joint in made.anatomy.fingers(Side::Right) {
-            let out = body.torso.way_out(model.position(joint), 0.0);
+            let out = body.torso.offset_out(model.position(joint), 0.0);
             assert!(out.length() < 3e-3, "frame {frame}: {} m", out.length());
         }
     }
@@ -582,13 +582,13 @@ fn relative_orientations_turn_with_the_path() {
         }
         motion
     };
-    let way = vec![small("r"), small("or"), small("il")];
+    let path = vec![small("r"), small("or"), small("il")];
     for frame in [Frame::Plain, Frame::Relative] {
         if let Each::Shared(aim) = &mut begun.extended {
             aim.frame = frame;
         }
         let made = made(
-            &notated(HandsUsed::Dominant, begun.clone(), way.clone()),
+            &notated(HandsUsed::Dominant, begun.clone(), path.clone()),
             Axes::Odd,
         );
         let along = |share: f64| {

@@ -17,7 +17,7 @@ const AWAY: f64 = -0.5;
 /// Half the thickness of a finger, in hand lengths.
 const FLESH: f64 = 0.042;
 /// Offset (m) above which the substitution is reported.
-const TOLD: f64 = 2e-3;
+const REPORTED: f64 = 2e-3;
 /// Step of the search for that offset, in metres.
 const STEP: f64 = 1e-3;
 
@@ -94,7 +94,7 @@ impl Planner<'_> {
         let by = self.stands_in(n, skin);
         let turned = self.state[n].rotation;
         self.state[n].offset -= turned.inverse() * (skin * by);
-        if by > TOLD {
+        if by > REPORTED {
             let side = self.sides[n].name();
             self.remark(&format!(
                 "the {side} hand touches with the part in front of the named one"
@@ -127,7 +127,7 @@ impl Planner<'_> {
         let inside = |by: f64| {
             let wrist = state.wrist() + skin * by;
             let mut points = shape.outline.points.iter();
-            points.any(|&at| torso.way_out(wrist + state.rotation * at, MARGIN) != DVec3::ZERO)
+            points.any(|&at| torso.offset_out(wrist + state.rotation * at, MARGIN) != DVec3::ZERO)
         };
         let most = (BEHIND * hand.length() / STEP) as u32;
         let mut tried = (0..=most).map(|n| STEP * f64::from(n));

@@ -69,7 +69,7 @@ fn stretched(column: &[DQuat], frames: &[(usize, f64)]) -> Vec<DQuat> {
 }
 
 /// Orientation error (rad) above which a warning is issued.
-pub(crate) const TOLD: f64 = 10.0 * std::f64::consts::PI / 180.0;
+pub(crate) const REPORTED: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// Rotation of a joint between two frames (rad) above which the frames in between are solved by the hand
 /// instead of joint by joint.
@@ -102,7 +102,7 @@ pub(crate) struct Wanted<'a> {
     /// Degree of contact, from 0 to 1.
     pub(crate) touch: Vec<f64>,
     /// Rotations between two orientations: the frames, and the completed share in each.
-    pub(crate) ways: Vec<(Range<usize>, Vec<f64>)>,
+    pub(crate) transitions: Vec<(Range<usize>, Vec<f64>)>,
 }
 
 impl Wanted<'_> {
@@ -113,15 +113,15 @@ impl Wanted<'_> {
             some.take(span.len()).collect()
         }
         let within = |frame: usize| frame.clamp(span.start, span.end) - span.start;
-        let ways = self.ways.into_iter().map(|(way, shares)| {
-            let cut = within(way.start)..within(way.end);
-            let skipped = span.start.saturating_sub(way.start).min(shares.len());
+        let transitions = self.transitions.into_iter().map(|(range, shares)| {
+            let cut = within(range.start)..within(range.end);
+            let skipped = span.start.saturating_sub(range.start).min(shares.len());
             let shares = shares.into_iter().skip(skipped).take(cut.len()).collect();
             (cut, shares)
         });
         self.outlines.first = span.start;
         Self {
-            ways: ways.filter(|(way, _)| !way.is_empty()).collect(),
+            transitions: transitions.filter(|(range, _)| !range.is_empty()).collect(),
             points: kept(self.points, &span),
             turns: kept(self.turns, &span),
             offsets: kept(self.offsets, &span),
@@ -135,7 +135,7 @@ impl Wanted<'_> {
     /// rotation still counts as notated.
     pub(crate) fn free(&self) -> Vec<bool> {
         let mut free = vec![false; self.points.len()];
-        for (span, _) in &self.ways {
+        for (span, _) in &self.transitions {
             let first = (span.start + 1).min(span.end);
             free[first..span.end].fill(true);
         }
@@ -197,7 +197,7 @@ impl<'a> SolvedFrames<'a> {
             let time = frame as f64 / timing.rate;
             let turned = fit.turned;
             fit.take(got, row, !free[frame], plan, n, [time, 1.0 / timing.rate]);
-            if fit.turned > turned.max(TOLD) {
+            if fit.turned > turned.max(REPORTED) {
                 fit.hindered = Some(solver.hindrance(row, got));
             }
         }
@@ -380,7 +380,7 @@ pub(crate) fn wanted<'a>(
         wrist: goals.wrist,
         outlines: outlines(stage, plan, n, timing),
         touch: touch(&plan.contacts[n], timing),
-        ways: goals.ways,
+        transitions: goals.transitions,
     }
 }
 
@@ -392,7 +392,7 @@ pub(crate) struct Goals {
     /// Rotation of a movement about the wrist, if any.
     pub(crate) wrist: Vec<Option<DQuat>>,
     /// Rotations between two orientations: the frames, and the completed share in each.
-    pub(crate) ways: Vec<(Range<usize>, Vec<f64>)>,
+    pub(crate) transitions: Vec<(Range<usize>, Vec<f64>)>,
 }
 
 impl Goals {
@@ -420,7 +420,7 @@ pub(crate) fn goals(
     let mut turns = Steps::new(start.rotation, total);
     let mut offsets = Steps::new(start.offset, total);
     let mut wrist = vec![None; total];
-    let mut ways: Vec<(Range<usize>, Vec<f64>)> = Vec::new();
+    let mut transitions: Vec<(Range<usize>, Vec<f64>)> = Vec::new();
     for event in order {
         let span = frames(event, rate, total);
         let done = |frame: usize| course(event, share(event, frame, rate));
@@ -432,7 +432,7 @@ pub(crate) fn goals(
                 ends[span.end] += path.end();
             }
             Act::Turn(to) => {
-                ways.push((span.clone(), span.clone().map(done).collect()));
+                transitions.push((span.clone(), span.clone().map(done).collect()));
                 turns.go(span, *to, |from, to, s| from.slerp(to, s), done);
             }
             Act::Follow { path, corner, to } => turns.go(
@@ -468,7 +468,7 @@ pub(crate) fn goals(
         turns: turns.done(),
         offsets: offsets.done(),
         wrist,
-        ways,
+        transitions,
     }
 }
 

@@ -39,9 +39,9 @@ impl Planner<'_> {
         if was.shape != goal.shape {
             act(Act::Shape(goal.shape));
         }
-        let way = goal.point - was.point;
-        if way.length() > 1e-9 {
-            act(Act::Move(Path::Line(way)));
+        let displacement = goal.point - was.point;
+        if displacement.length() > 1e-9 {
+            act(Act::Move(Path::Line(displacement)));
         }
         self.state[n] = goal.clone();
     }

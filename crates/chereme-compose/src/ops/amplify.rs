@@ -12,7 +12,7 @@ use crate::arm::Reach;
 use crate::check;
 use crate::contact::{Carry, Keep};
 use crate::error::{Cause, RecipeError};
-use crate::ops::place::{self, told};
+use crate::ops::place::{self, describe_reach};
 use crate::ops::travel::wrist_path;
 use crate::ops::{Done, Field, FieldSetting, Operator, Syntax, say};
 use crate::recipe::Solver;
@@ -106,7 +106,7 @@ pub(crate) fn amplify(
         "the hands' paths are {:.0}% as large",
         factor * 100.0
     )];
-    did.extend(told(&reach));
+    did.extend(describe_reach(&reach));
     Ok((did, reach.residual))
 }
 

@@ -24,7 +24,7 @@ const ROUNDS: usize = 4;
 /// The displacement that kept a hand out of the body.
 pub(crate) struct Cleared {
     /// The displacement in each frame.
-    ways: Vec<DVec3>,
+    displacements: Vec<DVec3>,
     /// The remaining depth in the body, in metres.
     deep: f64,
 }
@@ -32,31 +32,40 @@ pub(crate) struct Cleared {
 impl Cleared {
     /// Returns the largest displacement in these frames.
     pub(crate) fn at(&self, frames: &Range<usize>) -> f64 {
-        let ways = self.ways.get(frames.clone()).unwrap_or_default();
-        ways.iter().map(|way| way.length()).fold(0.0, f64::max)
+        let displacements = self.displacements.get(frames.clone()).unwrap_or_default();
+        displacements
+            .iter()
+            .map(|displacement| displacement.length())
+            .fold(0.0, f64::max)
     }
 
-    pub(crate) fn told(&self, work: &Work, side: Side, frames: &Range<usize>) -> String {
+    pub(crate) fn describe(&self, work: &Work, side: Side, frames: &Range<usize>) -> String {
         let (side, cm) = (side.name(), |metres: f64| metres * 100.0);
-        let moved = self.ways.iter().map(|way| way.length());
-        let count = moved.clone().filter(|way| *way > 1e-4).count();
+        let moved = self
+            .displacements
+            .iter()
+            .map(|displacement| displacement.length());
+        let count = moved
+            .clone()
+            .filter(|displacement| *displacement > 1e-4)
+            .count();
         let most = moved.fold(0.0, f64::max);
-        let mut told = format!(
+        let mut text = format!(
             "the {side} hand is kept out of head and trunk: moved by up to {:.1} cm in {count} {}",
             cm(most),
             if count == 1 { "frame" } else { "frames" }
         );
         if self.at(frames) > SKIN {
             let at = work.rate.instant(frames.start);
-            told += &format!(
+            text += &format!(
                 ", at {at} {:.1} cm away from its goal, as the hand would enter the body there; turn it with `orient`",
                 cm(self.at(frames))
             );
         }
         if self.deep > SKIN {
-            told += &format!(", and still {:.1} cm in the body", cm(self.deep));
+            text += &format!(", and still {:.1} cm in the body", cm(self.deep));
         }
-        told
+        text
     }
 }
 
@@ -70,7 +79,7 @@ pub(crate) fn clear(work: &mut Work, before: &Work, side: Side, solver: Solver) 
     let mut deep = 0.0;
     for round in 0..=ROUNDS {
         let now = Depths::of(work, side);
-        let ways: Vec<Option<DVec3>> = now
+        let displacements: Vec<Option<DVec3>> = now
             .0
             .iter()
             .zip(&was.0)
@@ -92,23 +101,28 @@ pub(crate) fn clear(work: &mut Work, before: &Work, side: Side, solver: Solver) 
                 }
             })
             .fold(0.0, f64::max);
-        if round == ROUNDS || ways.iter().all(Option::is_none) {
+        if round == ROUNDS || displacements.iter().all(Option::is_none) {
             break;
         }
-        let ways = blended(&ways, blend);
+        let displacements = blended(&displacements, blend);
         let columns = Columns::of(work, [hand]);
-        let wrists = columns.positions(hand).iter().zip(&ways);
-        let targets: Vec<DVec3> = wrists.map(|(at, way)| *at + *way).collect();
+        let wrists = columns.positions(hand).iter().zip(&displacements);
+        let targets: Vec<DVec3> = wrists
+            .map(|(at, displacement)| *at + *displacement)
+            .collect();
         arm::move_wrist(work, side, &columns, &targets, None, solver)?;
-        for (sum, way) in all.iter_mut().zip(ways) {
-            *sum += way;
+        for (sum, displacement) in all.iter_mut().zip(displacements) {
+            *sum += displacement;
         }
     }
-    if all.iter().all(|way| *way == DVec3::ZERO) {
+    if all.iter().all(|displacement| *displacement == DVec3::ZERO) {
         return None;
     }
     work.changed([Group::Arm(side)], "kept out of the body");
-    Some(Cleared { ways: all, deep })
+    Some(Cleared {
+        displacements: all,
+        deep,
+    })
 }
 
 /// For each frame the longest vector by which a joint or tip of a hand would leave the body.
@@ -119,7 +133,7 @@ impl Depths {
         let mut joints = work.anatomy.fingers(side);
         joints.extend(work.anatomy.arm(side).map(|arm| arm.hand));
         let columns = Columns::of(work, joints.iter().copied());
-        let mut ways = Vec::with_capacity(work.frames);
+        let mut displacements = Vec::with_capacity(work.frames);
         for frame in 0..work.frames {
             let solids = Solids::of(work, frame);
             let mut longest = DVec3::ZERO;
@@ -130,15 +144,15 @@ impl Depths {
                 );
                 let tip = work.skeleton.joint(joint).tip.map(|tip| at + turned * tip);
                 for point in [Some(at), tip].into_iter().flatten() {
-                    let way = solids.way_out(point);
-                    if way.length_squared() > longest.length_squared() {
-                        longest = way;
+                    let offset = solids.offset_out(point);
+                    if offset.length_squared() > longest.length_squared() {
+                        longest = offset;
                     }
                 }
             }
-            ways.push(longest);
+            displacements.push(longest);
         }
-        Self(ways)
+        Self(displacements)
     }
 }
 
@@ -170,12 +184,12 @@ impl Solids {
         }
     }
 
-    fn way_out(&self, at: DVec3) -> DVec3 {
-        let trunk = self.trunk.way_out(at, 0.0);
+    fn offset_out(&self, at: DVec3) -> DVec3 {
+        let trunk = self.trunk.offset_out(at, 0.0);
         let head = self
             .head
             .as_ref()
-            .map_or(DVec3::ZERO, |head| head.way_out(at));
+            .map_or(DVec3::ZERO, |head| head.offset_out(at));
         if head.length_squared() > trunk.length_squared() {
             head
         } else {
@@ -198,10 +212,10 @@ impl Skull {
     }
 
     /// Returns the vector by which a point in the head leaves it, straight away from the head's middle.
-    fn way_out(&self, at: DVec3) -> DVec3 {
-        let way = at - self.middle;
+    fn offset_out(&self, at: DVec3) -> DVec3 {
+        let offset = at - self.middle;
         let shares: [f64; 3] =
-            std::array::from_fn(|axis| way.dot(self.axes[axis]) / self.half[axis]);
+            std::array::from_fn(|axis| offset.dot(self.axes[axis]) / self.half[axis]);
         let share = shares.iter().map(|it| it * it).sum::<f64>().sqrt();
         if share >= 1.0 {
             return DVec3::ZERO;
@@ -209,6 +223,6 @@ impl Skull {
         if share < 1e-6 {
             return self.axes[2] * self.half[2];
         }
-        way * (1.0 / share - 1.0)
+        offset * (1.0 / share - 1.0)
     }
 }

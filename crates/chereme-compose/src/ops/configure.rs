@@ -182,7 +182,7 @@ pub(crate) fn configure(
             Some(pose) => {
                 let found = poses::rotations(&work.skeleton, &work.anatomy, side, pose);
                 let found = found.ok_or(Cause::NoFingers(side))?;
-                did.push(told(&work.notes[note], pose));
+                did.push(describe(&work.notes[note], pose));
                 let note = &mut work.notes[note];
                 note.value = pose.value.clone().map_or(Reading::Unset, Reading::Value);
                 note.origin = pose.origin.to_string();
@@ -304,7 +304,7 @@ fn between(from: usize, to: usize, length: usize, asked: bool, spans: &[Stretch]
     from - back..(to + ahead).min(spans[1].frames.end.max(to))
 }
 
-fn told(note: &Note, pose: &HandPose) -> String {
+fn describe(note: &Note, pose: &HandPose) -> String {
     let name = |value: Option<&str>| value.map_or("(no value)".to_owned(), str::to_owned);
     format!(
         "{} becomes {} over {}, from {}",

@@ -132,7 +132,7 @@ pub(crate) fn span(work: &mut Work, cut: &Cut, operator: &str) -> Result<Vec<Str
     if frames.is_empty() {
         return Err(none());
     }
-    let mut did = vec![told(work, &frames)];
+    let mut did = vec![describe(work, &frames)];
     if to > whole.end() {
         did.push(format!("the movement ends at {}", whole.end()));
     }
@@ -155,12 +155,12 @@ pub(crate) fn trim(work: &mut Work, operator: &str) -> Result<Vec<String>, Cause
         did.push("the movement has no rest before or after it".to_owned());
         return Ok(did);
     }
-    did.push(told(work, &active));
+    did.push(describe(work, &active));
     keep(work, active, operator);
     Ok(did)
 }
 
-fn told(work: &Work, frames: &Range<usize>) -> String {
+fn describe(work: &Work, frames: &Range<usize>) -> String {
     let kept = work.rate.span(frames.clone());
     format!(
         "kept {} to {} of {}: frames {} to {}",

@@ -13,7 +13,7 @@ use crate::body::arm_length;
 use crate::check;
 use crate::contact::{Carry, Keep};
 use crate::error::{Cause, RecipeError};
-use crate::ops::place::{self, told};
+use crate::ops::place::{self, describe_reach};
 use crate::ops::travel::{STILL, moved, wrist_path};
 use crate::ops::{Done, Operator, Syntax, say};
 use crate::recipe::{Solver, Spot};
@@ -241,7 +241,7 @@ pub(crate) fn indicate(
         for &side in &sides {
             let frames = stays(work, side, at == 1)?;
             let what = (Component::Placement, None);
-            say::tell(work, side, what, value, frames, operator);
+            say::record(work, side, what, value, frames, operator);
         }
     }
     did.push(format!(
@@ -249,7 +249,7 @@ pub(crate) fn indicate(
         start.distance(end) * 100.0,
         from.distance(to) * 100.0
     ));
-    did.extend(told(&worst));
+    did.extend(describe_reach(&worst));
     Ok((did, worst.residual))
 }
 

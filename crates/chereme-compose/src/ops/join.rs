@@ -135,7 +135,7 @@ fn whole(what: impl Fn() -> String, distance: f64, speed: f64) -> Result<(), Cau
 fn extend(first: &mut Work, second: &Work, joint: usize, cut: Cut, offset: usize, course: &Course) {
     let (leave, enter) = (cut.leave, cut.enter);
     let steps = (offset + enter - leave) as f64;
-    let way = || (leave + 1..offset + enter).map(|frame| (frame - leave) as f64 / steps);
+    let shares = || (leave + 1..offset + enter).map(|frame| (frame - leave) as f64 / steps);
     let here = first.skeleton.joint(joint).offset;
     let (from, to) = (
         first.translation(joint, leave),
@@ -147,7 +147,7 @@ fn extend(first: &mut Work, second: &Work, joint: usize, cut: Cut, offset: usize
     channel.rotations.truncate(leave + 1);
     channel
         .rotations
-        .extend(way().map(|w| course.rotation(a, b, w)));
+        .extend(shares().map(|w| course.rotation(a, b, w)));
     channel
         .rotations
         .extend_from_slice(&next.rotations[enter..]);
@@ -156,7 +156,7 @@ fn extend(first: &mut Work, second: &Work, joint: usize, cut: Cut, offset: usize
             .translations
             .get_or_insert_with(|| vec![here; leave + 1]);
         places.truncate(leave + 1);
-        places.extend(way().map(|w| from.lerp(to, course.share(w))));
+        places.extend(shares().map(|w| from.lerp(to, course.share(w))));
         places.extend((enter..second.frames).map(|frame| second.translation(joint, frame)));
     }
 }
@@ -180,9 +180,9 @@ fn curves(first: &mut Work, second: &Work, seam: &Seam) {
         let next = next.map_or_else(|| vec![0.0; second.frames], |next| next.values.clone());
         let (a, b) = (own.values[leave], next[enter]);
         own.values.truncate(leave + 1);
-        let way = leave + 1..seam.offset + enter;
+        let gap = leave + 1..seam.offset + enter;
         own.values
-            .extend(way.map(|frame| a + (b - a) * (frame - leave) as f64 / steps));
+            .extend(gap.map(|frame| a + (b - a) * (frame - leave) as f64 / steps));
         own.values.extend_from_slice(&next[enter..]);
     }
 }

@@ -187,14 +187,14 @@ fn crossing(work: &Work, plan: &MirrorPlan) -> Option<String> {
     let pairs: Vec<(usize, usize)> = pairs.map(|pair| (pair.joint, pair.other)).collect();
     let all = pairs.iter().flat_map(|&(a, b)| [a, b]).chain([left, right]);
     let columns = Columns::of(work, all);
-    let way = |from: usize, to: usize, frame: usize| {
+    let offset = |from: usize, to: usize, frame: usize| {
         columns.positions(to)[frame] - columns.positions(from)[frame]
     };
     let crossed = |frame: &usize| {
-        let across = way(right, left, *frame);
+        let across = offset(right, left, *frame);
         pairs
             .iter()
-            .any(|&(left, right)| way(right, left, *frame).dot(across) < 0.0)
+            .any(|&(left, right)| offset(right, left, *frame).dot(across) < 0.0)
     };
     let frames: Vec<usize> = (0..work.frames).filter(crossed).collect();
     let first = work.rate.instant(*frames.first()?);

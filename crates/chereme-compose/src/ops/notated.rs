@@ -99,7 +99,7 @@ impl Written {
         let steps = made.report.steps.iter();
         let did = steps.flat_map(|step| step.did.iter().map(|did| format!("{} {did}", step.step)));
         let mut did: Vec<String> = did.collect();
-        did.extend(spoken.iter().flat_map(Language::told));
+        did.extend(spoken.iter().flat_map(Language::describe));
         let residual = made.report.steps.iter().filter_map(|step| step.residual);
         let residual = residual.fold(0.0, f64::max);
         let hands = made.report.steps.first().map(|step| step.hands.clone());

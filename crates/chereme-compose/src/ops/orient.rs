@@ -180,7 +180,7 @@ pub(crate) fn orient(
         component == Component::Orientation
     });
     for &side in sides {
-        tell(work, &frame, side, operator);
+        record_directions(work, &frame, side, operator);
     }
     work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
     Ok((did, worst.residual))
@@ -191,19 +191,19 @@ pub(crate) fn orient(
 const SAME: f64 = 0.5;
 
 /// Notes the directions of palm and fingers around the middle of the movement.
-fn tell(work: &mut Work, frame: &Frame, side: Side, operator: &str) {
-    let ways = |work: &Work, at: usize| {
+fn record_directions(work: &mut Work, frame: &Frame, side: Side, operator: &str) {
+    let directions = |work: &Work, at: usize| {
         let model = ModelPose::of(&work.skeleton, &work.pose(at));
         let fingers = work.anatomy.hand_direction(side, &model)?;
         let palm = work.anatomy.palm_normal(side, &model)?;
-        Some([fingers, palm].map(|way| frame.to_body(way)))
+        Some([fingers, palm].map(|direction| frame.to_body(direction)))
     };
     let middle = work.frames / 2;
-    let Some([fingers, palm]) = ways(work, middle) else {
+    let Some([fingers, palm]) = directions(work, middle) else {
         return;
     };
     let same = |at: &usize| {
-        ways(work, *at)
+        directions(work, *at)
             .is_some_and(|[f, p]| f.angle_between(fingers) < SAME && p.angle_between(palm) < SAME)
     };
     let start = middle - (0..middle).rev().take_while(same).count();
@@ -215,7 +215,7 @@ fn tell(work: &mut Work, frame: &Frame, side: Side, operator: &str) {
     for (feature, value) in values {
         let what = (Component::Orientation, Some(feature));
         if let Some(value) = value {
-            say::tell(
+            say::record(
                 work,
                 side,
                 what,

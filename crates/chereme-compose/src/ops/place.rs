@@ -294,7 +294,7 @@ pub(crate) fn place(
     let sides = settings.hand.sides(work.handedness);
     let frame = frame(work, sides)?;
     let mut frames = 0..work.frames;
-    let mut told_anchor = Vec::new();
+    let mut anchor_report = Vec::new();
     let mut spot = None;
     let by = match &settings.to {
         Goal::By(legs) => frame.sum(legs),
@@ -309,7 +309,7 @@ pub(crate) fn place(
             };
             let anchor = anchor(work, sides, settings.with);
             let now = anchor.at(work, sides).ok_or(Cause::NoArm(sides[0]))?;
-            told_anchor.extend(anchor.told(work));
+            anchor_report.extend(anchor.describe(work));
             frames = anchor.frames;
             spot = Some((goal, anchor.point));
             goal - now
@@ -327,7 +327,7 @@ pub(crate) fn place(
             let cleared = clear::clear(work, &before, side, settings.solver);
             let Some(cleared) = cleared else { continue };
             reach.residual = reach.residual.max(cleared.at(&frames));
-            kept_out.push(cleared.told(work, side, &frames));
+            kept_out.push(cleared.describe(work, side, &frames));
         }
     }
     for &side in sides {
@@ -339,7 +339,7 @@ pub(crate) fn place(
                 Some(own.distance(goal)).filter(|away| *away > APART)
             });
         if let Some(away) = apart {
-            told_anchor.push(format!(
+            anchor_report.push(format!(
                 "the {} hand is {:.1} cm away from the place, so its placement is left open",
                 side.name(),
                 away * 100.0
@@ -356,12 +356,12 @@ pub(crate) fn place(
     let moved = frame.to_body(by);
     let cm = moved * 100.0;
     let mut did = vec![format!("moved {}", directions(cm))];
-    did.extend(told_anchor);
+    did.extend(anchor_report);
     did.extend(kept_out);
     if let Some(input) = input {
         did.push(format!("the place is from {}", input.from));
     }
-    did.extend(told(&reach));
+    did.extend(describe_reach(&reach));
     Ok((did, reach.residual, moved))
 }
 
@@ -442,7 +442,7 @@ impl Anchor {
         body::mean(work, self.frames.clone(), point)
     }
 
-    fn told(&self, work: &Work) -> Option<String> {
+    fn describe(&self, work: &Work) -> Option<String> {
         let touch = self.touch?;
         let at = work.rate.instant(touch.frame);
         Some(format!(
@@ -519,30 +519,30 @@ pub(crate) fn check(side: Side, reach: &Reach) -> Result<(), Cause> {
 }
 
 /// Describes the limits that an arm met, and the help that it had.
-pub(crate) fn told(reach: &Reach) -> Vec<String> {
-    let mut told = Vec::new();
+pub(crate) fn describe_reach(reach: &Reach) -> Vec<String> {
+    let mut lines = Vec::new();
     if reach.residual > 1e-3 {
-        told.push(format!(
+        lines.push(format!(
             "out of reach: the wrist stays {:.1} cm short at frame {}",
             reach.residual * 100.0,
             reach.frame
         ));
     }
     if reach.is_softened() {
-        told.push(format!(
+        lines.push(format!(
             "the wrist leaves the arm's reach fast: beyond {:.1}% of its length it lags behind, so \
              that the elbow opens smoothly",
             (1.0 - reach.soft) * 100.0
         ));
     }
     if reach.helped > 0 {
-        told.push(format!(
+        lines.push(format!(
             "the collar bone helped in {} frames, beyond {:.0}% of the arm's length",
             reach.helped,
             HELP_FROM * 100.0
         ));
     }
-    told
+    lines
 }
 
 #[cfg(test)]

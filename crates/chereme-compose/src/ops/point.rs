@@ -195,16 +195,16 @@ fn aim(apex: &mut Work, frame: &Frame, side: Side, target: DVec3) -> Result<f64,
     let chain = apex.anatomy.arm(side).ok_or(Cause::NoArm(side))?;
     let model = ModelPose::of(&apex.skeleton, &apex.pose(0));
     let shoulder = model.position(chain.upper);
-    let way = (target - shoulder).normalize_or(frame.forward);
-    let down = if way.y.abs() > 0.9 {
+    let direction = (target - shoulder).normalize_or(frame.forward);
+    let down = if direction.y.abs() > 0.9 {
         frame.forward
     } else {
         DVec3::NEG_Y
     };
-    let palm = (down - frame.left * (0.3 * side.sign())).reject_from_normalized(way);
+    let palm = (down - frame.left * (0.3 * side.sign())).reject_from_normalized(direction);
     let rotation = apex
         .anatomy
-        .hand_rotation(side, way, palm)
+        .hand_rotation(side, direction, palm)
         .ok_or(Cause::NoFingers(side))?;
     let length = |model: &ModelPose| {
         finger(apex, model, side).map(|(_, tip)| tip.distance(model.position(chain.hand)))
@@ -214,14 +214,14 @@ fn aim(apex: &mut Work, frame: &Frame, side: Side, target: DVec3) -> Result<f64,
         .min(shoulder.distance(target) - hand - SHORT_OF)
         .max(0.25 * frame.arm);
     let mut hands = [rotation];
-    let mut wrist = [shoulder + way * stretch];
+    let mut wrist = [shoulder + direction * stretch];
     let mut missed = f64::INFINITY;
     for _ in 0..8 {
         arm::raise_arm(apex, side, &wrist, &hands, frame.left * side.sign())
             .ok_or(Cause::NoArm(side))?;
         let model = ModelPose::of(&apex.skeleton, &apex.pose(0));
         let (base, tip) = finger(apex, &model, side).ok_or(Cause::NoFingers(side))?;
-        let line = (tip - base).normalize_or(way);
+        let line = (tip - base).normalize_or(direction);
         let to = target - base;
         missed = to.reject_from_normalized(line).length();
         if missed < 1e-5 || line.dot(to) <= 0.0 {

@@ -174,7 +174,7 @@ pub(crate) fn repeat(
             let mut touched = contact::touches(&next);
             residual = residual.max(amplify::scale(&mut next, &arms, scale)?.residual);
             let keep = Keep::All(&Side::BOTH);
-            let what = |told: &String| format!("repetition {}: {told}", n + 1);
+            let what = |text: &String| format!("repetition {}: {text}", n + 1);
             let kept = contact::mend(&mut next, &mut touched, keep, operator);
             done.did.extend(kept.iter().map(what));
             let lost = contact::lost(&touched, &next, Carry::Same);
@@ -233,6 +233,6 @@ fn repeated(work: &mut Work, times: usize, operator: &str) {
         .collect();
     for side in sides {
         let what = (Component::Movement, Some("repetition"));
-        say::tell(work, side, what, value, 0..work.frames, operator);
+        say::record(work, side, what, value, 0..work.frames, operator);
     }
 }

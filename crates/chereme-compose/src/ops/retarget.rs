@@ -247,8 +247,8 @@ fn wrists(work: &Work, out: &mut Work) {
     };
     for (side, hand) in [(Side::Right, r.hand), (Side::Left, l.hand)] {
         let target = |frame: usize| {
-            let way = there.positions(hand)[frame] - middle(&there, r.upper, l.upper, frame);
-            middle(&here, right.upper, left.upper, frame) + way * ratio
+            let offset = there.positions(hand)[frame] - middle(&there, r.upper, l.upper, frame);
+            middle(&here, right.upper, left.upper, frame) + offset * ratio
         };
         let targets: Vec<DVec3> = (0..work.frames).map(target).collect();
         arm::move_wrist(out, side, &here, &targets, None, Solver::Analytic);

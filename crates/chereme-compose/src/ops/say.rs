@@ -28,8 +28,8 @@ pub(crate) fn withdraw(
         let About::Component(component, feature) = &note.about else {
             continue;
         };
-        let told = note.value.value().is_some();
-        if told && is_of(work, note, sides) && about(*component, feature.as_deref()) {
+        let has_value = note.value.value().is_some();
+        if has_value && is_of(work, note, sides) && about(*component, feature.as_deref()) {
             let note = &mut work.notes[n];
             note.value = Reading::Unset;
             note.origin = format!("{} | {operator}", note.origin);
@@ -39,7 +39,7 @@ pub(crate) fn withdraw(
 
 /// Notes that a hand has a value of a component, or of a part of it, over some frames. Earlier notes on the same
 /// subject are cut or removed there.
-pub(crate) fn tell(
+pub(crate) fn record(
     work: &mut Work,
     side: Side,
     (component, feature): (Component, Option<&str>),
@@ -88,21 +88,21 @@ pub(crate) fn placed(
     withdraw(work, &[side], operator, |component, feature| {
         component == Component::Placement && feature.is_some()
     });
-    let mut told = false;
+    let mut recorded = false;
     let reading = value.map_or(Reading::Unset, Reading::from);
     for n in 0..work.notes.len() {
         let whole = work.notes[n].about == About::Component(Component::Placement, None);
         if !whole || !is_of(work, &work.notes[n], &[side]) {
             continue;
         }
-        told = true;
+        recorded = true;
         let note = &mut work.notes[n];
         note.value = reading.clone();
         note.origin = format!("{} | {operator}", note.origin);
     }
-    if let Some(value) = value.filter(|_| !told) {
+    if let Some(value) = value.filter(|_| !recorded) {
         let what = (Component::Placement, None);
-        tell(work, side, what, value, frames, operator);
+        record(work, side, what, value, frames, operator);
     }
 }
 
@@ -161,11 +161,11 @@ fn opposite(value: &str) -> String {
 }
 
 /// Returns the name of the nearest of the 26 directions of body space (left, up, forward), in the words of inventories.
-pub(crate) fn direction(way: DVec3) -> Option<String> {
-    let way = way.try_normalize()?;
+pub(crate) fn direction(vector: DVec3) -> Option<String> {
+    let vector = vector.try_normalize()?;
     let cells = (-1..=1).flat_map(|x| (-1..=1).flat_map(move |y| (-1..=1).map(move |z| [x, y, z])));
     let nearest = cells.filter(|cell| *cell != [0; 3]).max_by(|a, b| {
-        let near = |cell: &[i32; 3]| DVec3::from(cell.map(f64::from)).normalize().dot(way);
+        let near = |cell: &[i32; 3]| DVec3::from(cell.map(f64::from)).normalize().dot(vector);
         near(a).total_cmp(&near(b))
     })?;
     let words = [
@@ -205,13 +205,13 @@ mod tests {
 
     #[test]
     fn directions_have_the_names_of_the_inventory() {
-        for (way, want) in [
+        for (vector, want) in [
             ([0.0, 1.0, 0.0], "up"),
             ([1.0, 1.0, 0.0], "up-left"),
             ([-0.1, 0.0, 1.0], "out"),
             ([-1.0, -1.0, -1.0], "down-in-right"),
         ] {
-            assert_eq!(direction(way.into()).as_deref(), Some(want));
+            assert_eq!(direction(vector.into()).as_deref(), Some(want));
         }
         assert_eq!(palm(DVec3::Z, DVec3::NEG_Y), Some("down"));
         assert_eq!(palm(DVec3::Y, DVec3::Z), Some("down"));

@@ -91,20 +91,20 @@ struct Show {
 pub(crate) struct Times {
     hold: f64,
     change: f64,
-    told: Vec<String>,
+    report: Vec<String>,
 }
 
 impl Times {
     /// Takes each time from the recipe, else from the corpus, else the default one.
     pub(crate) fn of(settings: &Spell, corpus: Option<&SpellingTimes>) -> Self {
-        let mut told = Vec::new();
+        let mut report = Vec::new();
         let mut time = |what, asked: Option<Seconds>, found: Option<MedianTime>, usual: f64| {
             if let Some(asked) = asked {
                 return asked.0;
             }
             let found = found.filter(|found| (0.0..=LONGEST).contains(&found.seconds));
             let time = found.map_or(usual, |found| found.seconds);
-            told.push(match found {
+            report.push(match found {
                 Some(found) => {
                     format!(
                         "{what} {time:.2} s, the median of {} in the corpus",
@@ -125,7 +125,7 @@ impl Times {
                 corpus.change,
                 CHANGE,
             ),
-            told,
+            report,
         }
     }
 }
@@ -151,10 +151,10 @@ pub(crate) fn spell(
     let mut residual: f64 = 0.0;
     for (&side, shows) in sides.iter().zip(&shown) {
         fingers(work, side, shows, &courses.fingers);
-        let way: Vec<(DVec3, DQuat)> = (0..frames)
+        let path: Vec<(DVec3, DQuat)> = (0..frames)
             .map(|f| wrist(shows, f, &courses.arms))
             .collect();
-        let (targets, hands): (Vec<DVec3>, Vec<DQuat>) = way.into_iter().unzip();
+        let (targets, hands): (Vec<DVec3>, Vec<DQuat>) = path.into_iter().unzip();
         let reach = arm::raise_arm(work, side, &targets, &hands, frame.left * side.sign());
         residual = residual.max(reach.ok_or(Cause::NoArm(side))?.residual);
         note(work, side, shows, letters);
@@ -173,8 +173,8 @@ pub(crate) fn spell(
     let from = letters
         .iter()
         .map(|l| format!("{} from {}", l.letter.letter, l.pose.origin));
-    let told = from.chain(times.told.iter().cloned());
-    Ok((told.collect(), residual))
+    let report = from.chain(times.report.iter().cloned());
+    Ok((report.collect(), residual))
 }
 
 fn shows(
@@ -210,7 +210,7 @@ fn shows(
         let mut keys = vec![key];
         for stroke in &letter.strokes {
             let about = direction.normalize_or(DVec3::Y) * -side.sign();
-            key.0 += own(stroke.way) * frame.shoulders;
+            key.0 += own(stroke.displacement) * frame.shoulders;
             key.1 = DQuat::from_axis_angle(about, stroke.turn) * key.1;
             keys.push(key);
         }

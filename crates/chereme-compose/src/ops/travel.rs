@@ -8,7 +8,7 @@ use crate::body::Frame;
 use crate::course::Course;
 use crate::curve::Spline;
 use crate::error::Cause;
-use crate::ops::place::{self, told};
+use crate::ops::place::{self, describe_reach};
 use crate::ops::say;
 use crate::recipe::{Leg, Solver};
 use crate::units::{Length, Seconds};
@@ -160,13 +160,13 @@ pub(crate) fn travel(
     let sides = settings.hand.sides(work.handedness);
     let frame = place::frame(work, sides)?;
     let curve = curve(&frame, &settings.through);
-    let way = match &curve {
+    let displacements = match &curve {
         Some(curve) => along(work, curve, settings.time, course),
-        None => way(work, &frame, &settings.path, course),
+        None => displacements(work, &frame, &settings.path, course),
     };
     let before = work.clone();
     let reach = place::wrists(work, sides, Solver::Analytic, |_, frame, at| {
-        at + way[frame]
+        at + displacements[frame]
     })?;
     let still = sides.iter().all(|&side| is_still(&before, side));
     moved(work, sides, operator);
@@ -182,7 +182,7 @@ pub(crate) fn travel(
     if let Some(curve) = curve {
         let length = curve.length() * 100.0;
         let mut did = vec![format!("a curve of {length:.0} cm ({})", curve.shape())];
-        did.extend(told(&reach));
+        did.extend(describe_reach(&reach));
         return Ok((did, reach.residual));
     }
     let length: f64 = settings
@@ -200,7 +200,7 @@ pub(crate) fn travel(
         },
         length * 100.0
     )];
-    did.extend(told(&reach));
+    did.extend(describe_reach(&reach));
     Ok((did, reach.residual))
 }
 
@@ -228,23 +228,23 @@ fn along(work: &Work, curve: &Spline, time: Option<Seconds>, course: &Course) ->
 /// Returns the displacement of the hands along the path at each frame.
 ///
 /// Legs without a time share the rest of the movement by their lengths.
-fn way(work: &Work, frame: &Frame, path: &[Leg], course: &Course) -> Vec<DVec3> {
+fn displacements(work: &Work, frame: &Frame, path: &[Leg], course: &Course) -> Vec<DVec3> {
     let total = work.frames.saturating_sub(1).max(1) as f64 * work.rate.frame_time();
-    let told: f64 = path
+    let stated: f64 = path
         .iter()
         .filter_map(|leg| leg.time)
         .map(|time| time.0)
         .sum();
-    let untold: f64 = path
+    let unstated: f64 = path
         .iter()
         .filter(|leg| leg.time.is_none())
         .map(|leg| leg.distance.metres(frame.arm).abs())
         .sum();
-    let left = (total - told).max(0.0);
+    let left = (total - stated).max(0.0);
     let mut at = (0.0, DVec3::ZERO);
     let mut legs = Vec::with_capacity(path.len());
     for leg in path {
-        let share = leg.distance.metres(frame.arm).abs() / untold.max(1e-9);
+        let share = leg.distance.metres(frame.arm).abs() / unstated.max(1e-9);
         let time = leg.time.map_or(left * share, |time| time.0);
         legs.push((at.0, time, at.1, frame.leg(leg)));
         at = (at.0 + time, at.1 + frame.leg(leg));
@@ -302,10 +302,10 @@ fn drawn(
         };
         let shape = shape.unwrap_or(if one.is_some() { "straight" } else { "path" });
         let movement = Component::Movement;
-        say::tell(work, side, (movement, None), shape, all.clone(), operator);
+        say::record(work, side, (movement, None), shape, all.clone(), operator);
         if let Some(direction) = one {
             let what = (movement, Some("direction"));
-            say::tell(work, side, what, &direction, all.clone(), operator);
+            say::record(work, side, what, &direction, all.clone(), operator);
         }
     }
 }

@@ -166,7 +166,7 @@ fn a_mouth_that_speaks_keeps_its_own_movement() {
 #[test]
 fn milestones_follow_from_the_signs_that_are_spanned() {
     let shelf = shelf();
-    let told = |recipe: &str| {
+    let report = |recipe: &str| {
         made(recipe, &shelf)
             .report
             .steps
@@ -175,14 +175,14 @@ fn milestones_follow_from_the_signs_that_are_spanned() {
             .did[0]
             .clone()
     };
-    let all = told("(ESCARGOT then CHAT then LIMACE) | nonmanual from BOL by phases");
+    let all = report("(ESCARGOT then CHAT then LIMACE) | nonmanual from BOL by phases");
     assert!(all.contains("onto -0.500s 0.000s"), "{all}");
     let last =
-        told("(ESCARGOT then CHAT then LIMACE) | nonmanual from BOL over 1.9s..4s by phases");
+        report("(ESCARGOT then CHAT then LIMACE) | nonmanual from BOL over 1.9s..4s by phases");
     let (_, onto) = last.split_once("onto ").expect(&last);
     let times: Vec<&str> = onto.split(' ').collect();
     assert_eq!(times[2], "-", "one sign has no M3: {last}");
-    let part = told("ESCARGOT | nonmanual from BOL over 0.8s..0.9s by phases");
+    let part = report("ESCARGOT | nonmanual from BOL over 0.8s..0.9s by phases");
     assert!(
         part.contains("onto 0.300s 0.800s") && part.contains("0.900s 1.400s"),
         "{part}"

@@ -127,7 +127,7 @@ fn each_operator_moves_the_joints_it_must_and_no_others() {
                 let mut want = want;
                 want.sort_unstable();
                 assert_eq!(found, want, "{step}");
-                let told: Vec<String> = made
+                let reported: Vec<String> = made
                     .report
                     .channels
                     .iter()
@@ -139,7 +139,7 @@ fn each_operator_moves_the_joints_it_must_and_no_others() {
                     .filter(|g| want.contains(g))
                     .map(Group::name)
                     .collect();
-                assert_eq!(told, said, "{step}");
+                assert_eq!(reported, said, "{step}");
             }
             Err(error) => panic!("{step}: {error}"),
         }
@@ -164,9 +164,9 @@ proptest! {
                 let (a, b) = (model(&before, frame), model(&there.clip, frame));
                 prop_assert!(a.rotation(hand).angle_between(b.rotation(hand)) < 0.1f64.to_radians());
                 if reached {
-                    let way = b.position(hand) - a.position(hand);
+                    let displacement = b.position(hand) - a.position(hand);
                     let length = DVec3::new(f64::from(left), f64::from(up), f64::from(forward)).length() / 100.0;
-                    prop_assert!((way.length() - length).abs() < 1e-3);
+                    prop_assert!((displacement.length() - length).abs() < 1e-3);
                 }
             }
         }

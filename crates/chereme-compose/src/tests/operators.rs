@@ -283,22 +283,24 @@ fn the_finger_points_at_the_target() {
 fn letters_take_the_time_from_the_recipe_or_else_from_the_corpus() {
     let seconds = |recipe: &str| {
         let made = made(recipe);
-        let told = made.report.steps[0].did.join("\n");
-        (made.clip.span().seconds(), told)
+        let report = made.report.steps[0].did.join("\n");
+        (made.clip.span().seconds(), report)
     };
-    let (learned, told) = seconds("spell UB");
+    let (learned, report) = seconds("spell UB");
     assert!((learned - 0.75).abs() < 0.02, "{learned}");
-    assert!(told.contains("0.30 s, the median of 9") && told.contains("0.15 s, the median of 8"));
-    let (half, told) = seconds("spell UB hold 0.1s");
     assert!(
-        (half - 0.35).abs() < 0.02 && !told.contains("held for"),
-        "{half} {told}"
+        report.contains("0.30 s, the median of 9") && report.contains("0.15 s, the median of 8")
     );
-    let (asked, told) = seconds("spell UB hold 0.1s via learned 0.5s");
+    let (half, report) = seconds("spell UB hold 0.1s");
+    assert!(
+        (half - 0.35).abs() < 0.02 && !report.contains("held for"),
+        "{half} {report}"
+    );
+    let (asked, report) = seconds("spell UB hold 0.1s via learned 0.5s");
     assert!((asked - 0.7).abs() < 0.02, "{asked}");
     assert!(
-        told.contains("learned from 12 transitions of fingers"),
-        "{told}"
+        report.contains("learned from 12 transitions of fingers"),
+        "{report}"
     );
 }
 
@@ -311,26 +313,27 @@ fn contacts_are_followed_through_every_operator() {
     }
     // The head is turned aside, so that the mirror image of the hand misses the nose.
     for mirrored in ["swap", "mirror right"] {
-        let told = contacts(mirrored);
-        assert!(!told.is_empty(), "{mirrored}");
-        let names_both = |told: &String| told.contains("right-thumb-tip touched nose");
+        let reports = contacts(mirrored);
+        assert!(!reports.is_empty(), "{mirrored}");
+        let names_both = |text: &String| text.contains("right-thumb-tip touched nose");
         assert!(
-            told.iter()
-                .any(|told| names_both(told) && told.contains("now left-thumb-tip")),
-            "{told:?}"
+            reports
+                .iter()
+                .any(|text| names_both(text) && text.contains("now left-thumb-tip")),
+            "{reports:?}"
         );
     }
     // A shrunk movement no longer reaches its contact, or the report describes the restored contact.
     let shrunk = made(&format!("{touching} | repeat 2 scale 0.3"));
-    let told = format!("{}{:?}", shrunk.report, shrunk.report.contacts);
-    assert!(told.contains("repetition 2: "), "{told}");
+    let report = format!("{}{:?}", shrunk.report, shrunk.report.contacts);
+    assert!(report.contains("repetition 2: "), "{report}");
 }
 
 #[test]
 fn mirrored_hands_that_would_pass_through_each_other_are_reported() {
     let crossed = made("ESCARGOT | place right by left 40cm | mirror right");
-    let told = crossed.report.to_string();
-    assert!(told.contains("go through each other"), "{told}");
+    let report = crossed.report.to_string();
+    assert!(report.contains("go through each other"), "{report}");
     let apart = made("ESCARGOT | place right by right 20cm | mirror right");
     assert!(!apart.report.to_string().contains("go through each other"));
 }

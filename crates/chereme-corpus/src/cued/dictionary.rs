@@ -436,11 +436,11 @@ fn goals(own: &Cued, shown: &[KeyGestures]) -> Vec<(DikeyEnd, usize)> {
     let last = own.take.frames().saturating_sub(1);
     let mut goals: Vec<(DikeyEnd, usize)> = Vec::with_capacity(shown.len() + 1);
     if let Some(first) = shown.first().filter(|first| first.hand.measured) {
-        goals.push((REST, frame_of(first.hand.way.start).min(last)));
+        goals.push((REST, frame_of(first.hand.movement.start).min(last)));
     }
     for (key, shown) in own.keys.iter().zip(shown) {
         let arrived = if shown.hand.measured {
-            frame_of(shown.hand.way.end)
+            frame_of(shown.hand.movement.end)
         } else {
             shown.hand.frame
         };

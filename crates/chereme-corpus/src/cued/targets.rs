@@ -234,14 +234,17 @@ impl CuePhaseStatistics {
 fn found_keys(own: &Cued, shown: &[KeyGestures]) -> Vec<FoundKey> {
     let take = &own.take;
     let span = |times: [f64; 2]| times.map(|time| take.micros(time));
-    let way = |it: &Gesture| it.measured.then(|| span([it.way.start, it.way.end]));
+    let time_of = |it: &Gesture| {
+        it.measured
+            .then(|| span([it.movement.start, it.movement.end]))
+    };
     let keys = own.keys.iter().zip(shown);
     keys.map(|(key, shown)| FoundKey {
         key: key_name(key.placement, key.shape),
         kind: KeySounds::name(key.kind),
         a1_us: take.micros(key.a1),
-        hand_us: way(&shown.hand),
-        fingers_us: way(&shown.fingers),
+        hand_us: time_of(&shown.hand),
+        fingers_us: time_of(&shown.fingers),
         target_us: take.micros(shown.hand.frame as f64 / take.rate),
         placement_log: rounded(shown.hand.log, 3),
         shape_log: rounded(shown.fingers.log, 3),

@@ -79,7 +79,7 @@ pub(super) fn place_hand(angles: &[f64; JOINTS], skin: f64) -> Vec<DVec3> {
         let mut bent = 0.0;
         for (bone, joint) in [flex, middle, last].into_iter().enumerate() {
             bent += joint;
-            let way = side * DVec3::new(bent.cos(), 0.0, -bent.sin());
+            let direction = side * DVec3::new(bent.cos(), 0.0, -bent.sin());
             let out = side * DVec3::new(bent.sin(), 0.0, bent.cos());
             let places: &[f64] = if bone == 2 {
                 &[0.35, 1.0]
@@ -89,24 +89,24 @@ pub(super) fn place_hand(angles: &[f64; JOINTS], skin: f64) -> Vec<DVec3> {
             for f in places {
                 let slide = skin * (3.0 * joint.sin() * (1.0 - f) + 1.2 * (1.0 - joint.cos()));
                 let lift = 7.0 - 2.0 * bone as f64 + skin * joint.sin() * (1.0 - f);
-                local.push(at + way * (BONES[n][bone] * f + slide) + out * lift);
+                local.push(at + direction * (BONES[n][bone] * f + slide) + out * lift);
             }
-            at += way * BONES[n][bone];
+            at += direction * BONES[n][bone];
         }
     }
     let [mut around, down, first, second] = [16, 17, 18, 19].map(|k| angles[k]);
     let mut at = DVec3::new(22.0, 26.0, -6.0);
     for (length, joint) in [(42.0, 0.0), (32.0, first), (26.0, second)] {
         around -= joint;
-        let way = DVec3::new(
+        let direction = DVec3::new(
             around.cos() * down.cos(),
             around.sin() * down.cos(),
             -down.sin(),
         );
         for f in [0.3, 1.0] {
-            local.push(at + way * length * f + DVec3::Z * 5.0);
+            local.push(at + direction * length * f + DVec3::Z * 5.0);
         }
-        at += way * length;
+        at += direction * length;
     }
     points.extend(local.into_iter().map(|at| wrist * at));
     points

@@ -23,7 +23,7 @@ pub(in crate::transcribe) fn signing(
         loose: scene.loose,
     };
     let mover = Mover::new(track, [0, last], nothing, &[]);
-    let (ways, speeds) = ways(scene, &mover, 0, last);
+    let (stretches, speeds) = stretches(scene, &mover, 0, last);
     let on = |a: &RangeInclusive<usize>, b: &RangeInclusive<usize>| {
         slows(scene, [a, b], |n| speeds[n], tuned().cuts.slows)
             && turn(track, [a, b]) < tuned().cuts.turns
@@ -37,29 +37,33 @@ pub(in crate::transcribe) fn signing(
     };
     let rests = |low: usize, high: usize| track.rests[low] || lies(low, high);
     // A hand may stir while it rests, before it rises or after it sinks.
-    let stirs = |way: &&RangeInclusive<usize>| {
-        let mut ends = [*way.start(), *way.end()].into_iter();
+    let stirs = |stretch: &&RangeInclusive<usize>| {
+        let mut ends = [*stretch.start(), *stretch.end()].into_iter();
         ends.all(|n| track.rests[n] || track.palm[n].y < tuned().cuts.lap * scene.arm)
     };
-    let rises = |n: &usize| ways.get(*n).is_some_and(|it| rests(*it.start(), *it.end()));
-    let stirring = ways.iter().take_while(stirs).count();
+    let rises = |n: &usize| {
+        stretches
+            .get(*n)
+            .is_some_and(|it| rests(*it.start(), *it.end()))
+    };
+    let stirring = stretches.iter().take_while(stirs).count();
     if let Some(mut n) = [stirring, 0].into_iter().find(rises) {
-        while n + 1 < ways.len() && on(&ways[n], &ways[n + 1]) {
+        while n + 1 < stretches.len() && on(&stretches[n], &stretches[n + 1]) {
             n += 1;
         }
-        first = stillest(scene, &speeds, *ways[n].end());
+        first = stillest(scene, &speeds, *stretches[n].end());
     }
     let sinks = |n: &usize| {
-        let way = ways.get(*n);
-        way.is_some_and(|it| rests(*it.end(), *it.start()) && *it.start() >= first)
+        let stretch = stretches.get(*n);
+        stretch.is_some_and(|it| rests(*it.end(), *it.start()) && *it.start() >= first)
     };
-    let stirring = ways.iter().rev().take_while(stirs).count();
-    let from = |stirring: usize| ways.len().wrapping_sub(stirring + 1);
+    let stirring = stretches.iter().rev().take_while(stirs).count();
+    let from = |stirring: usize| stretches.len().wrapping_sub(stirring + 1);
     if let Some(mut n) = [from(stirring), from(0)].into_iter().find(sinks) {
-        while n > 0 && *ways[n - 1].start() >= first && on(&ways[n - 1], &ways[n]) {
+        while n > 0 && *stretches[n - 1].start() >= first && on(&stretches[n - 1], &stretches[n]) {
             n -= 1;
         }
-        end = stillest(scene, &speeds, *ways[n].start());
+        end = stillest(scene, &speeds, *stretches[n].start());
     }
     first..=end.max(first)
 }
@@ -75,7 +79,7 @@ fn stillest(scene: &Scene<'_>, speeds: &[f64], at: usize) -> usize {
 
 /// Returns the stretches in which the hand moves, cut at minima of its speed, and the speed (m/s) in each
 /// frame.
-pub(super) fn ways(
+pub(super) fn stretches(
     scene: &Scene<'_>,
     mover: &Mover<'_>,
     first: usize,
@@ -91,7 +95,9 @@ pub(super) fn ways(
     };
     let speeds: Vec<f64> = (first..=last).map(slowest).collect();
     let mut found = cut(scene, &speeds, tuned().cuts.least.0 * scene.arm, first);
-    found.retain(|way| mover.shortest(*way.start(), *way.end()) > tuned().cuts.short * scene.arm);
+    found.retain(|stretch| {
+        mover.shortest(*stretch.start(), *stretch.end()) > tuned().cuts.short * scene.arm
+    });
     (found, speeds)
 }
 
@@ -122,14 +128,14 @@ pub(super) fn cut(
 pub(super) fn sure(
     scene: &Scene<'_>,
     mover: &Mover<'_>,
-    ways: Vec<RangeInclusive<usize>>,
+    stretches: Vec<RangeInclusive<usize>>,
 ) -> Vec<RangeInclusive<usize>> {
     let arm = scene.arm;
     let least = (tuned().cuts.short * scene.loose)
         .min(tuned().cuts.faint * scene.language.move_small)
         * arm;
     let palm = &mover.track.palm;
-    let chord = |way: &RangeInclusive<usize>| palm[*way.end()] - palm[*way.start()];
+    let chord = |stretch: &RangeInclusive<usize>| palm[*stretch.end()] - palm[*stretch.start()];
     let back = |a: &RangeInclusive<usize>, b: &RangeInclusive<usize>| {
         let (there, back) = (chord(a), -chord(b));
         let ratio = there.length() / back.length().max(1e-9);
@@ -137,13 +143,17 @@ pub(super) fn sure(
             && (1.0 / tuned().cuts.back.1..tuned().cuts.back.1).contains(&ratio)
     };
     let is_sure = |n: usize| {
-        let beside = |m: usize| ways.get(m).is_some_and(|other| back(&ways[n], other));
-        mover.shortest(*ways[n].start(), *ways[n].end()) >= least
+        let beside = |m: usize| {
+            stretches
+                .get(m)
+                .is_some_and(|other| back(&stretches[n], other))
+        };
+        mover.shortest(*stretches[n].start(), *stretches[n].end()) >= least
             || beside(n + 1)
             || n.checked_sub(1).is_some_and(beside)
     };
-    let kept: Vec<usize> = (0..ways.len()).filter(|&n| is_sure(n)).collect();
-    kept.into_iter().map(|n| ways[n].clone()).collect()
+    let kept: Vec<usize> = (0..stretches.len()).filter(|&n| is_sure(n)).collect();
+    kept.into_iter().map(|n| stretches[n].clone()).collect()
 }
 
 /// Returns whether a path is too brief and short to be meant: the hand only settles into its posture, or
@@ -158,10 +168,10 @@ pub(super) fn is_brief(scene: &Scene<'_>, mover: &Mover<'_>, first: usize, last:
 pub(super) fn joined(
     scene: &Scene<'_>,
     mover: &Mover<'_>,
-    ways: &[RangeInclusive<usize>],
+    stretches: &[RangeInclusive<usize>],
     speed: impl Fn(usize) -> f64,
 ) -> Vec<RangeInclusive<usize>> {
-    let mut left = ways;
+    let mut left = stretches;
     let mut found = Vec::new();
     while let Some((first, rest)) = left.split_first() {
         let follow = |stops: f64| {
@@ -171,8 +181,8 @@ pub(super) fn joined(
         };
         let (on, round) = (follow(tuned().cuts.stops), follow(tuned().cuts.corners));
         let whole = (1..=round).rev().find(|&more| {
-            let way = mover.fit(*first.start(), *left[more].end());
-            match way.way {
+            let path = mover.fit(*first.start(), *left[more].end());
+            match path.path {
                 PathForm::Circle {
                     turns,
                     long,
@@ -187,7 +197,7 @@ pub(super) fn joined(
                     let most = if closed { tuned().cuts.flattened } else { 0.15 };
                     (more <= on || closed)
                         && turns / ((more + 1) as f64) < 1.2
-                        && way.residual < most * long.length()
+                        && path.residual < most * long.length()
                 }
                 PathForm::Wave { .. } => more >= 2 && more <= on,
                 _ => false,
@@ -214,14 +224,15 @@ fn slows(
     speed: impl Fn(usize) -> f64,
     share: f64,
 ) -> bool {
-    let fastest = |way: &RangeInclusive<usize>| way.clone().map(&speed).fold(0.0, f64::max);
+    let fastest = |stretch: &RangeInclusive<usize>| stretch.clone().map(&speed).fold(0.0, f64::max);
     let slowest = speed(*before.end()).min(speed(*next.start()));
     next.start() <= &(before.end() + scene.frames(tuned().acts.gap))
         && slowest > share * fastest(before).min(fastest(next))
 }
 
 /// Returns the angle (rad) between the directions of two successive paths.
-fn turn(track: &HandTrajectory, ways: [&RangeInclusive<usize>; 2]) -> f64 {
-    let [before, next] = ways.map(|way| track.palm[*way.end()] - track.palm[*way.start()]);
+fn turn(track: &HandTrajectory, stretches: [&RangeInclusive<usize>; 2]) -> f64 {
+    let [before, next] =
+        stretches.map(|stretch| track.palm[*stretch.end()] - track.palm[*stretch.start()]);
     before.angle_between(next)
 }

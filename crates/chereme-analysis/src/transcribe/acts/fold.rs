@@ -13,7 +13,7 @@ use crate::transcribe::tuned::tuned;
 fn change(scene: &Scene<'_>, track: &HandTrajectory, act: &Act) -> Vec<f64> {
     let (first, last) = (act.first(), act.last());
     let chord = match &act.kind {
-        ActKind::Way(fitted) => fitted.way.chord() / (scene.language.move_normal * scene.arm),
+        ActKind::Path(fitted) => fitted.path.chord() / (scene.language.move_normal * scene.arm),
         _ => DVec3::ZERO,
     };
     // Opposite turns cancel only in one common frame: that of the body.
@@ -114,7 +114,7 @@ fn repeat(times: usize, once: Repeat, several: Repeat) -> Option<Repeat> {
 
 fn turns(act: &Act) -> Option<f64> {
     match &act.kind {
-        ActKind::Way(fitted) => match fitted.way {
+        ActKind::Path(fitted) => match fitted.path {
             PathForm::Circle { turns, .. } => Some(turns),
             _ => None,
         },
@@ -129,7 +129,7 @@ fn is_round(act: &Act) -> bool {
 /// Returns how many consecutive circles about one axis begin the list.
 fn rounds(acts: &[Act]) -> usize {
     let axis = |act: &Act| match &act.kind {
-        ActKind::Way(fitted) => match fitted.way {
+        ActKind::Path(fitted) => match fitted.path {
             PathForm::Circle { axis, .. } => Some(axis),
             _ => None,
         },

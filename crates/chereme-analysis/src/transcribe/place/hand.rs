@@ -92,8 +92,8 @@ impl Hand {
         if self.points.is_empty() {
             return self.middle();
         }
-        let way = self.axes.map(|axis| -out.dot(axis));
-        let point = coming_first(&self.shape, way, region);
+        let direction = self.axes.map(|axis| -out.dot(axis));
+        let point = coming_first(&self.shape, direction, region);
         let at = self.points.iter().find(|other| other.point == point);
         at.copied().unwrap_or_else(|| self.middle())
     }
@@ -107,7 +107,9 @@ impl Hand {
     ) -> Option<(DVec3, &[HandPoint], f64)> {
         let off = |(at, _, steps): &&(DVec3, Vec<HandPoint>, f64)| {
             let off = *at - to;
-            let before = pushed.map_or(DVec3::ZERO, |way| way * off.dot(way).max(0.0));
+            let before = pushed.map_or(DVec3::ZERO, |direction| {
+                direction * off.dot(direction).max(0.0)
+            });
             (off - before * tuned().part.before).length() + tuned().part.rank * self.slack * steps
         };
         let nearest = self.named.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
@@ -200,12 +202,12 @@ fn points(scene: &Scene<'_>, axes: &Axes, model: &ModelPose, side: Half) -> Vec<
     add(HandPoint::ThumbBall, Some(ball), normal);
     let mut about = |point: HandPoint, face: Face, from: Option<DVec3>, bone: DVec3| {
         let [out, back] = from_bone(point);
-        let way = facing(face, [along, normal, radial], bone);
-        let at = from.map(|from| from + (way * out - bone * back) * scene.hand);
+        let direction = facing(face, [along, normal, radial], bone);
+        let at = from.map(|from| from + (direction * out - bone * back) * scene.hand);
         let out = match (face, point) {
             (Face::Middle, HandPoint::Tip(..)) => bone,
             (Face::Middle, _) => -normal,
-            _ => way,
+            _ => direction,
         };
         add(point, at, out);
     };

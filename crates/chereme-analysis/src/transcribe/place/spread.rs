@@ -123,8 +123,8 @@ mod tests {
     fn penalties_grow_with_distance_up_to_a_bound() {
         for about in [0.004, 0.02] {
             let spread = spread(about);
-            for way in [DVec3::X, DVec3::Y, DVec3::NEG_Z] {
-                let at = |n: i32| way * (0.01 * f64::from(n));
+            for direction in [DVec3::X, DVec3::Y, DVec3::NEG_Z] {
+                let at = |n: i32| direction * (0.01 * f64::from(n));
                 let all: Vec<[f64; 3]> = (0..12)
                     .map(|n| {
                         let off = at(n);
@@ -134,10 +134,10 @@ mod tests {
                     .collect();
                 for (n, pair) in all.windows(2).enumerate() {
                     let farther = pair[0].iter().zip(pair[1]).all(|(a, b)| *a < b);
-                    assert!(farther, "{about} {way} {n}: {pair:?}");
+                    assert!(farther, "{about} {direction} {n}: {pair:?}");
                 }
                 assert!(all[0].iter().all(|it| it.abs() < 0.3));
-                assert!(spread.free(way * 0.15, false) < 20.0);
+                assert!(spread.free(direction * 0.15, false) < 20.0);
             }
         }
     }

@@ -91,12 +91,12 @@ impl Body<'_> {
         let near = self.scene.language.hands_near * arm;
         // Mirrored hands are next to each other; otherwise the gap lies along the outward normals.
         let facing = (other.out - own.out).normalize_or(DVec3::NEG_X);
-        let ways = [DVec3::NEG_X, facing].map(|way| apart - way * near);
-        let [aside, out] = ways.map(|off| self.spread.together(off));
+        let offsets = [DVec3::NEG_X, facing].map(|direction| apart - direction * near);
+        let [aside, out] = offsets.map(|off| self.spread.together(off));
         let (close, off) = if aside < out {
-            (aside, ways[0].length())
+            (aside, offsets[0].length())
         } else {
-            (out, ways[1].length())
+            (out, offsets[1].length())
         };
         let touch = self.spread.together(apart);
         let touching = distance < tuned().place.touch[2] * arm && touch < close;
@@ -124,8 +124,8 @@ impl Body<'_> {
         };
         let own = dominant.meant(DVec3::NEG_X, Region::Trunk);
         let mirrored = [own, other.meant(DVec3::X, Region::Trunk)];
-        let way = DVec3::new(-0.6, 1.0, 0.3).normalize();
-        let below = other.meant(-way, Region::Trunk);
+        let direction = DVec3::new(-0.6, 1.0, 0.3).normalize();
+        let below = other.meant(-direction, Region::Trunk);
         let region = Region::Arm(self.scene.dominant.other());
         let upon = [dominant.meant(below.out, region), below];
         let reach = tuned().together.together * self.scene.arm;

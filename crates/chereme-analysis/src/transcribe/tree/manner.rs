@@ -91,7 +91,7 @@ impl Writer<'_> {
             return manner;
         };
         let first = *act.frames.start();
-        self.told(FeatureKind::Manner, Some(track), first, &found, |tempo| {
+        self.record(FeatureKind::Manner, Some(track), first, &found, |tempo| {
             let marks: Vec<Symbol> = tempo
                 .mark()
                 .into_iter()
@@ -211,7 +211,7 @@ fn usual(scene: &Scene<'_>, track: &HandTrajectory, act: &Act) -> Option<(Vec<(f
             .collect::<Vec<_>>()
     };
     let (mut all, round) = match &act.kind {
-        ActKind::Way(fitted) => match fitted.way {
+        ActKind::Path(fitted) => match fitted.path {
             PathForm::Straight { .. } => (with_turn(l.time_straight), false),
             PathForm::Arc { .. } | PathForm::Wave { .. } => (with_turn(l.time_arc), false),
             PathForm::Circle { turns, .. } => (vec![(l.time_circle * turns.max(0.4), least)], true),

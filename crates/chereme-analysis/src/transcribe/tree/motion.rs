@@ -8,36 +8,36 @@ use crate::transcribe::tuned::tuned;
 
 impl Writer<'_> {
     /// Writes a path through space.
-    pub(super) fn way(&mut self, track: &HandTrajectory, act: &Act) -> Motion {
-        let ActKind::Way(fitted) = &act.kind else {
+    pub(super) fn path(&mut self, track: &HandTrajectory, act: &Act) -> Motion {
+        let ActKind::Path(fitted) = &act.kind else {
             return Motion::new(MotionKind::Still);
         };
         let first = *act.frames.start();
         let scene = self.scene;
         let kind = Found {
-            best: fitted.way,
+            best: fitted.path,
             residual: fitted.residual,
             runner_up: fitted.runner_up,
         };
-        let written = |way: &PathForm| Some(written(scene, way));
-        self.told_movement(track, first, &kind, PathForm::kind, written);
-        let round = matches!(fitted.way, PathForm::Circle { .. });
-        let found = aim::nearest(fitted.way.line().normalize_or(DVec3::Z), false);
-        self.told(FeatureKind::Course, Some(track), first, &found, |aim| {
+        let written = |path: &PathForm| Some(written(scene, path));
+        self.record_movement(track, first, &kind, PathForm::kind, written);
+        let round = matches!(fitted.path, PathForm::Circle { .. });
+        let found = aim::nearest(fitted.path.line().normalize_or(DVec3::Z), false);
+        self.record(FeatureKind::Course, Some(track), first, &found, |aim| {
             words::course(aim, round)
         });
-        self.told_size(track, first, &size(scene, &fitted.way));
-        Motion::new(super::motion::written(scene, &fitted.way))
+        self.record_size(track, first, &size(scene, &fitted.path));
+        Motion::new(super::motion::written(scene, &fitted.path))
     }
 
     /// Records that a hand changes its posture in place.
-    pub(super) fn told_change(&mut self, track: &HandTrajectory, frame: usize) {
+    pub(super) fn record_change(&mut self, track: &HandTrajectory, frame: usize) {
         let found = Found {
             best: (),
             residual: 0.0,
             runner_up: None,
         };
-        self.told_movement(track, frame, &found, |()| "replacement", |()| None);
+        self.record_movement(track, frame, &found, |()| "replacement", |()| None);
     }
 
     /// Writes a movement of wrist or fingers to and fro.
@@ -59,7 +59,7 @@ impl Writer<'_> {
                     runner_up: None,
                 };
                 let name = sway.name();
-                self.told_movement(track, first, &found, |()| name, |()| Some(kind.clone()));
+                self.record_movement(track, first, &found, |()| name, |()| Some(kind.clone()));
                 Motion::new(kind)
             }
             Sway::Wrist {
@@ -90,14 +90,14 @@ impl Writer<'_> {
                     motion: *motion,
                     size: size.best,
                 };
-                self.told_movement(
+                self.record_movement(
                     track,
                     first,
                     &found,
                     |motion| wrist_name(*motion),
                     |motion| Some(written(motion)),
                 );
-                self.told_size(track, first, &size);
+                self.record_size(track, first, &size);
                 Motion::new(written(motion))
             }
         }
@@ -134,7 +134,7 @@ impl Writer<'_> {
                 posture.palm = Each::Shared(palm);
             }
         }
-        self.told_seen(track, last, &after, which);
+        self.record_reading(track, last, &after, which);
         posture
     }
 
@@ -148,7 +148,7 @@ impl Writer<'_> {
         first: usize,
         last: usize,
     ) -> Option<Place> {
-        if !matches!(act.kind, ActKind::Way(_)) {
+        if !matches!(act.kind, ActKind::Path(_)) {
             return None;
         }
         let (before, after) = (self.sight.body(first)?, self.sight.body(last)?);
@@ -168,7 +168,7 @@ impl Writer<'_> {
                 contact: Some(together.contact),
                 ..Constellation::default()
             };
-            self.told_together(last, &hands, together.distance);
+            self.record_contact_of_hands(last, &hands, together.distance);
             return Some(Place::Hands(hands));
         }
         let touched = |body: &Body<'_>| {
@@ -181,24 +181,24 @@ impl Writer<'_> {
             let between = self.sight.body(middle)?;
             let mut placed = touched(&between).filter(|_| was.is_none())?;
             placed.place.contact = Some(Contact::Brushing);
-            self.told_place(self.scene.hands[hand].as_ref(), middle, &placed);
+            self.record_place(self.scene.hands[hand].as_ref(), middle, &placed);
             return Some(Place::Body(placed.place));
         };
         if was == Some(placed.place.site) {
             return None;
         }
-        self.told_place(self.scene.hands[hand].as_ref(), last, &placed);
+        self.record_place(self.scene.hands[hand].as_ref(), last, &placed);
         Some(Place::Body(placed.place))
     }
 }
 
 /// Converts a path to notation.
-pub(super) fn written(scene: &Scene<'_>, way: &PathForm) -> MotionKind {
+pub(super) fn written(scene: &Scene<'_>, path: &PathForm) -> MotionKind {
     let (l, arm) = (scene.language, scene.arm);
-    let direction = aim::nearest(way.line().normalize_or(DVec3::Z), false)
+    let direction = aim::nearest(path.line().normalize_or(DVec3::Z), false)
         .best
         .first;
-    let size = size(scene, way).best;
+    let size = size(scene, path).best;
     let mut directed = Directed {
         direction,
         second: None,
@@ -210,7 +210,7 @@ pub(super) fn written(scene: &Scene<'_>, way: &PathForm) -> MotionKind {
         zigzag: None,
         ellipse: None,
     };
-    match *way {
+    match *path {
         PathForm::Circle {
             turns,
             long,
@@ -254,9 +254,9 @@ pub(super) fn written(scene: &Scene<'_>, way: &PathForm) -> MotionKind {
 }
 
 /// Returns the size of a path: of its chord, or of a circle's longer radius.
-fn size(scene: &Scene<'_>, way: &PathForm) -> Found<Option<Size>> {
+fn size(scene: &Scene<'_>, path: &PathForm) -> Found<Option<Size>> {
     let (l, arm) = (scene.language, scene.arm);
-    match way {
+    match path {
         PathForm::Circle { long, .. } => sized(
             long.length() / arm,
             [l.circle_small, l.circle_normal, l.circle_big],

@@ -35,7 +35,7 @@ impl Writer<'_> {
                 alike.map(|alike| !alike)
             };
             if acts[n] {
-                self.told_seen(track, frame, seen, own);
+                self.record_reading(track, frame, seen, own);
             }
         }
         let posture = Posture {
@@ -54,7 +54,7 @@ impl Writer<'_> {
             (picked, own) => picked.or(own),
         };
         if let Some(stand) = &stand {
-            self.told_stand(frame, stand);
+            self.record_stand(frame, stand);
         }
         let place = stand.as_ref().and_then(Stand::place);
         self.begun = stand.map(|stand| Begun {
@@ -128,23 +128,23 @@ impl Writer<'_> {
     }
 
     /// Records the places of the hands as features.
-    fn told_stand(&mut self, frame: usize, stand: &Stand) {
+    fn record_stand(&mut self, frame: usize, stand: &Stand) {
         let scene = self.scene;
         match stand {
             Stand::Unsaid => {}
-            Stand::One(n, placed) => self.told_place(scene.hands[*n].as_ref(), frame, placed),
+            Stand::One(n, placed) => self.record_place(scene.hands[*n].as_ref(), frame, placed),
             Stand::Each(both) => {
                 for (n, placed) in both.iter().enumerate() {
                     if let Some(placed) = placed {
-                        self.told_place(scene.hands[n].as_ref(), frame, placed);
+                        self.record_place(scene.hands[n].as_ref(), frame, placed);
                     }
                 }
             }
             Stand::Together(together, at) => {
                 let location = FeatureKind::Location;
-                self.told(location, None, frame, &at.found(), words::place);
+                self.record(location, None, frame, &at.found(), words::place);
                 let hands = constellation(together, at);
-                self.told_together(frame, &hands, together.distance);
+                self.record_contact_of_hands(frame, &hands, together.distance);
             }
         }
     }
@@ -220,10 +220,10 @@ pub(super) fn behind(relation: &Relation, first: Option<&Act>) -> Option<DVec3> 
     let RelationKind::Alike(symmetry) = relation.kind else {
         return None;
     };
-    let ActKind::Way(fitted) = &first?.kind else {
+    let ActKind::Path(fitted) = &first?.kind else {
         return None;
     };
-    match fitted.way {
+    match fitted.path {
         PathForm::Circle { long, start, .. } if symmetry.out_of_phase => {
             Some(start * (2.0 * long.length()) * signs(&symmetry))
         }
@@ -233,7 +233,7 @@ pub(super) fn behind(relation: &Relation, first: Option<&Act>) -> Option<DVec3> 
 
 /// Returns whether a hand is surely not turned like the mirror image of the other.
 fn otherwise(one: &HandReading, other: &HandReading, signs: DVec3) -> bool {
-    let told = |seen: &HandReading| {
+    let directions = |seen: &HandReading| {
         let along = aim::vector(&seen.extended.best);
         let palm = seen.palm.as_ref()?;
         let sure = seen.extended.residual.max(palm.residual) < tuned().tree.sure;
@@ -241,7 +241,7 @@ fn otherwise(one: &HandReading, other: &HandReading, signs: DVec3) -> bool {
         let normal = orientation::palm(along.to_array(), angle);
         sure.then_some([along, normal.into()])
     };
-    let (Some(one), Some(other)) = (told(one), told(other)) else {
+    let (Some(one), Some(other)) = (directions(one), directions(other)) else {
         return false;
     };
     one.iter()

@@ -7,7 +7,7 @@ use super::super::words::{self, WordsAndSymbols};
 use super::*;
 
 impl Writer<'_> {
-    pub(super) fn told<T>(
+    pub(super) fn record<T>(
         &mut self,
         kind: FeatureKind,
         track: Option<&HandTrajectory>,
@@ -68,7 +68,7 @@ impl Writer<'_> {
         });
     }
 
-    pub(super) fn told_hands(&mut self, relation: &Relation, frame: usize) {
+    pub(super) fn record_hands(&mut self, relation: &Relation, frame: usize) {
         let found = Found {
             best: relation.kind,
             residual: relation.residual,
@@ -80,14 +80,14 @@ impl Writer<'_> {
             found.runner_up.as_ref().map(|(kind, _)| kind),
         ];
         let texts = texts.map(|kind| kind.map(|kind| (*kind, used(kind))));
-        self.told(FeatureKind::Hands, None, frame, &found, |kind| {
+        self.record(FeatureKind::Hands, None, frame, &found, |kind| {
             let known = texts.iter().flatten().find(|(of, _)| of == kind);
             let text = known.map_or_else(String::new, |(_, text)| text.clone());
             WordsAndSymbols::new(kind.words(), text)
         });
     }
 
-    pub(super) fn told_seen(
+    pub(super) fn record_reading(
         &mut self,
         track: &HandTrajectory,
         frame: usize,
@@ -103,24 +103,24 @@ impl Writer<'_> {
             ));
         }
         if let Some(shape) = seen.shape.as_ref().filter(|_| which[0]) {
-            self.told(FeatureKind::Handshape, hand, frame, shape, words::shape);
+            self.record(FeatureKind::Handshape, hand, frame, shape, words::shape);
         }
         if which[1] {
             let found = &seen.extended;
-            self.told(FeatureKind::Direction, hand, frame, found, words::direction);
+            self.record(FeatureKind::Direction, hand, frame, found, words::direction);
         }
         if let Some(palm) = seen.palm.as_ref().filter(|_| which[2]) {
-            self.told(FeatureKind::Palm, hand, frame, palm, words::palm);
+            self.record(FeatureKind::Palm, hand, frame, palm, words::palm);
         }
     }
 
-    pub(super) fn told_place(
+    pub(super) fn record_place(
         &mut self,
         track: Option<&HandTrajectory>,
         frame: usize,
         placed: &Placed,
     ) {
-        self.told(
+        self.record(
             FeatureKind::Location,
             track,
             frame,
@@ -132,48 +132,53 @@ impl Writer<'_> {
             residual: placed.distance,
             runner_up: None,
         };
-        self.told(FeatureKind::Contact, track, frame, &contact, |place| {
+        self.record(FeatureKind::Contact, track, frame, &contact, |place| {
             words::nearness(place)
         });
     }
 
     /// Records the contact of the two hands as a feature.
-    pub(super) fn told_together(&mut self, frame: usize, hands: &Constellation, distance: f64) {
+    pub(super) fn record_contact_of_hands(
+        &mut self,
+        frame: usize,
+        hands: &Constellation,
+        distance: f64,
+    ) {
         let contact = Found {
             best: hands,
             residual: distance,
             runner_up: None,
         };
-        self.told(FeatureKind::Contact, None, frame, &contact, |hands| {
+        self.record(FeatureKind::Contact, None, frame, &contact, |hands| {
             words::together(hands)
         });
     }
 
-    pub(super) fn told_repetition(&mut self, track: &HandTrajectory, act: &Act, repeat: Repeat) {
+    pub(super) fn record_repetition(&mut self, track: &HandTrajectory, act: &Act, repeat: Repeat) {
         let times = Found {
             best: act.times,
             residual: 0.0,
             runner_up: None,
         };
         let first = *act.frames.start();
-        self.told(FeatureKind::Repetition, Some(track), first, &times, |n| {
+        self.record(FeatureKind::Repetition, Some(track), first, &times, |n| {
             words::repetition(*n, repeat)
         });
     }
 
-    pub(super) fn told_size(
+    pub(super) fn record_size(
         &mut self,
         track: &HandTrajectory,
         frame: usize,
         found: &Found<Option<Size>>,
     ) {
-        self.told(FeatureKind::Size, Some(track), frame, found, |size| {
+        self.record(FeatureKind::Size, Some(track), frame, found, |size| {
             words::size(*size)
         });
     }
 
     /// Records the kind of a movement; `written` returns the notation of a value.
-    pub(super) fn told_movement<T>(
+    pub(super) fn record_movement<T>(
         &mut self,
         track: &HandTrajectory,
         frame: usize,
@@ -181,7 +186,7 @@ impl Writer<'_> {
         name: impl Fn(&T) -> &'static str,
         written: impl Fn(&T) -> Option<MotionKind>,
     ) {
-        self.told(FeatureKind::Movement, Some(track), frame, found, |value| {
+        self.record(FeatureKind::Movement, Some(track), frame, found, |value| {
             let text = written(value).map(|kind| words::motion(&Motion::new(kind)));
             WordsAndSymbols::new(name(value), text.unwrap_or_default())
         });

@@ -142,16 +142,16 @@ impl Planner<'_> {
         let l = self.language;
         let mut to = end;
         for (n, _) in acting(who) {
-            let ways = self.plan.events[n]
+            let events = self.plan.events[n]
                 .iter()
                 .filter(|event| event.from >= from - 1e-9);
-            let way: DVec3 = ways
+            let displacement: DVec3 = events
                 .map(|event| match &event.act {
                     Act::Move(path) => path.end(),
                     _ => DVec3::ZERO,
                 })
                 .sum();
-            if way.length() < 1e-6 {
+            if displacement.length() < 1e-6 {
                 continue;
             }
             to = end + l.time_return;
@@ -159,7 +159,7 @@ impl Planner<'_> {
                 from: end,
                 to,
                 pace: Pace::Linear,
-                act: Act::Move(Path::Spring(way * -l.bounce)),
+                act: Act::Move(Path::Spring(displacement * -l.bounce)),
             });
         }
         to

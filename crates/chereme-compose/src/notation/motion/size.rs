@@ -57,11 +57,11 @@ pub(super) fn grown(growth: Option<Growth>, by: f64) -> f64 {
 }
 
 /// Returns a direction across a path: level, or to the left of an upright one.
-pub(super) fn across(way: DVec3) -> DVec3 {
-    if way.y.abs() > 0.9 {
+pub(super) fn across(direction: DVec3) -> DVec3 {
+    if direction.y.abs() > 0.9 {
         DVec3::X
     } else {
-        DVec3::Y.cross(way).normalize_or(DVec3::X)
+        DVec3::Y.cross(direction).normalize_or(DVec3::X)
     }
 }
 

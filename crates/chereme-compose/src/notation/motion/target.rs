@@ -122,7 +122,7 @@ impl Planner<'_> {
         who: Who,
     ) -> bool {
         let straight = |motion: &Motion| match &motion.kind {
-            MotionKind::Directed(way) => way.curve.is_none() && way.zigzag.is_none(),
+            MotionKind::Directed(path) => path.curve.is_none() && path.zigzag.is_none(),
             _ => false,
         };
         let least = 0.5 * self.language.move_small * self.stage.arm;
@@ -142,9 +142,9 @@ impl Planner<'_> {
         let mut events = self.plan.events[n].iter_mut().rev();
         let last = events.find(|event| matches!(event.act, Act::Move(_)));
         if let Some(event) = last.filter(|event| (event.from - time).abs() < 1e-9)
-            && let Act::Move(Path::Line(way)) = event.act
+            && let Act::Move(Path::Line(displacement)) = event.act
         {
-            event.act = Act::Move(Path::Late(way));
+            event.act = Act::Move(Path::Late(displacement));
         }
     }
 
