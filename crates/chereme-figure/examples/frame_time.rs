@@ -19,8 +19,8 @@ mod signer;
 /// Returns the time on this thread's processor clock if the system has one, else the elapsed time: on a busy machine
 /// only the first measures drawing.
 fn now(begun: Instant) -> Duration {
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let used = told.and_then(|text| text.split(' ').next()?.parse().ok());
+    let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let used = statistics.and_then(|text| text.split(' ').next()?.parse().ok());
     used.map_or_else(|| begun.elapsed(), Duration::from_nanos)
 }
 

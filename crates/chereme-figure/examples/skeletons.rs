@@ -150,12 +150,12 @@ fn raised(clip: &Clip) -> Result<Clip, Box<dyn Error>> {
         for side in Side::BOTH {
             let name = if side == Side::Right { "Right" } else { "Left" };
             let out = DVec3::X * side.sign();
-            let way = |to: [f64; 3]| {
+            let direction = |to: [f64; 3]| {
                 let [aside, up, front] = to;
                 DVec3::new(aside * side.sign(), up, front).normalize()
             };
-            let upper = DQuat::from_rotation_arc(out, way([0.75, 0.5, 0.35]));
-            let lower = DQuat::from_rotation_arc(out, way([-0.75, 0.35, 0.45]));
+            let upper = DQuat::from_rotation_arc(out, direction([0.75, 0.5, 0.35]));
+            let lower = DQuat::from_rotation_arc(out, direction([-0.75, 0.35, 0.45]));
             let mut set = |part: &str, turn: DQuat| {
                 if let Some(joint) = skeleton.find(&format!("{name}{part}")) {
                     own.rotations[joint] = turn;

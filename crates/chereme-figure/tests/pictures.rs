@@ -45,13 +45,13 @@ fn inked(image: &Image, theme: Theme) -> usize {
 #[test]
 fn a_sheet_has_a_cell_a_view_and_frame_and_the_same_bytes_twice() {
     let (clip, anatomy) = clip();
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     let mut progress = |done, total| {
-        told.push((done, total));
+        reported.push((done, total));
         ControlFlow::Continue(())
     };
     let first = contact_sheet(&clip, &anatomy, &small(), &mut progress).expect("a sheet");
-    assert_eq!(told, (0..6).map(|done| (done, 6)).collect::<Vec<_>>());
+    assert_eq!(reported, (0..6).map(|done| (done, 6)).collect::<Vec<_>>());
     let files = [
         first.clone(),
         contact_sheet(&clip, &anatomy, &small(), &mut go).expect("again"),
@@ -540,8 +540,8 @@ fn an_animation_at_no_speed_or_of_endless_length_is_refused() {
             ..AnimationOptions::default()
         };
         let refused = Animation::new(&clip, &anatomy, options).err();
-        let told = refused.map(|error| error.to_string()).unwrap_or_default();
-        assert!(told.contains("from 0.05 to 20"), "{speed}: {told}");
+        let message = refused.map(|error| error.to_string()).unwrap_or_default();
+        assert!(message.contains("from 0.05 to 20"), "{speed}: {message}");
     }
     let long = clip.retimed(clip.rate(), 4_000_000 / 8, |_| {
         chereme_motion::Instant::ZERO
@@ -579,7 +579,7 @@ fn odd_first_frames_are_never_drawn_and_do_not_move_the_camera() {
 }
 
 /// Returns the example's clip with the root displaced in each frame.
-fn elsewhere(way: impl Fn(usize) -> DVec3) -> (Clip, Anatomy) {
+fn elsewhere(displacement: impl Fn(usize) -> DVec3) -> (Clip, Anatomy) {
     let (clip, anatomy) = clip();
     let (skeleton, rate) = (clip.skeleton().clone(), clip.rate());
     let mut channels = clip.clone().into_channels();
@@ -588,7 +588,7 @@ fn elsewhere(way: impl Fn(usize) -> DVec3) -> (Clip, Anatomy) {
         .translations
         .get_or_insert_with(|| vec![offset; clip.frames()]);
     for (frame, place) in places.iter_mut().enumerate() {
-        *place += way(frame);
+        *place += displacement(frame);
     }
     (
         Clip::new(skeleton, rate, channels).expect("a clip"),

@@ -54,7 +54,7 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<HnsSign>, Vec<Finding>), Error> {
     let mut entries = Vec::new();
     for (line, text) in (1..).zip(text.lines()) {
         if mended(text).is_some() {
-            findings.add("symbols in a wrong encoding", || tell_mended(line));
+            findings.add("symbols in a wrong encoding", || mended_finding(line));
         }
         let text = &*in_plain_symbols(text);
         match begin(text) {
@@ -86,7 +86,7 @@ pub fn holds_some(bytes: &[u8]) -> bool {
 }
 
 /// Returns the finding which reports that symbols were mended.
-pub(crate) fn tell_mended(line: u64) -> Finding {
+pub(crate) fn mended_finding(line: u64) -> Finding {
     Finding::note(
         line,
         "HamNoSys had been saved as UTF-8 and read as Latin-1 or Windows-1252; its symbols were mended",
@@ -144,12 +144,12 @@ fn entry(line: u64, (gloss, text): (&str, &str), findings: &mut Findings) -> Hns
     for found in read.findings {
         findings.add("odd symbols", || {
             let message = format!("symbol {}: {}", found.index, found.message);
-            let told = if found.dropped {
+            let finding = if found.dropped {
                 Finding::warning(line, message)
             } else {
                 Finding::note(line, message)
             };
-            told.with_remedy(found.remedy)
+            finding.with_remedy(found.remedy)
         });
     }
     HnsSign {
@@ -171,14 +171,14 @@ mod tests {
 
     fn glosses(text: &str) -> Vec<(u64, String, String)> {
         let (entries, _) = read(text.as_bytes()).expect("read");
-        let told = |entry: HnsSign| {
+        let fields = |entry: HnsSign| {
             (
                 entry.line,
                 entry.sign.gloss,
                 entry.sign.text.unwrap_or_default(),
             )
         };
-        entries.into_iter().map(told).collect()
+        entries.into_iter().map(fields).collect()
     }
 
     #[test]
@@ -231,20 +231,20 @@ mod tests {
         let (entries, findings) =
             read(b"a title\nA\thamfist hamextfingeru hampalml hamparend\nB\t\n").expect("read");
         assert_eq!(entries.len(), 1);
-        let told: Vec<_> = findings
+        let reported: Vec<_> = findings
             .iter()
             .map(|it| (it.line, it.message.as_str()))
             .collect();
-        assert_eq!(told.len(), 3, "{told:?}");
+        assert_eq!(reported.len(), 3, "{reported:?}");
         assert_eq!(
-            told[0],
+            reported[0],
             (Some(1), "the line holds no HamNoSys; it was left out")
         );
         assert!(
-            told[1].0 == Some(2) && told[1].1.starts_with("symbol 3"),
-            "{told:?}"
+            reported[1].0 == Some(2) && reported[1].1.starts_with("symbol 3"),
+            "{reported:?}"
         );
-        assert_eq!(told[2].0, Some(3));
+        assert_eq!(reported[2].0, Some(3));
         assert_eq!(read(b"nothing of the kind\n"), Err(Error::Nothing));
         assert_eq!(read(b""), Err(Error::Nothing));
         assert_eq!(read(b"A\n\0"), Err(Error::NotText { line: 2 }));

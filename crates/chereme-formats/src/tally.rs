@@ -4,12 +4,12 @@ use crate::finding::Finding;
 use std::collections::BTreeMap;
 
 /// The number of findings of one kind that are reported one by one.
-const TOLD: u64 = 20;
+const LISTED: u64 = 20;
 
 /// Collects findings; of each kind only the first few are reported one by one, and the rest are counted.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
-    told: Vec<Finding>,
+    listed: Vec<Finding>,
     kinds: BTreeMap<&'static str, u64>,
 }
 
@@ -17,7 +17,7 @@ impl Findings {
     /// Adds the finding from `make`, unless enough of its `kind` have been reported.
     pub(crate) fn add(&mut self, kind: &'static str, make: impl FnOnce() -> Finding) {
         if self.counts(kind) {
-            self.told.push(make());
+            self.listed.push(make());
         }
     }
 
@@ -25,22 +25,22 @@ impl Findings {
     pub(crate) fn counts(&mut self, kind: &'static str) -> bool {
         let count = self.kinds.entry(kind).or_default();
         *count += 1;
-        *count <= TOLD
+        *count <= LISTED
     }
 
     /// Adds a finding that was counted.
     pub(crate) fn push(&mut self, finding: Finding) {
-        self.told.push(finding);
+        self.listed.push(finding);
     }
 
     /// Returns the findings in their order, and the counts of the unreported ones.
     pub(crate) fn finish(mut self) -> Vec<Finding> {
-        for (kind, count) in self.kinds.iter().filter(|(_, count)| **count > TOLD) {
-            self.told.push(Finding::warning(
+        for (kind, count) in self.kinds.iter().filter(|(_, count)| **count > LISTED) {
+            self.listed.push(Finding::warning(
                 None,
-                format!("{} more: {kind}", count - TOLD),
+                format!("{} more: {kind}", count - LISTED),
             ));
         }
-        self.told
+        self.listed
     }
 }

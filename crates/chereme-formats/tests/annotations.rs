@@ -165,8 +165,8 @@ fn whole_numbers_too_long_for_seconds_are_refused_and_others_are_not() {
     ] {
         let text = format!("tier,start,end,value\n{rows}");
         let read = read(text.as_bytes(), None);
-        let told = matches!(&read, Err(error @ TableError::Implausible { .. }) if error.to_string().contains("start_ms"));
-        assert_eq!(told, refused, "{rows}: {read:?}");
+        let implausible = matches!(&read, Err(error @ TableError::Implausible { .. }) if error.to_string().contains("start_ms"));
+        assert_eq!(implausible, refused, "{rows}: {read:?}");
     }
 }
 

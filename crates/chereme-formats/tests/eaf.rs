@@ -98,11 +98,11 @@ fn written(document: &Document<'_>) -> String {
 }
 
 fn check(text: &str, expected: &str, findings: &[&str]) {
-    check_one_way(text, expected, findings);
+    check_reading(text, expected, findings);
     comes_back(text.as_bytes());
 }
 
-fn check_one_way(text: &str, expected: &str, findings: &[&str]) {
+fn check_reading(text: &str, expected: &str, findings: &[&str]) {
     let (document, mut found) = raw::read(text.as_bytes()).expect("a document");
     let (transcript, more) = from_raw(&document);
     found.extend(more);
@@ -252,7 +252,7 @@ fn duplicate_tiers_and_ids_are_renamed_and_reported() {
 
 #[test]
 fn cyclic_references_are_cut() {
-    check_one_way(
+    check_reading(
         &eaf(
             "ts1=0 ts2=100",
             &(tier("p in q", "a1:ts1-ts2=x")
@@ -272,7 +272,7 @@ fn cyclic_references_are_cut() {
 
 #[test]
 fn odd_times_are_corrected_and_reported() {
-    check_one_way(
+    check_reading(
         &eaf(
             "ts1=100 ts2=0 ts3=50 ts4=x ts5=60 ts6=70 ts7",
             &tier(
@@ -294,7 +294,7 @@ fn odd_times_are_corrected_and_reported() {
 #[test]
 fn a_subdivision_with_a_gap_is_reported() {
     let above = tier("top root", "a1:ts1-ts4=x");
-    for (divided, told) in [
+    for (divided, reported) in [
         ("a2:ts1-ts2=p a3:ts2-ts4=q", false),
         ("a2:ts1-ts2=p a3:ts3-ts4=q", true),
         ("a2:ts2-ts4=p", true),
@@ -307,7 +307,11 @@ fn a_subdivision_with_a_gap_is_reported() {
         let (document, _) = raw::read(text.as_bytes()).expect("a document");
         let (_, findings) = from_raw(&document);
         let gap = |it: &chereme_formats::Finding| it.message.contains("part of annotation \"a1\"");
-        assert_eq!(findings.iter().any(gap), told, "{divided}: {findings:?}");
+        assert_eq!(
+            findings.iter().any(gap),
+            reported,
+            "{divided}: {findings:?}"
+        );
     }
 }
 

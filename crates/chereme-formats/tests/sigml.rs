@@ -16,10 +16,13 @@ fn document(manual: &str) -> String {
 fn part(manual: &str) -> (Manual, Vec<String>) {
     let (mut signs, findings) = sigml::read(document(manual).as_bytes()).expect("it is SiGML");
     let line = |line: Option<u64>| line.map_or_else(String::new, |line| line.to_string());
-    let told = findings
+    let reported = findings
         .iter()
         .map(|finding| format!("{}: {}", line(finding.line), finding.message));
-    (signs.remove(0).sign.sign.parts.remove(0), told.collect())
+    (
+        signs.remove(0).sign.sign.parts.remove(0),
+        reported.collect(),
+    )
 }
 
 #[test]
@@ -46,9 +49,9 @@ fn a_sign_is_read_with_every_attribute() {
         (Some(1.2), Some(2.0), Some(0.5))
     );
     assert_eq!(sign.sign_language.as_deref(), Some("dse"));
-    let told: Vec<_> = findings.iter().map(|f| (f.line, &f.message[..])).collect();
+    let reported: Vec<_> = findings.iter().map(|f| (f.line, &f.message[..])).collect();
     assert_eq!(
-        told,
+        reported,
         [
             (
                 Some(1),
@@ -83,7 +86,7 @@ fn a_sign_is_read_with_every_attribute() {
 
 #[test]
 fn deviations_are_read_and_reported_with_their_line() {
-    for (manual, told) in [
+    for (manual, reported) in [
         (
             r#"<handconfig extfidir="uuo"/>"#,
             r#"4: extfidir="uuo" was read as "uo""#,
@@ -230,16 +233,16 @@ fn deviations_are_read_and_reported_with_their_line() {
             "4: <nonmanualconfig> names no part of the body; it was left out",
         ),
     ] {
-        assert_eq!(part(manual).1, [told], "{manual}");
+        assert_eq!(part(manual).1, [reported], "{manual}");
     }
 }
 
 #[test]
 fn a_location_inside_a_motion_means_brushing() {
-    let (part, told) = part(
+    let (part, reported) = part(
         r#"<circularmotion axis="o" fast="true"><location_hand location="handback" contact="touch"/></circularmotion>"#,
     );
-    assert!(told.is_empty(), "{told:?}");
+    assert!(reported.is_empty(), "{reported:?}");
     let MotionKind::Target {
         motion: Some(motion),
         posture,
@@ -267,9 +270,9 @@ fn symbols_are_read_and_written() {
 </hns_sign>
 </sigml>"#;
     let (signs, findings) = sigml::read(text).expect("it is SiGML");
-    let told: Vec<_> = findings.iter().map(|f| (f.line, &f.message[..])).collect();
+    let reported: Vec<_> = findings.iter().map(|f| (f.line, &f.message[..])).collect();
     assert_eq!(
-        told,
+        reported,
         [
             (
                 Some(3),

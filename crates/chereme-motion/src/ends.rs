@@ -203,8 +203,8 @@ pub fn activity(clip: &Clip, anatomy: &Anatomy) -> Option<Range<usize>> {
         let near = frame.saturating_sub(step).max(ends.sound.start)
             ..(frame + step + 1).min(ends.sound.end);
         let (first, last) = (poses.get(near.start)?, poses.get(near.end.checked_sub(1)?)?);
-        let way = last.wrists[side]?.distance(first.wrists[side]?);
-        Some(way * clip.rate().per_second() / (near.len() - 1).max(1) as f64)
+        let distance = last.wrists[side]?.distance(first.wrists[side]?);
+        Some(distance * clip.rate().per_second() / (near.len() - 1).max(1) as f64)
     };
     let idle = |frame: usize| {
         (0..2).all(|side| match poses[frame].low[side] {
@@ -328,9 +328,9 @@ impl Looks<'_> {
             let [shoulder, elbow, wrist] =
                 [arm.upper, arm.forearm, arm.hand].map(|joint| model.position(joint));
             let length = shoulder.distance(elbow) + elbow.distance(wrist);
-            let way = wrist - shoulder;
-            way.length() > TEE.0 * length
-                && way.normalize_or_zero().dot(trunk.left * side.sign()) > TEE.1
+            let reach = wrist - shoulder;
+            reach.length() > TEE.0 * length
+                && reach.normalize_or_zero().dot(trunk.left * side.sign()) > TEE.1
         })
     }
 
@@ -369,8 +369,8 @@ impl Looks<'_> {
     /// Returns whether a hand jumps from the last frame of a bind pose to the next.
     fn unbinds(&self, bound: usize) -> bool {
         let (a, b) = (self.at(bound - 1), self.at(bound));
-        let ways = (0..2).filter_map(|side| Some(a.wrists[side]?.distance(b.wrists[side]?)));
-        ways.fold(0.0, f64::max) > UNBIND
+        let distances = (0..2).filter_map(|side| Some(a.wrists[side]?.distance(b.wrists[side]?)));
+        distances.fold(0.0, f64::max) > UNBIND
     }
 }
 
@@ -468,12 +468,12 @@ mod tests {
         for (want, change, sound) in cases {
             let (clip, anatomy) = clip(change);
             let ends = Ends::of(&clip, &anatomy);
-            let told: Vec<String> = ends.odd.iter().map(ToString::to_string).collect();
-            assert_eq!(ends.sound, sound, "{want}: {told:?}");
-            let told = told.join("; ");
+            let texts: Vec<String> = ends.odd.iter().map(ToString::to_string).collect();
+            assert_eq!(ends.sound, sound, "{want}: {texts:?}");
+            let text = texts.join("; ");
             assert!(
-                told.starts_with(want) && told.is_empty() == want.is_empty(),
-                "{told}"
+                text.starts_with(want) && text.is_empty() == want.is_empty(),
+                "{text}"
             );
         }
     }

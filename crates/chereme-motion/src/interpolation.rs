@@ -76,10 +76,14 @@ mod tests {
 
     #[test]
     fn speed_profiles_equal_their_end_points_and_published_values() {
-        for way in Interpolation::ALL {
-            assert_eq!(way.share(0.0), 0.0, "{}", way.name());
-            assert_eq!(way.share(1.0), 1.0, "{}", way.name());
-            assert!((way.share(0.5) - 0.5).abs() < 1e-12, "{}", way.name());
+        for interpolation in Interpolation::ALL {
+            assert_eq!(interpolation.share(0.0), 0.0, "{}", interpolation.name());
+            assert_eq!(interpolation.share(1.0), 1.0, "{}", interpolation.name());
+            assert!(
+                (interpolation.share(0.5) - 0.5).abs() < 1e-12,
+                "{}",
+                interpolation.name()
+            );
         }
         let printed = |w: f64| 1.0 / (1.0 + (-10.0 * (w - 0.5f64)).exp());
         assert!((printed(0.0) - 0.0067).abs() < 5e-5 && (printed(1.0) - 0.9933).abs() < 5e-5);
@@ -91,8 +95,8 @@ mod tests {
     #[test]
     fn minimum_jerk_peaks_at_fifteen_eighths_of_the_mean_speed() {
         let h = 1e-6;
-        let way = Interpolation::MinimumJerk;
-        let speed = (way.share(0.5 + h) - way.share(0.5 - h)) / (2.0 * h);
+        let interpolation = Interpolation::MinimumJerk;
+        let speed = (interpolation.share(0.5 + h) - interpolation.share(0.5 - h)) / (2.0 * h);
         assert!((speed - 1.875).abs() < 1e-6);
     }
 
@@ -107,12 +111,12 @@ mod tests {
             prop_assume!(axis.length() > 0.1);
             let a = DQuat::from_rotation_x(0.3);
             let b = a * DQuat::from_axis_angle(axis.normalize(), angle);
-            for way in Interpolation::ALL {
-                let q = way.rotation(a, b, w);
+            for interpolation in Interpolation::ALL {
+                let q = interpolation.rotation(a, b, w);
                 prop_assert!(q.is_normalized());
                 let along = a.angle_between(q) + q.angle_between(b);
                 prop_assert!((along - a.angle_between(b)).abs() < 1e-6);
-                prop_assert!(q.angle_between(way.rotation(b, a, 1.0 - w)) < 1e-6);
+                prop_assert!(q.angle_between(interpolation.rotation(b, a, 1.0 - w)) < 1e-6);
             }
         }
     }

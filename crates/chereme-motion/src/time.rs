@@ -426,7 +426,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(256))]
 
         #[test]
-        fn frames_convert_both_ways_up_to_1_khz(
+        fn frames_convert_in_both_directions_up_to_1_khz(
             frames in 1u32..=1_000_000, seconds in 1u32..=2000, frame in 0usize..10_000_000
         ) {
             prop_assume!(frames <= seconds * 1000);

@@ -161,7 +161,7 @@ impl Inventory {
 
     /// Returns whether every text names a value, and texts that differ only in case or accents name different values.
     #[must_use]
-    pub fn tells_apart<'t>(&self, texts: impl IntoIterator<Item = &'t str>) -> bool {
+    pub fn distinguishes<'t>(&self, texts: impl IntoIterator<Item = &'t str>) -> bool {
         let mut meant: BTreeMap<(String, &str), &str> = BTreeMap::new();
         texts.into_iter().all(|text| {
             let found = self.find(text);

@@ -159,7 +159,7 @@ fn store_inventories(job: &mut Job<'_>, table: &Lexicon) -> Result<BTreeMap<Inve
         };
         let complete = job.inventories.iter().find(|stored| {
             let values = used.values.keys().map(String::as_str);
-            same(&stored.inventory) && stored.inventory.tells_apart(values)
+            same(&stored.inventory) && stored.inventory.distinguishes(values)
         });
         let (row, inventory) = match complete {
             Some(stored) => (stored.id, stored.inventory.clone()),

@@ -36,10 +36,10 @@ fn eye(mesh: &mut Mesh, features: &Features, sign: f32, side: usize, palette: &P
     let grid = Grid::new(20, RINGS.len());
     let centre = BALL.0 * Vec3::new(sign, 1.0, 1.0);
     let base = mesh.vertices.len() as u32;
-    let mut add = |way: Vec3, colour: Colour| {
+    let mut add = |direction: Vec3, colour: Colour| {
         mesh.vertices.push(Vertex {
-            position: centre + turn * way * BALL.1,
-            normal: turn * way,
+            position: centre + turn * direction * BALL.1,
+            normal: turn * direction,
             colour,
             group: group::HEAD,
         });

@@ -129,9 +129,9 @@ impl Canon {
         // The hairline, then the nose, then the rest.
         for k in 0..44 {
             let around = TAU * k as f32 / 44.0;
-            let way = Vec3::new(around.sin(), hairline(around), around.cos());
+            let outward = Vec3::new(around.sin(), hairline(around), around.cos());
             let flat = Vec3::new(around.sin(), 0.0, around.cos());
-            let at = level(field, flat, way.y);
+            let at = level(field, flat, outward.y);
             places.push((at, FacePart::Skin));
         }
         for k in 0..32 {
@@ -335,15 +335,15 @@ fn orient(triangles: &mut [[u32; 3]], knots: &[Knot]) {
 /// Returns a place in the plane on which the net is built: the direction from the middle of the head, by its angle from
 /// straight ahead.
 fn flat(at: Vec3) -> DVec2 {
-    let way = (at - MIDDLE).as_dvec3().normalize();
-    let angle = way.z.clamp(-1.0, 1.0).acos();
-    DVec2::new(way.x, way.y).normalize_or_zero() * angle
+    let outward = (at - MIDDLE).as_dvec3().normalize();
+    let angle = outward.z.clamp(-1.0, 1.0).acos();
+    DVec2::new(outward.x, outward.y).normalize_or_zero() * angle
 }
 
 fn direction(at: Vec2) -> Vec3 {
     let angle = at.length();
-    let way = at.normalize_or_zero();
-    Vec3::new(way.x * angle.sin(), way.y * angle.sin(), angle.cos())
+    let around = at.normalize_or_zero();
+    Vec3::new(around.x * angle.sin(), around.y * angle.sin(), angle.cos())
 }
 
 /// Returns the point of the surface in a direction from the middle of the head.

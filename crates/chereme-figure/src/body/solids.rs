@@ -85,13 +85,16 @@ pub(super) fn grown(solids: &[Solid], width: f32, point: Vec3) -> f32 {
 
 /// Returns the outward direction of a field at a point.
 pub(super) fn slope(field: &dyn Fn(Vec3) -> f32, point: Vec3, step: f32) -> Vec3 {
-    let way = [
+    let directions = [
         Vec3::new(1.0, -1.0, -1.0),
         Vec3::new(-1.0, -1.0, 1.0),
         Vec3::new(-1.0, 1.0, -1.0),
         Vec3::new(1.0, 1.0, 1.0),
     ];
-    let sum: Vec3 = way.iter().map(|&way| way * field(point + way * step)).sum();
+    let sum: Vec3 = directions
+        .iter()
+        .map(|&direction| direction * field(point + direction * step))
+        .sum();
     sum.normalize_or(Vec3::Y)
 }
 

@@ -35,11 +35,11 @@ pub fn from_raw(document: &Document<'_>) -> (Transcript, Vec<Finding>) {
 pub(super) fn from_raw_placed(
     document: &Document<'_>,
 ) -> (Transcript, Vec<Option<AnnotationAddress>>, Vec<Finding>) {
-    let (resolved, mut told) = resolve(document);
+    let (resolved, mut reported) = resolve(document);
     let mut findings = Findings::default();
     let times = SlotTimes::new(document, &resolved, &mut findings);
     let (tiers, places) = Tiers::new(document, &resolved, &times).convert(&mut findings);
-    told.extend(findings.finish());
+    reported.extend(findings.finish());
     let transcript = Transcript {
         author: document.author.to_string(),
         date: document.date.to_string(),
@@ -64,7 +64,7 @@ pub(super) fn from_raw_placed(
         tiers,
         vocabularies: vocabularies(document),
     };
-    (transcript, places, told)
+    (transcript, places, reported)
 }
 
 /// Returns the controlled vocabularies of a document, for example of an `.ecv` file.

@@ -312,11 +312,11 @@ impl<'a> Cursor<'a> {
             } else {
                 format!("&{name};")
             };
-            let told = shown(&written);
+            let text = shown(&written);
             self.find("unknown references", |line| {
                 Finding::warning(
                     line,
-                    format!("{told} is unknown; it was kept as it is written"),
+                    format!("{text} is unknown; it was kept as it is written"),
                 )
                 .with_remedy("write &amp; for an ampersand")
             });

@@ -50,15 +50,15 @@ impl Reach {
         sorted.sort_by(f64::total_cmp);
         let rest = *sorted.get(sorted.len() / 2)?;
         let far = |sign: f64| {
-            let mut way: Vec<f64> = values.iter().map(|it| sign * (it - rest)).collect();
-            let most = way.iter().copied().fold(0.0, f64::max);
+            let mut deviations: Vec<f64> = values.iter().map(|it| sign * (it - rest)).collect();
+            let most = deviations.iter().copied().fold(0.0, f64::max);
             if most < LEAST {
                 return None;
             }
-            way.retain(|it| *it >= ACTIVE * most);
-            way.sort_by(f64::total_cmp);
-            let at = (REACH * (way.len() - 1) as f64).round() as usize;
-            Some(way[at].max(1.0 / MOST))
+            deviations.retain(|it| *it >= ACTIVE * most);
+            deviations.sort_by(f64::total_cmp);
+            let at = (REACH * (deviations.len() - 1) as f64).round() as usize;
+            Some(deviations[at].max(1.0 / MOST))
         };
         let opposite = Face::least(position) < 0.0;
         Some(Self {
@@ -76,8 +76,8 @@ impl Reach {
 
     fn apply(&self, value: f64) -> f64 {
         let [up, down] = self.factors();
-        let way = value - self.rest;
-        way * if way >= 0.0 { up } else { down }
+        let deviation = value - self.rest;
+        deviation * if deviation >= 0.0 { up } else { down }
     }
 }
 

@@ -59,9 +59,10 @@ fn every_face_system_is_complete() {
             assert!(Face::position(name).is_some(), "{id}: {name}");
         }
         for name in Face::NAMES {
-            let told = system.house.contains_key(name) ^ system.unknown.iter().any(|it| it == name);
+            let listed =
+                system.house.contains_key(name) ^ system.unknown.iter().any(|it| it == name);
             assert!(
-                told || system.expressions,
+                listed || system.expressions,
                 "{id} says nothing about {name}, or both"
             );
         }

@@ -329,15 +329,15 @@ fn files_of_others_are_read_or_refused_with_the_reason() {
 
 /// A figure with hips, arms, legs and hands in a pose that is no T-pose.
 fn figure() -> Skeleton {
-    let side = |name: &str, way: f64| {
+    let side = |name: &str, sign: f64| {
         let joint = move |part: &str, parent: usize, offset: DVec3| {
             Joint::new(format!("{name}{part}"), Some(parent), offset)
         };
         [
-            joint("Arm", 2, DVec3::new(0.2 * way, 0.1, 0.0)),
+            joint("Arm", 2, DVec3::new(0.2 * sign, 0.1, 0.0)),
             joint("ForeArm", 0, DVec3::new(0.0, -0.3, 0.0)),
             joint("Hand", 0, DVec3::new(0.0, -0.25, 0.05)),
-            joint("UpLeg", 0, DVec3::new(0.1 * way, -0.1, 0.0)),
+            joint("UpLeg", 0, DVec3::new(0.1 * sign, -0.1, 0.0)),
             joint("Leg", 0, DVec3::new(0.0, -0.4, 0.05)),
             joint("Foot", 0, DVec3::new(0.0, -0.4, 0.0)),
         ]
@@ -349,9 +349,9 @@ fn figure() -> Skeleton {
         Joint::new("Neck", Some(2), DVec3::Y * 0.2),
         Joint::new("Head", Some(3), DVec3::Y * 0.1),
     ];
-    for (name, way) in [("Left", 1.0), ("Right", -1.0)] {
+    for (name, sign) in [("Left", 1.0), ("Right", -1.0)] {
         let first = joints.len();
-        for (at, mut joint) in side(name, way).into_iter().enumerate() {
+        for (at, mut joint) in side(name, sign).into_iter().enumerate() {
             if [1, 2, 4, 5].contains(&at) {
                 joint.parent = Some(first + at - 1);
             }
@@ -367,10 +367,10 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
     let anatomy = chereme_motion::Anatomy::detect(&skeleton);
     let rest = vrma::t_pose(&skeleton, &anatomy);
     let at = |name: &str| skeleton.find(name).expect("a joint");
-    for (name, way) in [("Left", DVec3::X), ("Right", -DVec3::X)] {
+    for (name, direction) in [("Left", DVec3::X), ("Right", -DVec3::X)] {
         for (from, to, want) in [
-            ("Arm", "ForeArm", way),
-            ("ForeArm", "Hand", way),
+            ("Arm", "ForeArm", direction),
+            ("ForeArm", "Hand", direction),
             ("UpLeg", "Leg", -DVec3::Y),
         ] {
             let [from, to] = [from, to].map(|part| rest.position(at(&format!("{name}{part}"))));

@@ -231,9 +231,9 @@ pub fn t_pose(skeleton: &Skeleton, anatomy: &Anatomy) -> ModelPose {
     let mut model = ModelPose::of(skeleton, &pose);
     let joint = |part: Part| anatomy.joint(part);
     let mut aims: Vec<(usize, usize, DVec3)> = Vec::new();
-    let mut aim = |from: Option<usize>, to: Option<usize>, way: DVec3| {
+    let mut aim = |from: Option<usize>, to: Option<usize>, direction: DVec3| {
         if let (Some(from), Some(to)) = (from, to) {
-            aims.push((from, to, way));
+            aims.push((from, to, direction));
         }
     };
     for side in [Side::Left, Side::Right] {
@@ -280,14 +280,14 @@ pub fn t_pose(skeleton: &Skeleton, anatomy: &Anatomy) -> ModelPose {
         pose.rotations[from] = (above.inverse() * by * model.rotation(from)).normalize();
         model.set(skeleton, pose);
     };
-    for (from, to, way) in aims {
+    for (from, to, direction) in aims {
         let now = (model.position(to) - model.position(from)).normalize_or_zero();
         if now != DVec3::ZERO {
             turn_by(
                 &mut pose,
                 &mut model,
                 from,
-                DQuat::from_rotation_arc(now, way),
+                DQuat::from_rotation_arc(now, direction),
             );
         }
         // A palm faces down if the knuckle of the index is in front.

@@ -260,7 +260,7 @@ pub(super) fn meanings(
             });
         }
     }
-    tell_attributes(&columns, findings);
+    report_attributes(&columns, findings);
     columns
 }
 
@@ -279,7 +279,7 @@ fn gloss_column(columns: &[Column]) -> Option<usize> {
 }
 
 /// Reports the columns that become attributes, all in one finding.
-fn tell_attributes(columns: &[Column], findings: &mut Findings) {
+fn report_attributes(columns: &[Column], findings: &mut Findings) {
     const NAMED: usize = 12;
     let guessed =
         |column: &&Column| column.meaning == Meaning::Attribute && column.confidence < 1.0;

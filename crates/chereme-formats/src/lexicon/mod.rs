@@ -27,7 +27,7 @@ use chereme_sign::Remedy;
 pub use columns::{Column, Meaning};
 
 use crate::finding::Finding;
-use crate::hns::{holds_symbols, tell_mended};
+use crate::hns::{holds_symbols, mended_finding};
 use crate::roles::{Hands, Mapping};
 use crate::table::{Cells, Row, TableError};
 use crate::tally::Findings;
@@ -178,7 +178,7 @@ pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), 
             column.meaning == Meaning::Notation && mended(cell).is_some()
         };
         if columns.iter().zip(&row.cells).any(garbled) {
-            findings.add("symbols in a wrong encoding", || tell_mended(line));
+            findings.add("symbols in a wrong encoding", || mended_finding(line));
         }
         entries.push(entry(row, gloss, &columns));
     }

@@ -25,8 +25,8 @@ pub fn read(input: &mut (impl Read + Seek)) -> Result<(Container, Vec<Finding>),
     }
     let end = places.last().map_or(0, |place| place.to);
     if broken {
-        let told = "the file does not end where its last box does; it may be cut short";
-        findings.push(Finding::warning(None, told));
+        let message = "the file does not end where its last box does; it may be cut short";
+        findings.push(Finding::warning(None, message));
     }
     let place = places.iter().find(|place| place.kind == *b"moov");
     let place = place.ok_or(Error::NoMovie)?;
@@ -59,8 +59,8 @@ pub fn read(input: &mut (impl Read + Seek)) -> Result<(Container, Vec<Finding>),
         return Err(Error::NoPictures(others));
     };
     if films.len() > 1 {
-        let told = format!("the file holds {} films; the first is shown", films.len());
-        findings.push(Finding::note(None, told));
+        let message = format!("the file holds {} films; the first is shown", films.len());
+        findings.push(Finding::note(None, message));
     }
     let mut film = track(*trak)?;
     let edit = edit(*trak, film.timescale, movie_scale, &mut findings)?;
@@ -98,11 +98,11 @@ pub fn read(input: &mut (impl Read + Seek)) -> Result<(Container, Vec<Finding>),
         });
     }
     if shape.beyond > 0 {
-        let told = format!(
+        let message = format!(
             "the file is cut short; frames beyond its end, which are left out: {}",
             shape.beyond
         );
-        findings.push(Finding::warning(None, told));
+        findings.push(Finding::warning(None, message));
     }
     film.frames = table::settled(shape);
     if film.frames.iter().all(|frame| frame.hidden) {

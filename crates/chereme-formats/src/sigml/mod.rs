@@ -46,8 +46,8 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<SigmlSign>, Vec<Finding>), Error> {
     };
     let (signs, more) = from_raw(&root)?;
     findings.extend(more);
-    if let Some((_, told)) = decoded {
-        findings.splice(0..0, told);
+    if let Some((_, reported)) = decoded {
+        findings.splice(0..0, reported);
     }
     Ok((signs, findings))
 }
@@ -85,7 +85,7 @@ fn in_utf8(bytes: &[u8]) -> Option<(String, Vec<Finding>)> {
     let end = text.find("?>").filter(|_| text.starts_with("<?xml"));
     let (declaration, rest) = text.split_at(end.map_or(0, |end| end + 2));
     let lines = "\n".repeat(declaration.matches('\n').count());
-    let told = findings.finish().into_iter().map(|finding| Finding {
+    let reported = findings.finish().into_iter().map(|finding| Finding {
         message: finding
             .message
             .replace(", so accents may be wrong", ", as it says"),
@@ -93,7 +93,7 @@ fn in_utf8(bytes: &[u8]) -> Option<(String, Vec<Finding>)> {
         severity: Severity::Note,
         ..finding
     });
-    Some((format!("{lines}{rest}"), told.collect()))
+    Some((format!("{lines}{rest}"), reported.collect()))
 }
 
 /// Writes signs as gestural SiGML, so that they read back equal.

@@ -52,10 +52,10 @@ impl<'a> Finder<'a> {
         let joints = skeleton.joints().iter();
         let names: Vec<&str> = joints.map(|joint| joint.name.as_str()).collect();
         let mut labels = names::read_all(&names);
-        let told: Vec<usize> = said.values().copied().flatten().collect();
+        let assigned: Vec<usize> = said.values().copied().flatten().collect();
         let mut markers = markers::find(skeleton, &names, &labels);
-        markers.retain(|joint| !told.contains(joint));
-        for joint in told.into_iter().chain(markers.iter().copied()) {
+        markers.retain(|joint| !assigned.contains(joint));
+        for joint in assigned.into_iter().chain(markers.iter().copied()) {
             labels[joint] = None;
         }
         let mut finder = Self {

@@ -147,12 +147,12 @@ fn trunk_and_neck(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> 
     if !anatomy.is_below(head, hips) {
         return None;
     }
-    let way = length(skeleton, head, hips);
+    let distance = length(skeleton, head, hips);
     let below = middle(anatomy, model, Part::Thigh).map_or(0.0, |thighs| {
         let up = (model.position(head) - model.position(hips)).normalize_or_zero();
         (model.position(hips) - thighs).dot(up)
     });
-    Some(way + below.clamp(0.0, 0.2 * way))
+    Some(distance + below.clamp(0.0, 0.2 * distance))
 }
 
 fn trunk_length(anatomy: &Anatomy, model: &ModelPose) -> Option<f64> {

@@ -185,11 +185,11 @@ impl Anatomy {
     }
 
     fn arms_stick_out(&self, model: &ModelPose, up: DVec3) -> bool {
-        let ways = Side::BOTH.map(|side| {
+        let directions = Side::BOTH.map(|side| {
             let arm = self.arm(side)?;
             (model.position(arm.forearm) - model.position(arm.upper)).try_normalize()
         });
-        let [Some(right), Some(left)] = ways else {
+        let [Some(right), Some(left)] = directions else {
             return false;
         };
         right.dot(left) > 0.9 && right.dot(up).abs() < 0.5

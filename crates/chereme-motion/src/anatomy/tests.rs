@@ -493,7 +493,7 @@ fn every_landmark_is_plausibly_placed_and_turns_with_body_and_head() {
 }
 
 #[test]
-fn body_space_converts_both_ways_and_distinguishes_left_from_right() {
+fn body_space_converts_in_both_directions_and_distinguishes_left_from_right() {
     let (skeleton, anatomy) = worn(PLAIN);
     let mut pose = skeleton.rest_pose();
     pose.rotations[0] = DQuat::from_rotation_y(std::f64::consts::PI);

@@ -126,8 +126,8 @@ impl Finder<'_> {
         }
         let up = up.normalize_or(DVec3::Y);
         let facing = toes.reject_from_normalized(up);
-        let told = facing.length() > 0.01 * at(arms.fork).distance(at(0));
-        let left = if told { up.cross(facing) } else { DVec3::X };
+        let sure = facing.length() > 0.01 * at(arms.fork).distance(at(0));
+        let left = if sure { up.cross(facing) } else { DVec3::X };
         for (pair, is_arm) in [(Some(arms), true), (legs, false)] {
             let Some(pair) = pair else { continue };
             let [a, b] = pair.limbs.map(|limb| end(self.skeleton, limb));
@@ -140,7 +140,7 @@ impl Finder<'_> {
                 } else {
                     Part::Thigh(side)
                 };
-                if let Some(taken) = self.joint(part).filter(|_| !told) {
+                if let Some(taken) = self.joint(part).filter(|_| !sure) {
                     self.ambiguous.push(Ambiguity {
                         part,
                         taken,
@@ -194,16 +194,16 @@ impl Finder<'_> {
             return;
         }
         let at = |joint| in_hand(self.skeleton, hand, joint).0;
-        let way = |chain: &[usize]| (at(chain[1]) - at(chain[0])).normalize_or_zero();
-        let mean = chains.iter().map(|chain| way(chain)).sum::<DVec3>();
+        let direction = |chain: &[usize]| (at(chain[1]) - at(chain[0])).normalize_or_zero();
+        let mean = chains.iter().map(|chain| direction(chain)).sum::<DVec3>();
         let farthest = chains.iter().map(|c| at(c[1]).length()).fold(0.0, f64::max);
         let apart = |chain: &[usize]| {
             let near = 1.0 - at(chain[1]).length() / farthest.max(f64::MIN_POSITIVE);
-            1.0 - way(chain).dot(mean.normalize_or_zero()) + near
+            1.0 - direction(chain).dot(mean.normalize_or_zero()) + near
         };
         chains.sort_by(|a, b| apart(b).total_cmp(&apart(a)));
         let thumb = at(end(self.skeleton, chains[0][0]));
-        let along = (mean - way(&chains[0])).normalize_or_zero();
+        let along = (mean - direction(&chains[0])).normalize_or_zero();
         let across = |chain: &[usize]| {
             let start = if self.starts_inside(chain) {
                 chain[1]

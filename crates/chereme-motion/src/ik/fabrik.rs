@@ -69,8 +69,8 @@ pub fn fabrik(points: &[DVec3], target: DVec3, options: &FabrikOptions) -> Resul
     let mut points = points.to_vec();
     let mut passes = 0;
     if root.distance(target) >= whole {
-        let way = (target - root).normalize_or(DVec3::X);
-        stretch(&mut points, &lengths, way);
+        let direction = (target - root).normalize_or(DVec3::X);
+        stretch(&mut points, &lengths, direction);
     } else {
         unbend_line(&mut points, target, whole, options.pole);
         while passes < options.passes && residual(&points, target) > options.tolerance {
@@ -90,10 +90,10 @@ fn residual(points: &[DVec3], target: DVec3) -> f64 {
     points.last().map_or(0.0, |end| end.distance(target))
 }
 
-fn stretch(points: &mut [DVec3], lengths: &[f64], way: DVec3) {
+fn stretch(points: &mut [DVec3], lengths: &[f64], direction: DVec3) {
     let mut at = points[0];
     for (point, length) in points[1..].iter_mut().zip(lengths) {
-        at += way * *length;
+        at += direction * *length;
         *point = at;
     }
 }

@@ -196,14 +196,14 @@ fn collar(
     let (root, turned) = placed(skeleton, pose, arm.clavicle?);
     let length = shoulder.distance(elbow) + elbow.distance(wrist);
     let enough = (share.max(0.0) * length).max(shoulder.distance(wrist));
-    let (bone, way) = (shoulder - root, target - root);
+    let (bone, to_target) = (shoulder - root, target - root);
     if shoulder.distance(target) <= enough || bone.length() <= 1e-9 * length {
         return None;
     }
-    let axis = bone.cross(way).try_normalize()?;
-    let (b, w) = (bone.length(), way.length());
+    let axis = bone.cross(to_target).try_normalize()?;
+    let (b, w) = (bone.length(), to_target.length());
     let cosine = (b * b + w * w - enough * enough) / (2.0 * b * w);
-    let wanted = bone.angle_between(way) - cosine.clamp(-1.0, 1.0).acos();
+    let wanted = bone.angle_between(to_target) - cosine.clamp(-1.0, 1.0).acos();
     let limit = options
         .clavicle_limit
         .clamp(0.0, std::f64::consts::FRAC_PI_2);

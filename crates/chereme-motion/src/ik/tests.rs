@@ -105,11 +105,11 @@ fn non_finite_numbers_and_zero_length_bones_are_errors() {
 fn the_end_lags_smoothly_behind_a_target_out_of_reach() {
     let [first, second] = lengths(ARM);
     let length = first + second;
-    let way = DVec3::new(0.6, 0.1, 0.3).normalize();
+    let direction = DVec3::new(0.6, 0.1, 0.3).normalize();
     let mut before = 0.0;
     for n in 0..2000 {
         let wanted = length * (0.95 + 0.0001 * f64::from(n));
-        let solved = solve(ARM, way * wanted);
+        let solved = solve(ARM, direction * wanted);
         keeps_lengths(ARM, &solved);
         let reached = solved.end.length();
         assert!(reached + 1e-12 >= before && reached <= length * (1.0 + 1e-12));
@@ -141,10 +141,10 @@ fn arms() -> impl Strategy<Value = [DVec3; 3]> {
         })
 }
 
-fn reachable(source: [DVec3; 3], way: DVec3, share: f64) -> DVec3 {
+fn reachable(source: [DVec3; 3], direction: DVec3, share: f64) -> DVec3 {
     let [first, second] = lengths(source);
     let (near, far) = ((first - second).abs(), (first + second) * 0.99);
-    source[0] + way.normalize_or(DVec3::Z) * (near + (far - near) * share)
+    source[0] + direction.normalize_or(DVec3::Z) * (near + (far - near) * share)
 }
 
 proptest! {
@@ -152,9 +152,9 @@ proptest! {
 
     #[test]
     fn the_end_meets_reachable_targets_and_lengths_and_swivel_are_kept(
-        source in arms(), way in vector(), share in 0.02f64..1.0
+        source in arms(), direction in vector(), share in 0.02f64..1.0
     ) {
-        let target = reachable(source, way, share);
+        let target = reachable(source, direction, share);
         let solved = solve(source, target);
         prop_assert!(solved.end.abs_diff_eq(target, 1e-9));
         keeps_lengths(source, &solved);
@@ -169,9 +169,9 @@ proptest! {
 
     #[test]
     fn rotated_mirrored_and_scaled_arms_are_solved_alike(
-        source in arms(), way in vector(), share in 0.02f64..1.2, axis in vector(), pole in vector()
+        source in arms(), direction in vector(), share in 0.02f64..1.2, axis in vector(), pole in vector()
     ) {
-        let target = reachable(source, way, share);
+        let target = reachable(source, direction, share);
         let solve = |map: &dyn Fn(DVec3) -> DVec3, pole: DVec3| {
             let options = TwoBoneOptions { pole: Some(pole), ..TwoBoneOptions::default() };
             two_bone(source.map(map), map(target), &options).expect("finite")
@@ -199,8 +199,8 @@ proptest! {
         let (near, far) = ((first - second).abs(), first + second);
         let line = (source[2] - source[0]).normalize();
         let at = |w: f64| {
-            let way = (a + (b - a) * w).normalize_or(line);
-            source[0] + way * (near + (far - near) * (0.2 + 0.6 * w))
+            let direction = (a + (b - a) * w).normalize_or(line);
+            source[0] + direction * (near + (far - near) * (0.2 + 0.6 * w))
         };
         let mut before: Option<(DVec3, DVec3)> = None;
         for n in 0..=400 {
@@ -221,8 +221,8 @@ proptest! {
     ) {
         let [root, middle, end] = source;
         let normal = (middle - root).cross(end - root).normalize();
-        let way = DQuat::from_axis_angle(normal, turn) * (end - root);
-        let target = reachable(source, way, share);
+        let direction = DQuat::from_axis_angle(normal, turn) * (end - root);
+        let target = reachable(source, direction, share);
         let exact = solve(source, target);
         let options = FabrikOptions { tolerance: 1e-10, passes: 20_000, pole: None };
         let chain = fabrik(&source, target, &options).expect("finite");
@@ -511,7 +511,7 @@ fn captured_arms_displaced_aside_stay_smooth() {
         let Some(length) = anatomy.measures().map(|m| m.arm) else {
             continue;
         };
-        for (side, way) in [
+        for (side, direction) in [
             (Side::Right, DVec3::new(0.3, 0.2, 0.2)),
             (Side::Left, DVec3::new(0.1, -0.2, 0.3)),
         ] {
@@ -526,7 +526,7 @@ fn captured_arms_displaced_aside_stay_smooth() {
                     continue;
                 };
                 let target = WristTarget {
-                    position: was.position(arm.hand) + body.direction_to_model(way * length),
+                    position: was.position(arm.hand) + body.direction_to_model(direction * length),
                     rotation: was.rotation(arm.hand),
                 };
                 let mut pose = source.clone();

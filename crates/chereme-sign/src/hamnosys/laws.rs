@@ -469,7 +469,7 @@ fn amount() -> impl Strategy<Value = Amount> + Clone {
 }
 
 fn simple() -> BoxedStrategy<MotionKind> {
-    let way = select(Direction::all().collect::<Vec<_>>());
+    let direction = select(Direction::all().collect::<Vec<_>>());
     let curve = (compass(), size()).prop_map(|(to, size)| Curve { to, size });
     let zigzag = (any::<bool>(), size(), growth()).prop_map(|(wavy, size, growth)| Zigzag {
         wavy,
@@ -491,8 +491,8 @@ fn simple() -> BoxedStrategy<MotionKind> {
             }
         });
     let directed = (
-        way.clone(),
-        option::of(way.clone()),
+        direction.clone(),
+        option::of(direction.clone()),
         amount(),
         option::of(curve),
         option::of(zigzag.clone()),
@@ -509,8 +509,8 @@ fn simple() -> BoxedStrategy<MotionKind> {
             })
         });
     let circular = (
-        way.clone(),
-        option::of(way),
+        direction.clone(),
+        option::of(direction),
         amount(),
         option::of((ellipse, size())),
         clock,

@@ -215,8 +215,8 @@ impl<'a> EditPlan<'a> {
     }
 
     fn check_free(&self, tier: TierId, annotation: Named, span: Span) -> Done {
-        let mut in_the_way = self.set.overlapping(tier, span).into_iter();
-        match in_the_way.find(|other| Some(other.id) != annotation.0) {
+        let mut obstacles = self.set.overlapping(tier, span).into_iter();
+        match obstacles.find(|other| Some(other.id) != annotation.0) {
             Some(other) => Err(overlap(tier, annotation, span, other).into()),
             None => Ok(()),
         }

@@ -32,7 +32,9 @@ pub(in crate::import) fn tier_inventory(
         .collect();
     let fits = |stored: &&StoredInventory| {
         let it = &stored.inventory;
-        it.component == *component && it.feature == *feature && it.tells_apart(said.iter().copied())
+        it.component == *component
+            && it.feature == *feature
+            && it.distinguishes(said.iter().copied())
     };
     let vocabulary = tier.vocabulary.as_ref().and_then(|id| {
         transcript
@@ -43,7 +45,7 @@ pub(in crate::import) fn tier_inventory(
     let builtin =
         |stored: &&StoredInventory| inventory::builtin_by_id(&stored.inventory.id).is_some();
     let listed = |stored: &&StoredInventory| {
-        vocabulary.is_none_or(|it| stored.inventory.tells_apart(entry_ids(it)))
+        vocabulary.is_none_or(|it| stored.inventory.distinguishes(entry_ids(it)))
     };
     let known = job
         .inventories

@@ -313,14 +313,14 @@ fn motion_element(motion: &Motion) -> Element<'static> {
 /// Returns a simple motion, with the place that it brushes along.
 fn brushing_element(motion: &Motion) -> Option<Element<'static>> {
     let MotionKind::Target {
-        motion: Some(way),
+        motion: Some(inner),
         posture,
     } = &motion.kind
     else {
         return None;
     };
     let simple = matches!(
-        way.kind,
+        inner.kind,
         MotionKind::Directed(_)
             | MotionKind::Circular(_)
             | MotionKind::Wrist { .. }
@@ -342,7 +342,7 @@ fn brushing_element(motion: &Motion) -> Option<Element<'static>> {
         return None;
     }
     *contact = Some(Contact::Touch);
-    let mut element = motion_element(way);
+    let mut element = motion_element(inner);
     element.children.push(place_element(&place));
     Some(element)
 }
@@ -408,12 +408,12 @@ fn write_zigzag(zigzag: Option<Zigzag>, element: &mut Element<'static>) {
 
 fn write_growth(name: &str, growth: Option<Growth>, element: &mut Element<'static>) {
     if let Some(growth) = growth {
-        let way = if growth.increasing {
+        let trend = if growth.increasing {
             "increasing"
         } else {
             "decreasing"
         };
-        element.set(name, way);
+        element.set(name, trend);
         element.word(&format!("{name}_size"), growth.size);
     }
 }

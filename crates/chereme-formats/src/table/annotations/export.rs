@@ -129,7 +129,7 @@ fn whole_lines(bytes: &[u8]) -> &[u8] {
 mod tests {
     use super::*;
 
-    fn told(text: &str) -> Vec<String> {
+    fn described(text: &str) -> Vec<String> {
         let (transcript, _) = transcript(text.as_bytes()).expect("a table");
         let tier = |it: &Tier| {
             let all = it.annotations.iter().map(|it| {
@@ -146,14 +146,14 @@ mod tests {
         let bare = "\"Gloss\"\t\"P1\"\t\"0.5\"\t\"1.0\"\t\"0.5\"\t\"BOL\"\n\
                     \"Mouth\"\t\"P1\"\t\"0.5\"\t\"0.75\"\t\"0.25\"\t\"\"\n";
         assert_eq!(
-            told(bare),
+            described(bare),
             ["Gloss: a1t0 500-1000 BOL", "Mouth: a2t1 500-750 "]
         );
         let titled = "#film.mp4\nTier\tBegin Time - msec\tEnd Time - msec\tAnnotation\nGloss\t500\t1000\tBOL\n";
-        assert_eq!(told(titled), ["Gloss: a2t0 500-1000 BOL"]);
+        assert_eq!(described(titled), ["Gloss: a2t0 500-1000 BOL"]);
         let columns = "Begin Time - msec\tEnd Time - msec\tGloss\tMouth\n500\t1000\tBOL\tpa\n";
         assert_eq!(
-            told(columns),
+            described(columns),
             ["Gloss: a2t0 500-1000 BOL", "Mouth: a2t1 500-1000 pa"]
         );
     }
@@ -186,7 +186,7 @@ mod tests {
     fn overlaps_end_earlier_and_are_named() {
         let text = "G\t\t0.5\t1.0\tA\nG\t\t0.8\t1.2\tB\nG\t\t0.8\t1.3\tC\n";
         let (_, findings) = transcript(text.as_bytes()).expect("a table");
-        assert_eq!(told(text), ["G: a1t0 500-800 A, a3t0 800-1300 C"]);
+        assert_eq!(described(text), ["G: a1t0 500-800 A, a3t0 800-1300 C"]);
         let says = |what: &str| findings.iter().any(|it| it.message.contains(what));
         assert!(says("ends after the next begins") && says("1 annotations begin together"));
     }

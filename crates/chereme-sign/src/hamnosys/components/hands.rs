@@ -228,13 +228,13 @@ impl<'s, 'i> Hands<'s, 'i> {
 
     fn target(
         &mut self,
-        way: Option<&Motion>,
+        path: Option<&Motion>,
         posture: &Posture,
         acting: Acting,
         lost: &mut Lost,
     ) -> [Vec<Step>; 2] {
-        let mut steps = match way {
-            Some(way) => self.motion(way, acting, lost),
+        let mut steps = match path {
+            Some(path) => self.motion(path, acting, lost),
             None => self.change(posture, acting),
         };
         if let Some(contact) = motion::contact(posture) {

@@ -52,7 +52,7 @@ pub(super) fn together(courses: Vec<Vec<Step>>) -> Vec<Step> {
 /// Returns a motion without nested motions; `None` for others.
 pub(super) fn simple(motion: &Motion, symmetry: Option<Symmetry>) -> Option<Step> {
     let mut step = match &motion.kind {
-        MotionKind::Directed(directed) => way(directed, symmetry),
+        MotionKind::Directed(directed) => straight_or_curved(directed, symmetry),
         MotionKind::Circular(circular) => round(circular),
         MotionKind::Wrist { motion, size } => {
             let mut step = Step::of(wrist(*motion));
@@ -75,7 +75,7 @@ pub(super) fn simple(motion: &Motion, symmetry: Option<Symmetry>) -> Option<Step
     Some(step)
 }
 
-fn way(directed: &Directed, symmetry: Option<Symmetry>) -> Step {
+fn straight_or_curved(directed: &Directed, symmetry: Option<Symmetry>) -> Step {
     let kind = if directed.curve.is_some() {
         Value::exact("arc")
     } else if let Some(zigzag) = directed.zigzag {

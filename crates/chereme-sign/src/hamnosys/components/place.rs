@@ -192,8 +192,8 @@ fn on_body(
     if behind && word != "head-back" {
         miss("behind it");
     }
-    let told = matches!(word, "cheek-contra" | "shoulder-contra" | "chest-contra");
-    if side.is_some() && (!has_side || (other && !told)) {
+    let names_side = matches!(word, "cheek-contra" | "shoulder-contra" | "chest-contra");
+    if side.is_some() && (!has_side || (other && !names_side)) {
         miss("which side of it");
     }
     word.to_owned()

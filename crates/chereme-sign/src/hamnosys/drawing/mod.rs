@@ -138,7 +138,7 @@ pub fn drawing(symbol: Symbol) -> Drawing {
             Class::HandPart | Class::Digit | Class::FingerPart => hands::part(kind),
             Class::Location | Class::LocationMark => places::place(kind),
             Class::ExtendedFinger | Class::Palm | Class::Movement | Class::MovementMark => {
-                movements::way(kind)
+                movements::draw(kind)
             }
             _ => marks::mark(kind),
         },

@@ -8,7 +8,7 @@ use super::{Drawing, Point, arc, oval, seen};
 const MIDDLE: Point = [0.4, 0.5];
 
 /// Draws a direction, a palm, a movement, or a mark of one.
-pub(super) fn way(kind: Kind) -> Drawing {
+pub(super) fn draw(kind: Kind) -> Drawing {
     match kind {
         Kind::Extended(to) => {
             let (drawing, right, up, middle) = plane(to);
@@ -219,7 +219,7 @@ fn wrist(motion: WristMotion) -> Drawing {
             .arrow(arc([0.36, 0.6], [0.36, 0.36], -0.02, -0.2))
             .arrow(arc([0.36, 0.6], [0.36, 0.36], 0.02, 0.18)),
         WristMotion::Swinging => {
-            let way = |sign: f32| {
+            let path = |sign: f32| {
                 arc(
                     [0.4, 0.62],
                     [0.3, 0.42],
@@ -229,8 +229,8 @@ fn wrist(motion: WristMotion) -> Drawing {
             };
             stick
                 .line([[0.4, 0.62], [0.4, 0.34]])
-                .arrow(way(1.0))
-                .arrow(way(-1.0))
+                .arrow(path(1.0))
+                .arrow(path(-1.0))
         }
         WristMotion::Twisting => Drawing::new(0.8).thin([[0.4, 1.0], [0.4, 0.06]]).arrow(arc(
             [0.4, 0.52],

@@ -14,7 +14,7 @@ type Deep = (Motion, usize);
 /// The element that a size mark would belong to.
 #[derive(Clone, Copy, PartialEq)]
 enum Last {
-    Way,
+    Path,
     Curve,
     Zigzag,
     ZigzagGrowth,
@@ -302,7 +302,7 @@ impl Parser<'_> {
     }
 
     fn directed(&mut self) -> MotionKind {
-        let (direction, second) = self.ways(|kind| match kind {
+        let (direction, second) = self.directions(|kind| match kind {
             Kind::Move(direction) => Some(direction),
             _ => None,
         });
@@ -314,12 +314,12 @@ impl Parser<'_> {
             zigzag: None,
             ellipse: None,
         });
-        self.modifiers(&mut kind, Last::Way);
+        self.modifiers(&mut kind, Last::Path);
         kind
     }
 
     fn circular(&mut self) -> MotionKind {
-        let (axis, second) = self.ways(|kind| match kind {
+        let (axis, second) = self.directions(|kind| match kind {
             Kind::Circle(axis) => Some(axis),
             _ => None,
         });
@@ -333,22 +333,25 @@ impl Parser<'_> {
             zigzag: None,
             growth: None,
         });
-        self.modifiers(&mut kind, Last::Way);
+        self.modifiers(&mut kind, Last::Path);
         kind
     }
 
     /// Takes a direction, or the middle of two.
-    fn ways(&mut self, way: fn(Kind) -> Option<Direction>) -> (Direction, Option<Direction>) {
-        let first = self.way(way);
-        let between =
-            self.next_is(0, Kind::Between) && self.kind(self.at + 1).and_then(way).is_some();
+    fn directions(
+        &mut self,
+        direction_of: fn(Kind) -> Option<Direction>,
+    ) -> (Direction, Option<Direction>) {
+        let first = self.direction(direction_of);
+        let between = self.next_is(0, Kind::Between)
+            && self.kind(self.at + 1).and_then(direction_of).is_some();
         self.at += usize::from(between);
-        (first, between.then(|| self.way(way)))
+        (first, between.then(|| self.direction(direction_of)))
     }
 
     /// Takes one symbol of a direction, or the two symbols of a corner.
-    fn way(&mut self, way: fn(Kind) -> Option<Direction>) -> Direction {
-        let at = |parser: &Self, ahead| parser.kind(parser.at + ahead).and_then(way);
+    fn direction(&mut self, direction_of: fn(Kind) -> Option<Direction>) -> Direction {
+        let at = |parser: &Self, ahead| parser.kind(parser.at + ahead).and_then(direction_of);
         let first = at(self, 0).unwrap_or(Direction::OUT);
         let corner = at(self, 1).and_then(|second| {
             let corner = first.corner_with(second)?;
@@ -361,7 +364,7 @@ impl Parser<'_> {
     /// Takes marks of manner, and marks of size and form after them.
     fn manner(&mut self, motion: &mut Motion) {
         loop {
-            self.modifiers(&mut motion.kind, Last::Way);
+            self.modifiers(&mut motion.kind, Last::Path);
             let manner = &mut motion.manner;
             let flag = match self.peek() {
                 Some(Kind::Manner(mark)) => manner_flag(manner, mark),
@@ -408,9 +411,9 @@ impl Parser<'_> {
                     };
                     grow(kind, growth, &mut last)
                 }
-                (Some(Kind::Arc(to)), MotionKind::Directed(way)) => {
+                (Some(Kind::Arc(to)), MotionKind::Directed(directed)) => {
                     last = Last::Curve;
-                    bulge(&mut way.curve, to)
+                    bulge(&mut directed.curve, to)
                 }
                 (
                     Some(Kind::Zigzag { wavy }),
@@ -485,7 +488,7 @@ impl Parser<'_> {
             _ => None,
         };
         match (kind, last) {
-            (MotionKind::Directed(way), Last::Curve) => way
+            (MotionKind::Directed(directed), Last::Curve) => directed
                 .curve
                 .as_mut()
                 .is_some_and(|curve| set(&mut curve.size, size)),
@@ -574,7 +577,7 @@ impl Parser<'_> {
         self.at += 1;
         let mut repetition = self.repetition();
         if let Some(Kind::Move(_)) = self.peek() {
-            repetition.shift = Some(self.way(|kind| match kind {
+            repetition.shift = Some(self.direction(|kind| match kind {
                 Kind::Move(direction) => Some(direction),
                 _ => None,
             }));

@@ -232,7 +232,7 @@ fn both(part: &Manual) -> Symmetry {
 
 fn directed(part: &Manual) -> &Directed {
     match &part.actions[0].kind {
-        MotionKind::Directed(way) => way,
+        MotionKind::Directed(directed) => directed,
         other => panic!("{other:?}"),
     }
 }

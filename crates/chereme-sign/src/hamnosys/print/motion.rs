@@ -14,7 +14,7 @@ impl Write {
             return;
         }
         match &motion.kind {
-            MotionKind::Directed(way) => self.directed(way),
+            MotionKind::Directed(directed) => self.directed(directed),
             MotionKind::Circular(circle) => self.circular(circle),
             MotionKind::Wrist { motion, size } => {
                 self.symbol(Kind::Wrist(*motion));
@@ -96,22 +96,22 @@ impl Write {
         }
     }
 
-    fn directed(&mut self, way: &Directed) {
-        self.way(way.direction, Kind::Move);
-        if let Some(second) = way.second {
+    fn directed(&mut self, directed: &Directed) {
+        self.direction_symbols(directed.direction, Kind::Move);
+        if let Some(second) = directed.second {
             self.symbol(Kind::Between);
-            self.way(second, Kind::Move);
+            self.direction_symbols(second, Kind::Move);
         }
-        self.amount(way.size);
-        self.curve(way.curve);
-        self.zigzag(way.zigzag);
-        if let Some(ellipse) = way.ellipse {
+        self.amount(directed.size);
+        self.curve(directed.curve);
+        self.zigzag(directed.zigzag);
+        if let Some(ellipse) = directed.ellipse {
             self.symbol(Kind::Ellipse(ellipse));
         }
     }
 
     /// Writes a direction of a movement; a corner as its two symbols.
-    fn way(&mut self, direction: Direction, kind: fn(Direction) -> Kind) {
+    fn direction_symbols(&mut self, direction: Direction, kind: fn(Direction) -> Kind) {
         match direction.corner_parts() {
             None => self.symbol(kind(direction)),
             Some((one, two)) => {
@@ -122,10 +122,10 @@ impl Write {
     }
 
     fn circular(&mut self, circle: &Circular) {
-        self.way(circle.axis, Kind::Circle);
+        self.direction_symbols(circle.axis, Kind::Circle);
         if let Some(second) = circle.second {
             self.symbol(Kind::Between);
-            self.way(second, Kind::Circle);
+            self.direction_symbols(second, Kind::Circle);
         }
         self.amount(circle.size);
         if let Some(ellipse) = circle.ellipse {
@@ -206,7 +206,7 @@ impl Write {
             self.symbol(Kind::Approx);
         }
         if let Some(shift) = repetition.shift {
-            self.way(shift, Kind::Move);
+            self.direction_symbols(shift, Kind::Move);
             self.size(repetition.shift_size);
             self.growth(repetition.shift_growth);
             self.symbol(Kind::Close(Bracket::Seq));

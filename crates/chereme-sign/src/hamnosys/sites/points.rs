@@ -182,7 +182,7 @@ pub fn digit_joint(side: Half, digit: Digit, which: u8) -> Part {
 /// Returns the point of a hand that notation refers to if it names none: the first one to arrive when the
 /// hand moves to a place of this kind (Kennaway, section 4.1).
 ///
-/// `way` is a unit vector in the hand's own axes: along it, out of its palm, towards its thumb.
+/// `direction` is a unit vector in the hand's own axes: along it, out of its palm, towards its thumb.
 #[must_use]
 pub fn coming_first(
     shape: &Handshape,
@@ -306,7 +306,7 @@ mod tests {
             },
             ..Handshape::default()
         };
-        let first = |way, region| coming_first(&flat, way, region);
+        let first = |direction, region| coming_first(&flat, direction, region);
         assert_eq!(
             first([1.0, 0.0, 0.0], Region::Trunk),
             HandPoint::Tip(Digit::Middle, Face::Middle)
