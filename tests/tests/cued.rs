@@ -156,7 +156,7 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
             off.extend(
                 found
                     .hand_us
-                    .map(|way| (way[1] as f64 / 1e6 - truth.times[1]).abs()),
+                    .map(|movement| (movement[1] as f64 / 1e6 - truth.times[1]).abs()),
             );
         }
     }

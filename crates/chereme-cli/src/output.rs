@@ -156,22 +156,22 @@ impl Output {
         let known = error.downcast_ref::<chereme_corpus::Error>();
         let place = known.and_then(chereme_corpus::Error::place);
         let remedy = known.and_then(chereme_corpus::Error::remedy);
-        let told = known.map_or_else(|| format!("{error:#}"), ToString::to_string);
+        let message = known.map_or_else(|| format!("{error:#}"), ToString::to_string);
         if self.json {
             self.document = Some(json!({
-                "error": { "message": told, "where": place, "remedy": remedy }
+                "error": { "message": message, "where": place, "remedy": remedy }
             }));
             let _ = self.finish();
         } else {
             let _ = self.text.flush();
             let spoken = |text: &str| self.spoken(text);
             let label = |text: Text, value: String| fill(self.say(text), &[("what", &value)]);
-            tell(&label(trouble::ERROR, drawn_below(&told, &spoken)));
-            if let Some(place) = place.filter(|place| !told.contains(place.as_str())) {
-                tell(&label(trouble::WHERE, place));
+            write_to_stderr(&label(trouble::ERROR, drawn_below(&message, &spoken)));
+            if let Some(place) = place.filter(|place| !message.contains(place.as_str())) {
+                write_to_stderr(&label(trouble::WHERE, place));
             }
             if let Some(remedy) = remedy {
-                tell(&label(trouble::WHAT_TO_DO, spoken(remedy.text())));
+                write_to_stderr(&label(trouble::WHAT_TO_DO, spoken(remedy.text())));
             }
         }
         ExitCode::FAILURE
@@ -183,8 +183,8 @@ impl Output {
 fn drawn_below(message: &str, spoken: &dyn Fn(&str) -> String) -> String {
     let lines: Vec<&str> = message.splitn(3, '\n').collect();
     match lines[..] {
-        [words, carets, told] if carets.trim_start().starts_with('^') => {
-            format!("{}\n{words}\n{carets}", spoken(told))
+        [words, carets, reason] if carets.trim_start().starts_with('^') => {
+            format!("{}\n{words}\n{carets}", spoken(reason))
         }
         _ => spoken(message),
     }
@@ -198,7 +198,7 @@ fn quiet(done: io::Result<()>) -> Result<()> {
 }
 
 /// Writes a line on standard error.
-pub(crate) fn tell(text: &str) {
+pub(crate) fn write_to_stderr(text: &str) {
     let _ = writeln!(io::stderr(), "{text}");
 }
 

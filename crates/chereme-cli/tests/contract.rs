@@ -43,12 +43,15 @@ fn an_import_without_readable_files_leaves_no_corpus() {
 fn carets_stand_below_the_wrong_words() {
     let desk = Desk::new();
     let done = desk.run(&desk.words("search @c placement=chinn"));
-    let told = text(&done.stderr);
-    let lines: Vec<&str> = told.lines().collect();
+    let printed = text(&done.stderr);
+    let lines: Vec<&str> = printed.lines().collect();
     let at = lines.iter().position(|line| *line == "placement=chinn");
     let carets = at.and_then(|at| lines.get(at + 1));
-    assert_eq!(carets, Some(&"          ^^^^^"), "{told}");
-    assert!(lines[0].starts_with("error: the value \"chinn\""), "{told}");
+    assert_eq!(carets, Some(&"          ^^^^^"), "{printed}");
+    assert!(
+        lines[0].starts_with("error: the value \"chinn\""),
+        "{printed}"
+    );
 }
 
 #[test]

@@ -63,8 +63,8 @@ impl Corpus {
         for finding in &findings {
             done.explanation += &format!("\nwarning: {finding}");
         }
-        let told = findings.iter().map(ToString::to_string);
-        done.report.warnings.splice(0..0, told);
+        let texts = findings.iter().map(ToString::to_string);
+        done.report.warnings.splice(0..0, texts);
         done.findings = findings;
         Ok(done)
     }
@@ -173,14 +173,14 @@ fn understood(text: &str) -> Result<(String, Vec<NotationFinding>)> {
         Ok(read) => (read, None),
         Err(error) => (hamnosys::parse_lenient(text), Some(error)),
     };
-    let told = |finding: &hamnosys::Finding| NotationFinding {
+    let converted = |finding: &hamnosys::Finding| NotationFinding {
         file: None,
         line: None,
         symbol: Some(finding.index),
         message: finding.message.clone(),
         remedy: Some(finding.remedy.into()),
     };
-    let mut findings: Vec<NotationFinding> = read.findings.iter().map(told).collect();
+    let mut findings: Vec<NotationFinding> = read.findings.iter().map(converted).collect();
     let Some(error) = whole else {
         return Ok((text.to_owned(), findings));
     };
@@ -220,14 +220,14 @@ fn odd_in_file(name: &str) -> Result<Vec<NotationFinding>> {
             .advise("name a file, or a sign that the corpus holds as notation by its gloss"));
     }
     let (_, findings) = notation::read_notation(path)?;
-    let told = |finding: Finding| NotationFinding {
+    let converted = |finding: Finding| NotationFinding {
         file: Some(name.to_owned()),
         line: finding.line,
         symbol: None,
         message: finding.message,
         remedy: finding.remedy,
     };
-    Ok(findings.into_iter().map(told).collect())
+    Ok(findings.into_iter().map(converted).collect())
 }
 
 /// Returns HamNoSys text, typed or from a file with one sign; nothing for other inputs.

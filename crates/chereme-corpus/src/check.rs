@@ -126,10 +126,10 @@ impl Corpus {
         let (tokens, index) = (wrong("tokens"), wrong("index"));
         if tokens {
             self.store
-                .operation_told("mend", progress, |connection, progress| {
+                .operation_with_progress("mend", progress, |connection, progress| {
                     let inventories = inventories::load(connection)?;
                     for recording in recordings::recordings(connection)? {
-                        tokens::derive_told(
+                        tokens::derive_with_progress(
                             connection,
                             recording.id,
                             None,
@@ -184,7 +184,7 @@ impl Looking<'_, '_> {
         let quick = matches!(what, "blocks" | "notations" | "skeletons");
         if !quick || count.is_multiple_of(64) {
             let (task, done) = (what, *count);
-            self.progress.tell(Step {
+            self.progress.report(Step {
                 task,
                 done,
                 total: None,
@@ -278,7 +278,7 @@ impl Looking<'_, '_> {
                 &[group],
                 &(0..track.frames()),
                 |_, first, columns| {
-                    self.progress.tell(Step {
+                    self.progress.report(Step {
                         task: "movement",
                         done: first as u64,
                         total: Some(track.frames() as u64),
@@ -351,7 +351,13 @@ impl Looking<'_, '_> {
             }
             let derived = rows::tried(connection, || {
                 let before = rows::changes(connection)?;
-                tokens::derive_told(connection, recording.id, None, &inventories, self.progress)?;
+                tokens::derive_with_progress(
+                    connection,
+                    recording.id,
+                    None,
+                    &inventories,
+                    self.progress,
+                )?;
                 Ok(rows::changes(connection)? - before)
             })?;
             if derived > 0 {

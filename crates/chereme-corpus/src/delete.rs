@@ -112,7 +112,7 @@ impl Corpus {
             return Ok(done);
         }
         self.store
-            .operation_told("delete", progress, |connection, progress| {
+            .operation_with_progress("delete", progress, |connection, progress| {
                 edits::defer_references(connection)?;
                 let plan = Plan::of(connection, what, options.dependents)?;
                 if plan.is_refused(options.dependents) {
@@ -294,7 +294,7 @@ impl Plan {
         let mut done = self.foreseen(connection)?;
         let mut affected: BTreeMap<i64, String> = BTreeMap::new();
         for (count, recording) in self.recordings.iter().enumerate() {
-            progress.tell(Step {
+            progress.report(Step {
                 task: "deleting",
                 done: count as u64,
                 total: Some(self.recordings.len() as u64),

@@ -157,13 +157,13 @@ mod tests {
         let before = inventory(&[("B-spread", "open hand"), ("cap", "the cap")]);
         let new = inventory(&[("b-SPREAD", "five"), ("hat", "The Cap"), ("cap", "a cap")]);
         let joined = joined(Some(&before), new);
-        let told: Vec<_> = joined
+        let listed: Vec<_> = joined
             .values
             .iter()
             .map(|it| (&*it.id, it.names.values().next().map(String::as_str)))
             .collect();
         assert_eq!(
-            told,
+            listed,
             [
                 ("B-spread", Some("open hand")),
                 ("cap", Some("a cap")),

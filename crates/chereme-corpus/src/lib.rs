@@ -219,14 +219,14 @@ impl Corpus {
     /// # Errors
     /// Fails if nothing is left to undo, or if another change has touched a row of the operation since.
     pub fn undo(&mut self) -> Result<OperationRow> {
-        self.undo_told(&mut Progress::new(&mut unheard))
+        self.undo_with_progress(&mut Progress::new(&mut unheard))
     }
 
     /// Undoes as [`undo`](Self::undo) does, and can be stopped.
     ///
     /// # Errors
     /// Those of [`undo`](Self::undo), and [`Error::Stopped`].
-    pub fn undo_told(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
+    pub fn undo_with_progress(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
         self.store.undo(progress)
     }
 
@@ -235,14 +235,14 @@ impl Corpus {
     /// # Errors
     /// Fails if nothing is left to redo.
     pub fn redo(&mut self) -> Result<OperationRow> {
-        self.redo_told(&mut Progress::new(&mut unheard))
+        self.redo_with_progress(&mut Progress::new(&mut unheard))
     }
 
     /// Redoes as [`redo`](Self::redo) does, and can be stopped.
     ///
     /// # Errors
     /// Those of [`redo`](Self::redo), and [`Error::Stopped`].
-    pub fn redo_told(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
+    pub fn redo_with_progress(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
         self.store.redo(progress)
     }
 

@@ -423,11 +423,11 @@ pub fn components_text<'v>(fields: impl IntoIterator<Item = (&'v String, &'v Val
             None => cells.push((field, BTreeMap::from([(phase, text)]))),
         }
     }
-    let told = cells.into_iter().map(|(field, phases)| {
+    let texts = cells.into_iter().map(|(field, phases)| {
         let values: Vec<_> = phases.into_values().collect();
         format!("{field}={}", values.join(">"))
     });
-    told.collect::<Vec<_>>().join(" ")
+    texts.collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

@@ -465,16 +465,16 @@ mod tests {
         corpus
             .change_recording(&Name::Text("take".into()), &change)
             .expect("changed");
-        let told = newest(&corpus);
+        let lines = newest(&corpus);
         assert!(
-            told.contains(&"added signer \"Zoé\"".to_owned()),
-            "{told:?}"
+            lines.contains(&"added signer \"Zoé\"".to_owned()),
+            "{lines:?}"
         );
         assert!(
-            told.iter().any(|it| it.starts_with(
+            lines.iter().any(|it| it.starts_with(
                 "recording \"take\": name from \"take\" to \"take two\"; signer from "
             ) && it.ends_with(" to \"Zoé\"")),
-            "{told:?}"
+            "{lines:?}"
         );
         assert!(corpus.operation(99, 1).is_err());
         assert!(corpus.operation(1, 1).expect("detail").changes.len() <= 1);

@@ -107,19 +107,19 @@ impl Corpus {
             ));
         }
         let total = Some(2 * placed.len() as u64);
-        let mut tell = |done: u64| {
+        let mut report = |done: u64| {
             let unit = Unit::Items;
-            progress.tell(Step {
+            progress.report(Step {
                 task: "map",
                 done,
                 total,
                 unit,
             })
         };
-        let near = neighbours(&things, NEIGHBOURS, |done| tell(done as u64).is_ok());
+        let near = neighbours(&things, NEIGHBOURS, |done| report(done as u64).is_ok());
         let near = near.ok_or(Error::Stopped)?;
         let half = placed.len() as f32;
-        let places = lay_out(&near, |share| tell((half * (1.0 + share)) as u64).is_ok());
+        let places = lay_out(&near, |share| report((half * (1.0 + share)) as u64).is_ok());
         let places = places.ok_or(Error::Stopped)?;
         let ids: Vec<i64> = placed.iter().map(|token| token.id).collect();
         let signs = placed.into_iter().zip(places).zip(&near);

@@ -465,7 +465,7 @@ impl Corpus {
         let bytes = write(to, options.force, |out| {
             write_png(&image, out).map_err(figure)
         })?;
-        Ok(told(to, &title, bytes, frames))
+        Ok(picture_report(to, &title, bytes, frames))
     }
 }
 
@@ -475,7 +475,7 @@ fn written(picture: &str, title: &str, symbols: usize, to: &Path, force: bool) -
         out.write_all(picture.as_bytes())
             .map_err(|error| Error::file(to, error))
     })?;
-    Ok(told(to, title, bytes, symbols))
+    Ok(picture_report(to, title, bytes, symbols))
 }
 
 /// Draws a clip to a file; see [`Corpus::draw`].
@@ -518,8 +518,8 @@ fn draw_scenes(
     options: &PictureOptions,
     progress: &mut Progress<'_>,
 ) -> Result<Picture> {
-    let mut tell = |done: usize, total: usize| {
-        progress.tell(Step {
+    let mut report = |done: usize, total: usize| {
+        progress.report(Step {
             task: "drawing",
             done: done as u64,
             total: Some(total as u64),
@@ -529,7 +529,7 @@ fn draw_scenes(
     let kind = extension(to);
     let (bytes, frames) = match (kind.as_str(), scenes) {
         ("png", [scene]) => {
-            let mut hear = |done: usize, total: usize| match tell(done, total) {
+            let mut hear = |done: usize, total: usize| match report(done, total) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(_) => ControlFlow::Break(()),
             };
@@ -538,7 +538,7 @@ fn draw_scenes(
         ("gif", _) => {
             let height = options.height.unwrap_or(HEIGHT);
             let mut strip = strip(scenes, options, (height, None))?;
-            let mut hear = |done: usize, total: usize| match tell(done, total) {
+            let mut hear = |done: usize, total: usize| match report(done, total) {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(_) => ControlFlow::Break(()),
             };
@@ -555,7 +555,7 @@ fn draw_scenes(
             let shape = Shape { rate };
             let mut frames = 0;
             let bytes = write(to, options.force, |out| {
-                frames = write_film(&mut strip, shape, out, &mut tell)?;
+                frames = write_film(&mut strip, shape, out, &mut report)?;
                 Ok(())
             })?;
             (bytes, frames)
@@ -568,7 +568,7 @@ fn draw_scenes(
         }
     };
     let titles: Vec<&str> = scenes.iter().map(|scene| scene.title).collect();
-    Ok(told(to, &titles.join(", "), bytes, frames))
+    Ok(picture_report(to, &titles.join(", "), bytes, frames))
 }
 
 /// Draws a contact sheet, and returns its size in bytes and the number of pictures.
@@ -656,7 +656,7 @@ fn title(stretch: &Stretch) -> String {
 }
 
 /// Returns the report of a picture of stored movement or of an inventory.
-fn told(to: &Path, title: &str, bytes: u64, frames: usize) -> Picture {
+fn picture_report(to: &Path, title: &str, bytes: u64, frames: usize) -> Picture {
     Picture {
         path: to.to_owned(),
         title: title.to_owned(),

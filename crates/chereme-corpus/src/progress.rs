@@ -41,7 +41,7 @@ impl<'a> Progress<'a> {
     ///
     /// # Errors
     /// [`Error::Stopped`] if the receiver asks to stop.
-    pub fn tell(&mut self, step: Step<'_>) -> Result<()> {
+    pub fn report(&mut self, step: Step<'_>) -> Result<()> {
         match (self.0)(step) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(Error::Stopped),

@@ -137,7 +137,7 @@ impl Corpus {
         let mut values = Values::new();
         let total = Some(wanted.len() as u64);
         for (done, (hit, components)) in wanted.values().enumerate() {
-            progress.tell(Step {
+            progress.report(Step {
                 task: &hit.gloss,
                 done: done as u64,
                 total,

@@ -162,7 +162,7 @@ fn there(connection: &Connection, name: &str) -> Result<(i64, KeptSearch)> {
         0 => Remedy::command(
             "there is no saved search yet: `chereme search CORPUS --keep NAME QUERY` saves one",
         ),
-        count if count <= TOLD => format!("there are: {}", names.join(", ")).into(),
+        count if count <= LISTED => format!("there are: {}", names.join(", ")).into(),
         count => Remedy::command(format!("`chereme list CORPUS searches` lists all {count}")),
     };
     Err(
@@ -173,7 +173,7 @@ fn there(connection: &Connection, name: &str) -> Result<(i64, KeptSearch)> {
 }
 
 /// The number of saved searches that are listed if the wanted one does not exist.
-const TOLD: usize = 8;
+const LISTED: usize = 8;
 
 /// Returns the saved search that the user most likely meant by `name`: one whose name differs by a slip or two,
 /// contains `name`, or shares half of its letters.

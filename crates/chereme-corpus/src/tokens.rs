@@ -29,11 +29,11 @@ pub(crate) fn derive(
 ) -> Result<()> {
     let mut hear = unheard;
     let progress = &mut Progress::new(&mut hear);
-    derive_told(connection, recording, window, inventories, progress)
+    derive_with_progress(connection, recording, window, inventories, progress)
 }
 
 /// Derives tokens as [`derive()`] does, and can be stopped.
-pub(crate) fn derive_told(
+pub(crate) fn derive_with_progress(
     connection: &Connection,
     recording: i64,
     window: Option<Span>,
@@ -72,7 +72,7 @@ fn step(progress: &mut Progress<'_>, done: usize) -> Result<()> {
     if done % 256 != 255 {
         return Ok(());
     }
-    progress.tell(Step {
+    progress.report(Step {
         task: "tokens",
         done: done as u64,
         total: None,

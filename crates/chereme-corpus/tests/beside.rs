@@ -296,7 +296,7 @@ fn a_folder_with_one_file_of_movement_and_one_of_a_face_is_one_take() {
     names.sort();
     assert_eq!(names, ["body", "body2", "points", "x", "y", "z"]);
     assert_eq!(kinds(&corpus, "body").len(), 2);
-    let told = report.files.iter().flat_map(|it| &it.findings);
-    let told = told.filter(|it| it.message.contains("taken for the take"));
-    assert_eq!(told.count(), 1);
+    let reported = report.files.iter().flat_map(|it| &it.findings);
+    let reported = reported.filter(|it| it.message.contains("taken for the take"));
+    assert_eq!(reported.count(), 1);
 }

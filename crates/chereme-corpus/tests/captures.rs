@@ -109,14 +109,16 @@ fn odd_first_frames_are_reported_with_their_numbers_and_cut_by_trim() {
     let take = folder.path().join("take.bvh");
     std::fs::write(&take, lines.join("\n")).expect("written");
     let (mut corpus, reports) = corpus(folder.path(), &[take]);
-    let told: Vec<&str> = reports[0]
+    let messages: Vec<&str> = reports[0]
         .findings
         .iter()
         .map(|it| it.message.as_str())
         .collect();
     assert!(
-        told.iter().any(|it| it.contains("frame 0: the body jumps")),
-        "{told:?}"
+        messages
+            .iter()
+            .any(|it| it.contains("frame 0: the body jumps")),
+        "{messages:?}"
     );
     let made = corpus.preview("take | trim").expect("made");
     assert!(

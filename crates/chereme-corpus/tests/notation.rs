@@ -96,13 +96,13 @@ fn a_file_of_notation_becomes_signs_that_are_found_by_their_components() {
     let report = desk.import("two.sigml", TWO);
     assert_eq!(report.created["signs"], 2);
     assert_eq!(report.created["notations"], 2);
-    let told: Vec<_> = report.files[0]
+    let reported: Vec<_> = report.files[0]
         .findings
         .iter()
         .map(|finding| (finding.line, finding.message.as_str()))
         .collect();
     assert_eq!(
-        told,
+        reported,
         [
             (Some(5), "extfidir=\"uuo\" was read as \"uo\""),
             (
@@ -131,7 +131,7 @@ fn a_file_of_notation_becomes_signs_that_are_found_by_their_components() {
         ("sigml", Some("two.sigml"), Some(2))
     );
     let motion = &thanks.document.sign.parts[0].actions[0].kind;
-    assert!(matches!(motion, MotionKind::Directed(way) if way.curve.is_some()));
+    assert!(matches!(motion, MotionKind::Directed(directed) if directed.curve.is_some()));
     assert!(!thanks.document.nonmanual.is_empty());
     for (name, count) in [("two.sigml", 2), ("two", 2), ("OUI", 1)] {
         let found = desk.corpus.notations(name).expect(name);
@@ -187,11 +187,11 @@ fn a_file_imported_again_updates_its_signs() {
     let changed = TWO.replace("chin", "forehead").replace("OUI", "NON");
     let report = desk.import("two.sigml", &changed);
     assert_eq!((report.created["signs"], report.created["tokens"]), (1, 1));
-    let told = report.files[0].findings.iter();
-    let told: Vec<_> = told
+    let reported = report.files[0].findings.iter();
+    let reported: Vec<_> = reported
         .filter(|finding| finding.message.contains("earlier file"))
         .collect();
-    assert_eq!(told.len(), 1, "OUI is no more in it");
+    assert_eq!(reported.len(), 1, "OUI is no more in it");
     assert!(desk.glosses("placement=chin").is_empty());
     assert_eq!(desk.glosses("placement=forehead"), ["MERCI"]);
     assert_eq!(desk.notations(), 3);

@@ -27,34 +27,38 @@ fn a_transcription_is_stored_and_undone() {
         .expect("taken in");
 
     let sign: Address = "BOL".parse().expect("an address");
-    let told = corpus.transcribe(&sign, &mut progress).expect("told");
-    assert!(!told.features.is_empty() && told.start_us < told.end_us);
-    let text: String = told.stages.iter().map(|it| it.hamnosys.as_str()).collect();
-    if told.stages.iter().all(|stage| stage.hand.is_none()) {
-        assert_eq!(told.hamnosys, text, "stages in order are the whole");
+    let transcribed = corpus.transcribe(&sign, &mut progress).expect("told");
+    assert!(!transcribed.features.is_empty() && transcribed.start_us < transcribed.end_us);
+    let text: String = transcribed
+        .stages
+        .iter()
+        .map(|it| it.hamnosys.as_str())
+        .collect();
+    if transcribed.stages.iter().all(|stage| stage.hand.is_none()) {
+        assert_eq!(transcribed.hamnosys, text, "stages in order are the whole");
     }
-    for stage in &told.stages {
-        assert!(told.start_us <= stage.start_us && stage.start_us < stage.end_us);
+    for stage in &transcribed.stages {
+        assert!(transcribed.start_us <= stage.start_us && stage.start_us < stage.end_us);
     }
-    for feature in &told.features {
+    for feature in &transcribed.features {
         let value = &feature.value;
         assert_eq!(value.symbols.len(), value.hamnosys.chars().count());
         assert!(feature.start_us <= feature.at_us && feature.at_us <= feature.end_us);
     }
-    let read = parse(&told.hamnosys).expect("HamNoSys that reads");
-    assert_eq!(read.sign, told.sign, "{:?}", told.findings);
+    let read = parse(&transcribed.hamnosys).expect("HamNoSys that reads");
+    assert_eq!(read.sign, transcribed.sign, "{:?}", transcribed.findings);
 
     assert!(corpus.notation(&sign).is_err());
     let picture = folder.path().join("bol.svg");
     let drawn = corpus.draw(&sign, &picture, &PictureOptions::default(), &mut progress);
     let drawn = drawn.expect("drawn");
-    assert!(drawn.transcribed && drawn.frames == told.symbols.len());
+    assert!(drawn.transcribed && drawn.frames == transcribed.symbols.len());
     corpus
         .store_transcription(&sign, false, &mut progress)
         .expect("kept");
     let kept = corpus.notation(&sign).expect("a notation");
-    assert_eq!(kept.text.as_ref(), Some(&told.hamnosys));
-    assert_eq!(kept.document.sign, told.sign);
+    assert_eq!(kept.text.as_ref(), Some(&transcribed.hamnosys));
+    assert_eq!(kept.document.sign, transcribed.sign);
     corpus
         .store_transcription(&sign, false, &mut progress)
         .expect("the same again");
@@ -73,7 +77,7 @@ const LED_AWAY: [&str; 2] = [
 fn animated_notation_is_transcribed_with_its_written_locations() {
     let folder = tempfile::tempdir().expect("a folder");
     let corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-    told_where_they_are_led_away(corpus);
+    check_transcribed_locations(corpus);
 }
 
 #[test]
@@ -90,7 +94,7 @@ fn locations_are_transcribed_on_a_body_with_an_impossible_rest_pose() {
     let mut progress = Progress::new(&mut unheard);
     let done = corpus.import(&[path], &options, &mut progress);
     done.expect("taken in");
-    told_where_they_are_led_away(corpus);
+    check_transcribed_locations(corpus);
 }
 
 /// Generates a sign, stores it as S and its number, and returns its notation and its transcription.
@@ -107,14 +111,14 @@ fn there_and_back(corpus: &mut Corpus, n: usize, names: &str) -> (Sign, Transcri
     let done = corpus.animate(&[names], &staging, Some(&gloss));
     done.expect("made");
     let address = gloss.parse().expect("an address");
-    let told = corpus.transcribe(&address, &mut Progress::new(&mut { unheard }));
-    (written, told.expect("told"))
+    let transcribed = corpus.transcribe(&address, &mut Progress::new(&mut { unheard }));
+    (written, transcribed.expect("told"))
 }
 
 /// Generates each of those signs on the body that the corpus chooses, and checks its transcription.
-fn told_where_they_are_led_away(mut corpus: Corpus) {
+fn check_transcribed_locations(mut corpus: Corpus) {
     for (n, names) in LED_AWAY.into_iter().enumerate() {
-        let (written, told) = there_and_back(&mut corpus, n, names);
+        let (written, transcribed) = there_and_back(&mut corpus, n, names);
         let address = format!("S{n}").parse().expect("an address");
         let stopped = corpus.transcribe(&address, &mut Progress::new(&mut |_| Break(())));
         assert!(matches!(stopped, Err(Error::Stopped)), "{names}");
@@ -122,13 +126,13 @@ fn told_where_they_are_led_away(mut corpus: Corpus) {
             Some(Place::Body(place)) => (place.site, place.second, place.contact),
             other => panic!("{names}: {other:?}"),
         };
-        assert_eq!(sites(&told.sign), sites(&written), "{names}");
+        assert_eq!(sites(&transcribed.sign), sites(&written), "{names}");
         // The transitions from and to rest are known, and left out.
-        let nothing = told.sign.parts[0].actions.is_empty();
+        let nothing = transcribed.sign.parts[0].actions.is_empty();
         assert!(
-            nothing && told.start_us > 300_000,
+            nothing && transcribed.start_us > 300_000,
             "{names}: {:?}",
-            told.symbols
+            transcribed.symbols
         );
     }
 }
@@ -145,11 +149,12 @@ fn initial_postures_are_transcribed_as_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     for (n, names) in BEGINNINGS.into_iter().enumerate() {
-        let (written, told) = there_and_back(&mut corpus, n, names);
-        let [told, written] = [told.sign, written].map(|mut sign| sign.parts.remove(0));
-        assert_eq!(told.hands, written.hands, "{names}");
-        assert_eq!(told.posture.place, written.posture.place, "{names}");
-        assert_eq!(told.actions, written.actions, "{names}");
+        let (written, transcribed) = there_and_back(&mut corpus, n, names);
+        let [transcribed, written] =
+            [transcribed.sign, written].map(|mut sign| sign.parts.remove(0));
+        assert_eq!(transcribed.hands, written.hands, "{names}");
+        assert_eq!(transcribed.posture.place, written.posture.place, "{names}");
+        assert_eq!(transcribed.actions, written.actions, "{names}");
     }
 }
 

@@ -470,7 +470,7 @@ impl eframe::App for Meter {
             _ => now - begun > self.lasts,
         };
         if over && !self.apart.is_empty() {
-            self.tell();
+            self.report();
             (self.begun, self.last, self.frame) = (None, None, 0);
             self.scenes.pop_front();
             if self.scenes.is_empty() {
@@ -524,7 +524,7 @@ impl Meter {
     }
 
     #[expect(clippy::print_stdout, reason = "it tells what it measured")]
-    fn tell(&mut self) {
+    fn report(&mut self) {
         let scene = self.scenes.front();
         let frames = self.apart.len() as f64;
         let each = worked().into_iter().map(|(name, now)| {

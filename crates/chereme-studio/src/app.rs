@@ -23,7 +23,7 @@ use crate::model::reel::Reel;
 use crate::overlay::Overlays;
 use crate::panes::carry::{self, Sprung};
 use crate::panes::{PaneKind, Panes};
-use crate::script::fonts::Untold;
+use crate::script::fonts::Unreported;
 use crate::settings::{Folders, Settings};
 use crate::start::Start;
 use crate::words::{Text, fill};
@@ -66,7 +66,7 @@ pub struct Studio {
     sprung: Sprung,
     pub(crate) start: Start,
     pub(crate) chooser: Chooser,
-    untold: Untold,
+    untold: Unreported,
     pub(crate) clipboard: Clipboard,
     pub(crate) overlays: Overlays,
     pub(crate) walk: crate::menu_and_status::Walk,
@@ -136,7 +136,7 @@ impl Studio {
             sprung: Sprung::default(),
             start: Start::default(),
             chooser: Chooser::default(),
-            untold: Untold::default(),
+            untold: Unreported::default(),
             clipboard: Clipboard::default(),
             overlays: Overlays::default(),
             walk: crate::menu_and_status::Walk::default(),

@@ -13,7 +13,7 @@ use crate::model::generated::GeneratedClip;
 use crate::model::handle::{Course, Handle};
 use crate::panes::Carried;
 use crate::panes::inspector::Thing;
-use crate::panes::stage::StageWays;
+use crate::panes::stage::StageSettings;
 use crate::settings::{Searches, Settings};
 use crate::words::Text;
 use crate::work::begin::Begin;
@@ -87,7 +87,7 @@ pub(crate) enum Command {
     /// Replace the saved and recent searches.
     Searches(Searches),
     /// Replace the stage's settings.
-    Stage(Box<StageWays>),
+    Stage(Box<StageSettings>),
     /// Replace the settings.
     Settings(Box<Settings>),
     /// Report why something cannot be done; the notice disappears by itself.
@@ -99,7 +99,7 @@ pub(crate) enum Command {
     /// Put a text on the clipboard.
     Copy(String),
     /// Show a notice that stays, with a remedy.
-    Tell(String, Text),
+    Notify(String, Text),
     /// Dismiss a notice.
     Dismiss(u64),
 }

@@ -159,7 +159,7 @@ impl Studio {
                 self.bring(PaneKind::Recombine);
             }
             Command::Searches(searches) => self.settings.searches = searches,
-            Command::Stage(ways) => self.settings.stage = *ways,
+            Command::Stage(stage) => self.settings.stage = *stage,
             Command::Settings(settings) => {
                 self.settings = *settings;
                 let crate::settings::Settings {
@@ -181,7 +181,7 @@ impl Studio {
             }
             Command::Say(text) => self.overlays.notices.hint(text),
             Command::Copy(text) => self.clipboard.put(ctx, text),
-            Command::Tell(text, remedy) => {
+            Command::Notify(text, remedy) => {
                 let remedy = remedy.of(self.settings.language);
                 self.overlays.notices.say(&text, Some(remedy));
             }
@@ -579,12 +579,12 @@ impl Studio {
         if !self.settings.views.contains_key(view) {
             self.settings.views.insert(view.clone(), View::default());
         }
-        let ways = &self.settings.timeline;
+        let timeline = &self.settings.timeline;
         let Some(view) = self.settings.views.get_mut(view) else {
             return;
         };
-        if (&view.folded, &view.hidden) != (&ways.folded, &ways.hidden) {
-            (view.folded, view.hidden) = (ways.folded.clone(), ways.hidden.clone());
+        if (&view.folded, &view.hidden) != (&timeline.folded, &timeline.hidden) {
+            (view.folded, view.hidden) = (timeline.folded.clone(), timeline.hidden.clone());
         }
         if windows {
             view.windows = self.panes.timeline.windows();

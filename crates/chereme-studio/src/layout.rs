@@ -190,9 +190,9 @@ pub(crate) fn look(tree: &mut Tree<PaneKind>) {
     if !shows(tree, Stage) {
         bring(tree, Stage);
     }
-    let told = [Inspector, Film, History];
-    let told = told.into_iter().find(|it| hides(tree, *it, Timeline));
-    if told.is_some_and(|it| shows(tree, it)) && !hides(tree, Stage, Timeline) {
+    let covering = [Inspector, Film, History];
+    let covering = covering.into_iter().find(|it| hides(tree, *it, Timeline));
+    if covering.is_some_and(|it| shows(tree, it)) && !hides(tree, Stage, Timeline) {
         bring(tree, Timeline);
     }
 }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::keys::{Keymap, Rebound};
 use crate::panes::PaneKind;
-use crate::panes::stage::StageWays;
+use crate::panes::stage::StageSettings;
 use crate::panes::timeline::TimelineSettings;
 use crate::panes::timeline::data::Window;
 use crate::player::Stepping;
@@ -57,7 +57,7 @@ pub(crate) struct Settings {
     /// Settings of step-and-repeat playback.
     pub(crate) stepping: Stepping,
     /// Settings of the stage.
-    pub(crate) stage: StageWays,
+    pub(crate) stage: StageSettings,
     /// Whether the library is a list instead of a wall of figures.
     pub(crate) library_list: bool,
     /// The views of recent corpora, by path.
@@ -126,7 +126,7 @@ impl Default for Settings {
             small_layout: None,
             timeline: TimelineSettings::default(),
             stepping: Stepping::default(),
-            stage: StageWays::default(),
+            stage: StageSettings::default(),
             library_list: false,
             views: BTreeMap::new(),
         }

@@ -75,7 +75,7 @@ fn tiny(window: &Window<'_>) -> BTreeSet<String> {
 }
 
 /// Visits every pane in every layout.
-fn walk(window: &mut Window<'_>, told: &str) {
+fn walk(window: &mut Window<'_>, label: &str) {
     const LAYOUTS: [Key; 3] = [Key::F1, Key::F2, Key::F3];
     const PANES: [(Modifiers, Key); 8] = [
         (Modifiers::SHIFT, Key::F1),
@@ -94,10 +94,10 @@ fn walk(window: &mut Window<'_>, told: &str) {
             window.key_press_modifiers(modifiers, pane);
             window.run_steps(3);
             let (found, all) = nameless(window);
-            assert!(found.is_empty(), "{told}, {layout:?} {pane:?}: {found:#?}");
+            assert!(found.is_empty(), "{label}, {layout:?} {pane:?}: {found:#?}");
             let tiny = tiny(window);
-            assert!(tiny.is_empty(), "{told}, {layout:?} {pane:?}: {tiny:#?}");
-            assert!(all > 20, "{told}, {layout:?} {pane:?}: only {all}");
+            assert!(tiny.is_empty(), "{label}, {layout:?} {pane:?}: {tiny:#?}");
+            assert!(all > 20, "{label}, {layout:?} {pane:?}: only {all}");
         }
     }
     for (modifiers, overlay) in [
@@ -109,7 +109,7 @@ fn walk(window: &mut Window<'_>, told: &str) {
         window.key_press_modifiers(modifiers, overlay);
         window.run_steps(3);
         let (found, _) = nameless(window);
-        assert!(found.is_empty(), "{told}, {overlay:?}: {found:#?}");
+        assert!(found.is_empty(), "{label}, {overlay:?}: {found:#?}");
         window.key_press(Key::Escape);
         window.run_steps(3);
     }

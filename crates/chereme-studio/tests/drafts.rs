@@ -58,13 +58,13 @@ fn typist() {
     };
     let mut window = open(&folder, &folder.join("small.chereme"));
     edit(&mut window);
-    let mut told = std::io::stdout();
+    let mut output = std::io::stdout();
     for letter in ('a'..='z').cycle() {
         window.event(eframe::egui::Event::Text(letter.to_string()));
         window.step();
         let typed = field(&window).expect("the field is open");
-        writeln!(told, "typed {typed}").expect("told");
-        told.flush().expect("told");
+        writeln!(output, "typed {typed}").expect("told");
+        output.flush().expect("told");
     }
 }
 

@@ -55,8 +55,8 @@ fn main() -> ExitCode {
                 },
             };
             match session::write(Path::new(&words[1]), &plan) {
-                Ok(told) => {
-                    println!("{told}");
+                Ok(report) => {
+                    println!("{report}");
                     ExitCode::SUCCESS
                 }
                 Err(error) => {

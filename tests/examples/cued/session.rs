@@ -204,7 +204,7 @@ pub(crate) fn tiers(take: &Take, text: &str) -> Transcript {
         }
     };
     let name = |placement: u8, shape: u8| format!("{}-{shape}", PLACES[usize::from(placement)]);
-    let ways = |from: usize, to: usize| {
+    let movements = |from: usize, to: usize| {
         let mut before = "rest-0".to_owned();
         let mut all = Vec::new();
         for key in &take.keys {
@@ -231,8 +231,8 @@ pub(crate) fn tiers(take: &Take, text: &str) -> Transcript {
             tier("Text", vec![(0.0, end, text.to_owned())]),
             tier("Phones", phones.collect()),
             tier("Keys", keys.collect()),
-            tier("Hand M1 M2", ways(0, 1)),
-            tier("Fingers D1 D2", ways(2, 3)),
+            tier("Hand M1 M2", movements(0, 1)),
+            tier("Fingers D1 D2", movements(2, 3)),
         ],
         ..Transcript::default()
     }

@@ -132,8 +132,8 @@ pub(crate) fn readings(
         }
         let near = |shape: &&(String, HandAngles)| known_distance(&shape.1, &angles, &known);
         let shape = shapes.iter().min_by(|a, b| near(a).total_cmp(&near(b)))?;
-        let way = |way: DVec3| {
-            let own = body.direction_to_body(way);
+        let to_body = |direction: DVec3| {
+            let own = body.direction_to_body(direction);
             (nearest(own), own)
         };
         let palm = anatomy.landmark(skeleton, &model, "right-palm")?;
@@ -143,8 +143,8 @@ pub(crate) fn readings(
         };
         Some(Reading {
             shape: shape.0.clone(),
-            palm: way(anatomy.palm_normal(SIDE, &model)?),
-            fingers: way(anatomy.hand_direction(SIDE, &model)?),
+            palm: to_body(anatomy.palm_normal(SIDE, &model)?),
+            fingers: to_body(anatomy.hand_direction(SIDE, &model)?),
             place: PLACES.iter().min_by(|a, b| far(a).total_cmp(&far(b)))?,
             at: body.to_body(palm),
             angles,
@@ -156,8 +156,8 @@ pub(crate) fn readings(
 }
 
 /// Names the nearest of the 26 directions.
-fn nearest(way: DVec3) -> String {
-    let near = |direction: &Direction| DVec3::from(direction.vector()).dot(way);
+fn nearest(target: DVec3) -> String {
+    let near = |direction: &Direction| DVec3::from(direction.vector()).dot(target);
     let found = Direction::all().max_by(|a, b| near(a).total_cmp(&near(b)));
     found.map(|it| it.to_string()).unwrap_or_default()
 }

@@ -67,14 +67,14 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
             };
             for contact in contacts {
                 let kept = touches(capture, &made.clip, contact);
-                let told = made
+                let reported = made
                     .report
                     .contacts
                     .iter()
                     .any(|text| is_about(text, contact));
                 let what = if kept {
                     0
-                } else if told {
+                } else if reported {
                     1
                 } else {
                     2

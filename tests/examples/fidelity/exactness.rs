@@ -67,7 +67,7 @@ fn row(capture: &Capture) -> Result<Vec<String>> {
         } else {
             capture.sides()[0].name()
         };
-        let place = |way: &str| format!("place {hands} by {way} 10cm");
+        let place = |direction: &str| format!("place {hands} by {direction} 10cm");
         let [one, two] = after(&place(there), &place(back))?;
         bones = bones
             .max(stretched(clip, &one.clip))

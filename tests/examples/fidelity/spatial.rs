@@ -53,9 +53,9 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
     for capture in captures {
         let mut found = Found::default();
         let clip = capture.clip.resampled(Rate::new(120, 1)?);
-        for way in ["left", "right", "up", "down"] {
+        for direction in ["left", "right", "up", "down"] {
             for centimetres in [10, 25] {
-                one(capture, &clip, way, centimetres, &mut found)?;
+                one(capture, &clip, direction, centimetres, &mut found)?;
             }
         }
         all.add(&found);
@@ -117,7 +117,13 @@ impl Found {
     }
 }
 
-fn one(capture: &Capture, clip: &Clip, way: &str, cm: usize, found: &mut Found) -> Result<()> {
+fn one(
+    capture: &Capture,
+    clip: &Clip,
+    direction: &str,
+    cm: usize,
+    found: &mut Found,
+) -> Result<()> {
     let sides = capture.sides();
     let hands = if sides.len() == 2 {
         "both"
@@ -125,7 +131,7 @@ fn one(capture: &Capture, clip: &Clip, way: &str, cm: usize, found: &mut Found) 
         sides[0].name()
     };
     let shelf = Shelf::new(clip.clone(), &capture.anatomy);
-    let made = match shelf.make(&format!("place {hands} by {way} {cm}cm")) {
+    let made = match shelf.make(&format!("place {hands} by {direction} {cm}cm")) {
         Ok(made) => made,
         Err(_) => {
             found.refused += 1;
@@ -133,7 +139,7 @@ fn one(capture: &Capture, clip: &Clip, way: &str, cm: usize, found: &mut Found) 
         }
     };
     let asked = cm as f64 / 100.0;
-    let by = match way {
+    let by = match direction {
         "up" => DVec3::Y * asked,
         "down" => DVec3::NEG_Y * asked,
         _ => offset(capture, clip, &made.clip),
@@ -149,12 +155,12 @@ fn one(capture: &Capture, clip: &Clip, way: &str, cm: usize, found: &mut Found) 
     }
     if beyond {
         found.beyond[0] += 1;
-        found.beyond[1] += usize::from(told(&made));
+        found.beyond[1] += usize::from(is_reported(&made));
     }
     Ok(())
 }
 
-fn told(made: &Generated) -> bool {
+fn is_reported(made: &Generated) -> bool {
     let did = made.report.steps.iter().flat_map(|step| &step.did);
     did.into_iter().any(|did| did.contains("out of reach"))
 }
@@ -171,7 +177,10 @@ fn offset(capture: &Capture, clip: &Clip, made: &Clip) -> DVec3 {
         moved.extend(was.iter().zip(&is).map(|(was, is)| *is - *was));
     }
     let middle = |axis: usize| {
-        let mut values: Vec<f64> = moved.iter().map(|way| way[axis]).collect();
+        let mut values: Vec<f64> = moved
+            .iter()
+            .map(|displacement| displacement[axis])
+            .collect();
         values.sort_unstable_by(f64::total_cmp);
         values[values.len() / 2]
     };

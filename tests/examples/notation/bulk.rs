@@ -96,9 +96,9 @@ impl Hand {
             for (n, pair) in points.windows(2).enumerate() {
                 // The flesh ends at the tip.
                 let last = n + 2 == points.len();
-                let way = pair[1] - pair[0];
+                let step = pair[1] - pair[0];
                 let end = if last {
-                    pair[1] - way.clamp_length_max(radius)
+                    pair[1] - step.clamp_length_max(radius)
                 } else {
                     pair[1]
                 };
@@ -155,10 +155,10 @@ impl Hand {
                 let folded = folded(shape);
                 let of = |digit: usize| {
                     let on = self.bone(digit, 2)?;
-                    let (apart, way) = between(thumb.ends, on.ends);
+                    let (apart, direction) = between(thumb.ends, on.ends);
                     let off = (apart - thumb.radius - on.radius).abs();
                     // In front of the finger, not behind it or beside its end.
-                    Some(if way.dot(self.palm) > 0.3 * apart {
+                    Some(if direction.dot(self.palm) > 0.3 * apart {
                         off
                     } else {
                         off.max(apart)
@@ -216,6 +216,6 @@ pub(crate) fn between(a: [DVec3; 2], b: [DVec3; 2]) -> (f64, DVec3) {
             0.0
         };
     }
-    let way = (a[0] + u * s) - (b[0] + v * t);
-    (way.length(), way)
+    let offset = (a[0] + u * s) - (b[0] + v * t);
+    (offset.length(), offset)
 }

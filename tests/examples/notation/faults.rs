@@ -262,13 +262,13 @@ fn unblinking(seen: &Seen<'_>) -> Option<bool> {
 }
 
 fn merged(seen: &Seen<'_>) -> Option<bool> {
-    let told = seen
+    let reported = seen
         .made
         .report
         .warnings
         .iter()
         .any(|warning| warning.contains("each other"));
-    Some(merged_at_all(seen)? && !told)
+    Some(merged_at_all(seen)? && !reported)
 }
 
 fn merged_at_all(seen: &Seen<'_>) -> Option<bool> {
@@ -528,11 +528,15 @@ fn astray(seen: &Seen<'_>) -> Option<bool> {
             .map_or(v, |second| DVec3::from(second.vector()));
         found = Some((v + second).normalize_or(v));
     }
-    let way = found?;
+    let expected = found?;
     let frame = seen.made.anatomy.body_frame(&seen.models[0])?;
     let side = seen.dominant();
-    let left = if side == Side::Left { -way.x } else { way.x };
-    let way = frame.left * left + DVec3::Y * way.y + frame.forward * way.z;
+    let left = if side == Side::Left {
+        -expected.x
+    } else {
+        expected.x
+    };
+    let expected = frame.left * left + DVec3::Y * expected.y + frame.forward * expected.z;
     let &(from, to) = seen.strokes().first()?;
     let start = seen.wrist(side, from)?;
     let arm = seen.made.anatomy.arm(side)?;
@@ -541,7 +545,7 @@ fn astray(seen: &Seen<'_>) -> Option<bool> {
     let went = (seen.wrist(side, early)? - start)
         .try_normalize()
         .filter(|_| whole > 0.03)?;
-    Some(went.angle_between(way) > 45_f64.to_radians())
+    Some(went.angle_between(expected) > 45_f64.to_radians())
 }
 
 fn turned(seen: &Seen<'_>) -> Option<bool> {

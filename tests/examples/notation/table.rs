@@ -78,7 +78,7 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
         };
         let mut all = Worst::default();
         let (mut frames, mut failed, mut short, mut off) = (0, 0, 0, 0);
-        let (mut turned, mut told, mut pushed, mut other) = (0, 0, 0, 0);
+        let (mut turned, mut reported, mut pushed, mut other) = (0, 0, 0, 0);
         let mut spent = std::time::Duration::ZERO;
         let mut list: Vec<(String, Worst)> = Vec::new();
         for (name, notated) in &signs {
@@ -99,7 +99,7 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             off += warned("off its path");
             let most = turned_by(&made.report.warnings);
             turned += usize::from(most > 22.5);
-            told += usize::from(most > 0.0);
+            reported += usize::from(most > 0.0);
             pushed += warned("out of the trunk");
             other += warned("the part in front of the named one");
             let own = worst(&made);
@@ -113,7 +113,7 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             frames as f64 / spent.as_secs_f64()
         );
         println!(
-            "  short of what they touch {short}, touch with the part in front {other}, off their way {off}, turned by more than 22.5° {turned}, by more than 10° {told}, moved out of the trunk {pushed}"
+            "  short of what they touch {short}, touch with the part in front {other}, off their way {off}, turned by more than 22.5° {turned}, by more than 10° {reported}, moved out of the trunk {pushed}"
         );
         println!("  worst: {all:?}");
         let by: [Judged; 7] = [

@@ -20,13 +20,13 @@ impl Stroke<'_> {
     /// Returns the covered share of the path at equal steps of time.
     fn course(&self) -> Vec<f64> {
         let (first, last) = (self.path[0], self.path[self.path.len() - 1]);
-        let way = last - first;
+        let chord = last - first;
         let share = |n: usize| {
             let at = n as f64 / STEPS as f64 * (self.path.len() - 1) as f64;
             let from = at as usize;
             let to = (from + 1).min(self.path.len() - 1);
             let point = self.path[from].lerp(self.path[to], at - from as f64);
-            (point - first).dot(way) / way.length_squared()
+            (point - first).dot(chord) / chord.length_squared()
         };
         (0..=STEPS).map(share).collect()
     }

@@ -157,9 +157,9 @@ fn skeleton(path: &Path) -> Result<(f64, Vec<Wrist>)> {
         let at = (0..clip.frames()).map(|frame| {
             let model = clip.model_pose(frame);
             let body = anatomy.body_frame(&model)?;
-            let way = model.position(arm.hand) - body.origin;
+            let offset = model.position(arm.hand) - body.origin;
             let axes = [body.left, body.up, body.forward];
-            Some(DVec3::from_array(axes.map(|axis| way.dot(axis))))
+            Some(DVec3::from_array(axes.map(|axis| offset.dot(axis))))
         });
         let heights = (0..clip.frames()).map(|frame| {
             let model = clip.model_pose(frame);

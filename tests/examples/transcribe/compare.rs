@@ -210,9 +210,10 @@ fn held(
     if along.angle_between(vector(aim)).to_degrees() > HELD {
         return None;
     }
-    let told = of(&found.extended, 0);
-    let agrees = told.is_some_and(|told| vector(told).angle_between(vector(aim)) < 0.02);
-    let (a, b) = (aimed(Some(aim)), aimed(told));
+    let inferred = of(&found.extended, 0);
+    let agrees =
+        inferred.is_some_and(|inferred| vector(inferred).angle_between(vector(aim)) < 0.02);
+    let (a, b) = (aimed(Some(aim)), aimed(inferred));
     say("direction where held", agrees, a, b);
     let palm = of(&written.palm, 0)?;
     let normal = level(again.anatomy.palm_normal(Side::Right, &model)?);
@@ -220,12 +221,12 @@ fn held(
     if normal.angle_between(want.into()).to_degrees() > HELD {
         return None;
     }
-    let told = of(&found.palm, 0);
-    let agrees = told.is_some_and(|told| {
-        let apart = (angle(palm) - angle(told)).to_degrees();
+    let inferred = of(&found.palm, 0);
+    let agrees = inferred.is_some_and(|inferred| {
+        let apart = (angle(palm) - angle(inferred)).to_degrees();
         ((apart + 180.0).rem_euclid(360.0) - 180.0).abs() < 1.0
     });
-    let (a, b) = (aimed(Some(palm)), aimed(told));
+    let (a, b) = (aimed(Some(palm)), aimed(inferred));
     say("palm where held", agrees, a, b);
     Some(())
 }
@@ -364,8 +365,8 @@ fn place(
             say("constellation", contact, text.clone(), other.clone());
             if let Some(at) = &hands.at {
                 // A place of the dominant hand alone counts, too.
-                let told = found_place.as_ref().and_then(bodies);
-                let at_found = told.as_ref();
+                let inferred = found_place.as_ref().and_then(bodies);
+                let at_found = inferred.as_ref();
                 let same = at_found.is_some_and(|found| one_place(found, at));
                 let level = at_found.is_some_and(|found| {
                     sites(found)
@@ -637,8 +638,8 @@ fn named(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
             let change = all.iter().any(|done| done.changes);
             all.sort_by_key(|done| done.kind == "replacement");
             all.retain({
-                let ways = all.iter().any(|done| done.kind != "replacement");
-                move |done| !ways || done.kind != "replacement"
+                let moves = all.iter().any(|done| done.kind != "replacement");
+                move |done| !moves || done.kind != "replacement"
             });
             all.truncate(1);
             if let Some(first) = all.first_mut() {

@@ -63,7 +63,7 @@ impl Job {
                 other => return Err(format!("the task {other:?} is unknown").into()),
             }
             if task != "read" {
-                self.tell_newest(&corpus)?;
+                self.print_newest(&corpus)?;
             }
         }
         drop(corpus);
@@ -127,7 +127,7 @@ impl Job {
     }
 
     /// Prints the newest operation of this worker.
-    fn tell_newest(&self, corpus: &Corpus) -> Done {
+    fn print_newest(&self, corpus: &Corpus) -> Done {
         let log = corpus.log(200)?;
         let own = log.iter().find(|row| row.author == self.author);
         let own = own.ok_or("the operation is not in the log")?;

@@ -72,5 +72,5 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         language: args.language.as_deref(),
     };
     let done = corpus.animate(&notation, &staging, args.gloss.as_deref())?;
-    super::recombine::tell(&done, args.explain, args.draw.as_deref(), output)
+    super::recombine::print(&done, args.explain, args.draw.as_deref(), output)
 }

@@ -220,7 +220,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 let said = output.spoken(&finding.message);
                 output.line(format!("{}: {line}{said}", finding.severity))?;
             }
-            return tell(report, args.ids, output);
+            return print(report, args.ids, output);
         }
         Action::Replace { .. } => return replace(&mut corpus, &args.action, recording, output),
         Action::Shift { .. } => return shift(&mut corpus, args, recording, output),
@@ -233,7 +233,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
     let report = corpus.annotate(&changes, &options, &mut Progress::new(&mut hear))?;
     drop(bar);
-    tell(report, args.ids, output)
+    print(report, args.ids, output)
 }
 
 fn changes(action: &Action, recording: Option<&Name>) -> Result<Vec<AnnotationAction>> {
@@ -363,7 +363,7 @@ fn paste(
         let place = fill(output.say(trouble::LINE), &[("n", &line.line)]);
         output.line(format!("{place}{said}"))?;
     }
-    tell(report, args.ids, output)
+    print(report, args.ids, output)
 }
 
 /// Returns the error for an action that needs a recording.
@@ -383,7 +383,7 @@ pub(super) fn name(text: &str) -> Result<Name> {
 const NAMED: usize = 20;
 const LISTED: usize = 100;
 
-fn tell(mut report: AnnotateReport, all: bool, output: &mut Output) -> Result<()> {
+fn print(mut report: AnnotateReport, all: bool, output: &mut Output) -> Result<()> {
     let total = report.annotations.len();
     let few = all || total <= NAMED;
     let ids: Vec<String> = report
@@ -495,5 +495,5 @@ fn shift(
     if *dry_run {
         output.line("nothing is written; it would be:")?;
     }
-    tell(report, args.ids, output)
+    print(report, args.ids, output)
 }

@@ -107,5 +107,5 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         }
     }
     done.report.warnings.append(&mut findings);
-    super::recombine::tell(&done, args.explain, args.draw.as_deref(), output)
+    super::recombine::print(&done, args.explain, args.draw.as_deref(), output)
 }

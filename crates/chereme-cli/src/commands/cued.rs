@@ -286,7 +286,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             force,
         } => {
             let found = corpus.cue_phases(recordings, &options)?;
-            let told = |it: [f64; 3]| format!("{:+.0} ({:+.0} to {:+.0})", it[1], it[0], it[2]);
+            let range_text =
+                |it: [f64; 3]| format!("{:+.0} ({:+.0} to {:+.0})", it[1], it[0], it[2]);
             let rows: Vec<Vec<String>> = found
                 .rows
                 .iter()
@@ -295,8 +296,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                         it.part.to_owned(),
                         it.kind.to_owned(),
                         it.n.to_string(),
-                        told(it.begins_ms),
-                        told(it.arrives_ms),
+                        range_text(it.begins_ms),
+                        range_text(it.arrives_ms),
                         format!(
                             "{:.2} ({:.2} to {:.2})",
                             it.share[1], it.share[0], it.share[2]
@@ -398,7 +399,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 &mut progress,
             )?;
             drop(bar);
-            tell(&said, output)?;
+            print_comparison(&said, output)?;
             output.document(said)
         }
         Action::Slips {
@@ -463,7 +464,7 @@ fn confusion(name: &str, of: &CueConfusion, output: &mut Output) -> Result<()> {
     output.columns(&titles, &rows)
 }
 
-fn tell(said: &FromDictionary, output: &mut Output) -> Result<()> {
+fn print_comparison(said: &FromDictionary, output: &mut Output) -> Result<()> {
     let rows: Vec<Vec<String>> = said
         .pieces
         .iter()

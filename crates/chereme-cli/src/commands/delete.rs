@@ -56,11 +56,11 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
     let done = corpus.delete(&args.what, options, &mut Progress::new(&mut hear))?;
     drop(bar);
-    tell(&done, options.dependents, output)?;
+    print(&done, options.dependents, output)?;
     output.document(done)
 }
 
-fn tell(done: &Deleted, dependents: Dependents, output: &mut Output) -> Result<()> {
+fn print(done: &Deleted, dependents: Dependents, output: &mut Output) -> Result<()> {
     let title = match done.dry_run {
         true => words::NOTHING_WRITTEN,
         false => words::DELETED,
@@ -96,7 +96,7 @@ fn tell(done: &Deleted, dependents: Dependents, output: &mut Output) -> Result<(
     }
     let title = match dependents {
         Dependents::Keep => words::KEPT,
-        _ => words::IN_THE_WAY,
+        _ => words::PREVENTED_BY,
     };
     output.line(output.say(title))?;
     for it in &done.dependents {

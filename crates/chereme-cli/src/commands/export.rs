@@ -7,7 +7,7 @@ use anyhow::Result;
 use chereme_corpus::{Corpus, Error, ExportOptions, ExportWhat, Progress, SearchOptions};
 
 use crate::args::Cli;
-use crate::output::{Bar, Output, tell};
+use crate::output::{Bar, Output, write_to_stderr};
 use crate::streams;
 
 /// Export movement, annotations, tables, or the whole enriched database
@@ -70,7 +70,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         io::Write::flush(&mut out)?;
         drop(bar);
         for note in notes {
-            tell(&format!("note: {}", output.spoken(&note)));
+            write_to_stderr(&format!("note: {}", output.spoken(&note)));
         }
         output.silence();
         return Ok(());

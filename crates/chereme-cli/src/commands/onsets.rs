@@ -44,12 +44,12 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let function = args.function.as_deref().map(Function::of);
     let found = corpus.onsets(function.as_ref(), &mut Progress::new(&mut hear))?;
     drop(bar);
-    let told = |it: &Quartiles| format!("{:+.3} ({:+.3} to {:+.3})", it.median, it.q1, it.q3);
+    let text = |it: &Quartiles| format!("{:+.3} ({:+.3} to {:+.3})", it.median, it.q1, it.q3);
     let rows: Vec<Vec<String>> = found
         .rows
         .iter()
         .map(|it| {
-            let (onset, offset) = (told(&it.onset_s), told(&it.offset_s));
+            let (onset, offset) = (text(&it.onset_s), text(&it.offset_s));
             vec![
                 it.function.to_string(),
                 it.channel.to_owned(),

@@ -80,7 +80,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         (None, Some(gloss)) => corpus.recombine(&recipe, gloss)?,
         (None, None) => corpus.preview(&recipe)?,
     };
-    tell(&done, args.explain, args.draw.as_deref(), output)?;
+    print(&done, args.explain, args.draw.as_deref(), output)?;
     if args.gloss.is_some() && one_more(&done) {
         let gloss = &done.gloss;
         output.line(format!(
@@ -96,7 +96,7 @@ fn one_more(done: &Recombination) -> bool {
 }
 
 /// Prints the result, and draws it if a file is given.
-pub(super) fn tell(
+pub(super) fn print(
     done: &Recombination,
     explain: bool,
     draw: Option<&Path>,

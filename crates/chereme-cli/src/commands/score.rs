@@ -77,13 +77,13 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
 fn faces(corpus: &Corpus, both: [&Address; 2], args: &Args, output: &mut Output) -> Result<()> {
     let function = args.function.as_deref().map(Function::of);
     let score = corpus.score_faces(both, function.as_ref(), &args.comparing.options())?;
-    let told = if args.comparing.no_stretch {
+    let shown_score = if args.comparing.no_stretch {
         score.unstretched
     } else {
         score.stretched
     };
     output.line(format!(
-        "score {told:.4} (0: alike); without the ratio of lengths {:.4}, ratio {:.3}{}",
+        "score {shown_score:.4} (0: alike); without the ratio of lengths {:.4}, ratio {:.3}{}",
         score.unstretched,
         score.stretch,
         if score.partial {

@@ -17,10 +17,10 @@ const SHOWN: usize = 40;
 
 /// Returns `message` with names in place of `tier:N` and `annotation:N` outside of quotes.
 pub(crate) fn named(connection: &Connection, message: &str) -> String {
-    let mut told = String::with_capacity(message.len());
+    let mut text = String::with_capacity(message.len());
     let (mut quoted, mut rest) = (false, message);
     while let Some(first) = rest.chars().next() {
-        let inside = told.ends_with(|c: char| c.is_alphanumeric());
+        let inside = text.ends_with(|c: char| c.is_alphanumeric());
         if !quoted && !inside {
             let name = number(rest, "tier:")
                 .and_then(|(id, length)| Some((tier_named(connection, id)?, length)))
@@ -29,16 +29,16 @@ pub(crate) fn named(connection: &Connection, message: &str) -> String {
                     Some((annotation_named(connection, id)?, length))
                 });
             if let Some((name, length)) = name {
-                told.push_str(&name);
+                text.push_str(&name);
                 rest = &rest[length..];
                 continue;
             }
         }
         quoted ^= first == '"';
-        told.push(first);
+        text.push(first);
         rest = &rest[first.len_utf8()..];
     }
-    told
+    text
 }
 
 /// Reads `KIND:12` at the start of a text, and returns the number and its length.

@@ -196,10 +196,11 @@ impl Corpus {
         faults: Vec<Error>,
         progress: &mut Progress<'_>,
     ) -> Result<AnnotateReport> {
-        let told = |connection: &Connection, progress: &mut Progress<'_>| {
+        let work = |connection: &Connection, progress: &mut Progress<'_>| {
             carry_out(connection, changes, options, faults, progress)
         };
-        self.store.operation_told("annotate", progress, told)
+        self.store
+            .operation_with_progress("annotate", progress, work)
     }
 
     /// Adds tiers and changes annotations as one operation of that name: all of it, or nothing.
@@ -210,13 +211,13 @@ impl Corpus {
         (changes, options): (&[AnnotationChange], &AnnotateOptions),
         progress: &mut Progress<'_>,
     ) -> Result<AnnotateReport> {
-        let told = |connection: &Connection, progress: &mut Progress<'_>| {
+        let work = |connection: &Connection, progress: &mut Progress<'_>| {
             for tier in new {
                 tiers::insert(connection, tier)?;
             }
             carry_out(connection, changes, options, Vec::new(), progress)
         };
-        self.store.operation_told(name, progress, told)
+        self.store.operation_with_progress(name, progress, work)
     }
 }
 
@@ -233,7 +234,7 @@ fn carry_out(
     for (done, change) in changes.iter().enumerate() {
         work.change(change)?;
         if changes.len() > 1 && done % 64 == 0 {
-            progress.tell(Step {
+            progress.report(Step {
                 task: "annotating",
                 done: done as u64,
                 total: Some(changes.len() as u64),
@@ -326,7 +327,7 @@ impl<'a> Work<'a> {
             scope.close(self.connection)?;
             if let Some(touched) = scope.touched {
                 let recording = scope.recording.id;
-                tokens::derive_told(
+                tokens::derive_with_progress(
                     self.connection,
                     recording,
                     Some(touched),

@@ -198,7 +198,7 @@ impl Corpus {
             return self.annotate(changes, &options, progress);
         }
         let mut tried = None;
-        let told = |connection: &Connection, progress: &mut Progress<'_>| {
+        let carry = |connection: &Connection, progress: &mut Progress<'_>| {
             let mut work = Work::new(connection, &options)?;
             for change in changes {
                 work.change(change)?;
@@ -207,7 +207,9 @@ impl Corpus {
             // An error rolls the attempt back.
             Err::<((), String), _>(Error::Stopped)
         };
-        let done = self.store.operation_told("annotate", progress, told);
+        let done = self
+            .store
+            .operation_with_progress("annotate", progress, carry);
         match (done, tried) {
             (_, Some(report)) => Ok(report),
             (Err(error), None) => Err(error),

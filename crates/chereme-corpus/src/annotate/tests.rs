@@ -424,10 +424,10 @@ fn the_rules_of_the_tiers_hold_through_the_store() {
         match annotate(&mut corpus, change) {
             Ok(_) => assert_eq!(shown(&corpus), want, "{before} | {change}"),
             Err(error) => {
-                let told = format!("{error} {}", error.remedy().unwrap_or_default());
+                let message = format!("{error} {}", error.remedy().unwrap_or_default());
                 assert!(
-                    told.contains(want) && !want.is_empty(),
-                    "{before} | {change}: {told}"
+                    message.contains(want) && !want.is_empty(),
+                    "{before} | {change}: {message}"
                 );
                 assert_eq!(rows(corpus.store.read()), unchanged, "{change}");
             }
@@ -629,7 +629,7 @@ fn tables_are_applied_or_refused_row_by_row() {
     let error = corpus
         .annotate_table(bad.as_bytes(), "bad.csv", None, &options, &mut progress)
         .expect_err("faults");
-    let told = error.to_string();
+    let message = error.to_string();
     for want in [
         "6 changes cannot be made, and none was:\nbad.csv, line 2: ",
         "bad.csv, line 4: end: \"x\" is no time",
@@ -639,7 +639,7 @@ fn tables_are_applied_or_refused_row_by_row() {
         "bad.csv, line 7: no annotation of the tier \"G\" starts at 1.600s",
         "bad.csv, line 8: \"UU\" is no value",
     ] {
-        assert!(told.contains(want), "{want} in\n{told}");
+        assert!(message.contains(want), "{want} in\n{message}");
     }
     assert_eq!(rows(corpus.store.read()), before);
 }

@@ -289,7 +289,7 @@ pub(super) fn book(
     let rigid = rigid_set(faces.flat_map(|own| own.take.face.iter())).unwrap_or_default();
     let mut all = Vec::new();
     for (n, own) in takes.iter().enumerate() {
-        progress.tell(Step {
+        progress.report(Step {
             task: &own.take.row.name,
             done: n as u64,
             total: Some(takes.len() as u64),

@@ -225,7 +225,7 @@ fn models(
     let names = |of: &[&Take]| of.iter().map(|take| take.row.name.clone()).collect();
     let mut findings = Vec::new();
     let mut learn = |task: &'static str, done: u64| {
-        progress.tell(Step {
+        progress.report(Step {
             task,
             done,
             total: Some(2),
@@ -315,7 +315,7 @@ impl Counted {
                     total: None,
                     unit: Unit::Frames,
                 };
-                if let Err(stopped) = progress.tell(step) {
+                if let Err(stopped) = progress.report(step) {
                     counted.stopped.store(true, Ordering::Relaxed);
                     return Err(stopped);
                 }

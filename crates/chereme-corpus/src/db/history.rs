@@ -143,7 +143,7 @@ fn step(progress: &mut Progress<'_>, task: &str, done: i64) -> Result<()> {
     if done % 512 != 0 {
         return Ok(());
     }
-    progress.tell(Step {
+    progress.report(Step {
         task,
         done: u64::try_from(done).unwrap_or_default(),
         total: None,
@@ -575,7 +575,7 @@ pub(super) fn check(connection: &Connection, progress: &mut Progress<'_>) -> Res
         let (id, changes, parts): (i64, i64, i64) = (row.get(0)?, row.get(1)?, row.get(2)?);
         let mut found = 0i64;
         for part in 0..parts {
-            progress.tell(Step {
+            progress.report(Step {
                 task: "history",
                 done: u64::try_from(id).unwrap_or_default(),
                 total: None,

@@ -123,12 +123,12 @@ impl<D: Derived> Store<D> {
     ) -> Result<T> {
         let mut hear = unheard;
         let progress = &mut Progress::new(&mut hear);
-        self.operation_told(name, progress, |connection, _| work(connection))
+        self.operation_with_progress(name, progress, |connection, _| work(connection))
     }
 
     /// Runs `work` as [`operation`](Self::operation) does, with progress reports; it can be stopped until everything is
     /// stored.
-    pub(crate) fn operation_told<T>(
+    pub(crate) fn operation_with_progress<T>(
         &mut self,
         name: &str,
         progress: &mut Progress<'_>,
@@ -190,7 +190,7 @@ impl<D: Derived> Store<D> {
             self.index.follow(&transaction, progress)?;
             transaction.execute_batch("DELETE FROM temp.change; DELETE FROM temp.touched;")?;
             // From here on it cannot be stopped.
-            progress.tell(Step {
+            progress.report(Step {
                 task: "storing",
                 done: 0,
                 total: None,

@@ -283,21 +283,21 @@ static WAITING: OnceLock<fn()> = OnceLock::new();
 /// Sets a function that is called when work has waited for one second for another program that writes to the corpus.
 ///
 /// It applies to the whole program, and only the first call has an effect. After 20 seconds of waiting the work fails.
-pub fn on_waiting(tell: fn()) {
+pub fn on_waiting(report: fn()) {
     // A second listener is not an error: the first one reports already.
-    let _ = WAITING.set(tell);
+    let _ = WAITING.set(report);
 }
 
 /// The longest pause between two tries, in milliseconds; the first pause is the shortest.
 const PAUSE: u64 = 25;
-const TOLD_AFTER: i32 = 44;
+const REPORTED_AFTER: i32 = 44;
 const REFUSED_AFTER: i32 = 804;
 
 fn wait(before: i32) -> bool {
-    if before == TOLD_AFTER
-        && let Some(tell) = WAITING.get()
+    if before == REPORTED_AFTER
+        && let Some(report) = WAITING.get()
     {
-        tell();
+        report();
     }
     std::thread::sleep(Duration::from_millis(PAUSE.min(1 << before.clamp(0, 5))));
     before < REFUSED_AFTER

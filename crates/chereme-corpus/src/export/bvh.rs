@@ -55,7 +55,7 @@ pub(crate) fn write(
                 columns,
             })
             .map_err(fault)?;
-        progress.tell(Step {
+        progress.report(Step {
             task: &stretch.recording.name,
             done: (own.end - frames.start) as u64,
             total: Some(frames.len() as u64),

@@ -76,7 +76,7 @@ pub(super) fn tokens(
                 .values()
                 .map(|token| token.sign_id),
         );
-        tell(progress, part * signs::AT_ONCE, tokens.len() * 2)?;
+        report(progress, part * signs::AT_ONCE, tokens.len() * 2)?;
     }
     for sign in &signs {
         for (language, texts) in texts(connection, *sign)? {
@@ -138,7 +138,7 @@ pub(super) fn tokens(
             }));
             table.write_record(row).map_err(fault)?;
         }
-        tell(
+        report(
             progress,
             tokens.len() + part * signs::AT_ONCE,
             tokens.len() * 2,
@@ -208,8 +208,8 @@ fn fault(error: ::csv::Error) -> Error {
     Error::wrong(format!("the table cannot be written: {error}"))
 }
 
-fn tell(progress: &mut Progress<'_>, done: usize, total: usize) -> Result<()> {
-    progress.tell(Step {
+fn report(progress: &mut Progress<'_>, done: usize, total: usize) -> Result<()> {
+    progress.report(Step {
         task: "tokens",
         done: done as u64,
         total: Some(total as u64),

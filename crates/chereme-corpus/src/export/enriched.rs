@@ -138,7 +138,7 @@ impl Folder {
                 total,
                 unit: Unit::Items,
             };
-            progress.tell(step)?;
+            progress.report(step)?;
         }
         Ok(())
     }

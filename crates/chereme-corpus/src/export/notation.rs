@@ -54,7 +54,7 @@ pub(super) fn write(
         Form::Symbols => sigml::write_symbols(&signs),
         Form::Text => hns::write(&signs),
     };
-    tell_lost(&signs, &lost, notes);
+    note_lost(&signs, &lost, notes);
     out.write_all(&bytes)
         .map_err(|error| Error::wrong(format!("the file cannot be written: {error}")))
 }
@@ -68,7 +68,7 @@ fn notated(
     for (part, ids) in tokens.chunks(AT_ONCE).enumerate() {
         let mut found = notation::of_tokens(connection, ids)?;
         signs.extend(ids.iter().filter_map(|id| Some(found.remove(id)?.document)));
-        progress.tell(Step {
+        progress.report(Step {
             task: "notation",
             done: (part * AT_ONCE) as u64,
             total: Some(tokens.len() as u64),
@@ -79,7 +79,7 @@ fn notated(
 }
 
 /// Adds a note for each kind of property that the file cannot hold, with its count and the first sign that has it.
-fn tell_lost(signs: &[Notated], lost: &[Vec<String>], notes: &mut Vec<String>) {
+fn note_lost(signs: &[Notated], lost: &[Vec<String>], notes: &mut Vec<String>) {
     let mut kinds: BTreeMap<&str, (usize, &str)> = BTreeMap::new();
     for (sign, own) in signs.iter().zip(lost) {
         for message in own {

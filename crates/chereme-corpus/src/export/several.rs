@@ -61,7 +61,7 @@ pub(super) fn write(
                 report.notes.push(note);
             }
         }
-        progress.tell(Step {
+        progress.report(Step {
             task: "files",
             done: done as u64 + 1,
             total: Some(each.len() as u64),

@@ -582,12 +582,17 @@ fn markers_without_the_curves_beside_them_are_named() {
     let face = "Timecode,BlendShapeCount,JawOpen\n00:00:00:00.0,61,0.25\n00:00:00:01.0,61,0.5\n";
     let points = place.file("a.trc", points.as_bytes());
     let face = place.file("a.csv", face.as_bytes());
-    for (files, told) in [(vec![points.clone()], false), (vec![points, face], true)] {
+    for (files, reported) in [(vec![points.clone()], false), (vec![points, face], true)] {
         let corpus = place.corpus(&files);
-        let to = place.path(&format!("{told}.c3d"));
+        let to = place.path(&format!("{reported}.c3d"));
         let report = export(&corpus, &address("recording:1"), &to).expect("exported");
         let named = |it: &String| it.contains("without the curves face");
-        assert_eq!(report.notes.iter().any(named), told, "{:?}", report.notes);
+        assert_eq!(
+            report.notes.iter().any(named),
+            reported,
+            "{:?}",
+            report.notes
+        );
     }
 }
 

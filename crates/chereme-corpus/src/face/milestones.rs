@@ -92,7 +92,7 @@ impl Corpus {
         let mut report = Expressions::default();
         let mut fresh: Vec<(String, i64, Expression)> = Vec::new();
         for (done, row) in all.iter().enumerate() {
-            progress.tell(Step {
+            progress.report(Step {
                 task: &row.name,
                 done: done as u64,
                 total: Some(all.len() as u64),

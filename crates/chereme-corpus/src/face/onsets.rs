@@ -103,7 +103,7 @@ impl Corpus {
         let fits = Fits::of(connection)?;
         let all = recordings::recordings(connection)?;
         for (done, row) in all.iter().enumerate() {
-            progress.tell(Step {
+            progress.report(Step {
                 task: &row.name,
                 done: done as u64,
                 total: Some(all.len() as u64),

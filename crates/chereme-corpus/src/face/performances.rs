@@ -171,7 +171,7 @@ fn read_all(
     let recordings = recordings::recordings(connection)?;
     for (done, row) in recordings.iter().enumerate() {
         if done % 64 == 0 {
-            progress.tell(Step {
+            progress.report(Step {
                 task: "reading faces",
                 done: done as u64,
                 total: Some(recordings.len() as u64),

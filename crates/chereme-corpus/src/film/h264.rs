@@ -152,12 +152,12 @@ impl Decode for Own {
             self.floor = self.container.frames[begin].shown;
         }
         let mut at = on.unwrap_or(begin);
-        let told = self.path.display().to_string();
+        let path = self.path.display().to_string();
         let broken = |reason: &str| {
             Error::wrong(format!(
                 "frame {frame} of the film cannot be decoded: {reason}"
             ))
-            .at(told.clone())
+            .at(path.clone())
             .advise("the file is damaged there; copy it again, or look at another frame")
         };
         loop {

@@ -89,13 +89,13 @@ fn listed(path: &Path) -> std::result::Result<([usize; 2], FilmTimes), String> {
     command.args(["-map", "0:v:0", "-c", "copy", "-f", "framecrc", "-"]);
     let output = command.output().map_err(|error| error.to_string())?;
     let text = String::from_utf8_lossy(&output.stdout);
-    let told = |key: &str| text.lines().find_map(|line| line.strip_prefix(key));
+    let value_of = |key: &str| text.lines().find_map(|line| line.strip_prefix(key));
     let parts = |text: &str, between: char| -> Option<(i64, i64)> {
         let (a, b) = text.trim().split_once(between)?;
         Some((a.trim().parse().ok()?, b.trim().parse().ok()?))
     };
-    let base = told("#tb 0:").and_then(|it| parts(it, '/'));
-    let size = told("#dimensions 0:").and_then(|it| parts(it, 'x'));
+    let base = value_of("#tb 0:").and_then(|it| parts(it, '/'));
+    let size = value_of("#dimensions 0:").and_then(|it| parts(it, 'x'));
     let (Some((part, whole)), Some((width, height))) = (base, size) else {
         return Err("ffmpeg finds no pictures in it".to_owned());
     };

@@ -214,15 +214,15 @@ impl Film {
         known: Option<(mp4::Container, Vec<String>)>,
         reason: &str,
     ) -> Result<Self> {
-        let told = path.display();
+        let shown_path = path.display();
         if !helper::is_there() {
             return Err(Error::wrong(format!(
                 "the film cannot be played: {reason}; the program itself plays H.264 (8 bits, 4:2:0, not interlaced) \
                  in MP4 or MOV files"
             ))
-            .at(told.to_string())
+            .at(shown_path.to_string())
             .advise(format!(
-                "install ffmpeg, which is used then; or convert the film once, where ffmpeg is: ffmpeg -i {told:?} \
+                "install ffmpeg, which is used then; or convert the film once, where ffmpeg is: ffmpeg -i {shown_path:?} \
                  -c:v libx264 -pix_fmt yuv420p NEW.mp4"
             )));
         }

@@ -83,7 +83,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
             block.frames,
             &block.columns,
         )?;
-        progress.tell(Step {
+        progress.report(Step {
             task: &job.file_name,
             done: reader.bytes_read(),
             total: Some(size),
@@ -113,7 +113,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let first = first_frame(&hierarchy, &found.first, rate, summary.root_fix)?;
     let scale = root_scale(&first, &found.anatomy, found.convention.axes.up().vector());
     mend_root(job, track, summary.root_fix, scale, &mut report)?;
-    tell_odd_frames(job, recording, &mut report)?;
+    report_odd_frames(job, recording, &mut report)?;
     super::tracks::keep_beside(job, recording, track, &found.anatomy, &mut report)?;
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     Ok(report)
@@ -211,7 +211,7 @@ fn listed(names: &[&str]) -> String {
 }
 
 /// Reports bind poses, T-poses and jumps at the ends of a recording.
-pub(super) fn tell_odd_frames(
+pub(super) fn report_odd_frames(
     job: &Job<'_>,
     recording: i64,
     report: &mut FileReport,
@@ -219,15 +219,15 @@ pub(super) fn tell_odd_frames(
     let stored = MotionTrack::of(job.connection, recording)?;
     let anatomy = stored.anatomy(job.connection)?;
     let odd = stored.odd_frames(job.connection, &anatomy)?;
-    let told: Vec<String> = odd.iter().map(ToString::to_string).collect();
-    report.understood.odd_frames = Some(told.clone());
-    if !told.is_empty() {
+    let texts: Vec<String> = odd.iter().map(ToString::to_string).collect();
+    report.understood.odd_frames = Some(texts.clone());
+    if !texts.is_empty() {
         report.findings.push(ReportFinding {
             severity: "note",
             line: None,
             message: format!(
                 "no part of the movement, and left out of measures and pictures: {}",
-                told.join("; ")
+                texts.join("; ")
             ),
             remedy: Some("a recipe cuts them off: `| trim`, or `| span 0.2s..`".into()),
         });

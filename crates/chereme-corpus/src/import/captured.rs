@@ -165,9 +165,9 @@ fn scene(
         return Ok(report);
     }
     let bytes = job.bytes()?;
-    job.tell(progress)?;
+    job.report(progress)?;
     let (scene, findings) = read(&bytes).map_err(Error::wrong)?;
-    job.tell(progress)?;
+    job.report(progress)?;
     let mut report = begun(job, findings);
     let skeleton = scene.clip.skeleton().clone();
     let roles = job.options.roles.clone().unwrap_or_default();
@@ -220,7 +220,7 @@ fn scene(
     let recording = tracks::store(job, new, &mut report)?;
     job.keep(Some(recording), None)?;
     if moves {
-        bvh::tell_odd_frames(job, recording, &mut report)?;
+        bvh::report_odd_frames(job, recording, &mut report)?;
     }
     Ok(report)
 }
@@ -307,10 +307,10 @@ fn take(
         return Ok(report);
     }
     let bytes = job.bytes()?;
-    job.tell(progress)?;
+    job.report(progress)?;
     let damaged = |why| Error::wrong(why).advise(DAMAGED);
     let (document, findings) = read(&bytes).map_err(damaged)?;
-    job.tell(progress)?;
+    job.report(progress)?;
     keep_take(job, document, findings, progress)
 }
 

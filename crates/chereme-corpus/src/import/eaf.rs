@@ -81,10 +81,10 @@ pub(super) fn import_as(
         return Ok(report);
     }
     let bytes = job.bytes()?;
-    job.tell(progress)?;
+    job.report(progress)?;
     let (mut transcript, findings) = read(&bytes).map_err(Error::wrong)?;
     super::elan::fill(job, &mut transcript)?;
-    job.tell(progress)?;
+    job.report(progress)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
     report
         .findings
@@ -112,7 +112,7 @@ pub(super) fn import_as(
                 base.path.as_ref().unwrap_or(&base.name)
             )),
         );
-        tokens::derive_told(job.connection, recording, None, &job.inventories, progress)?;
+        tokens::derive_with_progress(job.connection, recording, None, &job.inventories, progress)?;
         return Ok(report);
     }
     warn_of_length(job, recording, &transcript, &mut report)?;
@@ -135,7 +135,7 @@ pub(super) fn import_as(
         }
     }
     recordings::lengthen(job.connection, recording, transcript.end().micros())?;
-    tokens::derive_told(job.connection, recording, None, &job.inventories, progress)?;
+    tokens::derive_with_progress(job.connection, recording, None, &job.inventories, progress)?;
     let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
     job.count("tokens", derived.saturating_sub(before));
     job.keep(Some(recording), Some(&bytes))?;
@@ -546,7 +546,7 @@ fn write_annotations(
     for tier in parents_first(transcript) {
         for (index, annotation) in transcript.tiers[tier].annotations.iter().enumerate() {
             if count % 256 == 255 {
-                job.tell(progress)?;
+                job.report(progress)?;
             }
             let parent = annotation
                 .parent

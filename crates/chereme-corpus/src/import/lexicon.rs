@@ -76,7 +76,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         }
         if done % 256 == 0 {
             let done = done as u64;
-            progress.tell(Step {
+            progress.report(Step {
                 task: &job.file_name,
                 done,
                 total,

@@ -144,7 +144,7 @@ struct Job<'a> {
     /// Whether the caller named the file itself rather than a folder that contains it.
     named: bool,
     /// The number of progress reports so far.
-    told: u64,
+    steps: u64,
     /// The recording of the only motion file in this file's folder, if the folder holds one take.
     folder_take: Option<i64>,
 }
@@ -155,11 +155,11 @@ impl Job<'_> {
     }
 
     /// Reports progress; fails if the caller asks the work to stop.
-    fn tell(&mut self, progress: &mut Progress<'_>) -> Result<()> {
-        self.told += 1;
-        progress.tell(Step {
+    fn report(&mut self, progress: &mut Progress<'_>) -> Result<()> {
+        self.steps += 1;
+        progress.report(Step {
             task: &self.file_name,
-            done: self.told,
+            done: self.steps,
             total: None,
             unit: Unit::Items,
         })
@@ -253,7 +253,7 @@ impl Corpus {
                 Ok(((), summary))
             }
         };
-        match self.store.operation_told("import", progress, run) {
+        match self.store.operation_with_progress("import", progress, run) {
             Err(Error::Stopped) if options.dry_run && report.complete => {}
             other => other?,
         }
@@ -354,7 +354,7 @@ impl Import<'_> {
                     continue;
                 }
             };
-            progress.tell(Step {
+            progress.report(Step {
                 task: READERS[reader].holds,
                 done: before[reader],
                 total: Some(total(reader).count() as u64),
@@ -436,7 +436,7 @@ impl Import<'_> {
             counts,
             used: &mut self.used,
             named,
-            told: 0,
+            steps: 0,
             folder_take: None,
         };
         if !named && self.one_take.contains(path) {
@@ -506,7 +506,7 @@ fn hash_file(path: &Path, progress: &mut Progress<'_>) -> Result<String> {
         if total > 64 << 20 {
             let task = "checking";
             let unit = crate::progress::Unit::Bytes;
-            progress.tell(crate::progress::Step {
+            progress.report(crate::progress::Step {
                 task,
                 done,
                 total: Some(total),

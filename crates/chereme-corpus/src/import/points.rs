@@ -85,7 +85,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
             let at = |error| wrong(error).at(path.display().to_string());
             reader.push(Some(*number), &bytes).map_err(at)?;
             if done % 64 == 0 {
-                progress.tell(Step {
+                progress.report(Step {
                     task: &job.file_name,
                     done,
                     total: Some(total),
@@ -98,7 +98,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
             return Ok(report);
         }
     }
-    job.tell(progress)?;
+    job.report(progress)?;
     let (document, findings) = reader.finish(job.options.rate).map_err(wrong)?;
     captured::keep_take(job, document, findings, progress)
 }

@@ -166,7 +166,7 @@ fn a_malformed_property_is_reported() {
 #[test]
 fn annotations_long_after_the_movement_are_reported() {
     let desk = Desk::new();
-    for (name, end, told) in [("short", 1100, false), ("long", 1300, true)] {
+    for (name, end, reported) in [("short", 1100, false), ("long", 1300, true)] {
         let mut corpus = desk.corpus(&format!("{name}.chereme"));
         import(
             &mut corpus,
@@ -179,7 +179,7 @@ fn annotations_long_after_the_movement_are_reported() {
             .findings
             .iter()
             .any(|it| it.message.contains("annotations end at"));
-        assert_eq!(warned, told, "{name}: {:?}", report.findings);
+        assert_eq!(warned, reported, "{name}: {:?}", report.findings);
     }
 }
 
@@ -264,23 +264,26 @@ fn an_edited_file_updates_its_annotations_and_one_undo_takes_it_back() {
 
     let report = import(&mut corpus, &file, "{}");
     assert_eq!(report.findings, dry.files[0].findings);
-    let told: Vec<&str> = report
+    let messages: Vec<&str> = report
         .findings
         .iter()
         .map(|it| it.message.as_str())
         .collect();
     assert!(
-        told[0].contains("2 changed, 0 added, 1 removed, 0 as they were"),
-        "{told:?}"
+        messages[0].contains("2 changed, 0 added, 1 removed, 0 as they were"),
+        "{messages:?}"
     );
     assert!(
-        told.iter()
+        messages
+            .iter()
             .any(|line| line.contains("\"BOL\" became \"BALLE\"")),
-        "{told:?}"
+        "{messages:?}"
     );
     assert!(
-        told.iter().any(|line| line.contains("\"glad\" removed")),
-        "{told:?}"
+        messages
+            .iter()
+            .any(|line| line.contains("\"glad\" removed")),
+        "{messages:?}"
     );
     assert_eq!(said(&corpus), ["Gloss 0 BALLE", "Notes 100 fine"]);
     let hits = |corpus: &mut Corpus, gloss: &str| {
@@ -373,10 +376,10 @@ fn an_inventory_that_contradicts_the_corpus_is_refused() {
     let again = desk.file("two.json", &inventory("hat"));
     let report = import(&mut corpus, &again, "{}");
     assert_eq!(report.status, FileStatus::Refused);
-    let told = &report.findings[0].message;
+    let message = &report.findings[0].message;
     assert!(
-        told.contains("the cap") && told.contains("\"cap\""),
-        "{told}"
+        message.contains("the cap") && message.contains("\"cap\""),
+        "{message}"
     );
     assert_whole(&mut corpus);
 }
@@ -407,12 +410,12 @@ fn a_body_that_faces_away_from_its_toes_is_reported() {
         .replace(left, "Other")
         .replace(right, left)
         .replace("Other", right);
-    for (text, told) in [(whole, false), (&exchanged, true)] {
+    for (text, reported) in [(whole, false), (&exchanged, true)] {
         let report = import(&mut corpus, &desk.file("take.bvh", text), "{}");
         let doubt = |it: &ReportFinding| it.message.contains("the toes point away");
         assert_eq!(
             report.findings.iter().any(doubt),
-            told,
+            reported,
             "{:?}",
             report.findings
         );

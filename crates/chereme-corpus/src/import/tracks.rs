@@ -34,7 +34,7 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
             Some(recording) => recording,
             None => match folder_take(job, &new)? {
                 Some(recording) => {
-                    tell_folder(job, recording, report)?;
+                    report_folder(job, recording, report)?;
                     recording
                 }
                 None => {
@@ -90,7 +90,7 @@ fn folder_take(job: &Job<'_>, new: &[NewTrack]) -> Result<Option<i64>> {
 }
 
 /// Reports that a file was assigned to the take of its folder.
-fn tell_folder(job: &Job<'_>, recording: i64, report: &mut FileReport) -> Result<()> {
+fn report_folder(job: &Job<'_>, recording: i64, report: &mut FileReport) -> Result<()> {
     let name = recordings::recording(job.connection, recording)?.name;
     report.findings.push(ReportFinding {
         remedy: Some(

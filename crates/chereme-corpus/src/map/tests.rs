@@ -8,8 +8,8 @@ fn lexicon(folder: &Path) -> Corpus {
     let file = folder.join("t.csv");
     let mut table = "gloss,handshape,location,movement\n".to_owned();
     for (family, shape, place) in [("CHIN", "S", "chin"), ("CHEST", "flat", "chest")] {
-        for (number, way) in ["arc", "straight", "circle", "hold"].iter().enumerate() {
-            let _ = writeln!(table, "{family}-{number},{shape},{place},{way}");
+        for (number, movement) in ["arc", "straight", "circle", "hold"].iter().enumerate() {
+            let _ = writeln!(table, "{family}-{number},{shape},{place},{movement}");
         }
     }
     table.push_str("BARE,,,\n");

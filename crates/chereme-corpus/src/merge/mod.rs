@@ -92,7 +92,7 @@ impl Corpus {
             .map(|name| name.to_string_lossy().into_owned())
             .unwrap_or_default();
         self.store
-            .operation_told("merge", progress, |connection, progress| {
+            .operation_with_progress("merge", progress, |connection, progress| {
                 edits::defer_references(connection)?;
                 let there = theirs.store.read();
                 let (mine, theirs, back) = match &base {
@@ -185,7 +185,7 @@ impl Work<'_> {
                 for key in waiting {
                     done += 1;
                     if done.is_multiple_of(256) {
-                        progress.tell(Step {
+                        progress.report(Step {
                             task: "merging",
                             done,
                             total: Some(touched.len() as u64),
@@ -354,7 +354,7 @@ impl Work<'_> {
             if let Some(twin) = rows::twin(self.connection, &local)? {
                 return self.mine.know(table, uid, Some(twin));
             }
-            if let Some(other) = self.in_the_way(None, &local)? {
+            if let Some(other) = self.overlapped(None, &local)? {
                 return self.conflict(key, (None, Some(theirs)), Some(other));
             }
             self.came.insert(uid.to_owned());
@@ -431,7 +431,7 @@ impl Work<'_> {
             {
                 let mut whole = self.resolved(table, mine)?.unwrap_or_default();
                 whole.extend(local.clone());
-                if let Some(other) = self.in_the_way(Some(id), &whole)? {
+                if let Some(other) = self.overlapped(Some(id), &whole)? {
                     return self.conflict(key, (Some(mine), Some(theirs)), Some(other));
                 }
                 self.came.insert(uid.to_owned());
@@ -451,7 +451,7 @@ impl Work<'_> {
     }
 
     /// Returns the annotation created or changed on this side that a row of the other side would overlap.
-    fn in_the_way(&self, own: Option<i64>, row: &Image) -> Result<Option<i64>> {
+    fn overlapped(&self, own: Option<i64>, row: &Image) -> Result<Option<i64>> {
         let number = |column: &str| row.get(column).and_then(Value::as_i64).unwrap_or_default();
         let (tier, start, end) = (number("tier_id"), number("start_us"), number("end_us"));
         let symbolic = tiers::tier(self.connection, tier)?.stereotype;

@@ -25,5 +25,5 @@ pub(super) fn draw(to: &Path, options: &PictureOptions) -> Result<Picture> {
     let bytes = write(to, options.force, |out| {
         write_png(&image, out).map_err(figure)
     })?;
-    Ok(told(to, FACES, bytes, faces.len()))
+    Ok(picture_report(to, FACES, bytes, faces.len()))
 }

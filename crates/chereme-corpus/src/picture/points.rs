@@ -29,15 +29,15 @@ pub(super) fn draw(
     options: &PictureOptions,
     progress: &mut Progress<'_>,
 ) -> Result<Picture> {
-    let mut tell = |done: usize, total: usize| {
-        progress.tell(Step {
+    let mut report = |done: usize, total: usize| {
+        progress.report(Step {
             task: "drawing",
             done: done as u64,
             total: Some(total as u64),
             unit: Unit::Frames,
         })
     };
-    let mut hear = |done: usize, total: usize| match tell(done, total) {
+    let mut hear = |done: usize, total: usize| match report(done, total) {
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),
     };
@@ -50,14 +50,14 @@ pub(super) fn draw(
                 write_png(&image, out).map_err(figure)
             })?;
             let frames = options.frames.min(points.frames());
-            Ok(told(to, title, bytes, frames))
+            Ok(picture_report(to, title, bytes, frames))
         }
         "gif" => {
             let mut film = film(points, options, (HEIGHT, None))?;
             let bytes = write(to, options.force, |out| {
                 write_gif(&mut film, out, &mut hear).map_err(figure)
             })?;
-            Ok(told(to, title, bytes, film.frames()))
+            Ok(picture_report(to, title, bytes, film.frames()))
         }
         "mp4" => {
             let rate = options.rate.clamp(1, 120);
@@ -65,10 +65,10 @@ pub(super) fn draw(
             let shape = Shape { rate };
             let mut frames = 0;
             let bytes = write(to, options.force, |out| {
-                frames = write_film(&mut film, shape, out, &mut tell)?;
+                frames = write_film(&mut film, shape, out, &mut report)?;
                 Ok(())
             })?;
-            Ok(told(to, title, bytes, frames))
+            Ok(picture_report(to, title, bytes, frames))
         }
         _ => Err(ending(
             to,

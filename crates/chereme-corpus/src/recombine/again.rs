@@ -323,8 +323,8 @@ mod tests {
             )
             .expect("written");
         let done = corpus.recombine_again(&limace(), "ESCARGOT").expect("made");
-        let told = done.report.warnings.last().expect("a warning");
-        assert!(told.ends_with("taken away: 2"), "{told}");
+        let warning = done.report.warnings.last().expect("a warning");
+        assert!(warning.ends_with("taken away: 2"), "{warning}");
         let connection = corpus.store.read();
         let all = tiers::tiers(connection, done.recording.expect("stored")).expect("read");
         let remarks = all.iter().find(|it| it.name == "Remarks").expect("a tier");

@@ -21,7 +21,7 @@ impl Corpus {
     /// Evaluates a recipe that is being drafted, and stores nothing.
     ///
     /// Returns the same as [`preview`](Self::preview). Parts of the recipe that have not changed since the last draft
-    /// are not evaluated again as long as the corpus stays the same. With `anew` everything is looked up again,
+    /// are not evaluated again as long as the corpus stays the same. With `again` everything is looked up again,
     /// including files that recipes name.
     ///
     /// # Errors
@@ -30,13 +30,13 @@ impl Corpus {
     pub fn draft(
         &mut self,
         recipe: &str,
-        anew: bool,
+        again: bool,
         progress: &mut Progress<'_>,
     ) -> Result<Recombination> {
         let recipe = read(recipe)?;
         let inventories = self.inventories_now()?;
         let generation = self.generation()?;
-        if anew || self.drafted.generation != generation {
+        if again || self.drafted.generation != generation {
             self.drafted.draft.forget();
             self.drafted.generation = generation;
         }
@@ -49,7 +49,7 @@ impl Corpus {
                 total: None,
                 unit: Unit::Items,
             };
-            progress.borrow_mut().tell(step).is_ok()
+            progress.borrow_mut().report(step).is_ok()
         };
         let made = self.drafted.draft.make(&recipe, &sources, &goes_on);
         match made {

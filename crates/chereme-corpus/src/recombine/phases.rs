@@ -22,18 +22,18 @@ pub(crate) fn store(connection: &Connection, recording: i64) -> Result<()> {
     if tokens.is_empty() {
         return Ok(());
     }
-    let ways = named(connection, recording, CueTier::Hand.name())?;
-    let mut ways = ways.iter().peekable();
+    let gestures = named(connection, recording, CueTier::Hand.name())?;
+    let mut gestures = gestures.iter().peekable();
     for token in tokens {
         let key = token.gloss.trim_start_matches("cue:").to_owned();
-        let to_key = |way: &AnnotationRow| way.value.rsplit('>').next() == Some(&*key);
-        let Some(way) = ways.find(|way| to_key(way)) else {
+        let to_key = |gesture: &AnnotationRow| gesture.value.rsplit('>').next() == Some(&*key);
+        let Some(gesture) = gestures.find(|gesture| to_key(gesture)) else {
             break;
         };
         let Some(start) = token.start_us else {
             continue;
         };
-        let phase = (way.end_us - start) as f64 / 1000.0;
+        let phase = (gesture.end_us - start) as f64 / 1000.0;
         let row = AttributeRow {
             name: PHASE.to_owned(),
             text: format!("{phase:.1}"),
@@ -67,11 +67,13 @@ pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {
         }
         let keys = named(connection, row.id, CueTier::Keys.name())?;
         let phones = named(connection, row.id, CueTier::Phones.name())?;
-        let ways = named(connection, row.id, CueTier::Hand.name())?;
-        let mut ways = ways.iter();
+        let gestures = named(connection, row.id, CueTier::Hand.name())?;
+        let mut gestures = gestures.iter();
         for key in &keys {
             let own = key.value.trim_start_matches("cue:");
-            let Some(way) = ways.find(|way| way.value.rsplit('>').next() == Some(own)) else {
+            let Some(gesture) =
+                gestures.find(|gesture| gesture.value.rsplit('>').next() == Some(own))
+            else {
                 break;
             };
             let first = phones.partition_point(|phone| phone.start_us < key.start_us);
@@ -79,7 +81,7 @@ pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {
                 .iter()
                 .take_while(|phone| phone.start_us < key.end_us)
                 .collect();
-            let phase = (way.end_us - key.start_us) as f64 / 1e6;
+            let phase = (gesture.end_us - key.start_us) as f64 / 1e6;
             match (sounds.len(), cue::of_gloss(&key.value)) {
                 (2.., _) => {
                     let consonant = (sounds[1].start_us - key.start_us) as f64 / 1e6;

@@ -116,7 +116,7 @@ impl Corpus {
         const ATTEMPTS: usize = 8;
         let parsed = saved_search::parsed(self.store.read(), query)?;
         let hear = RefCell::new(|done| {
-            progress.tell(Step {
+            progress.report(Step {
                 task: "",
                 done,
                 total: None,

@@ -54,12 +54,12 @@ pub(super) fn profile(connection: &Connection) -> Result<Option<LearnedProfile>>
             for (mover, learner, names) in &mut learners {
                 let joints = mover.joints(&anatomy, side);
                 for frames in strokes(&clip, &anatomy, side, *mover) {
-                    let told = learner.add(&Stretch {
+                    let added = learner.add(&Stretch {
                         clip: &clip,
                         joints: &joints,
                         frames,
                     });
-                    if told && !names.contains(&name) {
+                    if added && !names.contains(&name) {
                         names.push(name.clone());
                     }
                 }
@@ -217,8 +217,8 @@ mod tests {
         let empty = corpus
             .preview("spell OR via learned")
             .expect_err("no movement to learn from");
-        let told = "too few transitions";
-        assert!(empty.to_string().contains(told), "{empty}");
+        let reason = "too few transitions";
+        assert!(empty.to_string().contains(reason), "{empty}");
         let mut hear = crate::unheard;
         corpus
             .import(
@@ -230,13 +230,13 @@ mod tests {
         let made = corpus
             .recombine("spell OR via learned", "OR")
             .expect("made");
-        let told = made.report.steps[0].did.join("\n");
+        let report = made.report.steps[0].did.join("\n");
         for want in [
             "0.25 s, the median of 30",
             "0.27 s, the median of 25",
             "transitions of arms in ",
         ] {
-            assert!(told.contains(want), "{told}");
+            assert!(report.contains(want), "{report}");
         }
         let again = corpus.preview("spell OR via learned").expect("made");
         assert_eq!(again.clip, made.clip, "what was made does not teach");

@@ -49,7 +49,7 @@ impl Proving<'_, '_> {
             total: Some(MOST_POSTURES.max(self.done.get()) as u64),
             unit: Unit::Items,
         };
-        let stopped = self.stopped.get() || self.progress.borrow_mut().tell(step).is_err();
+        let stopped = self.stopped.get() || self.progress.borrow_mut().report(step).is_err();
         self.stopped.set(stopped);
         !stopped
     }

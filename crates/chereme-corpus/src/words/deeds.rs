@@ -46,7 +46,7 @@ pub fn valued(role: &TierRole) -> [Text; 2] {
 }
 
 /// Returns a sentence of this table, given in English, in another language; nothing for other texts.
-pub(super) fn told(english: &str, language: Language) -> Option<String> {
+pub(super) fn translated(english: &str, language: Language) -> Option<String> {
     let all = [
         [ONE_HANDSHAPE, HANDSHAPES],
         [ONE_PLACEMENT, PLACEMENTS],

@@ -165,7 +165,7 @@ pub fn annotated(summary: &str, language: Language) -> Option<String> {
     let mut rest = Some(counts);
     while let Some(now) = rest {
         // The text of a value comes last, and may contain commas.
-        if let Some(whole) = deeds::told(now, language) {
+        if let Some(whole) = deeds::translated(now, language) {
             said.push(whole);
             break;
         }
@@ -174,7 +174,7 @@ pub fn annotated(summary: &str, language: Language) -> Option<String> {
             None => (now, None),
         };
         rest = after;
-        if let Some(part) = deeds::told(part, language) {
+        if let Some(part) = deeds::translated(part, language) {
             said.push(part);
             continue;
         }

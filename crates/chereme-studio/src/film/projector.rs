@@ -208,8 +208,8 @@ fn project(shared: &Shared, mut film: Film, wake: &dyn Fn()) {
             wake();
         };
         let begin = times.sync_before(wish.frame);
-        let on_the_way = (begin..=wish.frame).contains(&last);
-        let from = if on_the_way { last } else { begin };
+        let is_ahead = (begin..=wish.frame).contains(&last);
+        let from = if is_ahead { last } else { begin };
         if wish.frame - from > FAR && album.find(wish).is_none() {
             let quick = FilmRequest {
                 frame: begin,

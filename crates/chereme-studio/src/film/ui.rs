@@ -89,22 +89,22 @@ fn one(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox,
             } else {
                 words::IS_OVER
             };
-            told(ui, room, seen.say(text));
+            write_text(ui, room, seen.say(text));
         }
-        (Known::Coming, _) => told(ui, room, seen.say(words::COMING)),
+        (Known::Coming, _) => write_text(ui, room, seen.say(words::COMING)),
         (Known::Gone(path), _) => {
             let path = path.as_ref().map_or_else(
                 || screen.track.url.clone(),
                 |path| path.display().to_string(),
             );
-            told(ui, room, &fill(seen.say(words::GONE), &[("path", &path)]));
+            write_text(ui, room, &fill(seen.say(words::GONE), &[("path", &path)]));
         }
         (Known::Refused(why, remedy), _) => {
             let remedy = remedy.as_ref();
             let remedy = remedy.and_then(|it| remedy::here(it, seen.language));
             let shown = [Some(spoken(why, seen.language)), remedy];
             let shown: Vec<String> = shown.into_iter().flatten().collect();
-            told(ui, room, &shown.join("\n\n"));
+            write_text(ui, room, &shown.join("\n\n"));
         }
     }
     let mut builder = UiBuilder::new().max_rect(line);
@@ -131,7 +131,7 @@ fn picture(screen: &Screen, ui: &Ui, seen: &PaneInput<'_>, room: Rect, frame: us
     }
     let damaged = screen.news.damaged.as_ref().filter(|it| it.0 == frame);
     if let Some((_, why)) = damaged {
-        told(ui, room, why);
+        write_text(ui, room, why);
     }
     if screen.loose.is_some() {
         let stroke = egui::Stroke::new(2.0, seen.colours().accent);
@@ -141,7 +141,7 @@ fn picture(screen: &Screen, ui: &Ui, seen: &PaneInput<'_>, room: Rect, frame: us
 }
 
 /// Writes a text on the dark background.
-fn told(ui: &Ui, room: Rect, text: &str) {
+fn write_text(ui: &Ui, room: Rect, text: &str) {
     let painter = ui.painter().with_clip_rect(room.intersect(ui.clip_rect()));
     let font = TextStyle::Body.resolve(ui.style());
     let white = Color32::from_gray(230);
@@ -219,11 +219,11 @@ fn controls(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Ou
     let label = ui.label(RichText::new(text).small().weak());
     if let Known::Open(facts, _) = &screen.news.known {
         let findings = facts.findings.join("\n");
-        let told = format!(
+        let tip = format!(
             "{}\n{}, {} × {}, {:.3}/s ({})\n{findings}",
             screen.track.url, facts.coding, facts.width, facts.height, facts.rate, facts.decoder
         );
-        label.on_hover_text(told.trim_end());
+        label.on_hover_text(tip.trim_end());
     }
 }
 

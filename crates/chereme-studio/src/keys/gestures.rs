@@ -56,7 +56,7 @@ gestures! {
     Edit Click HIT OPEN_HIT;
     Edit Drag HIT TO_CARD;
     Edit RightClick HIT MENU_OF_SIGN;
-    Edit [Ctrl] Click VALUE TELL;
+    Edit [Ctrl] Click VALUE DETAILS;
     Edit Drag CARD_HANDLE MOVE_CARD;
     Annotation Click ANNOTATION SELECT;
     Annotation [Ctrl] Click ANNOTATION ALSO;

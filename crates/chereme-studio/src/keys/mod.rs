@@ -109,18 +109,18 @@ impl Keys {
     /// Returns a text with each action id between braces replaced by the first keys of that action; an action without
     /// keys keeps its id, without the braces.
     pub(crate) fn named(&self, text: &str) -> String {
-        let mut told = text.to_owned();
+        let mut replaced = text.to_owned();
         for row in ACTIONS {
             let place = format!("{{{}}}", row.id);
-            if told.contains(&place) {
+            if replaced.contains(&place) {
                 let keys = self
                     .of(row.action)
                     .first()
                     .map(|it| it.label(self.language));
-                told = told.replace(&place, &keys.unwrap_or_else(|| row.id.to_owned()));
+                replaced = replaced.replace(&place, &keys.unwrap_or_else(|| row.id.to_owned()));
             }
         }
-        told
+        replaced
     }
 
     /// Returns the action of `chord` in the state `place`: an action of the pane takes precedence.

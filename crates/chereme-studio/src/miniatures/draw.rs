@@ -121,7 +121,7 @@ impl Board {
     }
 
     /// Wakes the drawing thread after a change.
-    pub(super) fn tell(&self) {
+    pub(super) fn wake(&self) {
         self.changed.notify_all();
     }
 

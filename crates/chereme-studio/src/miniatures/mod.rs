@@ -169,7 +169,7 @@ impl Figures {
             _ => Film::Nothing,
         };
         self.board.state().films.insert(source, film);
-        self.board.tell();
+        self.board.wake();
         true
     }
 
@@ -202,7 +202,7 @@ impl Figures {
 impl Drop for Figures {
     fn drop(&mut self) {
         self.board.state().over = true;
-        self.board.tell();
+        self.board.wake();
         if let Some(thread) = self.own.get_mut().thread.take() {
             // A thread that panicked has nothing left to do.
             let _ = thread.join();

@@ -78,7 +78,7 @@ impl Figures {
             self.load(&mut state, &key.source, &cell.motion, out);
             look(&mut state, &key, cell.clock)
         };
-        self.board.tell();
+        self.board.wake();
         if cell.clock.is_some() {
             ui.ctx().request_repaint_after_secs(BEAT as f32);
         }
@@ -106,7 +106,7 @@ impl Figures {
             self.load_made(&mut state, &key.source, made);
             look(&mut state, &key, Some(clock))
         };
-        self.board.tell();
+        self.board.wake();
         ui.ctx().request_repaint_after_secs(BEAT as f32);
         self.put(ui, language, &key, sight, rect);
     }
@@ -146,7 +146,7 @@ impl Figures {
         let key = key(ui, source, Focus::default(), square);
         self.begin(ui);
         let sight = look(&mut self.board.state(), &key, None);
-        self.board.tell();
+        self.board.wake();
         self.put(ui, language, &key, sight, rect);
     }
 

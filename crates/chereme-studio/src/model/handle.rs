@@ -54,10 +54,10 @@ impl Handle {
     /// another sign, or the point. For a named place, returns the distance moved so far, if it is known.
     pub(crate) fn value(&self, arm: f64) -> Option<[f64; 3]> {
         let sum = |legs: &[chereme_corpus::recipe::Leg]| {
-            let way = legs
+            let offsets = legs
                 .iter()
                 .map(|leg| towards(&leg.towards).unwrap_or(DVec3::ZERO) * leg.distance.metres(arm));
-            way.sum::<DVec3>().to_array()
+            offsets.sum::<DVec3>().to_array()
         };
         match &self.to {
             Goal::By(legs) => Some(sum(legs)),

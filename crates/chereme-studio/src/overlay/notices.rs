@@ -128,12 +128,12 @@ impl Notices {
             self.hint(words::STOPPED.of(language));
             return;
         }
-        let told = trouble::told(error, task, language);
+        let report = trouble::failure_report(error, task, language);
         self.all
-            .retain(|notice| notice.detail != told.detail || told.detail.is_none());
-        self.add(NoticeKind::Error, told.text, told.remedy, true);
+            .retain(|notice| notice.detail != report.detail || report.detail.is_none());
+        self.add(NoticeKind::Error, report.text, report.remedy, true);
         if let Some(notice) = self.all.last_mut() {
-            notice.detail = told.detail;
+            notice.detail = report.detail;
             notice.passes = matches!(error.cause(), Some(Cause::Full | Cause::Busy));
         }
     }
@@ -469,9 +469,9 @@ mod tests {
             ..well
         };
         notices.of(&Outcome::Checked(faulty), Language::English);
-        let told = notices.all.last().expect("a notice");
-        assert!(told.stays && told.text == "Checked, and faults found: 1");
-        let detail = told.detail.as_deref();
+        let notice = notices.all.last().expect("a notice");
+        assert!(notice.stays && notice.text == "Checked, and faults found: 1");
+        let detail = notice.detail.as_deref();
         assert_eq!(detail, Some("block 7: it is another (import again)"));
     }
 

@@ -151,8 +151,8 @@ impl Loop {
                 let to_and_fro = if share < 0.5 { share } else { 1.0 - share };
                 film(rect, f64::from(to_and_fro) * LASTS, Focus::Signing);
                 let from = rect.center_top() + vec2(if share < 0.5 { -14.0 } else { 14.0 }, 12.0);
-                let way = vec2(if share < 0.5 { 28.0 } else { -28.0 }, 0.0);
-                painter.arrow(from, way, Stroke::new(2.0, colours.accent));
+                let vector = vec2(if share < 0.5 { 28.0 } else { -28.0 }, 0.0);
+                painter.arrow(from, vector, Stroke::new(2.0, colours.accent));
             }
         }
         let edge = Stroke::new(1.0, colours.rule);
@@ -182,14 +182,14 @@ mod tests {
             let all = STEPS.map(|it| it.1).into_iter().chain([words::MORE]);
             for how in all {
                 for (language, _) in Language::ALL {
-                    let told = keys.named(how.of(language));
-                    assert!(!told.contains(['{', '}']), "{told}");
-                    let bare = told.split_whitespace().any(|word| {
+                    let text = keys.named(how.of(language));
+                    assert!(!text.contains(['{', '}']), "{text}");
+                    let bare = text.split_whitespace().any(|word| {
                         crate::action::ACTIONS
                             .iter()
                             .any(|row| word.starts_with(row.id))
                     });
-                    assert!(!bare, "an action without a key: {told}");
+                    assert!(!bare, "an action without a key: {text}");
                 }
             }
         }

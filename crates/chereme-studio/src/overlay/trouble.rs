@@ -19,7 +19,11 @@ pub(crate) struct FailureReport {
 }
 
 /// Returns the report of a failure of `task`, which is a noun such as `Import`.
-pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> FailureReport {
+pub(crate) fn failure_report(
+    error: &Error,
+    task: Option<Text>,
+    language: Language,
+) -> FailureReport {
     let helps = |remedy: &str| {
         let text = crate::words::shell::REMEDY.of(language);
         fill(text, &[("remedy", &remedy)])
@@ -114,15 +118,15 @@ mod tests {
     #[test]
     fn a_failure_is_shown_in_the_language_of_the_window_with_the_original_message() {
         let error = Error::wrong("no such tier").advise("add it");
-        let english = told(&error, Some(shell::TASK_EDIT), Language::English);
+        let english = failure_report(&error, Some(shell::TASK_EDIT), Language::English);
         assert_eq!(english.text, "no such tier");
         assert_eq!(english.remedy.as_deref(), Some("What helps: add it"));
         assert_eq!(english.detail, None);
-        let french = told(&error, Some(shell::TASK_IMPORT), Language::French);
+        let french = failure_report(&error, Some(shell::TASK_IMPORT), Language::French);
         assert_eq!(french.text, "Importation : cela n’a pas été possible.");
         assert_eq!(french.detail.as_deref(), Some("no such tier\n(add it)"));
         let known = Error::wrong("the table asks for nothing");
-        let french = told(&known, None, Language::French);
+        let french = failure_report(&known, None, Language::French);
         assert_eq!(french.text, "la table ne demande rien");
         assert_eq!((french.remedy, french.detail), (None, None));
         let rubbish = Error::NotACorpus {
@@ -131,11 +135,13 @@ mod tests {
             remedy: Remedy::choice(Choice::OtherCorpus, "choose a file that `chereme new` made"),
         };
         for language in [Language::English, Language::French] {
-            let remedy = told(&rubbish, None, language).remedy.expect("a remedy");
+            let remedy = failure_report(&rubbish, None, language)
+                .remedy
+                .expect("a remedy");
             assert!(!remedy.contains('`'), "{remedy}");
         }
         let gone = Error::file("a.bvh", ErrorKind::NotFound.into());
-        let french = told(&gone, None, Language::French);
+        let french = failure_report(&gone, None, Language::French);
         assert_eq!(french.text, "a.bvh : rien ne porte ce nom.");
         assert!(french.remedy.is_some() && french.detail.is_none());
     }

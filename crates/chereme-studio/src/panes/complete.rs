@@ -11,7 +11,7 @@ use eframe::egui::{
 pub(crate) const OFFERED: usize = 40;
 
 /// The least width of a list that shows remarks, in points.
-const TOLD: f32 = 320.0;
+const WIDTH_WITH_REMARKS: f32 = 320.0;
 
 /// The remark on a candidate, if it has one.
 type About<'a> = dyn Fn(&str) -> Option<String> + 'a;
@@ -149,7 +149,11 @@ pub(crate) fn complete(
     }
     listed.rect = None;
     if open && taken.is_none() && (response.has_focus() || held) {
-        let least = if line.about.is_some() { TOLD } else { 180.0 };
+        let least = if line.about.is_some() {
+            WIDTH_WITH_REMARKS
+        } else {
+            180.0
+        };
         let width = response.rect.width().max(least);
         let popup = Popup::from_response(&response)
             .id(id.with("list"))

@@ -6,7 +6,7 @@ use eframe::egui::{
     WidgetInfo, vec2,
 };
 
-use super::hamnosys::{drawings, paint, short, told};
+use super::hamnosys::{drawings, explain, paint, short};
 use crate::context::PaneInput;
 use crate::words::{Language, hamnosys as words};
 
@@ -106,7 +106,9 @@ fn cell(ui: &mut Ui, seen: &PaneInput<'_>, symbol: Symbol) -> bool {
     );
     let wide = drawings().get(&symbol).map_or(0.0, |it| it.width * EM);
     paint(ui, rect.center() - vec2(wide, EM) / 2.0, EM, symbol);
-    response.on_hover_ui(|ui| told(ui, seen, symbol)).clicked()
+    response
+        .on_hover_ui(|ui| explain(ui, seen, symbol))
+        .clicked()
 }
 
 /// Returns the symbols whose name or meaning contains the typed text; names that begin with it come first.

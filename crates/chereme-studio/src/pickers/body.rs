@@ -84,7 +84,7 @@ pub(super) fn show(
 
 /// Switches to the pictures that show the value at the keyboard cursor.
 fn follow(picker: &mut Picker, cells: &Cells<'_>) {
-    let walked = cells.pressed.way.is_some();
+    let walked = cells.pressed.direction.is_some();
     if walked || !picker.filter.is_empty() || std::mem::take(&mut picker.turns) {
         let at = picker.at.as_deref().and_then(|id| cells.inventory.get(id));
         if let Some(landmark) = at.and_then(|value| value.landmark.as_ref()) {

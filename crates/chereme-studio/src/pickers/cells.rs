@@ -57,13 +57,13 @@ impl Cells<'_> {
         let mut at = cells
             .iter()
             .position(|cell| Some(id_of(cell)) == picker.at.as_deref());
-        if let Some(way) = self.pressed.way {
+        if let Some(direction) = self.pressed.direction {
             let rects: Vec<Rect> = cells.iter().map(|cell| cell.rect).collect();
-            at = Some(at.map_or(0, |at| walk(&rects, at, way)));
+            at = Some(at.map_or(0, |at| walk(&rects, at, direction)));
         }
         let mut picked = None;
         let focused = focused(ui, picker);
-        let moved = self.pressed.way.is_some();
+        let moved = self.pressed.direction.is_some();
         for (number, cell) in cells.iter().enumerate() {
             let response = self.cell(ui, cell, id_of(cell));
             if response.hovered()

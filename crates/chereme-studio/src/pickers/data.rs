@@ -165,19 +165,19 @@ pub(crate) enum StepDirection {
 
 /// Returns the next cell from `at` in a direction: the nearest of those that lie more in that direction than to its
 /// side. Without such a cell, left and right continue in the order of the cells.
-pub(crate) fn walk(rects: &[Rect], at: usize, way: StepDirection) -> usize {
+pub(crate) fn walk(rects: &[Rect], at: usize, direction: StepDirection) -> usize {
     let Some(here) = rects.get(at).map(Rect::center) else {
         return 0;
     };
     let away = |rect: &Rect| {
         let to = rect.center() - here;
-        let (ahead, aside) = match way {
+        let (ahead, aside) = match direction {
             StepDirection::Left => (-to.x, to.y.abs()),
             StepDirection::Right => (to.x, to.y.abs()),
             StepDirection::Up => (-to.y, to.x.abs()),
             StepDirection::Down => (to.y, to.x.abs()),
         };
-        let most = match way {
+        let most = match direction {
             StepDirection::Left | StepDirection::Right => 0.9,
             StepDirection::Up | StepDirection::Down => 1.5,
         };
@@ -188,7 +188,7 @@ pub(crate) fn walk(rects: &[Rect], at: usize, way: StepDirection) -> usize {
         .enumerate()
         .filter_map(|(index, rect)| Some((away(rect)?, index)))
         .min_by(|a, b| a.0.total_cmp(&b.0));
-    match (nearest, way) {
+    match (nearest, direction) {
         (Some((_, index)), _) => index,
         (None, StepDirection::Right) => (at + 1).min(rects.len() - 1),
         (None, StepDirection::Left) => at.saturating_sub(1),

@@ -27,11 +27,11 @@ struct Gallery {
 impl Gallery {
     fn new() -> Self {
         let (wishes, orders) = channel::<PictureRequest>();
-        let (tell, drawn) = channel();
+        let (sender, drawn) = channel();
         // The thread ends with the window, which holds the sender.
         std::thread::spawn(move || {
             while let Ok(PictureRequest { key, draw, ctx }) = orders.recv() {
-                if tell.send((key, draw())).is_err() {
+                if sender.send((key, draw())).is_err() {
                     return;
                 }
                 ctx.request_repaint();

@@ -108,13 +108,13 @@ pub(crate) fn strip(ui: &mut Ui, seen: &PaneInput<'_>, symbols: &[Symbol], em: f
         }
     });
     match over {
-        Some((symbol, _)) => response.on_hover_ui_at_pointer(|ui| told(ui, seen, *symbol)),
+        Some((symbol, _)) => response.on_hover_ui_at_pointer(|ui| explain(ui, seen, *symbol)),
         None => response,
     }
 }
 
 /// Explains a symbol: a large drawing, its name, and its meaning.
-pub(super) fn told(ui: &mut Ui, seen: &PaneInput<'_>, symbol: Symbol) {
+pub(super) fn explain(ui: &mut Ui, seen: &PaneInput<'_>, symbol: Symbol) {
     const LARGE: f32 = 48.0;
     ui.horizontal(|ui| {
         let wide = drawings().get(&symbol).map_or(0.0, |it| it.width * LARGE);

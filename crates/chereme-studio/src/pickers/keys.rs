@@ -7,7 +7,7 @@ use super::data::StepDirection;
 /// The keys pressed in a picker in this frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Pressed {
-    pub(super) way: Option<StepDirection>,
+    pub(super) direction: Option<StepDirection>,
     pub(super) enter: bool,
     /// The index of the cell picked by a digit key.
     pub(super) digit: Option<usize>,
@@ -29,7 +29,7 @@ const DIGITS: [Key; 9] = [
 pub(super) fn take(ui: &Ui, digits: bool) -> Pressed {
     ui.input_mut(|input| {
         let mut pressed = |key| input.consume_key(Modifiers::NONE, key);
-        let way = [
+        let direction = [
             (Key::ArrowLeft, StepDirection::Left),
             (Key::ArrowRight, StepDirection::Right),
             (Key::ArrowUp, StepDirection::Up),
@@ -37,7 +37,7 @@ pub(super) fn take(ui: &Ui, digits: bool) -> Pressed {
         ]
         .into_iter()
         .find(|(key, _)| pressed(*key))
-        .map(|(_, way)| way);
+        .map(|(_, direction)| direction);
         let enter = pressed(Key::Enter);
         let mut digit = DIGITS
             .iter()
@@ -53,6 +53,10 @@ pub(super) fn take(ui: &Ui, digits: bool) -> Pressed {
                     .retain(|event| !matches!(event, Event::Text(text) if *text == typed));
             }
         }
-        Pressed { way, enter, digit }
+        Pressed {
+            direction,
+            enter,
+            digit,
+        }
     })
 }

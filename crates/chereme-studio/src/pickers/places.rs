@@ -87,14 +87,14 @@ fn part(zones: &mut [Zone], room: Rect, distance: f32) {
                 if near <= 0.01 {
                     continue;
                 }
-                let way = if between.length() < 0.01 {
+                let direction = if between.length() < 0.01 {
                     // Both have the same position: each pair moves in another direction.
                     Vec2::angled((a * 7 + b * 3) as f32)
                 } else {
                     between.normalized()
                 };
-                zones[a].centre = room.clamp(zones[a].centre - way * (near / 2.0));
-                zones[b].centre = room.clamp(zones[b].centre + way * (near / 2.0));
+                zones[a].centre = room.clamp(zones[a].centre - direction * (near / 2.0));
+                zones[b].centre = room.clamp(zones[b].centre + direction * (near / 2.0));
                 moved = true;
             }
         }

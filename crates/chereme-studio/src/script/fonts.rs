@@ -87,11 +87,11 @@ const SCRIPTS: [(char, char, Text); 17] = [
 
 /// The scripts without a font that have been reported, each once.
 #[derive(Debug, Default)]
-pub(crate) struct Untold {
-    told: BTreeSet<String>,
+pub(crate) struct Unreported {
+    reported: BTreeSet<String>,
 }
 
-impl Untold {
+impl Unreported {
     /// Returns a notice and a remedy for letters without a font that were shown since the last call.
     pub(crate) fn news(&mut self, language: Language) -> Option<(String, &'static str)> {
         let missing = SystemFonts::ready()?.take_missing();
@@ -111,7 +111,7 @@ impl Untold {
                 let (_, _, name) = SCRIPTS.iter().find(within)?;
                 Some(name.of(language))
             })
-            .filter(|name| self.told.insert((*name).to_owned()))
+            .filter(|name| self.reported.insert((*name).to_owned()))
             .collect();
         if names.is_empty() {
             return None;
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn scripts_without_a_font_are_reported_once_by_name() {
-        let mut untold = Untold::default();
+        let mut untold = Unreported::default();
         let letters = BTreeSet::from(['ع', 'غ', 'Ж', '\u{e000}']);
         let (text, _) = untold.of(&letters, Language::English).expect("news");
         assert!(text.contains("Arabic, Cyrillic"), "{text}");

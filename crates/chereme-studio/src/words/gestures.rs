@@ -14,7 +14,7 @@ texts! {
     MENU_OF_SIGN: "Its actions", "Ce qu’on peut en faire";
     CARD_HANDLE: "handle of a card", "poignée d’une carte";
     VALUE: "value or facet of the search", "valeur ou facette de la recherche";
-    TELL: "Shows all its details", "Dit tout ce qu’on en sait";
+    DETAILS: "Shows all its details", "Dit tout ce qu’on en sait";
     MOVE_CARD: "Moves the card", "Déplace la carte";
     ANNOTATION: "annotation", "annotation";
     SELECT: "Selects it and its time", "La sélectionne avec son temps";

@@ -56,7 +56,7 @@ pub(crate) const CLASSES: [(Class, Text); 16] = [
 ];
 
 /// Directions, by their letters in symbol names.
-const WAYS: [(char, Text); 6] = [
+const DIRECTIONS: [(char, Text); 6] = [
     ('u', text("up", "vers le haut")),
     ('d', text("down", "vers le bas")),
     ('l', text("left", "à gauche")),
@@ -83,17 +83,19 @@ pub(crate) fn meaning(name: &str, language: Language) -> Option<String> {
     ];
     families.iter().find_map(|(start, text)| {
         let letters = name.strip_prefix(start)?.chars();
-        let ways = letters.map(|letter| {
-            let way = WAYS.iter().find(|(known, _)| *known == letter)?;
-            Some(way.1.of(language))
+        let directions = letters.map(|letter| {
+            let direction = DIRECTIONS.iter().find(|(known, _)| *known == letter)?;
+            Some(direction.1.of(language))
         });
-        let ways: Option<Vec<&str>> = ways.collect();
+        let directions: Option<Vec<&str>> = directions.collect();
         let and = match language {
             Language::English => " and ",
             Language::French => " et ",
         };
-        let way = ways.filter(|ways| !ways.is_empty())?.join(and);
-        Some(fill(text.of(language), &[("way", &way)]))
+        let direction = directions
+            .filter(|directions| !directions.is_empty())?
+            .join(and);
+        Some(fill(text.of(language), &[("way", &direction)]))
     })
 }
 
@@ -251,8 +253,8 @@ mod tests {
         for symbol in Symbol::all() {
             let name = symbol.name().strip_prefix("ham").expect("as all names");
             for language in [Language::English, Language::French] {
-                let told = meaning(name, language).unwrap_or_default();
-                assert!(!told.is_empty(), "{name}");
+                let text = meaning(name, language).unwrap_or_default();
+                assert!(!text.is_empty(), "{name}");
             }
         }
         assert_eq!(

@@ -168,7 +168,7 @@ texts! {
     PACE_TO: "lasting", "d’une durée de";
     ANOTHER_PHASE: "+ phase", "+ phase";
     ANOTHER_PHASE_TIP: "One for each phase of the sign in turn", "Une pour chaque phase du signe";
-    WAY: "Way", "Chemin";
+    LEG: "Way", "Chemin";
     IN_TIME: "in", "en";
     DRAW_ON_STAGE: "Draw on the stage", "Dessiner sur la scène";
     DRAW_ON_STAGE_HINT: "The next drag on the stage draws the path of the hand, as it is seen there", "Le prochain glissement sur la scène dessine le trajet de la main, tel qu’on l’y voit";
@@ -176,7 +176,7 @@ texts! {
     CURVE_HINT: "Pull it on the stage, at a point or between two; a right click removes a point.", "Tirez-la sur la scène, à un point ou entre deux ; un clic droit enlève un point.";
     COURSE_POINT: "Point {n} of the path", "Point {n} du trajet";
     COURSE_LINE: "Path of the hand", "Trajet de la main";
-    ADD_WAY: "+ way", "+ chemin";
+    ADD_LEG: "+ way", "+ chemin";
     BOARD: "Board", "Tableau";
     BOARD_FRONT: "seen from the front", "vu de face";
     BOARD_ABOVE: "seen from above", "vu d’en haut";

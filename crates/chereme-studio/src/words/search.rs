@@ -111,7 +111,7 @@ texts! {
     FOUND: "Found: {n}", "Trouvés : {n}";
     GRID: "Figures", "Figures";
     TABLE: "Table", "Tableau";
-    WAYS: "Display", "Affichage";
+    DISPLAY: "Display", "Affichage";
     LOOPING: "Looping", "En boucle";
     CLOSE_UP: "Hand close up", "Main de près";
     NOTHING: "Nothing answers this query.", "Rien ne répond à cette requête.";

@@ -54,7 +54,7 @@ texts! {
     NO_ROOM: "There is an annotation already. Select a time that is free.", "Il y a déjà une annotation. Sélectionnez un temps libre.";
     NO_ROOM_BELOW: "This tier depends on another: select a time inside an annotation of that tier that is free here.", "Cet acteur dépend d’un autre : sélectionnez un temps libre à l’intérieur d’une de ses annotations.";
     NO_TIMES: "Annotations of this tier have no times of their own; change the parent annotation.", "Les annotations de cet acteur n’ont pas de temps propre ; modifiez l’annotation parente.";
-    IN_THE_WAY: "It cannot go further: a neighbour or the end is in the way.", "Impossible d’aller plus loin : un voisin ou la fin l’empêche.";
+    BLOCKED: "It cannot go further: a neighbour or the end is in the way.", "Impossible d’aller plus loin : un voisin ou la fin l’empêche.";
     HAS_BELOW: "Other annotations depend on it, so it cannot leave its tier. Copy it instead.", "D’autres annotations en dépendent ; elle ne peut pas quitter son acteur. Copiez-la plutôt.";
     NO_DIGIT: "No value of this tier has that digit yet.", "Aucune valeur de cet acteur n’a encore ce chiffre.";
     NO_NEXT: "There is no next annotation on this tier to merge with.", "Il n’y a pas d’annotation suivante à fusionner sur cet acteur.";

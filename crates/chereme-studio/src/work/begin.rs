@@ -29,7 +29,7 @@ pub(crate) enum Begin {
 
 /// An opening in progress.
 pub(crate) struct Beginning {
-    news: Receiver<Telling>,
+    news: Receiver<OpeningNews>,
     pub(crate) far: Far,
     stop: Arc<AtomicBool>,
     /// The files to show in the import pane after the opening.
@@ -38,7 +38,7 @@ pub(crate) struct Beginning {
     pub(crate) made: Option<PathBuf>,
 }
 
-enum Telling {
+enum OpeningNews {
     Far(Far),
     Ended(Result<PathBuf>),
 }
@@ -47,13 +47,13 @@ impl Beginning {
     /// Starts the opening on a separate thread.
     pub(crate) fn start(begin: Begin, author: &str, wake: &Wake) -> Self {
         let (look, made) = begin.look();
-        let (tell, news) = channel();
+        let (sender, news) = channel();
         let (author, wake) = (author.to_owned(), wake.clone());
         let stop = Arc::new(AtomicBool::new(false));
         let stopped = stop.clone();
         std::thread::spawn(move || {
             let mut hear = |step: Step<'_>| {
-                let _ = tell.send(Telling::Far(Far::of(&step)));
+                let _ = sender.send(OpeningNews::Far(Far::of(&step)));
                 wake();
                 if stopped.load(Ordering::Relaxed) {
                     ControlFlow::Break(())
@@ -62,7 +62,7 @@ impl Beginning {
                 }
             };
             let ended = begin.carry_out(&author, &mut Progress::new(&mut hear));
-            let _ = tell.send(Telling::Ended(ended));
+            let _ = sender.send(OpeningNews::Ended(ended));
             wake();
         });
         Self {
@@ -82,8 +82,8 @@ impl Beginning {
     pub(crate) fn ended(&mut self) -> Option<Result<PathBuf>> {
         while let Ok(step) = self.news.try_recv() {
             match step {
-                Telling::Far(far) => self.far = far,
-                Telling::Ended(ended) => return Some(ended),
+                OpeningNews::Far(far) => self.far = far,
+                OpeningNews::Ended(ended) => return Some(ended),
             }
         }
         None

@@ -136,8 +136,8 @@ pub(super) fn carry(
             .propose_nonmanuals(&address, true, progress)
             .map(|_| Outcome::Changed)?,
         Work::Preview(recipe) => Outcome::Previewed(Arc::new(corpus.preview(&recipe)?)),
-        Work::Draft { recipe, anew } => {
-            Outcome::Previewed(Arc::new(corpus.draft(&recipe, anew, progress)?))
+        Work::Draft { recipe, again } => {
+            Outcome::Previewed(Arc::new(corpus.draft(&recipe, again, progress)?))
         }
         Work::Suggest(address) => Outcome::Suggested(corpus.suggest(&address)?),
         Work::Paths(typed) => {
@@ -216,7 +216,7 @@ fn walk(
     progress: &mut Progress<'_>,
 ) -> Result<Outcome> {
     for done in 0..steps {
-        progress.tell(Step {
+        progress.report(Step {
             task: "",
             done: done as u64,
             total: Some(steps as u64),

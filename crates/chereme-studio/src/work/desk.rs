@@ -87,11 +87,11 @@ pub(crate) struct Desk {
 impl Desk {
     /// Opens the corpus at `path` on every thread; failures arrive as news.
     pub(crate) fn open(path: &Path, author: &str, wake: &Wake) -> Self {
-        let (tell, news) = channel();
+        let (sender, news) = channel();
         let station = Station {
             path: path.to_owned(),
             author: author.to_owned(),
-            tell,
+            sender,
             wake: wake.clone(),
             place: FileIdentity::of(path),
             edits: Arc::default(),
@@ -199,7 +199,7 @@ impl Drop for Desk {
 struct Station {
     path: PathBuf,
     author: String,
-    tell: Sender<News>,
+    sender: Sender<News>,
     wake: Wake,
     /// The identity of the corpus file when it was opened.
     place: FileIdentity,
@@ -210,7 +210,7 @@ struct Station {
 impl Station {
     fn say(&self, news: News) {
         // The window does not listen any more when it is closing.
-        let _ = self.tell.send(news);
+        let _ = self.sender.send(news);
         (self.wake)();
     }
 

@@ -145,7 +145,7 @@ pub(crate) enum Work {
         /// The recipe.
         recipe: String,
         /// Whether to look everything up again.
-        anew: bool,
+        again: bool,
     },
     /// Suggests recipes for a token.
     Suggest(Address),

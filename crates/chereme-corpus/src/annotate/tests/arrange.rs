@@ -81,10 +81,10 @@ fn a_tier_becomes_a_child_only_if_its_annotations_lie_inside() {
     ] {
         let before = rows(corpus.store.read());
         let error = change(&mut corpus, tier, &to).expect_err(want);
-        let told = format!("{error} {}", error.remedy().unwrap_or_default());
+        let message = format!("{error} {}", error.remedy().unwrap_or_default());
         assert!(
-            told.to_lowercase().contains(&want.to_lowercase()),
-            "{tier}: {told}"
+            message.to_lowercase().contains(&want.to_lowercase()),
+            "{tier}: {message}"
         );
         assert_eq!(rows(corpus.store.read()), before);
     }

@@ -65,8 +65,8 @@ fn values_are_replaced_as_one_operation_and_a_dry_run_only_reports_it() {
         (text("chin"), "a $1", &["l"], &["L chin>a $1"]),
     ];
     for (find, with, tiers, want) in cases {
-        let told = replace(&mut corpus, &find, with, tiers, true).expect("tried");
-        assert_eq!(told, want, "{find:?}");
+        let reported = replace(&mut corpus, &find, with, tiers, true).expect("tried");
+        assert_eq!(reported, want, "{find:?}");
         assert_eq!(shown(&corpus), before, "a dry run writes nothing");
         assert_eq!(corpus.steps().expect("steps").0, operations);
         assert_eq!(

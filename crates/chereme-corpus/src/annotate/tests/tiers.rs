@@ -85,8 +85,8 @@ fn tiers_are_added_changed_and_removed() {
                 corpus.undo().expect("undone");
             }
             Err(error) => {
-                let told = format!("{error} {}", error.remedy().unwrap_or_default());
-                assert!(told.contains(want), "{name} {what}: {told}");
+                let message = format!("{error} {}", error.remedy().unwrap_or_default());
+                assert!(message.contains(want), "{name} {what}: {message}");
             }
         }
         assert_eq!(rows(corpus.store.read()), before, "{name} {what}");

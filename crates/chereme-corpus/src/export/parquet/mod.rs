@@ -211,13 +211,13 @@ pub(super) fn components(
             }
         }
         file.group(&table)?;
-        tell(progress, part * signs::AT_ONCE, tokens.len(), "tokens")?;
+        report(progress, part * signs::AT_ONCE, tokens.len(), "tokens")?;
     }
     file.finish()
 }
 
-fn tell(progress: &mut Progress<'_>, done: usize, total: usize, task: &str) -> Result<()> {
-    progress.tell(Step {
+fn report(progress: &mut Progress<'_>, done: usize, total: usize, task: &str) -> Result<()> {
+    progress.report(Step {
         task,
         done: done as u64,
         total: Some(total as u64),
@@ -250,7 +250,7 @@ pub(super) fn annotations(
             }
         }
         file.group(&table)?;
-        tell(progress, done + 1, stretches.len(), "recordings")?;
+        report(progress, done + 1, stretches.len(), "recordings")?;
     }
     file.finish()
 }
@@ -404,7 +404,7 @@ fn movement(
             column.cells = Cells::Float(values);
         }
         file.group(&table)?;
-        progress.tell(Step {
+        progress.report(Step {
             task: &stretch.recording.name,
             done: (to - frames.start) as u64,
             total: Some(frames.len() as u64),

@@ -21,7 +21,7 @@ use crate::import::understood::Changes;
 use crate::progress::Progress;
 
 /// The largest number of changes that are listed one by one.
-const TOLD: usize = 20;
+const LISTED: usize = 20;
 
 /// The result of an update.
 pub(super) struct Updated {
@@ -30,7 +30,7 @@ pub(super) struct Updated {
     /// The conflicts: the row of the corpus, and the annotation of the file.
     pub(super) conflicts: Vec<(Option<i64>, Option<AnnotationRow>)>,
     /// The changes of the file as texts for the user.
-    told: Vec<String>,
+    listed: Vec<String>,
     /// The number of annotations in the corpus that stay although the file never had them.
     kept: usize,
 }
@@ -141,13 +141,13 @@ pub(super) fn annotations(
             changes: Changes::default(),
             edits: Vec::new(),
             conflicts: Vec::new(),
-            told: Vec::new(),
+            listed: Vec::new(),
             kept: 0,
         },
     };
     let order = parents_first(sides.transcript);
     for &tier in &order {
-        job.tell(progress)?;
+        job.report(progress)?;
         let name = &sides.transcript.tiers[tier].name;
         let old = match sides.known.get(name) {
             Some(row) => tiers::annotations(job.connection, row.id)?,
@@ -309,7 +309,7 @@ impl Update<'_> {
         let mut old = Standing::of(old);
         for (index, annotation) in it.annotations.iter().enumerate() {
             if index % 256 == 255 {
-                job.tell(progress)?;
+                job.report(progress)?;
             }
             let above = annotation.parent.and_then(|place| self.rows.get(&place));
             let parent = above.copied();
@@ -373,7 +373,7 @@ impl Update<'_> {
             self.edit(tier, None, Some(theirs), Outcome::Lost);
         }
         self.done.changes.added += 1;
-        self.tell(tier, &new, format!("{:?} added", new.value));
+        self.list(tier, &new, format!("{:?} added", new.value));
         Ok(Some(tiers::insert_annotation(job.connection, &new)?))
     }
 
@@ -466,7 +466,7 @@ impl Update<'_> {
             (false, true) => format!("{:?} moved from {}", row.value, at(before.start_us)),
             (false, false) => format!("{:?} hangs below another", row.value),
         };
-        self.tell(tier, &row, what);
+        self.list(tier, &row, what);
         Ok(())
     }
 
@@ -496,7 +496,7 @@ impl Update<'_> {
         if own {
             self.edit(tier, Some(&mine), None, Outcome::Lost);
         }
-        self.tell(tier, row, format!("{:?} removed", row.value));
+        self.list(tier, row, format!("{:?} removed", row.value));
         tiers::delete_annotation(job.connection, row.id)?;
         self.done.changes.removed += 1;
         Ok(())
@@ -517,9 +517,9 @@ impl Update<'_> {
         });
     }
 
-    fn tell(&mut self, tier: &str, row: &AnnotationRow, what: String) {
+    fn list(&mut self, tier: &str, row: &AnnotationRow, what: String) {
         self.done
-            .told
+            .listed
             .push(format!("tier {tier:?} at {}: {what}", at(row.start_us)));
     }
 }
@@ -542,7 +542,7 @@ impl Updated {
             "its annotations were there before: {changed} changed, {added} added, {removed} removed, \
              {unchanged} as they were"
         ));
-        some(&self.told, &mut note);
+        some(&self.listed, &mut note);
         if self.kept > 0 {
             let (many, is) = if self.kept == 1 {
                 ("annotation", "is")
@@ -565,24 +565,24 @@ impl Updated {
                 "the tier {name:?}, which the file has not, is kept"
             ));
         }
-        let told = |outcome| {
+        let outcomes = |outcome| {
             let edits = self.edits.iter().filter(move |it| it.outcome == outcome);
             edits.map(ToString::to_string).collect::<Vec<_>>()
         };
         let warn =
             |remedy: Remedy| move |text: String| ReportFinding::warning(text, remedy.clone());
         let lost = warn(Remedy::command("`chereme undo` takes the import back"));
-        some(&told(Outcome::Lost), &mut |text| {
+        some(&outcomes(Outcome::Lost), &mut |text| {
             report.findings.push(lost(text))
         });
         let conflict = warn(Remedy::command(
             "`chereme conflicts CORPUS` lists both candidates; decide there",
         ));
-        some(&told(Outcome::Conflict), &mut |text| {
+        some(&outcomes(Outcome::Conflict), &mut |text| {
             report.findings.push(conflict(text))
         });
         let mut note = |text: String| report.findings.push(ReportFinding::note(text));
-        some(&told(Outcome::Kept), &mut note);
+        some(&outcomes(Outcome::Kept), &mut note);
         report.understood.changes = Some(self.changes);
         report.edits = self.edits;
     }
@@ -590,10 +590,10 @@ impl Updated {
 
 /// Passes on the first lines of many, and the number of remaining ones.
 pub(super) fn some(lines: &[String], take: &mut dyn FnMut(String)) {
-    for line in lines.iter().take(TOLD) {
+    for line in lines.iter().take(LISTED) {
         take(line.clone());
     }
-    let more = lines.len().saturating_sub(TOLD);
+    let more = lines.len().saturating_sub(LISTED);
     if more > 0 {
         take(format!("and {more} more"));
     }

@@ -546,10 +546,10 @@ fn stopping_an_import_of_any_kind_leaves_the_corpus_as_it_was() {
         let before = corpus.log(9).expect("log").len();
         // Wherever it is stopped, nothing is stored.
         for at in [0, steps.len() / 3, steps.len() / 2, steps.len() - 1] {
-            let mut told = 0;
+            let mut reported = 0;
             let mut hear = |_: Step<'_>| {
-                told += 1;
-                if told > at {
+                reported += 1;
+                if reported > at {
                     ControlFlow::Break(())
                 } else {
                     ControlFlow::Continue(())
@@ -562,7 +562,7 @@ fn stopping_an_import_of_any_kind_leaves_the_corpus_as_it_was() {
             assert_eq!(tokens.expect("listed").total, 0);
         }
         let mut stop = |_: Step<'_>| ControlFlow::Break(());
-        let redone = corpus.redo_told(&mut Progress::new(&mut stop));
+        let redone = corpus.redo_with_progress(&mut Progress::new(&mut stop));
         assert!(matches!(redone, Err(Error::Stopped)), "{redone:?}");
         assert_eq!(corpus.log(9).expect("log").len(), before);
         assert_whole(&mut corpus);

@@ -99,15 +99,15 @@ fn a_body_in_a_unit_that_makes_it_a_giant_is_a_person_with_a_finding() {
         let report = corpus
             .import(&[path], &options, &mut Progress::new(&mut hear))
             .expect("an import");
-        let told = report.files[0].findings.iter();
-        let told = told.filter(|it| it.message.contains("m tall")).count();
+        let reported = report.files[0].findings.iter();
+        let reported = reported.filter(|it| it.message.contains("m tall")).count();
         let take = crate::Address::Recording(crate::Name::Number(1));
         let moving = corpus.movement(&take).expect("movement");
-        (stature(&moving.clip), told)
+        (stature(&moving.clip), reported)
     };
-    let (person, told) = imported(1.0, None);
-    assert!((1.5..1.9).contains(&person) && told == 0, "{person}");
-    for (scale, unit, tall, told) in [
+    let (person, reported) = imported(1.0, None);
+    assert!((1.5..1.9).contains(&person) && reported == 0, "{person}");
+    for (scale, unit, tall, reported) in [
         (100.0, None, 1.0, 1),
         (0.01, None, 1.0, 1),
         (0.8, None, 0.8, 0),
@@ -118,7 +118,7 @@ fn a_body_in_a_unit_that_makes_it_a_giant_is_a_person_with_a_finding() {
             (found - person * tall).abs() < 1e-3 * tall,
             "{scale}: {found}"
         );
-        assert_eq!(said, told, "{scale}");
+        assert_eq!(said, reported, "{scale}");
     }
 }
 
@@ -255,8 +255,8 @@ fn the_export_of_an_annotation_file_beside_it_is_left_out() {
     assert_eq!(report.created.get("annotations"), Some(&1));
     let table = report.files.iter().find(|it| it.path.ends_with("tsv"));
     let table = table.expect("its report");
-    let told = |it: &ReportFinding| it.message.contains("an export of take.eaf");
-    assert!(table.findings.iter().any(told), "{table:?}");
+    let reported = |it: &ReportFinding| it.message.contains("an export of take.eaf");
+    assert!(table.findings.iter().any(reported), "{table:?}");
 }
 
 #[test]
@@ -274,9 +274,9 @@ fn annotations_go_to_a_take_of_their_name_elsewhere_only_if_they_fit() {
         let inbox = [folder.path().join("in")];
         let (_, report) = imported(folder.path(), &inbox, &ImportOptions::default());
         assert_eq!(report.created.get("recordings"), Some(&recordings), "{end}");
-        let told = report.files.iter().flat_map(|it| &it.findings);
-        let told = told.filter(|it| it.message.contains("in another folder"));
-        assert_eq!(told.count() as u64, recordings - 1);
+        let reported = report.files.iter().flat_map(|it| &it.findings);
+        let reported = reported.filter(|it| it.message.contains("in another folder"));
+        assert_eq!(reported.count() as u64, recordings - 1);
     }
 }
 

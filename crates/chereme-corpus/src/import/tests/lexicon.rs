@@ -16,12 +16,12 @@ fn rows_of_one_gloss_are_entries_of_one_sign_even_on_a_second_import() {
     let rows = "drag\tB\t0.5\ndrag\tS\t2.5\nsee\tU\t1\n";
     let table = desk.file("lex.tsv", &format!("gloss\tHandshape\tFrequency\n{rows}"));
     let report = import(&mut corpus, &table, "{}");
-    let told = report
+    let reported = report
         .findings
         .iter()
         .find(|it| it.message.contains("line 2 too"));
     assert_eq!(
-        told.map(|it| it.line),
+        reported.map(|it| it.line),
         Some(Some(3)),
         "{:?}",
         report.findings
@@ -125,10 +125,10 @@ fn attributes_are_kept_listed_and_found_and_can_be_undone() {
     let error = corpus
         .search("attribute.clas=noun", &SearchOptions::default())
         .expect_err("no such attribute");
-    let told = format!("{error} {}", error.remedy().unwrap_or_default());
+    let message = format!("{error} {}", error.remedy().unwrap_or_default());
     assert!(
-        told.contains("attribute.Class") && told.contains("Sign Frequency"),
-        "{told}"
+        message.contains("attribute.Class") && message.contains("Sign Frequency"),
+        "{message}"
     );
     let listed = corpus
         .list(ListKind::Signs, &ListFilter::default().with("gloss", "A"))
@@ -138,12 +138,12 @@ fn attributes_are_kept_listed_and_found_and_can_be_undone() {
         "letter by letter"
     );
     let info = corpus.info().expect("info").attributes;
-    let told: Vec<_> = info
+    let reported: Vec<_> = info
         .iter()
         .map(|it| (&*it.name, it.entries, it.greatest))
         .collect();
     assert_eq!(
-        told,
+        reported,
         [
             ("MajorLocation.2.0Frequency", 3, Some(0.457)),
             ("Sign Frequency", 2, Some(4.1)),
@@ -187,13 +187,16 @@ fn notation_in_a_wrong_encoding_is_mended_or_left_uncoded() {
     assert_eq!(total(&mut corpus, ""), 6);
     let coded = total(&mut corpus, "configuration=*");
     assert_eq!((coded, total(&mut corpus, "placement=*")), (3, 3));
-    let told: Vec<&str> = report.findings.iter().map(|it| &*it.message).collect();
+    let messages: Vec<&str> = report.findings.iter().map(|it| &*it.message).collect();
     for (start, wanted) in [("D: its HamNoSys was saved", 1), ("E: \"see the film\"", 1)] {
-        let count = told.iter().filter(|it| it.starts_with(start)).count();
-        assert_eq!(count, wanted, "{start}: {told:?}");
+        let count = messages.iter().filter(|it| it.starts_with(start)).count();
+        assert_eq!(count, wanted, "{start}: {messages:?}");
     }
-    let mended = told.iter().filter(|it| it.contains("were mended")).count();
-    assert_eq!(mended, 2, "{told:?}");
+    let mended = messages
+        .iter()
+        .filter(|it| it.contains("were mended"))
+        .count();
+    assert_eq!(mended, 2, "{messages:?}");
     assert_whole(&mut corpus);
 }
 
@@ -237,7 +240,7 @@ fn participants_of_a_file_are_signers_of_their_own_tokens() {
     let signers = corpus
         .list(ListKind::Signers, &ListFilter::default())
         .expect("listed");
-    let told: Vec<_> = (signers.rows.iter())
+    let reported: Vec<_> = (signers.rows.iter())
         .map(|row| {
             (
                 row["name"].as_str(),
@@ -247,7 +250,7 @@ fn participants_of_a_file_are_signers_of_their_own_tokens() {
         })
         .collect();
     assert_eq!(
-        told,
+        reported,
         [
             (Some("ber-12"), Some(1), Some(1)),
             (Some("ber-13"), Some(1), Some(1))

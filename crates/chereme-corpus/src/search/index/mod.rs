@@ -389,7 +389,7 @@ fn step(progress: &mut Progress<'_>, done: &mut u64, total: Option<u64>) -> Resu
     if !done.is_multiple_of(256) {
         return Ok(());
     }
-    progress.tell(Step {
+    progress.report(Step {
         task: "search index",
         done: *done,
         total,

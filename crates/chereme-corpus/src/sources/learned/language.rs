@@ -62,22 +62,28 @@ impl Samples {
     pub(crate) fn of(connection: &Connection, inventories: &[StoredInventory]) -> Result<Self> {
         let spans = spans::movement_spans(connection, MOST_SPANS)?;
         let lexicon = spans::lexicon_movements(connection, MOST_SPANS)?;
-        let mut told = on_tiers(&spans, inventories);
-        told.extend(in_lexicon(&lexicon));
-        told.sort_by_key(|told| (told.recording, told.span.start(), told.span.end()));
-        let count = told.len().min(MOST_MEASURED);
-        let spread = (0..count).map(|n| &told[n * told.len() / count]);
+        let mut movements = on_tiers(&spans, inventories);
+        movements.extend(in_lexicon(&lexicon));
+        movements.sort_by_key(|movement| {
+            (
+                movement.recording,
+                movement.span.start(),
+                movement.span.end(),
+            )
+        });
+        let count = movements.len().min(MOST_MEASURED);
+        let spread = (0..count).map(|n| &movements[n * movements.len() / count]);
         let mut samples = Self::default();
         let mut body: Option<Body> = None;
-        for told in spread {
+        for movement in spread {
             if body
                 .as_ref()
-                .is_none_or(|it| it.recording != told.recording)
+                .is_none_or(|it| it.recording != movement.recording)
             {
-                body = Some(Body::of(connection, told.recording)?);
+                body = Some(Body::of(connection, movement.recording)?);
             }
             if let Some(body) = &body {
-                samples.take(connection, body, told)?;
+                samples.take(connection, body, movement)?;
             }
         }
         Ok(samples)
@@ -87,19 +93,19 @@ impl Samples {
         &mut self,
         connection: &Connection,
         body: &Body,
-        told: &MeasuredMovement,
+        movement: &MeasuredMovement,
     ) -> Result<()> {
         let Some((track, anatomy)) = &body.track else {
             return Ok(());
         };
-        let kind = match told.kind.as_str() {
+        let kind = match movement.kind.as_str() {
             "hold" | "held" => {
-                let name = if told.kind == "held" {
+                let name = if movement.kind == "held" {
                     "time.end"
                 } else {
                     "time.hold"
                 };
-                self.add(name, body, told.span.seconds());
+                self.add(name, body, movement.span.seconds());
                 return Ok(());
             }
             "straight" | "arc" => MeasuredKind::Stroke,
@@ -109,7 +115,7 @@ impl Samples {
             "preparation" => MeasuredKind::Transition,
             _ => return Ok(()),
         };
-        let side = body.side(told.hand);
+        let side = body.side(movement.hand);
         let groups = match (side, kind) {
             (Side::Right, MeasuredKind::Shape) => [ChannelGroup::RightHand, ChannelGroup::RightArm],
             (Side::Left, MeasuredKind::Shape) => [ChannelGroup::LeftHand, ChannelGroup::LeftArm],
@@ -122,30 +128,30 @@ impl Samples {
             &groups[..]
         };
         let around = Span::between(
-            Instant::from_micros(told.span.start().micros() - AROUND),
-            Instant::from_micros(told.span.end().micros() + AROUND),
+            Instant::from_micros(movement.span.start().micros() - AROUND),
+            Instant::from_micros(movement.span.end().micros() + AROUND),
         );
-        let (frames, own) = (track.frames_in(around), track.frames_in(told.span));
+        let (frames, own) = (track.frames_in(around), track.frames_in(movement.span));
         let within: Range<usize> =
             own.start.saturating_sub(frames.start)..own.end.saturating_sub(frames.start);
         let clip = track.clip(connection, frames, groups)?;
         let found = measure(&clip, anatomy, side, within, kind);
         let arm = anatomy.measures().map(|it| it.arm).filter(|arm| *arm > 0.0);
         if let (Some(found), Some(arm)) = (found, arm)
-            && (!told.sign || found.strokes == 1)
+            && (!movement.sign || found.strokes == 1)
         {
-            self.measured(body, told, &found, arm);
+            self.measured(body, movement, &found, arm);
         }
         Ok(())
     }
 
-    fn measured(&mut self, body: &Body, told: &MeasuredMovement, found: &Measured, arm: f64) {
-        let sized = |names: [&'static str; 3]| match told.size.as_deref() {
+    fn measured(&mut self, body: &Body, movement: &MeasuredMovement, found: &Measured, arm: f64) {
+        let sized = |names: [&'static str; 3]| match movement.size.as_deref() {
             Some("small") => names[0],
             Some("large") => names[2],
             _ => names[1],
         };
-        let time = match told.kind.as_str() {
+        let time = match movement.kind.as_str() {
             "straight" => {
                 self.add(sized(SIZES[0]), body, found.length / arm);
                 "time.straight"
@@ -166,15 +172,15 @@ impl Samples {
             }
             "preparation" => {
                 let usual = BodyLanguage::usual();
-                let way = usual.time_transition_arm * found.length / arm;
+                let path_time = usual.time_transition_arm * found.length / arm;
                 let turn = usual.time_turn * found.turn / std::f64::consts::FRAC_PI_2;
-                let rest = (found.seconds - way - turn).max(LEAST_TRANSITION);
+                let rest = (found.seconds - path_time - turn).max(LEAST_TRANSITION);
                 self.add("time.transition", body, rest);
                 return;
             }
             _ => "time.replace",
         };
-        if told.plain {
+        if movement.plain {
             self.add(time, body, found.seconds);
         }
     }
@@ -196,8 +202,8 @@ impl Samples {
                 .filter(|(of, _)| of.is_some() && of.as_deref() == signer);
             let own: Vec<f64> = own.map(|(_, value)| *value).collect();
             let all = samples.iter().map(|(_, value)| *value).collect();
-            let told = summed(own, signer.unwrap_or_default());
-            if let Some(value) = told.or_else(|| summed(all, "all captured signers")) {
+            let of_signer = summed(own, signer.unwrap_or_default());
+            if let Some(value) = of_signer.or_else(|| summed(all, "all captured signers")) {
                 values.insert((*name).to_owned(), value);
             }
         }
@@ -272,7 +278,7 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Meas
             .map_or(span.value.trim(), |value| value.id.as_str())
             .to_owned()
     };
-    let mut told = Vec::new();
+    let mut movements = Vec::new();
     for (n, span) in spans.iter().enumerate() {
         let kind = match span.feature.as_deref() {
             None => id(span),
@@ -299,7 +305,7 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Meas
             near.find(|it| it.end_us.min(span.end_us) - it.start_us.max(span.start_us) > half)
                 .map(&id)
         };
-        told.push(MeasuredMovement {
+        movements.push(MeasuredMovement {
             recording: span.recording_id,
             span: between(span.start_us, span.end_us),
             hand: span.hand,
@@ -309,13 +315,13 @@ fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Meas
             sign: false,
         });
     }
-    told
+    movements
 }
 
 /// Returns the movements that lexicon entries state for captured tokens without an annotation of movement: only tokens
 /// with one movement of one size, performed once, on which all entries of the sign agree.
 fn in_lexicon(rows: &[LexiconMovement]) -> Vec<MeasuredMovement> {
-    let mut told = Vec::new();
+    let mut movements = Vec::new();
     for token in rows.chunk_by(|a, b| a.token == b.token) {
         let said = |feature: Option<&str>| -> Vec<&str> {
             let own = token.iter().filter(|row| row.feature.as_deref() == feature);
@@ -332,7 +338,7 @@ fn in_lexicon(rows: &[LexiconMovement]) -> Vec<MeasuredMovement> {
         if let ([kind @ ("straight" | "arc")], [] | [_], true, true) =
             (kinds.as_slice(), sizes.as_slice(), alone, once)
         {
-            told.push(MeasuredMovement {
+            movements.push(MeasuredMovement {
                 recording: token[0].recording_id,
                 span: between(token[0].start_us, token[0].end_us),
                 hand: Some(Hands::One(HandRef::Dominant)),
@@ -343,7 +349,7 @@ fn in_lexicon(rows: &[LexiconMovement]) -> Vec<MeasuredMovement> {
             });
         }
     }
-    told
+    movements
 }
 
 fn between(start: i64, end: i64) -> Span {
@@ -456,7 +462,7 @@ mod tests {
             value: value.into(),
             inventory_id: None,
         };
-        let told = on_tiers(
+        let movements = on_tiers(
             &[
                 span(None, 0, 400, "straight"),
                 span(Some("size"), 0, 380, "large"),
@@ -467,7 +473,7 @@ mod tests {
             ],
             &[],
         );
-        let seen: Vec<_> = told
+        let seen: Vec<_> = movements
             .iter()
             .map(|it| (it.kind.as_str(), it.size.as_deref(), it.plain))
             .collect();
@@ -504,10 +510,14 @@ mod tests {
             row(4, 13, None, "arc"),
             row(4, 13, Some("repetition"), "several"),
         ];
-        let told = in_lexicon(&rows);
-        assert_eq!(told.len(), 1, "{told:?}");
+        let movements = in_lexicon(&rows);
+        assert_eq!(movements.len(), 1, "{movements:?}");
         assert_eq!(
-            (told[0].kind.as_str(), told[0].size.as_deref(), told[0].sign),
+            (
+                movements[0].kind.as_str(),
+                movements[0].size.as_deref(),
+                movements[0].sign
+            ),
             ("straight", Some("small"), true)
         );
     }

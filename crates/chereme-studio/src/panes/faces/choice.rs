@@ -55,9 +55,9 @@ impl Faces {
                     let stretch = format!("{:.2}", it.parts.stretch);
                     let values: [(&str, &dyn std::fmt::Display); 2] =
                         [("score", &score), ("stretch", &stretch)];
-                    let told = fill(seen.say(words::SCORE), &values);
+                    let shown_score = fill(seen.say(words::SCORE), &values);
                     let chosen = self.chosen.as_deref() == Some(&it.token);
-                    if self.figure(ui, seen, out, motion, side, (&name, &told, chosen)) {
+                    if self.figure(ui, seen, out, motion, side, (&name, &shown_score, chosen)) {
                         picked = Some(it.clone());
                     }
                 }
@@ -115,12 +115,12 @@ impl Faces {
         out: &mut Outbox,
         motion: Option<(Motion, f64)>,
         side: f32,
-        (name, told, chosen): (&str, &str, bool),
+        (name, shown_score, chosen): (&str, &str, bool),
     ) -> bool {
         let (rect, response) = ui.allocate_exact_size(vec2(side, side + FOOT), Sense::click());
-        let label = match told.is_empty() {
+        let label = match shown_score.is_empty() {
             true => name.to_owned(),
-            false => format!("{name}: {told}"),
+            false => format!("{name}: {shown_score}"),
         };
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
         if !ui.is_rect_visible(rect) {
@@ -151,7 +151,7 @@ impl Faces {
         let left = rect.left() + 4.0;
         let at = |below: f32| pos2(left, picture.bottom() + below);
         painter.text(at(10.0), Align2::LEFT_CENTER, name, body, strong);
-        painter.text(at(26.0), Align2::LEFT_CENTER, told, small, weak);
+        painter.text(at(26.0), Align2::LEFT_CENTER, shown_score, small, weak);
         if chosen || response.hovered() || response.has_focus() {
             let wide = if chosen { 2.0 } else { 1.0 };
             let stroke = Stroke::new(wide, seen.colours().accent);
@@ -162,7 +162,7 @@ impl Faces {
     }
 
     /// Shows how many performances were compared and skipped.
-    pub(super) fn told(&self, ui: &mut Ui, seen: &PaneInput<'_>, choice: &Choice) {
+    pub(super) fn show_counts(&self, ui: &mut Ui, seen: &PaneInput<'_>, choice: &Choice) {
         let skipped = choice.skipped.len() as u64;
         let lines = [
             counted(seen, words::COMPARED_COUNT, choice.compared),

@@ -342,7 +342,7 @@ impl Pane for Faces {
             }
             if let Some(choice) = self.choice.clone() {
                 self.candidates(ui, seen, &choice, out);
-                self.told(ui, seen, &choice);
+                self.show_counts(ui, seen, &choice);
                 self.reasons(ui, seen, &choice);
                 self.putting(ui, seen, &choice, out);
             }

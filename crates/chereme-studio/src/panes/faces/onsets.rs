@@ -46,7 +46,7 @@ impl Faces {
 }
 
 fn table(ui: &mut Ui, seen: &PaneInput<'_>, onsets: &Onsets) {
-    let told = |it: &Quartiles| format!("{:+.3} ({:+.3} … {:+.3})", it.median, it.q1, it.q3);
+    let range_text = |it: &Quartiles| format!("{:+.3} ({:+.3} … {:+.3})", it.median, it.q1, it.q3);
     Grid::new("onset rows").striped(true).show(ui, |ui| {
         for text in [
             words::FUNCTION,
@@ -62,8 +62,8 @@ fn table(ui: &mut Ui, seen: &PaneInput<'_>, onsets: &Onsets) {
             ui.label(row.function.name());
             ui.label(row.channel);
             ui.monospace(row.n.to_string());
-            ui.monospace(told(&row.onset_s));
-            ui.monospace(told(&row.offset_s));
+            ui.monospace(range_text(&row.onset_s));
+            ui.monospace(range_text(&row.offset_s));
             ui.end_row();
         }
     });

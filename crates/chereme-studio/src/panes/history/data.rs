@@ -109,10 +109,10 @@ pub(crate) fn news(
         return None;
     }
     if own {
-        let told = newest.kind != OperationKind::Do
+        let reported_already = newest.kind != OperationKind::Do
             || newest.name.starts_with("recombine")
             || newest.name == "delete";
-        return (!told).then(|| sentence(newest, language));
+        return (!reported_already).then(|| sentence(newest, language));
     }
     let what = match newest.kind {
         OperationKind::Undo => words::taken_back(newest, language),

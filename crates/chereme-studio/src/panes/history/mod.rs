@@ -132,7 +132,7 @@ impl History {
     }
 
     /// Returns whether the waiting walk would undo or redo that operation.
-    fn is_on_the_way(&self, row: &HistoryRow) -> bool {
+    fn is_in_the_walk(&self, row: &HistoryRow) -> bool {
         match (self.walk, row.standing) {
             (Some(walk), Standing::Stands(steps)) => walk.back && steps < walk.steps,
             (Some(walk), Standing::Undone(steps)) => !walk.back && steps <= walk.steps,
@@ -211,7 +211,7 @@ impl History {
             visuals.weak_text_color()
         };
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-        if self.is_on_the_way(row) {
+        if self.is_in_the_walk(row) {
             painter.rect_filled(rect, 4.0, colours.selection);
         } else if response.hovered() {
             painter.rect_filled(rect, 4.0, colours.stripe);

@@ -152,7 +152,7 @@ fn frame(
             did.push(Did::Choose(shown.card.id));
             did.push(Did::Change(shown.card.id, what));
         }
-        if let Some(what) = told(ui, seen, shown) {
+        if let Some(what) = show_results(ui, seen, shown) {
             did.push(Did::Choose(shown.card.id));
             did.push(Did::Change(shown.card.id, what));
         }
@@ -292,7 +292,7 @@ fn failure(text: &str, language: Language) -> String {
 
 /// Shows the results of a card: its effects, its residual, or why it is impossible; returns the corrected card if the
 /// user accepts a proposed correction.
-fn told(ui: &mut Ui, seen: &PaneInput<'_>, shown: &ShownCard<'_>) -> Option<What> {
+fn show_results(ui: &mut Ui, seen: &PaneInput<'_>, shown: &ShownCard<'_>) -> Option<What> {
     if let Some(trouble) = shown.trouble {
         ui.label(
             RichText::new(failure(&trouble.text, seen.language))

@@ -49,7 +49,7 @@ const PATIENCE: f64 = 0.15;
 #[derive(Default)]
 pub(super) struct Live {
     /// Whether to look everything up again.
-    anew: bool,
+    again: bool,
     /// Whether the running evaluation was stopped, and whether the one before it was.
     stopped: [bool; 2],
     /// The running evaluation, with the stack that maps the paths of its report to cards.
@@ -98,12 +98,12 @@ impl Live {
             }
             return;
         }
-        if self.of.as_ref() == Some(&wish) && !self.anew {
+        if self.of.as_ref() == Some(&wish) && !self.again {
             return;
         }
         let id = out.work(Work::Draft {
             recipe: wish.text.clone(),
-            anew: std::mem::take(&mut self.anew),
+            again: std::mem::take(&mut self.again),
         });
         self.running = Some((id, wish, stack.clone()));
         self.since = now;
@@ -111,7 +111,7 @@ impl Live {
 
     /// Makes the next evaluation look everything up again, even if the recipe is the same.
     pub(super) fn reload(&mut self) {
-        self.anew = true;
+        self.again = true;
     }
 
     /// Returns whether an evaluation ended that has not been followed up yet.
@@ -245,11 +245,11 @@ mod tests {
         assert!(out.take().is_empty(), "it is known already");
         live.reload();
         live.follow(&stack, "A | swap", (1, 1.0), &mut out);
-        let anew = out.take();
-        let anew = anew
+        let again = out.take();
+        let again = again
             .iter()
-            .any(|it| matches!(it, Command::Work(_, Work::Draft { anew: true, .. })));
-        assert!(anew);
+            .any(|it| matches!(it, Command::Work(_, Work::Draft { again: true, .. })));
+        assert!(again);
     }
 
     #[test]

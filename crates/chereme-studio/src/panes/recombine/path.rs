@@ -94,7 +94,7 @@ fn rows(ui: &mut Ui, seen: &PaneInput<'_>, legs: &mut Vec<Leg>, timed: bool) -> 
     let several = legs.len() > 1;
     for (at, leg) in legs.iter_mut().enumerate() {
         ui.push_id(at, |ui| {
-            let name = format!("{} {}", seen.say(words::WAY), at + 1);
+            let name = format!("{} {}", seen.say(words::LEG), at + 1);
             ui.horizontal_wrapped(|ui| {
                 ui.weak(format!("{}.", at + 1));
                 changed |= fields::directions(ui, seen, &name, &mut leg.towards);
@@ -163,16 +163,19 @@ impl Board {
     }
 
     /// Projects an offset onto the board, in metres to the right and down.
-    fn flat(self, way: DVec3) -> Vec2 {
+    fn flat(self, offset: DVec3) -> Vec2 {
         let [right, up, ..] = self.axes();
-        vec2(way.dot(right.vector()) as f32, -way.dot(up.vector()) as f32)
+        vec2(
+            offset.dot(right.vector()) as f32,
+            -offset.dot(up.vector()) as f32,
+        )
     }
 
     /// Returns the offset in space (to the left, up and forward) of an offset on the board, in metres to the right and
     /// down.
-    fn deep(self, way: Vec2) -> DVec3 {
+    fn deep(self, offset: Vec2) -> DVec3 {
         let [right, up, ..] = self.axes();
-        right.vector() * f64::from(way.x) - up.vector() * f64::from(way.y)
+        right.vector() * f64::from(offset.x) - up.vector() * f64::from(offset.y)
     }
 }
 
@@ -288,7 +291,7 @@ pub(super) fn show(
         return changed;
     }
     changed |= rows(ui, seen, &mut travel.path, true);
-    if ui.small_button(seen.say(words::ADD_WAY)).clicked() {
+    if ui.small_button(seen.say(words::ADD_LEG)).clicked() {
         travel.path.push(Leg {
             towards: vec![Direction::Up],
             distance: Length::Metres(0.1),
@@ -367,12 +370,12 @@ fn draw(
         return drawn;
     }
     let points = points_of(travel, 0.6);
-    let ways: Vec<DVec3> = if travel.through.is_empty() {
+    let offsets: Vec<DVec3> = if travel.through.is_empty() {
         std::iter::once(DVec3::ZERO).chain(points).collect()
     } else {
         Spline::new(&points).places().to_vec()
     };
-    let flat: Vec<Pos2> = ways.iter().map(|at| board.flat(*at).to_pos2()).collect();
+    let flat: Vec<Pos2> = offsets.iter().map(|at| board.flat(*at).to_pos2()).collect();
     let shift = rect.center() - (Rect::from_points(&flat).center() * scale);
     let flat: Vec<Pos2> = flat
         .iter()

@@ -77,11 +77,11 @@ impl Search {
             self.reach(self.at);
         }
         // The field itself reports text that is not a valid query.
-        let told = Query::parse(&self.field.text).is_err();
+        let faulty = Query::parse(&self.field.text).is_err();
         if let Some(wrong) = self
             .wrong
             .as_ref()
-            .filter(|_| self.query == self.field.text && !told)
+            .filter(|_| self.query == self.field.text && !faulty)
         {
             let trouble = seen.colours().trouble;
             let said = spoken(&wrong.error, seen.language);
@@ -174,18 +174,18 @@ impl Search {
             }
             let wide = ui.available_size_before_wrap().x > SPACIOUS;
             if wide {
-                self.ways(ui, seen, &mut counted);
+                self.form_switches(ui, seen, &mut counted);
             } else {
                 // A second line would take its height from the results.
-                ui.menu_button(seen.say(words::WAYS), |ui| {
-                    self.ways(ui, seen, &mut counted)
+                ui.menu_button(seen.say(words::DISPLAY), |ui| {
+                    self.form_switches(ui, seen, &mut counted)
                 });
             }
         });
     }
 
     /// Draws the switches for the form of the results.
-    fn ways(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, counted: &mut bool) {
+    fn form_switches(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, counted: &mut bool) {
         if self.view == View::Grid {
             ui.checkbox(&mut self.playing, seen.say(words::LOOPING));
             ui.checkbox(&mut self.close, seen.say(words::CLOSE_UP));

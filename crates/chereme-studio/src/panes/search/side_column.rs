@@ -319,8 +319,8 @@ pub(super) fn findings(
     /// The most alternative names.
     const NAMES: usize = 6;
     let mut chosen = None;
-    let told = |it: &&Finding| !matches!(it.kind, FindingKind::NotCoded { .. });
-    for finding in found.findings.iter().filter(told) {
+    let reported = |it: &&Finding| !matches!(it.kind, FindingKind::NotCoded { .. });
+    for finding in found.findings.iter().filter(reported) {
         let text = spoken(&finding.message(), seen.language);
         ui.add(Label::new(RichText::new(text).small().weak()).wrap());
         let names = finding.names().iter().take(NAMES);

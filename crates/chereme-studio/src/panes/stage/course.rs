@@ -299,7 +299,7 @@ fn stepped(ui: &Ui, id: &Id) -> Option<DVec3> {
         let pressed = keys
             .into_iter()
             .find(|(key, _)| input.consume_key(Modifiers::NONE, *key));
-        pressed.map(|(_, way)| way * STEP)
+        pressed.map(|(_, direction)| direction * STEP)
     })
 }
 

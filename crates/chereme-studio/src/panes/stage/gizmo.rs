@@ -99,25 +99,25 @@ pub(super) struct Begun {
 impl Begun {
     /// Returns the value for a pointer on the line of sight `ray`, rounded to millimetres or to `step`.
     pub(super) fn value(&self, ray: Ray, axes: DMat3, step: Option<f64>) -> Option<[f64; 3]> {
-        let way = match self.part {
+        let offset = match self.part {
             HandlePart::Axis(nth) => {
                 let axis = axes.col(nth);
                 let from = self.ray.along_axis(self.origin, axis)?;
-                let mut way = [0.0; 3];
-                way[nth] = ray.along_axis(self.origin, axis)? - from;
-                way
+                let mut offset = [0.0; 3];
+                offset[nth] = ray.along_axis(self.origin, axis)? - from;
+                offset
             }
             HandlePart::Middle => {
                 let from = self.ray.on_plane(self.origin, self.sight)?;
-                let way = ray.on_plane(self.origin, self.sight)? - from;
-                (axes.transpose() * way).to_array()
+                let offset = ray.on_plane(self.origin, self.sight)? - from;
+                (axes.transpose() * offset).to_array()
             }
         };
         let mut value = self.value;
-        for (nth, way) in way.into_iter().enumerate() {
+        for (nth, offset) in offset.into_iter().enumerate() {
             let moves = self.part == HandlePart::Middle || self.part == HandlePart::Axis(nth);
             if moves {
-                value[nth] = snapped(value[nth] + way, step);
+                value[nth] = snapped(value[nth] + offset, step);
             }
         }
         Some(value)
@@ -162,15 +162,15 @@ pub(super) fn stepped(
         .reduce(|a, b| if fits(&b) > fits(&a) { b } else { a });
     let order = best.unwrap_or([0, 1, 2]);
     let mut value = value;
-    for (at, way) in [right, up, away].into_iter().enumerate() {
+    for (at, distance) in [right, up, away].into_iter().enumerate() {
         let nth = order[at];
         let sign = match at {
             0 => seen[nth].x,
             1 => seen[nth].y,
             _ => -seen[nth].z,
         };
-        if way != 0.0 {
-            value[nth] = snapped(value[nth] + way * f64::from(sign.signum()), None);
+        if distance != 0.0 {
+            value[nth] = snapped(value[nth] + distance * f64::from(sign.signum()), None);
         }
     }
     value
@@ -188,9 +188,9 @@ pub(super) struct Laid {
 pub(super) fn laid(projection: &Projection, origin: DVec3, axes: DMat3) -> Option<Laid> {
     let at = projection.project(origin.as_vec3());
     let ends = [0, 1, 2].map(|nth| {
-        let way: Vec3 = projection.turned(axes.col(nth).as_vec3()) * REACH;
-        let length = way.x.hypot(way.y);
-        (length >= LEAST).then_some([at.x + way.x, at.y - way.y])
+        let direction: Vec3 = projection.turned(axes.col(nth).as_vec3()) * REACH;
+        let length = direction.x.hypot(direction.y);
+        (length >= LEAST).then_some([at.x + direction.x, at.y - direction.y])
     });
     (at.depth > 0.0).then_some(Laid {
         middle: [at.x, at.y],
@@ -273,7 +273,7 @@ mod tests {
     fn a_dragged_handle_stays_under_the_pointer() {
         let projection = front();
         let origin = DVec3::new(-0.2, 1.1, 0.3);
-        for (part, way) in [
+        for (part, offset) in [
             (HandlePart::Axis(0), DVec3::new(0.15, 0.0, 0.0)),
             (HandlePart::Axis(1), DVec3::new(0.0, -0.2, 0.0)),
             (HandlePart::Middle, DVec3::new(0.1, 0.07, 0.0)),
@@ -285,14 +285,14 @@ mod tests {
                 ray: Ray::through(&projection, pixel(&projection, origin)),
                 sight: DVec3::NEG_Z,
             };
-            let ray = Ray::through(&projection, pixel(&projection, origin + way));
+            let ray = Ray::through(&projection, pixel(&projection, origin + offset));
             let value = begun.value(ray, OWN, None).expect("a value");
-            let wanted = DVec3::new(0.1, 0.0, 0.05) + way;
+            let wanted = DVec3::new(0.1, 0.0, 0.05) + offset;
             assert!(
                 DVec3::from(value).distance(wanted) < 2e-3,
                 "{part:?}: {value:?}"
             );
-            assert!(begun.place(value, OWN).distance(origin + way) < 2e-3);
+            assert!(begun.place(value, OWN).distance(origin + offset) < 2e-3);
             let whole = begun.value(ray, OWN, Some(0.01)).expect("a value");
             let moved = (0..3).filter(|nth| whole[*nth] != begun.value[*nth]);
             for nth in moved {

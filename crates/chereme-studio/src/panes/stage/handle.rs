@@ -302,7 +302,7 @@ fn axis_name(seen: &PaneInput<'_>, nth: usize) -> &'static str {
 
 /// Returns the value as text: `left 3.2 · up 10.0 · back 0.5 cm`.
 fn value_text(seen: &PaneInput<'_>, held: &HandleInView<'_>) -> String {
-    let ways = [
+    let directions = [
         [recombine::LEFT, recombine::RIGHT],
         [recombine::UP, recombine::DOWN],
         [recombine::FORWARD, recombine::BACK],
@@ -310,16 +310,16 @@ fn value_text(seen: &PaneInput<'_>, held: &HandleInView<'_>) -> String {
     let parts = held
         .value
         .iter()
-        .zip(ways)
+        .zip(directions)
         .enumerate()
-        .map(|(nth, (metres, ways))| {
+        .map(|(nth, (metres, directions))| {
             let cm = metres.abs() * 100.0;
-            let way = if held.handle.is_point() && nth == 1 {
+            let direction = if held.handle.is_point() && nth == 1 {
                 recombine::ABOVE_FLOOR
             } else {
-                ways[usize::from(*metres < 0.0)]
+                directions[usize::from(*metres < 0.0)]
             };
-            format!("{} {cm:.1}", seen.say(way))
+            format!("{} {cm:.1}", seen.say(direction))
         });
     let parts: Vec<String> = parts.collect();
     format!("{} cm", parts.join(" · "))
@@ -435,7 +435,7 @@ fn keys(
     if holding.grab.is_some() {
         return;
     }
-    let mut way = [0.0; 3];
+    let mut offset = [0.0; 3];
     let mut escape = false;
     ui.input_mut(|input| {
         for (shift, step) in [(Modifiers::SHIFT, FAR_STEP), (Modifiers::NONE, STEP)] {
@@ -448,19 +448,19 @@ fn keys(
                 (Key::PageDown, 2, -1.0),
             ] {
                 let times = input.count_and_consume_key(shift, key);
-                way[at] += sign * step * times as f64;
+                offset[at] += sign * step * times as f64;
             }
         }
         escape = input.consume_key(Modifiers::NONE, Key::Escape);
     });
-    if way != [0.0; 3] {
+    if offset != [0.0; 3] {
         if holding.before.is_none() {
             holding.before = Some((held.handle.card, held.handle.to.clone()));
         }
         let axes = held.directions.axes;
         send(
             held,
-            gizmo::stepped(held.value, way, (&held.projection, axes)),
+            gizmo::stepped(held.value, offset, (&held.projection, axes)),
             out,
         );
     } else if escape {

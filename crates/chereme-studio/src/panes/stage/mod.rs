@@ -56,7 +56,7 @@ use marks::Zone;
 use original::Original;
 use points::Points;
 use scene::{Movement, Subject};
-pub(crate) use view_settings::StageWays;
+pub(crate) use view_settings::StageSettings;
 
 /// The step of a key for turning, in shares of the picture's height, and for magnification.
 const KEY_STEP: f32 = 0.06;
@@ -277,9 +277,9 @@ impl Pane for Stage {
             seen.settings.stage.take(self);
         }
         ui::show(self, ui, seen, out);
-        let ways = StageWays::of(self);
-        if ways != seen.settings.stage {
-            out.send(Command::Stage(Box::new(ways)));
+        let settings = StageSettings::of(self);
+        if settings != seen.settings.stage {
+            out.send(Command::Stage(Box::new(settings)));
         }
     }
 

@@ -16,7 +16,7 @@ pub(super) struct Original {
     work: Option<WorkId>,
     parts: Vec<Piece>,
     /// Whether the pieces are known, with or without originals.
-    told: bool,
+    answered: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -65,7 +65,7 @@ impl Original {
             return false;
         }
         if let Ok(Outcome::Originals(all)) = ended {
-            self.told = true;
+            self.answered = true;
             self.parts = all
                 .iter()
                 .map(|(part, moving)| {
@@ -91,7 +91,7 @@ impl Original {
     /// Returns the source of the first piece if no piece has an original and the movement is fingerspelling or
     /// pointing; `None` for notation, which is not expected to have an original.
     pub(super) fn made_by(&self) -> Option<&str> {
-        let none = self.told && !self.is_there();
+        let none = self.answered && !self.is_there();
         let first = self.parts.first().filter(|_| none)?;
         let from = &first.part.from;
         let made = ["spell ", "point "]

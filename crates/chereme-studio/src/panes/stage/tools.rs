@@ -152,16 +152,16 @@ fn compare(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>) {
     // The name is as high as the buttons after it, so that a row broken here stays aligned.
     let name = Button::new(RichText::new(seen.say(words::ORIGINAL_HOW)).weak()).frame(false);
     ui.add(name.sense(Sense::hover()));
-    for way in Compare::ALL {
-        let text = match way {
+    for mode in Compare::ALL {
+        let text = match mode {
             Compare::Beside => words::BESIDE,
             Compare::Over => words::OVER,
             Compare::Alone => words::ALONE,
         };
         let hint = format!("{} ({keys})", seen.say(words::COMPARE));
-        let button = Button::selectable(stage.compare == way, seen.say(text));
+        let button = Button::selectable(stage.compare == mode, seen.say(text));
         if ui.add(button).on_hover_text(hint).clicked() {
-            stage.compare = way;
+            stage.compare = mode;
             stage.asked = None;
         }
     }

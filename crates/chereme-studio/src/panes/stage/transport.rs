@@ -269,22 +269,22 @@ fn button(
     ui.painter().rect(rect, 5.0, fill, edge, StrokeKind::Inside);
     draw(ui.painter(), icon, rect.center(), visuals.text_color());
     let keys = seen.keys.text(action);
-    let told = if keys.is_empty() {
+    let hint = if keys.is_empty() {
         name.to_owned()
     } else {
         format!("{name} ({keys})")
     };
-    if response.on_hover_text(told).clicked() {
+    if response.on_hover_text(hint).clicked() {
         out.send(Command::Do(action));
     }
 }
 
 fn draw(painter: &Painter, icon: Icon, at: egui::Pos2, colour: Color32) {
-    let triangle = |x: f32, way: f32| {
+    let triangle = |x: f32, sign: f32| {
         let tip = [
-            vec2(x + 4.5 * way, 0.0),
-            vec2(x - 3.5 * way, -5.5),
-            vec2(x - 3.5 * way, 5.5),
+            vec2(x + 4.5 * sign, 0.0),
+            vec2(x - 3.5 * sign, -5.5),
+            vec2(x - 3.5 * sign, 5.5),
         ];
         painter.add(Shape::convex_polygon(
             tip.map(|corner| at + corner).to_vec(),

@@ -8,7 +8,7 @@ use super::{REACH, Stage};
 /// The stored settings of the stage.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub(crate) struct StageWays {
+pub(crate) struct StageSettings {
     /// The views of the panes, by the names of their actions.
     views: Vec<String>,
     trails: bool,
@@ -22,7 +22,7 @@ pub(crate) struct StageWays {
     insets: Insets,
 }
 
-impl Default for StageWays {
+impl Default for StageSettings {
     fn default() -> Self {
         Self {
             views: vec!["view.front".to_owned()],
@@ -38,7 +38,7 @@ impl Default for StageWays {
     }
 }
 
-impl StageWays {
+impl StageSettings {
     /// Returns the settings of a stage.
     pub(super) fn of(stage: &Stage) -> Self {
         let name = |eye: &Eye| {
@@ -96,17 +96,17 @@ mod tests {
     #[test]
     fn view_settings_of_the_stage_are_restored() {
         let mut stage = Stage::default();
-        assert_eq!(StageWays::of(&stage), StageWays::default());
+        assert_eq!(StageSettings::of(&stage), StageSettings::default());
         stage.split(4);
         (stage.places, stage.compare, stage.reach) = (true, Compare::Over, 1.5);
         (stage.insets.palms, stage.insets.hands) = (true, false);
-        let ways = StageWays::of(&stage);
-        let text = serde_json::to_string(&ways).expect("written");
-        let read: StageWays = serde_json::from_str(&text).expect("read");
+        let settings = StageSettings::of(&stage);
+        let text = serde_json::to_string(&settings).expect("written");
+        let read: StageSettings = serde_json::from_str(&text).expect("read");
         let mut other = Stage::default();
         read.take(&mut other);
-        assert_eq!(StageWays::of(&other), ways);
-        let odd: StageWays =
+        assert_eq!(StageSettings::of(&other), settings);
+        let odd: StageSettings =
             serde_json::from_str(r#"{"views": ["a", "b", "c"], "reach": 1e99}"#).expect("read");
         odd.take(&mut other);
         assert_eq!((other.eyes.len(), other.reach), (4, 2.0));

@@ -32,8 +32,8 @@ const SNAPS: [(Action, Text); 3] = [
 ];
 
 /// Returns the name of the current mode, for the status line.
-pub(crate) fn mode_name(ways: &TimelineSettings) -> Text {
-    let on = MODES.iter().find(|(action, _)| ways.is_on(*action));
+pub(crate) fn mode_name(settings: &TimelineSettings) -> Text {
+    let on = MODES.iter().find(|(action, _)| settings.is_on(*action));
     on.map_or(words::NORMAL, |(_, text)| *text)
 }
 
@@ -120,8 +120,8 @@ fn menu(ui: &mut Ui, seen: &PaneInput<'_>, title: &str, rows: &[(Action, Text)],
 
 /// Returns how many tiers are hidden.
 fn hidden(scene: &Scene<'_>) -> usize {
-    let ways = &scene.seen.settings.timeline;
-    hidden_count(&scene.contents.tiers, &ways.hidden)
+    let settings = &scene.seen.settings.timeline;
+    hidden_count(&scene.contents.tiers, &settings.hidden)
 }
 
 fn tiers_title(scene: &Scene<'_>) -> String {
@@ -149,19 +149,19 @@ fn tiers(ui: &mut Ui, scene: &Scene<'_>, title: String, out: &mut Outbox) {
 
 /// Shows a list of all tiers with their visibility, which can be changed.
 fn shown(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
-    let ways = &scene.seen.settings.timeline;
+    let settings = &scene.seen.settings.timeline;
     let none = BTreeSet::new();
     let all = rows(&scene.contents.tiers, &none, &none);
     ScrollArea::vertical().max_height(LIKE).show(ui, |ui| {
         for row in all {
             let name = &scene.contents.tiers[row.tier].row.name;
-            let mut is_shown = !ways.hidden.contains(name);
+            let mut is_shown = !settings.hidden.contains(name);
             ui.horizontal(|ui| {
                 ui.add_space(12.0 * row.depth as f32);
                 if ui.checkbox(&mut is_shown, name).changed() {
-                    let mut ways = ways.clone();
-                    super::view_settings::toggle(&mut ways.hidden, name.clone());
-                    super::view_settings::change(scene.seen, out, ways);
+                    let mut settings = settings.clone();
+                    super::view_settings::toggle(&mut settings.hidden, name.clone());
+                    super::view_settings::change(scene.seen, out, settings);
                 }
             });
         }

@@ -26,7 +26,7 @@ pub(super) struct Sight {
     /// Whether the annotations cannot be there.
     pub(super) refused: bool,
     /// The span whose times are shown beside the pointer.
-    pub(super) told: Option<(i64, i64)>,
+    pub(super) times: Option<(i64, i64)>,
     /// The time that snapped, and what it snapped to.
     pub(super) caught: Option<(i64, Catch)>,
     pub(super) band: Option<Rect>,
@@ -150,7 +150,7 @@ impl Drawing<'_, '_> {
         self.out.send(Command::Span(span));
         self.follow_with(to);
         Sight {
-            told: span.map(|_| (from.min(to), from.max(to))),
+            times: span.map(|_| (from.min(to), from.max(to))),
             caught: caught.map(|why| (to, why)),
             ..Sight::default()
         }
@@ -181,7 +181,7 @@ impl Drawing<'_, '_> {
         let sight = Sight {
             ghosts: vec![ghost],
             refused: room.is_none(),
-            told: Some((start, end)),
+            times: Some((start, end)),
             caught: caught.map(|why| (to, why)),
             band: None,
         };
@@ -252,7 +252,7 @@ impl Drawing<'_, '_> {
         }
         let there = own.is_some_and(|own| own.start == at || own.end == at);
         Sight {
-            told: own.map(|own| (own.start, own.end)),
+            times: own.map(|own| (own.start, own.end)),
             caught: why.filter(|_| there).map(|why| (at, why)),
             refused: it.to.is_some_and(|(_, fits)| !fits),
             ghosts,

@@ -392,7 +392,7 @@ fn drag(
         ghosts.extend(changed.iter().map(|item| Ghost::of(held.tier, item)));
     }
     if asked.is_empty() {
-        return Acted::Cannot(words::IN_THE_WAY);
+        return Acted::Cannot(words::BLOCKED);
     }
     timeline.change(
         asked,
@@ -447,7 +447,7 @@ fn to_selection(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) ->
         }
     }
     if asked.is_empty() {
-        return Acted::Cannot(words::IN_THE_WAY);
+        return Acted::Cannot(words::BLOCKED);
     }
     timeline.change(asked, Then::default(), out)
 }

@@ -479,7 +479,7 @@ fn find_place(editing: Editing, scene: &Scene<'_>, out: &mut Outbox) -> Option<E
             scene.seen.say(words::DRAFT_LOST),
             &[("text", &editing.text)],
         );
-        out.send(Command::Tell(text, words::DRAFT_LOST_REMEDY));
+        out.send(Command::Notify(text, words::DRAFT_LOST_REMEDY));
     }
     None
 }

@@ -340,7 +340,7 @@ impl Source {
 
 /// Returns the name of the main direction that is nearest to `[left, up, forward]`.
 fn direction([left, up, forward]: [f32; 3]) -> Text {
-    let ways = [
+    let directions = [
         (left, words::TO_LEFT),
         (-left, words::TO_RIGHT),
         (up, words::TO_UP),
@@ -348,7 +348,7 @@ fn direction([left, up, forward]: [f32; 3]) -> Text {
         (forward, words::TO_FRONT),
         (-forward, words::TO_BACK),
     ];
-    let best = ways.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    let best = directions.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
     best.map_or(words::TO_UP, |(_, text)| text)
 }
 

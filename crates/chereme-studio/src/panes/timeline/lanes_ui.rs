@@ -35,8 +35,8 @@ fn hands(seen: &PaneInput<'_>) -> [Color32; 2] {
 impl Drawing<'_, '_> {
     pub(super) fn lanes(&mut self, ui: &mut Ui, scene: &Scene<'_>) {
         let seen = self.seen;
-        let ways = &seen.settings.timeline;
-        if ways.lanes.is_empty() && !ways.snaps.minima {
+        let settings = &seen.settings.timeline;
+        if settings.lanes.is_empty() && !settings.snaps.minima {
             return;
         }
         let source = scene.frames().map(|frames| Source {
@@ -50,7 +50,7 @@ impl Drawing<'_, '_> {
         self.timeline
             .curves
             .want(source, sight, scene.playhead(), self.out);
-        if ways.lanes.is_empty() {
+        if settings.lanes.is_empty() {
             return;
         }
         if source.is_none() {
@@ -58,14 +58,14 @@ impl Drawing<'_, '_> {
             ui.small(self.seen.say(words::NO_LANES));
             return;
         }
-        let shown = |(lane, ..): &(Lane, _, _)| ways.lanes.contains(lane);
+        let shown = |(lane, ..): &(Lane, _, _)| settings.lanes.contains(lane);
         let all: Vec<_> = Lane::ALL.into_iter().filter(shown).collect();
         let stored: Vec<String> = {
             let all = self.timeline.curves.stored();
             all.into_iter().map(str::to_owned).collect()
         };
-        let folded = ways.folded_lanes.clone();
-        let face = ways.lanes.contains(&Lane::Face) && !folded.contains(&Lane::Face);
+        let folded = settings.folded_lanes.clone();
+        let face = settings.lanes.contains(&Lane::Face) && !folded.contains(&Lane::Face);
         let is_open = |lane: Lane| lane != Lane::Face && !folded.contains(&lane);
         let open = all.iter().filter(|it| is_open(it.0)).count();
         let wanted = Wanted {
@@ -98,8 +98,8 @@ impl Drawing<'_, '_> {
     /// Shows the fold mark before a lane's name, and folds or unfolds the lane.
     fn fold_of_lane(&mut self, ui: &Ui, lane: Lane, name: &str, rect: Rect) {
         let seen = self.seen;
-        let ways = &seen.settings.timeline;
-        let folded = ways.folded_lanes.contains(&lane);
+        let settings = &seen.settings.timeline;
+        let folded = settings.folded_lanes.contains(&lane);
         let text = if folded { words::UNFOLD } else { words::FOLD };
         let label = fill(self.seen.say(text), &[("name", &name)]);
         let id = ui.unique_id().with(("fold", lane));
@@ -108,9 +108,9 @@ impl Drawing<'_, '_> {
         let mark = Rect::from_min_size(rect.min, vec2(14.0, FOLDED));
         paint::fold(ui, mark, folded, &response);
         if response.clicked() {
-            let mut ways = ways.clone();
-            view_settings::toggle(&mut ways.folded_lanes, lane);
-            view_settings::change(self.seen, self.out, ways);
+            let mut settings = settings.clone();
+            view_settings::toggle(&mut settings.folded_lanes, lane);
+            view_settings::change(self.seen, self.out, settings);
         }
         response.on_hover_text(label);
     }

@@ -280,8 +280,8 @@ impl Pane for Timeline {
             Action::PageBack => self.view.page(-0.9, seen),
             Action::PageForward => self.view.page(0.9, seen),
             other => {
-                if let Some(ways) = seen.settings.timeline.after(other) {
-                    view_settings::change(seen, out, ways);
+                if let Some(settings) = seen.settings.timeline.after(other) {
+                    view_settings::change(seen, out, settings);
                     return Acted::Yes;
                 }
                 let Some(scene) = Scene::of(seen) else {

@@ -237,7 +237,7 @@ pub(super) fn sight(
         let dashes = Shape::dashed_line(&line, Stroke::new(1.5, colour), 5.0, 3.0);
         painter.extend(dashes);
     }
-    if let (Some((start, end)), Some(at)) = (sight.told, at) {
+    if let (Some((start, end)), Some(at)) = (sight.times, at) {
         times(painter, lane, (start, end), at, seen);
     }
 }

@@ -83,8 +83,8 @@ pub(super) fn select(tier: &TierContents, at: usize, out: &mut Outbox) {
 
 /// Returns the visible rows.
 pub(super) fn shown_rows(contents: &Contents, seen: &PaneInput<'_>) -> Vec<TimelineRow> {
-    let ways = &seen.settings.timeline;
-    rows(&contents.tiers, &ways.folded, &ways.hidden)
+    let settings = &seen.settings.timeline;
+    rows(&contents.tiers, &settings.folded, &settings.hidden)
 }
 
 /// Selects the annotation after or before the selected one, or after or before the playhead, on the selected tier;

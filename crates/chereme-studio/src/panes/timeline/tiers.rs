@@ -64,7 +64,7 @@ pub(super) fn act(
     let Some(tier) = scene.tier() else {
         return Acted::Cannot(words::NEEDS_TIER);
     };
-    let mut ways = scene.seen.settings.timeline.clone();
+    let mut settings = scene.seen.settings.timeline.clone();
     let (id, name) = (tier.row.id, tier.row.name.clone());
     match action {
         Action::CopyTier => {
@@ -95,11 +95,11 @@ pub(super) fn act(
             return Acted::Yes;
         }
         Action::HideTier => {
-            ways.hidden.insert(name);
+            settings.hidden.insert(name);
         }
-        _ => view_settings::toggle(&mut ways.folded, name),
+        _ => view_settings::toggle(&mut settings.folded, name),
     }
-    view_settings::change(scene.seen, out, ways);
+    view_settings::change(scene.seen, out, settings);
     Acted::Yes
 }
 
@@ -162,8 +162,8 @@ fn rank(row: &TierRow) -> (usize, usize, usize) {
 
 /// Hides every tier that has no annotations, and whose descendants have none.
 fn hide_empty(scene: &Scene<'_>, out: &mut Outbox) -> Acted {
-    let mut ways = scene.seen.settings.timeline.clone();
-    let before = ways.hidden.len();
+    let mut settings = scene.seen.settings.timeline.clone();
+    let before = settings.hidden.len();
     let tiers = &scene.contents.tiers;
     let mut full: BTreeSet<i64> = BTreeSet::new();
     for tier in tiers.iter().filter(|it| !it.annotations.is_empty()) {
@@ -174,11 +174,11 @@ fn hide_empty(scene: &Scene<'_>, out: &mut Outbox) -> Acted {
         }
     }
     let empty = tiers.iter().filter(|it| !full.contains(&it.row.id));
-    ways.hidden.extend(empty.map(|it| it.row.name.clone()));
-    if ways.hidden.len() == before {
+    settings.hidden.extend(empty.map(|it| it.row.name.clone()));
+    if settings.hidden.len() == before {
         return Acted::Cannot(words::NONE_EMPTY);
     }
-    view_settings::change(scene.seen, out, ways);
+    view_settings::change(scene.seen, out, settings);
     Acted::Yes
 }
 

@@ -65,17 +65,17 @@ impl Layout {
     /// Computes the rows and the width of names again if the snapshot, the settings or the pane changed; returns
     /// whether the rows are new.
     fn update(&mut self, ui: &Ui, contents: &Contents, seen: &PaneInput<'_>) -> bool {
-        let ways = &seen.settings.timeline;
+        let settings = &seen.settings.timeline;
         let open = seen.snapshot.open.as_ref();
         let now = open.map_or(0, |open| Arc::as_ptr(open) as usize);
         let same = self.of.as_ref().is_some_and(|(of, folded, hidden)| {
-            *of == now && *folded == ways.folded && *hidden == ways.hidden
+            *of == now && *folded == settings.folded && *hidden == settings.hidden
         });
         if same {
             return false;
         }
         let before = std::mem::replace(&mut self.all, select::shown_rows(contents, seen));
-        self.of = Some((now, ways.folded.clone(), ways.hidden.clone()));
+        self.of = Some((now, settings.folded.clone(), settings.hidden.clone()));
         let font = TextStyle::Body.resolve(ui.style());
         self.widths = vec![0.0; contents.tiers.len()];
         for row in &self.all {

@@ -48,22 +48,22 @@ impl Default for TimelineSettings {
 impl TimelineSettings {
     /// Returns the settings after an action; `None` if the action does not change them.
     pub(crate) fn after(&self, action: Action) -> Option<Self> {
-        let mut ways = self.clone();
+        let mut settings = self.clone();
         match action {
-            Action::ModeNormal => ways.mode = Mode::Normal,
-            Action::ModeBulldozer => ways.mode = Mode::Bulldozer,
-            Action::ModeShift => ways.mode = Mode::Shift,
-            Action::SnapFrames => ways.snaps.frames = !ways.snaps.frames,
-            Action::SnapBoundaries => ways.snaps.boundaries = !ways.snaps.boundaries,
-            Action::SnapMinima => ways.snaps.minima = !ways.snaps.minima,
-            Action::Overview => ways.overview = !ways.overview,
-            Action::ShowTiers => ways.hidden.clear(),
+            Action::ModeNormal => settings.mode = Mode::Normal,
+            Action::ModeBulldozer => settings.mode = Mode::Bulldozer,
+            Action::ModeShift => settings.mode = Mode::Shift,
+            Action::SnapFrames => settings.snaps.frames = !settings.snaps.frames,
+            Action::SnapBoundaries => settings.snaps.boundaries = !settings.snaps.boundaries,
+            Action::SnapMinima => settings.snaps.minima = !settings.snaps.minima,
+            Action::Overview => settings.overview = !settings.overview,
+            Action::ShowTiers => settings.hidden.clear(),
             _ => {
                 let (lane, ..) = Lane::ALL.into_iter().find(|(_, of, _)| *of == action)?;
-                toggle(&mut ways.lanes, lane);
+                toggle(&mut settings.lanes, lane);
             }
         }
-        Some(ways)
+        Some(settings)
     }
 
     /// Returns whether the switch of an action is on.
@@ -91,9 +91,9 @@ pub(crate) fn toggle<T: Ord>(set: &mut BTreeSet<T>, it: T) {
 }
 
 /// Changes the timeline's settings.
-pub(crate) fn change(seen: &PaneInput<'_>, out: &mut Outbox, ways: TimelineSettings) {
+pub(crate) fn change(seen: &PaneInput<'_>, out: &mut Outbox, timeline: TimelineSettings) {
     let mut settings = seen.settings.clone();
-    settings.timeline = ways;
+    settings.timeline = timeline;
     out.send(Command::Settings(Box::new(settings)));
 }
 
@@ -103,15 +103,15 @@ mod tests {
 
     #[test]
     fn switches_toggle_and_modes_exclude_each_other() {
-        let mut ways = TimelineSettings::default();
+        let mut settings = TimelineSettings::default();
         for action in [Action::SnapMinima, Action::LaneSpeed, Action::ModeShift] {
-            assert!(!ways.is_on(action));
-            ways = ways.after(action).expect("its own");
-            assert!(ways.is_on(action), "{action:?}");
+            assert!(!settings.is_on(action));
+            settings = settings.after(action).expect("its own");
+            assert!(settings.is_on(action), "{action:?}");
         }
-        assert!(!ways.is_on(Action::ModeNormal));
-        ways = ways.after(Action::LaneSpeed).expect("its own");
-        assert!(!ways.is_on(Action::LaneSpeed));
-        assert_eq!(ways.after(Action::Undo), None);
+        assert!(!settings.is_on(Action::ModeNormal));
+        settings = settings.after(Action::LaneSpeed).expect("its own");
+        assert!(!settings.is_on(Action::LaneSpeed));
+        assert_eq!(settings.after(Action::Undo), None);
     }
 }
