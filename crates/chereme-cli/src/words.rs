@@ -218,21 +218,21 @@ fn translated(text: &StyledStr) -> String {
 
 /// Returns the message of clap about wrong usage in French.
 pub(crate) fn usage(text: &str) -> String {
-    let mut said = text.to_owned();
+    let mut message = text.to_owned();
     for (english, french) in FRAME {
-        said = said.replace(english, french);
+        message = message.replace(english, french);
     }
-    let lines: Vec<String> = said.trim_end().lines().map(with_reason).collect();
+    let lines: Vec<String> = message.trim_end().lines().map(with_reason).collect();
     lines.join("\n")
 }
 
 /// Puts the reason for which a value was refused, at the end of a line of clap, into French.
 fn with_reason(line: &str) -> String {
-    let said = line.rsplit_once("': ").and_then(|(head, reason)| {
+    let translated = line.rsplit_once("': ").and_then(|(head, reason)| {
         let reason = message(reason, Language::French)?;
         Some(format!("{head}' : {reason}"))
     });
-    said.unwrap_or_else(|| line.to_owned())
+    translated.unwrap_or_else(|| line.to_owned())
 }
 
 #[cfg(test)]

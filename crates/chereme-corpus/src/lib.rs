@@ -104,8 +104,8 @@ pub use cue::{
 pub use cued::{
     CueConfusion, CueCosts, CuePhaseRow, CuePhaseStatistics, CueRecognition, CueSlip, CueSlips,
     CueTargets, CuedMarkers, CuedOptions, DictionaryReport, Dikeys, FoundKey, FromDictionary,
-    MarkerSet, Misread, MissingDikey, RestoreOptions, RestoredMarker, RestoredTake, SaidPiece,
-    ScriptCoverage, SlipKind, WorthRecording, read_marker_labels,
+    MarkerSet, Misread, MissingDikey, RestoreOptions, RestoredMarker, RestoredTake, ScriptCoverage,
+    SentencePiece, SlipKind, WorthRecording, read_marker_labels,
 };
 pub use db::columns::{AnnotationOrigin, Origin, ValueState};
 pub use db::delete::Belongings;

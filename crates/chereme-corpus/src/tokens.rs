@@ -41,8 +41,8 @@ pub(crate) fn derive_with_progress(
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     let recording = recordings::recording(connection, recording)?;
-    let said = AnnotationsByTime::read(connection, &recording, window, inventories, progress)?;
-    let tokens = match said.within {
+    let by_time = AnnotationsByTime::read(connection, &recording, window, inventories, progress)?;
+    let tokens = match by_time.within {
         Some(within) => {
             let (start, end) = (within.start().micros(), within.end().micros());
             signs::tokens_near(connection, recording.id, start, end)?
@@ -53,12 +53,15 @@ pub(crate) fn derive_with_progress(
         .into_iter()
         .filter_map(|token| Some((token.annotation_id?, token)))
         .collect();
-    let glosses = said.glosses.iter().filter(|gloss| said.is_within(gloss));
+    let glosses = by_time
+        .glosses
+        .iter()
+        .filter(|gloss| by_time.is_within(gloss));
     for (done, gloss) in glosses.enumerate() {
         step(progress, done)?;
         let old = standing.remove(&gloss.row.id);
         let token = write_token(connection, &recording, gloss, old)?;
-        signs::set_values(connection, token, &said.values(gloss))?;
+        signs::set_values(connection, token, &by_time.values(gloss))?;
     }
     for token in standing.into_values() {
         signs::delete_token(connection, token.id)?;
@@ -150,13 +153,13 @@ impl AnnotationsByTime {
         progress: &mut Progress<'_>,
     ) -> Result<Self> {
         let all = tiers::tiers(connection, recording.id)?;
-        let said = |tier: &&TierRow| !tier.is_of_phases();
+        let is_coding = |tier: &&TierRow| !tier.is_of_phases();
         let of_glosses = || all.iter().filter(|it| it.role == TierRole::Gloss);
         let of_components = || {
             let coded = |it: &&TierRow| it.role.component().is_some();
-            all.iter().filter(coded).filter(said)
+            all.iter().filter(coded).filter(is_coding)
         };
-        let mut said = Self {
+        let mut by_time = Self {
             handedness: handedness(connection, recording)?,
             of_participants: of_participants(connection, &all)?,
             glosses: Vec::new(),
@@ -171,31 +174,32 @@ impl AnnotationsByTime {
                     within = hull(within, span(&row));
                 }
             }
-            said.within = Some(within);
+            by_time.within = Some(within);
         }
-        said.glosses = glosses(connection, of_glosses(), said.within)?;
-        let Some(reach) = said.glosses.iter().map(|it| span(&it.row)).reduce(hull) else {
-            return Ok(said);
+        by_time.glosses = glosses(connection, of_glosses(), by_time.within)?;
+        let Some(reach) = by_time.glosses.iter().map(|it| span(&it.row)).reduce(hull) else {
+            return Ok(by_time);
         };
         let mut context = reach;
         for tier in of_components() {
             let inventory = inventories
                 .iter()
                 .find(|it| Some(it.id) == tier.inventory_id);
-            let rows = annotations(connection, tier, said.within.and(Some(reach)))?;
+            let rows = annotations(connection, tier, by_time.within.and(Some(reach)))?;
             for (done, row) in rows.into_iter().enumerate() {
                 step(progress, done)?;
                 context = hull(context, span(&row));
-                said.add_component(tier, &row, inventory);
+                by_time.add_component(tier, &row, inventory);
             }
         }
-        if said.within.is_some() {
-            said.glosses = glosses(connection, of_glosses(), Some(context))?;
+        if by_time.within.is_some() {
+            by_time.glosses = glosses(connection, of_glosses(), Some(context))?;
         }
-        said.components
+        by_time
+            .components
             .sort_by_key(|coded| (coded.span.span.start(), coded.annotation));
-        said.give(progress)?;
-        Ok(said)
+        by_time.give(progress)?;
+        Ok(by_time)
     }
 
     fn is_within(&self, gloss: &Gloss) -> bool {
@@ -289,12 +293,12 @@ impl AnnotationsByTime {
                 if other.is_some_and(|(one, other)| one != other) {
                     continue;
                 }
-                let said = coded.span.span;
-                let from = said.start().shifted(-longest);
+                let own_span = coded.span.span;
+                let from = own_span.start().shifted(-longest);
                 let first = spans.partition_point(|span| span.start() < from);
-                let last = spans.partition_point(|span| span.start() < said.end());
+                let last = spans.partition_point(|span| span.start() < own_span.end());
                 let near = spans.get(first..last).unwrap_or_default();
-                if let Some(place) = owner(said, near) {
+                if let Some(place) = owner(own_span, near) {
                     let gloss = glosses[first + place].row.id;
                     owned.entry(gloss).or_default().push(at);
                 }

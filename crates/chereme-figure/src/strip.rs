@@ -45,8 +45,12 @@ impl<'a> Strip<'a> {
         let height = cells.iter().map(|cell| cell.0.size()[1]).max();
         let height = height.unwrap_or_default();
         let scale = (height / 200).clamp(1, 6);
-        let said = cells.iter().any(|cell| !cell.1.is_empty());
-        let line = if said { scale * (font::HEIGHT + 6) } else { 0 };
+        let has_captions = cells.iter().any(|cell| !cell.1.is_empty());
+        let line = if has_captions {
+            scale * (font::HEIGHT + 6)
+        } else {
+            0
+        };
         let width = cells.iter().map(|cell| cell.0.size()[0]).sum();
         Ok(Self {
             size: checked_size(width, height + line)?,
@@ -81,12 +85,12 @@ impl Pictures for Strip<'_> {
             let width = animation.size()[0];
             image.paste(&animation.draw(frame), [x, 0]);
             let now = animation.instant(frame);
-            let said: Vec<&str> = captions
+            let shown: Vec<&str> = captions
                 .iter()
                 .filter(|caption| caption.span.contains(now))
                 .map(|caption| caption.text.as_str())
                 .collect();
-            let text = font::fitted(&said.join("  "), width.saturating_sub(12) / self.scale);
+            let text = font::fitted(&shown.join("  "), width.saturating_sub(12) / self.scale);
             let wide = font::width(&text) * self.scale;
             let at = [
                 (x + width.saturating_sub(wide) / 2) as i64,

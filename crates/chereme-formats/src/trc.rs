@@ -84,7 +84,7 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
         .split_whitespace()
         .zip(values.split_whitespace())
         .collect();
-    let said = |key: &str| {
+    let header_value = |key: &str| {
         let found = header
             .iter()
             .find(|(name, _)| name.eq_ignore_ascii_case(key));
@@ -101,12 +101,17 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     }
     check_count(
         "NumFrames",
-        said("NumFrames"),
+        header_value("NumFrames"),
         rows.times.len(),
         &mut findings,
     );
-    check_count("NumMarkers", said("NumMarkers"), names.len(), &mut findings);
-    let (times, offset) = times(&rows.times, said("DataRate"), &mut findings)?;
+    check_count(
+        "NumMarkers",
+        header_value("NumMarkers"),
+        names.len(),
+        &mut findings,
+    );
+    let (times, offset) = times(&rows.times, header_value("DataRate"), &mut findings)?;
     let points = names
         .into_iter()
         .zip(rows.columns.chunks(3))
@@ -115,7 +120,7 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
             Marker::new(name, axes.iter().map(column).collect())
         });
     let points: Vec<Marker> = points.collect();
-    let convention = convention(said("Units"), &points, &mut findings);
+    let convention = convention(header_value("Units"), &points, &mut findings);
     let markers = Markers::new(times, Space::World(convention), points)
         .map_err(|error| Error::Track(error.to_string()))?;
     let mut track = FileTrack::new("markers", Content::Markers(markers));
@@ -212,8 +217,8 @@ fn number(cell: &str, line: u64) -> Result<Option<Number>, Error> {
     })
 }
 
-fn check_count(key: &str, said: Option<&str>, found: usize, findings: &mut Findings) {
-    if let Some(count) = said.and_then(|text| text.parse::<usize>().ok())
+fn check_count(key: &str, stated: Option<&str>, found: usize, findings: &mut Findings) {
+    if let Some(count) = stated.and_then(|text| text.parse::<usize>().ok())
         && count != found
     {
         findings.push(Finding::note(
@@ -226,10 +231,10 @@ fn check_count(key: &str, said: Option<&str>, found: usize, findings: &mut Findi
 /// Returns an even rate if the times are even, else the times themselves; and the time of the first frame.
 fn times(
     rows: &[(u64, Option<Number>)],
-    said: Option<&str>,
+    stated: Option<&str>,
     findings: &mut Findings,
 ) -> Result<(Times, Instant), Error> {
-    let rate = said
+    let rate = stated
         .and_then(|text| text.parse::<f64>().ok())
         .and_then(rate_of);
     let seconds: Option<Vec<f64>> = rows

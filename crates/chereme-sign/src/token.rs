@@ -82,18 +82,22 @@ pub fn readings(
         .chain(others.iter().copied())
         .collect();
     let mut fields: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
-    for (place, said) in around.iter().enumerate() {
-        let manual = said.field.component.is_manual();
-        let about = said.field.hand.or(hand.filter(|_| manual));
+    for (place, annotation) in around.iter().enumerate() {
+        let manual = annotation.field.component.is_manual();
+        let about = annotation.field.hand.or(hand.filter(|_| manual));
         let ours = !manual || hand.is_none() || about == hand;
-        if ours && owner(said.span, &tokens) == Some(0) {
-            let key = (said.field.component, said.field.feature.as_deref(), about);
+        if ours && owner(annotation.span, &tokens) == Some(0) {
+            let key = (
+                annotation.field.component,
+                annotation.field.feature.as_deref(),
+                about,
+            );
             fields.entry(key).or_default().push(place);
         }
     }
     fields
         .into_iter()
-        .flat_map(|(key, said)| phased(key, said, around))
+        .flat_map(|(key, places)| phased(key, places, around))
         .collect()
 }
 
@@ -101,12 +105,12 @@ type Key<'a> = (Component, Option<&'a str>, Option<HandRef>);
 
 fn phased(
     (component, feature, hand): Key,
-    mut said: Vec<usize>,
+    mut places: Vec<usize>,
     around: &[ComponentSpan],
 ) -> Vec<(Field, usize)> {
-    said.sort_by_key(|place| (around[*place].span.start(), around[*place].span.end()));
-    said.dedup_by(|later, earlier| around[*later].reading == around[*earlier].reading);
-    let last = said.len().saturating_sub(1);
+    places.sort_by_key(|place| (around[*place].span.start(), around[*place].span.end()));
+    places.dedup_by(|later, earlier| around[*later].reading == around[*earlier].reading);
+    let last = places.len().saturating_sub(1);
     let phase = |place: usize| match place {
         _ if last == 0 => Some(None),
         0 => Some(Some(Phase::Initial)),
@@ -119,9 +123,9 @@ fn phased(
         feature: feature.map(str::to_owned),
         phase,
     };
-    let numbered = said.into_iter().enumerate();
+    let numbered = places.into_iter().enumerate();
     numbered
-        .filter_map(|(place, said)| Some((field(phase(place)?), said)))
+        .filter_map(|(place, index)| Some((field(phase(place)?), index)))
         .collect()
 }
 

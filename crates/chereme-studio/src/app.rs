@@ -66,7 +66,7 @@ pub struct Studio {
     sprung: Sprung,
     pub(crate) start: Start,
     pub(crate) chooser: Chooser,
-    untold: Unreported,
+    unreported: Unreported,
     pub(crate) clipboard: Clipboard,
     pub(crate) overlays: Overlays,
     pub(crate) walk: crate::menu_and_status::Walk,
@@ -136,7 +136,7 @@ impl Studio {
             sprung: Sprung::default(),
             start: Start::default(),
             chooser: Chooser::default(),
-            untold: Unreported::default(),
+            unreported: Unreported::default(),
             clipboard: Clipboard::default(),
             overlays: Overlays::default(),
             walk: crate::menu_and_status::Walk::default(),
@@ -180,7 +180,7 @@ impl Studio {
         if self.shown.handle.is_some() && !layout::shows(&self.tree, PaneKind::Recombine) {
             self.shown.handle = None;
         }
-        if let Some((text, remedy)) = self.untold.news(self.settings.language) {
+        if let Some((text, remedy)) = self.unreported.news(self.settings.language) {
             self.overlays.notices.say(&text, Some(remedy));
         }
         self.bars(ui);

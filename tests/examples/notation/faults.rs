@@ -67,7 +67,7 @@ pub(crate) const FAULTS: [Judge; 19] = [
     ("a hand is turned more than 45° off, as reported", turned),
     (
         "no stroke of a fast sign is 1.2 times as fast as usual, or none of a slow one below 0.8",
-        untold,
+        unreported,
     ),
     ("notation that is dropped with a warning", dropped),
 ];
@@ -555,7 +555,7 @@ fn turned(seen: &Seen<'_>) -> Option<bool> {
 /// Top speed of the wrist (m/s) below which a stroke moves the hand alone, and is compared by its duration.
 const STILL: f64 = 0.1;
 
-fn untold(seen: &Seen<'_>) -> Option<bool> {
+fn unreported(seen: &Seen<'_>) -> Option<bool> {
     let usual = seen.usual.as_ref()?;
     let mut manner = None;
     each_motion(seen.notated, &mut |motion| {

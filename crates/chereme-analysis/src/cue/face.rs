@@ -176,9 +176,9 @@ impl FaceModel {
             let seen: Frame = frame.iter().copied().map(Some).collect();
             if let Some((motion, own)) = model.invert(&seen) {
                 count += 3.0;
-                let said = model.place(&motion, &own);
-                for ((missed, at), said) in model.missed.iter_mut().zip(frame).zip(said) {
-                    *missed += at.distance_squared(said);
+                let predicted = model.place(&motion, &own);
+                for ((missed, at), predicted) in model.missed.iter_mut().zip(frame).zip(predicted) {
+                    *missed += at.distance_squared(predicted);
                 }
             }
         }

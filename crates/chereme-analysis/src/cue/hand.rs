@@ -106,19 +106,19 @@ impl HandModel {
             .map(|row| levers.scaled(&whole(row, &first)))
             .collect();
         let components = Pca::fit(&scaled, keep, 6)?;
-        let said: Vec<Vec<f64>> = scaled
+        let angles_of_frames: Vec<Vec<f64>> = scaled
             .iter()
             .map(|row| levers.angles(&components.rebuild(&components.project(row))))
             .collect();
-        let moved = regress(&terms, &said, &local, wrist)?;
+        let moved = regress(&terms, &angles_of_frames, &local, wrist)?;
         let mut missed = vec![(0.0, 0.0); HAND];
-        for (angles, frame) in said.iter().zip(&local) {
+        for (angles, frame) in angles_of_frames.iter().zip(&local) {
             let input = terms.of(angles);
             let turn = turn_of(angles);
             for (marker, at) in frame.iter().enumerate() {
                 if let Some(at) = at {
-                    let said = placed(point(&moved, &input, marker), marker, turn, wrist);
-                    missed[marker].0 += at.distance_squared(said);
+                    let predicted = placed(point(&moved, &input, marker), marker, turn, wrist);
+                    missed[marker].0 += at.distance_squared(predicted);
                     missed[marker].1 += 3.0;
                 }
             }
@@ -383,10 +383,10 @@ fn whole(row: &[f64], components: &Pca) -> Vec<f64> {
         return own;
     }
     for _ in 0..6 {
-        let said = components.rebuild(&components.project(&own));
-        for ((own, x), said) in own.iter_mut().zip(row).zip(said) {
+        let predicted = components.rebuild(&components.project(&own));
+        for ((own, x), predicted) in own.iter_mut().zip(row).zip(predicted) {
             if !x.is_finite() {
-                *own = said;
+                *own = predicted;
             }
         }
     }

@@ -56,10 +56,10 @@ impl Pca {
         let mut found = Self::of_whole(&filled, keep);
         for _ in 0..if whole { 0 } else { rounds } {
             for (own, row) in filled.iter_mut().zip(rows) {
-                let said = found.rebuild(&found.project(own));
-                for ((own, row), said) in own.iter_mut().zip(row).zip(said) {
+                let predicted = found.rebuild(&found.project(own));
+                for ((own, row), predicted) in own.iter_mut().zip(row).zip(predicted) {
                     if !row.is_finite() {
-                        *own = said;
+                        *own = predicted;
                     }
                 }
             }

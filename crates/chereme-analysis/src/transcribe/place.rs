@@ -60,7 +60,7 @@ struct Candidate<'c> {
     choice: &'c Choice,
     contact: Option<Contact>,
     /// The parts of the hand that the notation must name.
-    said: Option<&'c [HandPoint]>,
+    named_parts: Option<&'c [HandPoint]>,
     residual: f64,
     /// Its penalty against the simplest and exact reading, in nepers.
     score: f64,
@@ -90,7 +90,7 @@ impl Candidate<'_> {
             unlikely: self.unlikely,
             distance: self.distance,
             small: self.small,
-            parts: match self.said {
+            parts: match self.named_parts {
                 Some(parts) => parts.to_vec(),
                 None => vec![self.meant],
             },
@@ -107,7 +107,7 @@ impl Candidate<'_> {
             site,
             second,
             contact: self.contact,
-            by: self.said.map(named_all),
+            by: self.named_parts.map(named_all),
             ..BodyPlace::default()
         }
     }
@@ -274,7 +274,7 @@ impl<'a> Body<'a> {
                 };
             let small = touching || (near && !trunk);
             let own = if small { meant } else { hand.middle() };
-            let mut add = |at: DVec3, said: Option<&'c [HandPoint]>, cost: f64| {
+            let mut add = |at: DVec3, named_parts: Option<&'c [HandPoint]>, cost: f64| {
                 let distance = at.distance(spot.at);
                 let far = distance > tuned().place.touch[usize::from(trunk)] * scene.arm;
                 if touching && far && wide == Wide::No {
@@ -289,12 +289,12 @@ impl<'a> Body<'a> {
                 all.push(Candidate {
                     choice,
                     contact,
-                    said,
+                    named_parts,
                     residual: if touching { distance } else { off.length() },
                     score: unlikely + cost,
                     unlikely,
                     distance,
-                    small: said.is_some() || small,
+                    small: named_parts.is_some() || small,
                     meant: own.point,
                 });
             };
@@ -305,13 +305,17 @@ impl<'a> Body<'a> {
             );
             if (small || near) && within {
                 let pushed = (touching && trunk).then_some(spot.out);
-                let said = tuned().place.said[if touching { 2 } else { usize::from(!trunk) }];
+                let penalty = tuned().place.said[if touching { 2 } else { usize::from(!trunk) }];
                 if wide == Wide::Yes {
                     for (at, parts, steps) in hand.nameable() {
-                        add(*at, Some(parts), cost + said + tuned().place.step * steps);
+                        add(
+                            *at,
+                            Some(parts),
+                            cost + penalty + tuned().place.step * steps,
+                        );
                     }
                 } else if let Some((at, parts, steps)) = hand.nearest(goal, pushed) {
-                    add(at, Some(parts), cost + said + tuned().place.step * steps);
+                    add(at, Some(parts), cost + penalty + tuned().place.step * steps);
                 }
             }
         }
@@ -398,7 +402,7 @@ impl<'a> Body<'a> {
         let best = all.iter().map(|it| it.score).fold(f64::INFINITY, f64::min);
         let near = all.iter().filter(|it| it.small);
         for it in near.filter(|it| it.score < best + tuned().place.rather_not) {
-            let parts = it.said.map_or_else(|| vec![it.meant], <[_]>::to_vec);
+            let parts = it.named_parts.map_or_else(|| vec![it.meant], <[_]>::to_vec);
             add(parts, it.score - best);
         }
         for (part, less) in self.other_pairs(n, tuned().place.rather_not) {

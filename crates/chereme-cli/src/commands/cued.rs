@@ -391,7 +391,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 duration: *duration_cost,
                 join: *join_cost,
             };
-            let said = corpus.cue_from_dictionary(
+            let composed = corpus.cue_from_dictionary(
                 text,
                 (&how, &options),
                 (costs, recordings),
@@ -399,8 +399,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 &mut progress,
             )?;
             drop(bar);
-            print_comparison(&said, output)?;
-            output.document(said)
+            print_comparison(&composed, output)?;
+            output.document(composed)
         }
         Action::Slips {
             recording,
@@ -464,8 +464,8 @@ fn confusion(name: &str, of: &CueConfusion, output: &mut Output) -> Result<()> {
     output.columns(&titles, &rows)
 }
 
-fn print_comparison(said: &FromDictionary, output: &mut Output) -> Result<()> {
-    let rows: Vec<Vec<String>> = said
+fn print_comparison(composed: &FromDictionary, output: &mut Output) -> Result<()> {
+    let rows: Vec<Vec<String>> = composed
         .pieces
         .iter()
         .map(|it| {
@@ -492,24 +492,24 @@ fn print_comparison(said: &FromDictionary, output: &mut Output) -> Result<()> {
     output.table(&titles, &rows)?;
     output.line(format!(
         "{} keys in {:.2} s: {} exact, {} stand in for others, {} synthetic; cost {:.2}",
-        said.keys,
-        said.duration_us as f64 / 1e6,
-        said.exact,
-        said.backed_off,
-        said.synthetic,
-        said.cost
+        composed.keys,
+        composed.duration_us as f64 / 1e6,
+        composed.exact,
+        composed.backed_off,
+        composed.synthetic,
+        composed.cost
     ))?;
-    if let (Some(shapes), Some(placements)) = (said.shapes_read, said.placements_read) {
+    if let (Some(shapes), Some(placements)) = (composed.shapes_read, composed.placements_read) {
         output.line(format!(
             "read back: {:.1} % of shapes, {:.1} % of placements",
             shapes * 100.0,
             placements * 100.0
         ))?;
     }
-    for finding in &said.findings {
+    for finding in &composed.findings {
         output.warn(finding)?;
     }
-    match &said.recording {
+    match &composed.recording {
         Some(name) => output.line(format!("stored as {name}")),
         None => output.line("nothing was stored; --as GLOSS stores it"),
     }

@@ -161,17 +161,17 @@ fn filled(text: &Option<String>) -> Option<String> {
 
 /// Returns the hand that a role or an option names; `None` if neither does.
 fn hand_of(topic: Option<&TierTopic>, word: Option<HandWord>) -> Result<Option<Option<Hands>>> {
-    let said = word.map(HandWord::hands);
-    match (topic.and_then(|topic| topic.hand), said) {
-        (Some(own), Some(said)) if Some(own) != said => {
-            let other = said.map_or("none", Hands::name);
+    let asked = word.map(HandWord::hands);
+    match (topic.and_then(|topic| topic.hand), asked) {
+        (Some(own), Some(asked)) if Some(own) != asked => {
+            let other = asked.map_or("none", Hands::name);
             let wrong = format!("--role names the {own} hand, and --hand says {other}");
             Err(chereme_corpus::Error::wrong(wrong)
                 .advise("name the hand once")
                 .into())
         }
         (Some(own), _) => Ok(Some(Some(own))),
-        (None, said) => Ok(said),
+        (None, asked) => Ok(asked),
     }
 }
 

@@ -73,17 +73,20 @@ pub(super) fn hang(
         .into_iter()
         .map(|it| below(it, above.is_some(), &parents, tier))
         .collect::<Result<Vec<_>>>()?;
-    let said = parents.iter().chain(&moved).map(annotation);
+    let annotations = parents.iter().chain(&moved).map(annotation);
     if let Some((above, stereotype)) = &above {
         let pair = [sign_tier(above), sign_tier(&row)].map(|mut it| {
             it.parent = it.parent.filter(|(id, _)| *id == sign_tier(above).id);
             it
         });
-        let said = said.map(|mut it| {
+        let annotations = annotations.map(|mut it| {
             it.parent = it.parent.filter(|_| it.tier == pair[1].id);
             it
         });
-        if let Some(violation) = check(&TierSet::new(pair.clone(), said)).into_iter().next() {
+        if let Some(violation) = check(&TierSet::new(pair.clone(), annotations))
+            .into_iter()
+            .next()
+        {
             return Err(Error::wrong(format!(
                 "its annotations cannot hang below {:?} as {stereotype}: {violation}",
                 above.name

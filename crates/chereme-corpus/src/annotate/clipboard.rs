@@ -136,14 +136,14 @@ pub fn read(text: &str, frame: impl Fn(u64) -> Option<i64>) -> ClipboardText {
             (found.unwrap_or_default(), &rows[..])
         }
     };
-    let mut said = Vec::new();
+    let mut copied = Vec::new();
     for (line, cells) in rows {
         match columns.row(*line, cells, &frame) {
-            Ok(row) => said.push(row),
+            Ok(row) => copied.push(row),
             Err(why) => odd.push(why),
         }
     }
-    ClipboardText::Rows(said, odd)
+    ClipboardText::Rows(copied, odd)
 }
 
 /// The columns of a table, by index.
@@ -310,8 +310,8 @@ mod tests {
 
     fn rows(text: &str) -> (Vec<CopiedAnnotation>, Vec<(usize, OddReason)>) {
         match read(text, |frame| (frame < 100).then_some(frame as i64 * 10_000)) {
-            ClipboardText::Rows(said, odd) => {
-                (said, odd.into_iter().map(|it| (it.line, it.why)).collect())
+            ClipboardText::Rows(rows, odd) => {
+                (rows, odd.into_iter().map(|it| (it.line, it.why)).collect())
             }
             ClipboardText::Values(values) => panic!("{values:?}"),
         }

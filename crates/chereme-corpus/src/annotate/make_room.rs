@@ -52,7 +52,7 @@ impl Work<'_> {
         let micros = Instant::from_micros;
         Err(Error::wrong(format!(
             "{} cannot go from {} to {}: there is no room for the others",
-            super::messages::said(row),
+            super::messages::quoted_value(row),
             span.start(),
             span.end()
         ))

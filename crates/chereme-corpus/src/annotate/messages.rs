@@ -60,7 +60,7 @@ fn annotation_named(connection: &Connection, id: i64) -> Option<String> {
     }
     let row = rows::annotation(connection, id).ok()?;
     let at = Instant::from_micros(row.start_us);
-    Some(format!("{} at {at}", said(&row)))
+    Some(format!("{} at {at}", quoted_value(&row)))
 }
 
 /// Returns an annotation as text, for a list of possible ones.
@@ -72,7 +72,7 @@ pub(super) fn candidate(connection: &Connection, id: i64) -> String {
 }
 
 /// Returns the value of an annotation in quotes, or the reason for a missing one.
-pub(crate) fn said(row: &AnnotationRow) -> String {
+pub(crate) fn quoted_value(row: &AnnotationRow) -> String {
     if row.state != ValueState::Value {
         return format!("an annotation without a value ({})", row.state.name());
     }
@@ -98,7 +98,9 @@ pub(super) fn refused(connection: &Connection, tier: i64, error: &EditError) -> 
     };
     let other = rows::annotation(connection, signed(*other))?;
     let what = match annotation {
-        Named(Some(id)) if id.0 < super::FRESH => said(&rows::annotation(connection, signed(*id))?),
+        Named(Some(id)) if id.0 < super::FRESH => {
+            quoted_value(&rows::annotation(connection, signed(*id))?)
+        }
         _ => "a new annotation".to_owned(),
     };
     let there = span_of(&other);
@@ -106,7 +108,7 @@ pub(super) fn refused(connection: &Connection, tier: i64, error: &EditError) -> 
         "{what} from {} to {} overlaps {} ({} to {}) on the tier {:?} of {:?}",
         span.start(),
         span.end(),
-        said(&other),
+        quoted_value(&other),
         there.start(),
         there.end(),
         row.name,

@@ -195,7 +195,7 @@ impl Work<'_> {
                 let starts = Instant::from_micros(row.start_us);
                 format!(
                     "the one there, {}, starts at {starts}",
-                    super::messages::said(row)
+                    super::messages::quoted_value(row)
                 )
                 .into()
             },

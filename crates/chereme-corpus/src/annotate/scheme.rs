@@ -129,7 +129,7 @@ fn usual(connection: &Connection, recording: &RecordingRow) -> Result<Vec<Wanted
         };
         (tier, None)
     };
-    let said = |field: &str| {
+    let role_of = |field: &str| {
         field
             .parse::<TierRole>()
             .map_err(|error| Error::wrong(error.to_string()))
@@ -149,14 +149,14 @@ fn usual(connection: &Connection, recording: &RecordingRow) -> Result<Vec<Wanted
             let hand = Some(Hands::One(hand));
             all.push(make(
                 format!("{name} {letters}"),
-                said(field)?,
+                role_of(field)?,
                 hand,
                 within,
             ));
         }
     }
     for (name, field) in OF_NO_HAND {
-        all.push(make(name.to_owned(), said(field)?, None, within));
+        all.push(make(name.to_owned(), role_of(field)?, None, within));
     }
     all.push(make("Comment".to_owned(), TierRole::Comment, None, None));
     Ok(all)

@@ -273,14 +273,14 @@ fn changed_row(
     if let Some(hand) = change.hand {
         row.hand = hand;
     }
-    for (said, change) in [
+    for (field, change) in [
         (&mut row.participant, &change.participant),
         (&mut row.annotator, &change.annotator),
         (&mut row.language, &change.language),
     ] {
         if let Some(new) = change {
             let text = new.as_deref().map(str::trim);
-            *said = text.filter(|text| !text.is_empty()).map(str::to_owned);
+            *field = text.filter(|text| !text.is_empty()).map(str::to_owned);
         }
     }
     if let Some(role) = &change.role {

@@ -329,9 +329,9 @@ fn fill(
             .collect();
         for (own, frames_of) in [(labels::hand(), &mut *hand), (labels::face(), &mut *face)] {
             let points = labels::mapped(&own, &names);
-            for (seen, said) in frames_of.iter_mut().zip(frames(&markers, &points)) {
-                for (seen, said) in seen.iter_mut().zip(said) {
-                    *seen = seen.or(said);
+            for (seen, restored) in frames_of.iter_mut().zip(frames(&markers, &points)) {
+                for (seen, restored) in seen.iter_mut().zip(restored) {
+                    *seen = seen.or(restored);
                 }
             }
         }

@@ -416,8 +416,8 @@ fn head_variances(all: &[Vec<HeadRow>]) -> [f64; 6] {
 }
 
 fn missed(components: &Pca, row: &[f64]) -> f64 {
-    let said = components.rebuild(&components.project(row));
-    let apart = row.chunks_exact(3).zip(said.chunks_exact(3));
+    let predicted = components.rebuild(&components.project(row));
+    let apart = row.chunks_exact(3).zip(predicted.chunks_exact(3));
     let sum: f64 = apart
         .map(|(a, b)| {
             a.iter()

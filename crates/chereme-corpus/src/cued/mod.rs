@@ -27,7 +27,7 @@ pub use capture::{CuedMarkers, MarkerSet, read_marker_labels};
 pub use dictionary::{DictionaryReport, Dikeys, MissingDikey, ScriptCoverage, WorthRecording};
 pub use recognise::{CueConfusion, CueRecognition, Misread};
 pub use restore::{RestoreOptions, RestoredMarker, RestoredTake};
-pub use say::{CueCosts, FromDictionary, SaidPiece};
+pub use say::{CueCosts, FromDictionary, SentencePiece};
 pub use slips::{CueSlip, CueSlips, SlipKind};
 pub use targets::{CuePhaseRow, CuePhaseStatistics, CueTargets, FoundKey};
 

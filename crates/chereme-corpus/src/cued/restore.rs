@@ -432,7 +432,7 @@ fn captured(take: &Take, points: &[Option<usize>], frame: usize) -> Vec<Option<D
 fn set<'a>(
     take: &Take,
     points: &[Option<usize>],
-    said: &dyn Fn(usize) -> Option<(&'a [DVec3], &'a [f64])>,
+    predicted: &dyn Fn(usize) -> Option<(&'a [DVec3], &'a [f64])>,
     (report, new): (&mut RestoredTake, &mut Vec<Marker>),
 ) -> (Option<f64>, Option<f64>) {
     let (mut sum, mut axes, mut count) = (0.0, 0.0, 0.0);
@@ -450,15 +450,15 @@ fn set<'a>(
         };
         for (frame, row) in rows.iter_mut().enumerate() {
             let seen = source.at(frame).map(|at| space.shown(at) * 1000.0);
-            let model =
-                said(frame).and_then(|(points, sd)| Some((*points.get(marker)?, *sd.get(marker)?)));
+            let model = predicted(frame)
+                .and_then(|(points, sd)| Some((*points.get(marker)?, *sd.get(marker)?)));
             match (seen, model) {
-                (Some(seen), Some((said, _))) => {
-                    sum += seen.distance(said);
-                    axes += (seen - said).abs().element_sum() / 3.0;
+                (Some(seen), Some((predicted, _))) => {
+                    sum += seen.distance(predicted);
+                    axes += (seen - predicted).abs().element_sum() / 3.0;
                     count += 1.0;
                 }
-                (None, Some((said, sd))) if said.is_finite() => {
+                (None, Some((predicted, sd))) if predicted.is_finite() => {
                     report.hidden += 1;
                     report.restored += 1;
                     let sd = sd * 3f64.sqrt();
@@ -466,7 +466,7 @@ fn set<'a>(
                     own.frames += 1;
                     own.sd_mm += sd;
                     own.most_sd_mm = own.most_sd_mm.max(sd);
-                    *row = [said.x, said.y, said.z, sd].map(|x| rounded(x, 3));
+                    *row = [predicted.x, predicted.y, predicted.z, sd].map(|x| rounded(x, 3));
                 }
                 (None, _) => report.hidden += 1,
                 _ => {}

@@ -106,7 +106,7 @@ pub(super) fn tokens(
         let rows = signs::tokens(connection, ids)?;
         let values = signs::values_of(connection, ids)?;
         let notations = notation::of_tokens(connection, ids)?;
-        let said = attributes::of_tokens(connection, ids)?;
+        let own_attributes = attributes::of_tokens(connection, ids)?;
         for id in ids {
             let token = rows
                 .get(id)
@@ -131,7 +131,7 @@ pub(super) fn tokens(
                     .iter()
                     .map(|column| cells.remove(column).unwrap_or_default()),
             );
-            let own = said.get(id).map_or(&[][..], Vec::as_slice);
+            let own = own_attributes.get(id).map_or(&[][..], Vec::as_slice);
             row.extend(named.iter().map(|name| {
                 let found = own.iter().find(|it| it.name == *name);
                 found.map_or_else(String::new, |it| it.text.clone())

@@ -268,26 +268,26 @@ impl Writing<'_> {
             .enumerate()
             .map(|(at, row)| (row.id, at))
             .collect();
-        let mut said = Vec::with_capacity(rows.len());
+        let mut annotations = Vec::with_capacity(rows.len());
         for row in &rows {
-            said.push(in_order(tiers::annotations(self.connection, row.id)?));
+            annotations.push(in_order(tiers::annotations(self.connection, row.id)?));
         }
-        let changed = said
+        let changed = annotations
             .iter()
             .flatten()
             .any(|row| row.origin != AnnotationOrigin::File);
         if changed || self.transcript.date.is_empty() {
             self.transcript.date = list::last_change(self.connection)?.unwrap_or_default();
         }
-        let mut ids = Ids::new(said.iter().flatten(), &self.transcript.properties);
+        let mut ids = Ids::new(annotations.iter().flatten(), &self.transcript.properties);
         self.transcript.tiers = Vec::with_capacity(rows.len());
-        for (row, said) in rows.iter().zip(&said) {
+        for (row, annotations) in rows.iter().zip(&annotations) {
             let mut tier = tier(row, row.parent_id.and_then(|id| at.get(&id).copied()));
-            tier.vocabulary = self.vocabulary(row, said);
+            tier.vocabulary = self.vocabulary(row, annotations);
             self.transcript.tiers.push(tier);
         }
         for place in parents_first(&rows, &at) {
-            for (index, row) in said[place].iter().enumerate() {
+            for (index, row) in annotations[place].iter().enumerate() {
                 self.places
                     .insert(row.id, AnnotationAddress { tier: place, index });
                 let annotation = self.annotation(&self.transcript.tiers[place], row, &mut ids);
@@ -298,7 +298,7 @@ impl Writing<'_> {
     }
 
     /// Returns the vocabulary of a tier, completed by all its values: that of its file, otherwise its inventory.
-    fn vocabulary(&mut self, tier: &TierRow, said: &[AnnotationRow]) -> Option<String> {
+    fn vocabulary(&mut self, tier: &TierRow, annotations: &[AnnotationRow]) -> Option<String> {
         let source = source(tier.source.as_deref());
         let named = text(&source, "vocabulary");
         let id = match (&named, &tier.source) {
@@ -320,7 +320,7 @@ impl Writing<'_> {
         };
         let vocabulary = self.find_vocabulary(&id)?;
         if vocabulary.external.is_none() {
-            complete(vocabulary, said);
+            complete(vocabulary, annotations);
         }
         Some(id)
     }
@@ -466,7 +466,7 @@ fn of_inventory(stored: &StoredInventory) -> Vocabulary {
 }
 
 /// Adds values that people have entered since the import to a vocabulary.
-fn complete(vocabulary: &mut Vocabulary, said: &[AnnotationRow]) {
+fn complete(vocabulary: &mut Vocabulary, annotations: &[AnnotationRow]) {
     let language = vocabulary
         .entries
         .iter()
@@ -475,7 +475,7 @@ fn complete(vocabulary: &mut Vocabulary, said: &[AnnotationRow]) {
     let language = language
         .map(|value| value.language.clone())
         .unwrap_or_default();
-    for row in said
+    for row in annotations
         .iter()
         .filter(|row| row.origin != AnnotationOrigin::File && row.state == ValueState::Value)
     {

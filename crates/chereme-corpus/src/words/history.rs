@@ -161,12 +161,12 @@ pub fn taken_back(it: &OperationRow, language: Language) -> String {
 #[must_use]
 pub fn annotated(summary: &str, language: Language) -> Option<String> {
     let (counts, place) = summary.rsplit_once(" in ")?;
-    let mut said = Vec::new();
+    let mut parts = Vec::new();
     let mut rest = Some(counts);
     while let Some(now) = rest {
         // The text of a value comes last, and may contain commas.
         if let Some(whole) = deeds::translated(now, language) {
-            said.push(whole);
+            parts.push(whole);
             break;
         }
         let (part, after) = match now.split_once(", ") {
@@ -175,7 +175,7 @@ pub fn annotated(summary: &str, language: Language) -> Option<String> {
         };
         rest = after;
         if let Some(part) = deeds::translated(part, language) {
-            said.push(part);
+            parts.push(part);
             continue;
         }
         let (count, what) = part.split_once(' ')?;
@@ -188,10 +188,10 @@ pub fn annotated(summary: &str, language: Language) -> Option<String> {
             ("removed", false) => REMOVED,
             _ => return None,
         };
-        said.push(fill(text.of(language), &[("n", &count)]));
+        parts.push(fill(text.of(language), &[("n", &count)]));
     }
-    let said = said.join(", ");
-    let values: [(&str, &dyn Display); 2] = [("what", &said), ("place", &place)];
+    let parts = parts.join(", ");
+    let values: [(&str, &dyn Display); 2] = [("what", &parts), ("place", &place)];
     Some(fill(DID_ANNOTATE.of(language), &values))
 }
 

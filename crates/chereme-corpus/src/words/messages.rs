@@ -507,8 +507,8 @@ fn in_french(text: &str) -> Option<String> {
         side.or_else(|| in_french(part))
             .unwrap_or_else(|| part.to_owned())
     };
-    let said = all().find_map(|(english, french)| carried(text, english, french, &part));
-    said.or_else(|| counted_in_french(text))
+    let translated = all().find_map(|(english, french)| carried(text, english, french, &part));
+    translated.or_else(|| counted_in_french(text))
 }
 
 /// Returns a side in French: feminine for `{side}`, as hands are, and masculine for `{limb}`, as arms and wrists are.
@@ -521,15 +521,15 @@ fn side_in_french(blank: &str, side: &str) -> Option<&'static str> {
     })
 }
 
-/// Returns `other` filled with the variable parts of `text`, each converted by `said`; nothing if `text` does not have
+/// Returns `other` filled with the variable parts of `text`, each converted by `convert`; nothing if `text` does not have
 /// the form `form`.
 ///
-/// `said` also gets the name of the blank.
+/// `convert` also gets the name of the blank.
 fn carried(
     text: &str,
     form: &str,
     other: &str,
-    said: &dyn Fn(&str, &str) -> String,
+    convert: &dyn Fn(&str, &str) -> String,
 ) -> Option<String> {
     let mut values = Vec::new();
     let mut parts = form.split('{');
@@ -545,7 +545,7 @@ fn carried(
     }
     rest.is_empty().then(|| {
         let filled = |filled: String, (name, value): &(&str, &str)| {
-            filled.replace(&format!("{{{name}}}"), &said(name, value))
+            filled.replace(&format!("{{{name}}}"), &convert(name, value))
         };
         values.iter().fold(other.to_owned(), filled)
     })

@@ -35,24 +35,24 @@ pub fn apply(difference: &Difference, a: &Transcript) -> Transcript {
         pieces.all.retain(|_, it| it.tier != change.tier);
     }
     let mut fresh = BTreeMap::new();
-    for said in in_order(difference.added.iter()) {
-        let loose = loose(&pieces, said, &fresh);
+    for annotation in in_order(difference.added.iter()) {
+        let loose = loose(&pieces, annotation, &fresh);
         let id = pieces.add(loose);
-        fresh.insert(said.id.clone(), id);
+        fresh.insert(annotation.id.clone(), id);
     }
     let old: BTreeMap<&str, &str> = difference
         .moved
         .iter()
-        .map(|it| (it.said.id.as_str(), it.id.as_str()))
+        .map(|it| (it.annotation.id.as_str(), it.id.as_str()))
         .collect();
-    for moved in in_order(difference.moved.iter().map(|it| &it.said)) {
+    for moved in in_order(difference.moved.iter().map(|it| &it.annotation)) {
         if let Some(id) = old.get(moved.id.as_str()) {
             place(&mut pieces, id, moved, &fresh);
         }
     }
     for change in &difference.revalued {
         if let Some(own) = pieces.all.get_mut(&change.id) {
-            revalue(own, &change.said);
+            revalue(own, &change.annotation);
         }
     }
     pieces.whole()
@@ -76,12 +76,12 @@ pub(super) fn in_order<'s>(
     let mut all: Vec<&ComparedAnnotation> = all.collect();
     let ids: BTreeMap<&str, &ComparedAnnotation> =
         all.iter().map(|it| (it.id.as_str(), *it)).collect();
-    let depth = |said: &ComparedAnnotation| {
+    let depth = |annotation: &ComparedAnnotation| {
         let above = |it: &&ComparedAnnotation| match &it.above {
             Some(Above::New(id)) => ids.get(id.as_str()).copied(),
             _ => None,
         };
-        std::iter::successors(ids.get(said.id.as_str()).copied(), above)
+        std::iter::successors(ids.get(annotation.id.as_str()).copied(), above)
             .take(64)
             .count()
     };
@@ -90,21 +90,23 @@ pub(super) fn in_order<'s>(
 }
 
 /// Gives an annotation its text in the other document.
-pub(super) fn revalue(own: &mut Loose, said: &ComparedAnnotation) {
-    own.it.value.clone_from(&said.whole.value);
-    own.it.entry.clone_from(&said.whole.entry);
-    own.it.language.clone_from(&said.whole.language);
-    own.it.external_ref.clone_from(&said.whole.external_ref);
+pub(super) fn revalue(own: &mut Loose, annotation: &ComparedAnnotation) {
+    own.it.value.clone_from(&annotation.whole.value);
+    own.it.entry.clone_from(&annotation.whole.entry);
+    own.it.language.clone_from(&annotation.whole.language);
+    own.it
+        .external_ref
+        .clone_from(&annotation.whole.external_ref);
 }
 
 /// Moves an annotation to its time, tier and parent in the other document.
 fn place(
     pieces: &mut Pieces,
     id: &str,
-    said: &ComparedAnnotation,
+    annotation: &ComparedAnnotation,
     fresh: &BTreeMap<String, String>,
 ) {
-    let new = loose(pieces, said, fresh);
+    let new = loose(pieces, annotation, fresh);
     if let Some(own) = pieces.all.get_mut(id) {
         own.it.span = new.it.span;
         own.it.millis = new.it.millis;
@@ -118,25 +120,30 @@ fn place(
 /// Returns an annotation of the other document; its references name annotations of this document.
 pub(super) fn loose(
     pieces: &Pieces,
-    said: &ComparedAnnotation,
+    annotation: &ComparedAnnotation,
     fresh: &BTreeMap<String, String>,
 ) -> Loose {
     let name = |it: &Above| match it {
         Above::Known(id) => id.clone(),
         Above::New(id) => fresh.get(id).unwrap_or(id).clone(),
     };
-    let above = said.above.as_ref().map(name);
-    let before = said.before.as_ref().map(name);
+    let above = annotation.above.as_ref().map(name);
+    let before = annotation.before.as_ref().map(name);
     // Annotations with times of their own have no rank among siblings.
-    let chained = above.is_some() && said.whole.millis.is_none();
+    let chained = above.is_some() && annotation.whole.millis.is_none();
     Loose {
         rank: if chained {
-            rank(pieces, &said.tier, above.as_deref(), before.as_deref())
+            rank(
+                pieces,
+                &annotation.tier,
+                above.as_deref(),
+                before.as_deref(),
+            )
         } else {
             0.0
         },
-        it: said.whole.clone(),
-        tier: said.tier.clone(),
+        it: annotation.whole.clone(),
+        tier: annotation.tier.clone(),
         above,
     }
 }

@@ -64,19 +64,19 @@ pub fn merge(base: &Transcript, mine: &Transcript, theirs: &Transcript) -> Merge
     work.tiers(&changes);
     let mut touched: BTreeMap<String, [Option<ComparedAnnotation>; 2]> = BTreeMap::new();
     for moved in changes.moved {
-        touched.entry(moved.id).or_default()[0] = Some(moved.said);
+        touched.entry(moved.id).or_default()[0] = Some(moved.annotation);
     }
     for revalued in changes.revalued {
-        touched.entry(revalued.id).or_default()[1] = Some(revalued.said);
+        touched.entry(revalued.id).or_default()[1] = Some(revalued.annotation);
     }
-    for said in in_order(changes.added.iter()) {
-        work.add(said);
+    for annotation in in_order(changes.added.iter()) {
+        work.add(annotation);
     }
     for (id, [moved, revalued]) in &touched {
         work.change(id, moved.as_ref(), revalued.as_ref());
     }
-    for said in in_order(changes.removed.iter()).into_iter().rev() {
-        work.remove(said);
+    for annotation in in_order(changes.removed.iter()).into_iter().rev() {
+        work.remove(annotation);
     }
     work.make_room();
     work.drop_tiers(&changes.tiers);
@@ -112,21 +112,24 @@ pub fn merge_two(mine: &Transcript, theirs: &Transcript) -> Merged {
     let base = base.whole();
     let mut merged = merge(&base, mine, theirs);
     let changes = diff(mine, theirs);
-    let moved = changes.moved.into_iter().map(|it| (it.id, it.said));
-    let revalued = changes.revalued.into_iter().map(|it| (it.id, it.said));
+    let moved = changes.moved.into_iter().map(|it| (it.id, it.annotation));
+    let revalued = changes
+        .revalued
+        .into_iter()
+        .map(|it| (it.id, it.annotation));
     let differ: BTreeMap<String, ComparedAnnotation> = moved.chain(revalued).collect();
     let places: BTreeMap<&str, AnnotationAddress> = places(mine)
         .into_iter()
         .map(|place| (get(mine, place).id.as_str(), place))
         .collect();
-    for (id, said) in differ {
+    for (id, annotation) in differ {
         let own = places.get(id.as_str());
-        let own = own.map(|place| super::said((mine, None), *place));
+        let own = own.map(|place| super::compared((mine, None), *place));
         merged.conflicts.push(Conflict {
-            tier: own.as_ref().map_or(&said.tier, |it| &it.tier).clone(),
+            tier: own.as_ref().map_or(&annotation.tier, |it| &it.tier).clone(),
             base: None,
             mine: own,
-            theirs: Some(said),
+            theirs: Some(annotation),
         });
     }
     merged
@@ -243,18 +246,18 @@ impl Work<'_> {
     }
 
     /// Returns an annotation of theirs with the ids and tier names of mine; `None` if its parent or its tier is gone.
-    fn translated(&self, said: &ComparedAnnotation) -> Option<ComparedAnnotation> {
+    fn translated(&self, annotation: &ComparedAnnotation) -> Option<ComparedAnnotation> {
         let refer = |it: &Above| match it {
             Above::Known(id) => self.names.get(id).cloned().map(Above::Known),
             Above::New(id) => self.fresh.get(id).cloned().map(Above::Known),
         };
-        let mut new = said.clone();
-        new.above = match &said.above {
+        let mut new = annotation.clone();
+        new.above = match &annotation.above {
             Some(above) => Some(refer(above)?),
             None => None,
         };
-        new.before = said.before.as_ref().and_then(refer);
-        if let Some(name) = self.tier_of_mine(&said.tier)
+        new.before = annotation.before.as_ref().and_then(refer);
+        if let Some(name) = self.tier_of_mine(&annotation.tier)
             && self.tier_now(&name)
         {
             new.tier = name;
@@ -266,15 +269,19 @@ impl Work<'_> {
         self.pieces.tiers.iter().any(|(tier, _)| tier.name == name)
     }
 
-    fn add(&mut self, said: &ComparedAnnotation) {
-        let Some(new) = self.translated(said) else {
-            return self.conflict(None, None, Some(said.clone()));
+    fn add(&mut self, annotation: &ComparedAnnotation) {
+        let Some(new) = self.translated(annotation) else {
+            return self.conflict(None, None, Some(annotation.clone()));
         };
         let above = match &new.above {
             Some(Above::Known(id)) => Some(id.clone()),
             _ => None,
         };
-        let symbolic = self.theirs.tiers.iter().position(|it| it.name == said.tier);
+        let symbolic = self
+            .theirs
+            .tiers
+            .iter()
+            .position(|it| it.name == annotation.tier);
         let symbolic = symbolic.is_some_and(|tier| is_symbolic(self.theirs, tier));
         let twin = self.pieces.all.iter().find(|(id, it)| {
             let there = if symbolic {
@@ -290,7 +297,7 @@ impl Work<'_> {
         });
         if let Some((id, _)) = twin {
             let id = id.clone();
-            self.fresh.insert(said.id.clone(), id);
+            self.fresh.insert(annotation.id.clone(), id);
             return;
         }
         let mut loose = loose(&self.pieces, &new, &self.fresh);
@@ -298,7 +305,7 @@ impl Work<'_> {
             self.after_mine(&mut loose);
         }
         let id = self.pieces.add(loose);
-        self.fresh.insert(said.id.clone(), id.clone());
+        self.fresh.insert(annotation.id.clone(), id.clone());
         self.brought.push((id, new, None));
     }
 
@@ -324,25 +331,25 @@ impl Work<'_> {
         moved: Option<&ComparedAnnotation>,
         revalued: Option<&ComparedAnnotation>,
     ) {
-        let Some(said) = moved.or(revalued) else {
+        let Some(annotation) = moved.or(revalued) else {
             return;
         };
-        let before = self.said_in_base(id);
+        let before = self.state_in_base(id);
         let own = self
             .names
             .get(id)
             .filter(|id| self.pieces.all.contains_key(*id));
         let Some(own) = own.cloned() else {
-            return self.conflict(before, None, Some(said.clone()));
+            return self.conflict(before, None, Some(annotation.clone()));
         };
         let Some(old) = before.as_ref().map(|it| it.whole.clone()) else {
             return;
         };
-        let Some(new) = self.translated(said) else {
-            let mine = self.said_now(&own);
-            return self.conflict(before, mine, Some(said.clone()));
+        let Some(new) = self.translated(annotation) else {
+            let mine = self.state_now(&own);
+            return self.conflict(before, mine, Some(annotation.clone()));
         };
-        let mine = self.said_now(&own);
+        let mine = self.state_now(&own);
         let Some(mut loose_own) = self.pieces.all.get(&own).cloned() else {
             return;
         };
@@ -350,11 +357,11 @@ impl Work<'_> {
         if moved.is_some() {
             fails |= self.move_one(&mut loose_own, (&old, &new), before.as_ref());
         }
-        if let Some(said) = revalued {
+        if let Some(annotation) = revalued {
             let (value, entry) = (&old.value, &old.entry);
             if loose_own.it.value == *value && loose_own.it.entry == *entry {
-                revalue(&mut loose_own, said);
-            } else if loose_own.it.value != said.whole.value {
+                revalue(&mut loose_own, annotation);
+            } else if loose_own.it.value != annotation.whole.value {
                 fails = true;
             }
         }
@@ -426,23 +433,23 @@ impl Work<'_> {
         fails
     }
 
-    fn remove(&mut self, said: &ComparedAnnotation) {
-        let Some(own) = self.names.get(&said.id).cloned() else {
+    fn remove(&mut self, annotation: &ComparedAnnotation) {
+        let Some(own) = self.names.get(&annotation.id).cloned() else {
             return;
         };
         let Some(now) = self.pieces.all.get(&own) else {
             return;
         };
-        let same =
-            now.it.value == said.value && (alike(&now.it, &said.whole) || now.above.is_some());
+        let same = now.it.value == annotation.value
+            && (alike(&now.it, &annotation.whole) || now.above.is_some());
         let children = self.pieces.all.values();
         let mut children = children.filter(|it| it.above.as_deref() == Some(&own));
         if same && children.next().is_none() {
             self.pieces.all.remove(&own);
             return;
         }
-        let mine = self.said_now(&own);
-        self.conflict(Some(said.clone()), mine, None);
+        let mine = self.state_now(&own);
+        self.conflict(Some(annotation.clone()), mine, None);
     }
 
     /// Reverts additions and moves of the other side that overlap an annotation that mine added or moved; each becomes
@@ -460,10 +467,10 @@ impl Work<'_> {
         let came: BTreeSet<String> = self.brought.iter().map(|it| it.0.clone()).collect();
         let changes = diff(self.base, self.mine);
         let mut changed: BTreeSet<String> = changes.added.into_iter().map(|it| it.id).collect();
-        changed.extend(changes.moved.into_iter().map(|it| it.said.id));
+        changed.extend(changes.moved.into_iter().map(|it| it.annotation.id));
         let gone = self.conflicts.iter().filter(|it| it.theirs.is_none());
         changed.extend(gone.filter_map(|it| Some(it.mine.as_ref()?.id.clone())));
-        for (id, said, before) in std::mem::take(&mut self.brought) {
+        for (id, annotation, before) in std::mem::take(&mut self.brought) {
             let Some(own) = self.pieces.all.get(&id).cloned() else {
                 continue;
             };
@@ -493,9 +500,9 @@ impl Work<'_> {
                         .map(|(id, _)| id.clone())
                         .collect();
                     for child in below {
-                        let said = self.said_now(&child);
+                        let annotation = self.state_now(&child);
                         self.pieces.all.remove(&child);
-                        self.conflict(None, None, said);
+                        self.conflict(None, None, annotation);
                     }
                     self.pieces.all.remove(&id);
                 }
@@ -508,7 +515,7 @@ impl Work<'_> {
                     }
                 }
             }
-            self.conflict(None, before, Some(said));
+            self.conflict(None, before, Some(annotation));
         }
     }
 
@@ -591,13 +598,13 @@ impl Work<'_> {
         });
     }
 
-    fn said_in_base(&self, id: &str) -> Option<ComparedAnnotation> {
+    fn state_in_base(&self, id: &str) -> Option<ComparedAnnotation> {
         let place = self.places.get(id)?;
-        Some(super::said((self.base, None), *place))
+        Some(super::compared((self.base, None), *place))
     }
 
     /// Returns the current state of an annotation in the merged document.
-    fn said_now(&self, id: &str) -> Option<ComparedAnnotation> {
+    fn state_now(&self, id: &str) -> Option<ComparedAnnotation> {
         let loose = self.pieces.all.get(id)?;
         Some(ComparedAnnotation {
             tier: loose.tier.clone(),

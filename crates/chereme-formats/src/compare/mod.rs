@@ -92,7 +92,7 @@ pub struct Moved {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_tier: Option<String>,
     #[serde(skip)]
-    pub(crate) said: ComparedAnnotation,
+    pub(crate) annotation: ComparedAnnotation,
 }
 
 /// An annotation whose text changed.
@@ -114,7 +114,7 @@ pub struct Revalued {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub entry: Option<[Option<String>; 2]>,
     #[serde(skip)]
-    pub(crate) said: ComparedAnnotation,
+    pub(crate) annotation: ComparedAnnotation,
 }
 
 /// A change of a tier.
@@ -166,14 +166,14 @@ pub fn diff(a: &Transcript, b: &Transcript) -> Difference {
     tiers(a, b, &matching, &mut difference);
     for place in places(a) {
         let Some(other) = matching.pairs.get(&place) else {
-            difference.removed.push(said((a, None), place));
+            difference.removed.push(compared((a, None), place));
             continue;
         };
         compare((a, place), (b, *other), &matching, &mut difference);
     }
     for place in places(b) {
         if !matching.back.contains_key(&place) {
-            let whole = said((b, Some((a, &matching))), place);
+            let whole = compared((b, Some((a, &matching))), place);
             difference.added.push(whole);
         }
     }
@@ -187,8 +187,8 @@ fn compare(
     difference: &mut Difference,
 ) {
     let (x, y) = (get(a, old), get(b, new));
-    let now = said((b, Some((a, matching))), new);
-    let before = said((a, None), old);
+    let now = compared((b, Some((a, matching))), new);
+    let before = compared((a, None), old);
     let symbolic = is_symbolic(b, new.tier);
     let parent = |it: &Annotation| it.parent;
     let elsewhere = matching.tiers[old.tier] != Some(new.tier);
@@ -207,7 +207,7 @@ fn compare(
             from: [before.start_us, before.end_us],
             to: [now.start_us, now.end_us],
             to_tier: elsewhere.then(|| now.tier.clone()),
-            said: now.clone(),
+            annotation: now.clone(),
         });
     }
     if x.value != y.value || x.entry != y.entry {
@@ -219,7 +219,7 @@ fn compare(
             from: x.value.clone(),
             to: y.value.clone(),
             entry: (x.entry != y.entry).then(|| [x.entry.clone(), y.entry.clone()]),
-            said: now,
+            annotation: now,
         });
     }
 }
@@ -364,7 +364,7 @@ fn sentences(
 }
 
 /// Returns an annotation as a [`ComparedAnnotation`]; its references name annotations of the first document if that is given.
-fn said(
+fn compared(
     (it, of): (&Transcript, Option<(&Transcript, &Matching)>),
     place: AnnotationAddress,
 ) -> ComparedAnnotation {

@@ -16,9 +16,9 @@ pub(super) struct Detected {
     pub(super) markers: Vec<usize>,
 }
 
-/// Finds the parts; `said` are the user's assignments, `None` for a part that the skeleton does not have.
-pub(super) fn detect(skeleton: &Skeleton, said: &BTreeMap<Part, Option<usize>>) -> Detected {
-    let mut finder = Finder::new(skeleton, said);
+/// Finds the parts, the user's `assignments` first; these hold `None` for a part that the skeleton does not have.
+pub(super) fn detect(skeleton: &Skeleton, assignments: &BTreeMap<Part, Option<usize>>) -> Detected {
+    let mut finder = Finder::new(skeleton, assignments);
     finder.head_and_trunk();
     for side in Side::BOTH {
         finder.arm(side);
@@ -41,18 +41,18 @@ pub(super) fn detect(skeleton: &Skeleton, said: &BTreeMap<Part, Option<usize>>) 
 pub(super) struct Finder<'a> {
     pub(super) skeleton: &'a Skeleton,
     pub(super) labels: Vec<Option<Label>>,
-    said: &'a BTreeMap<Part, Option<usize>>,
+    assignments: &'a BTreeMap<Part, Option<usize>>,
     pub(super) found: BTreeMap<Part, (usize, Evidence)>,
     pub(super) ambiguous: Vec<Ambiguity>,
     markers: Vec<usize>,
 }
 
 impl<'a> Finder<'a> {
-    fn new(skeleton: &'a Skeleton, said: &'a BTreeMap<Part, Option<usize>>) -> Self {
+    fn new(skeleton: &'a Skeleton, assignments: &'a BTreeMap<Part, Option<usize>>) -> Self {
         let joints = skeleton.joints().iter();
         let names: Vec<&str> = joints.map(|joint| joint.name.as_str()).collect();
         let mut labels = names::read_all(&names);
-        let assigned: Vec<usize> = said.values().copied().flatten().collect();
+        let assigned: Vec<usize> = assignments.values().copied().flatten().collect();
         let mut markers = markers::find(skeleton, &names, &labels);
         markers.retain(|joint| !assigned.contains(joint));
         for joint in assigned.into_iter().chain(markers.iter().copied()) {
@@ -61,8 +61,8 @@ impl<'a> Finder<'a> {
         let mut finder = Self {
             skeleton,
             labels,
-            said,
-            found: said
+            assignments,
+            found: assignments
                 .iter()
                 .filter_map(|(&part, joint)| Some((part, ((*joint)?, Evidence::Roles))))
                 .collect(),
@@ -102,7 +102,7 @@ impl<'a> Finder<'a> {
     }
 
     pub(super) fn put(&mut self, part: Part, joint: usize, evidence: Evidence) {
-        if !self.said.contains_key(&part) && !self.found.contains_key(&part) {
+        if !self.assignments.contains_key(&part) && !self.found.contains_key(&part) {
             self.found.insert(part, (joint, evidence));
         }
     }
@@ -129,7 +129,7 @@ impl<'a> Finder<'a> {
         let first = all[0];
         let rivals = all[1..].iter().copied();
         let others: Vec<usize> = rivals.filter(|&j| !self.is_below(j, first)).collect();
-        if !others.is_empty() && !self.said.contains_key(&part) {
+        if !others.is_empty() && !self.assignments.contains_key(&part) {
             self.ambiguous.push(Ambiguity {
                 part,
                 taken: first,
@@ -151,8 +151,8 @@ impl<'a> Finder<'a> {
 
     fn arm(&mut self, side: Side) {
         let has = |word| !self.labelled(Some(side), word).is_empty();
-        let upper_said = has(Word::UpperArm);
-        let (clavicle, upper): (&[Word], &[Word]) = if upper_said {
+        let has_upper = has(Word::UpperArm);
+        let (clavicle, upper): (&[Word], &[Word]) = if has_upper {
             (&[Word::Clavicle, Word::Shoulder], &[Word::UpperArm])
         } else {
             (&[Word::Clavicle], &[Word::Shoulder])
@@ -175,23 +175,23 @@ impl<'a> Finder<'a> {
 
     fn leg(&mut self, side: Side) {
         let has = |word| !self.labelled(Some(side), word).is_empty();
-        let thigh_said = has(Word::Thigh) || has(Word::SideHip);
-        let (ankle_said, toes_said) = (has(Word::Ankle), has(Word::Toes));
-        let thigh: &[Word] = if thigh_said {
+        let has_thigh = has(Word::Thigh) || has(Word::SideHip);
+        let (has_ankle, has_toes) = (has(Word::Ankle), has(Word::Toes));
+        let thigh: &[Word] = if has_thigh {
             &[Word::Thigh, Word::SideHip]
         } else {
             &[Word::Leg]
         };
         self.take(Part::Thigh(side), thigh);
-        if thigh_said {
+        if has_thigh {
             self.take(Part::Shin(side), &[Word::Shin, Word::Leg]);
         } else {
             self.take(Part::Shin(side), &[Word::Shin]);
         }
         self.take(Part::Foot(side), &[Word::Ankle, Word::Foot]);
-        if toes_said {
+        if has_toes {
             self.take(Part::Toes(side), &[Word::Toes]);
-        } else if ankle_said {
+        } else if has_ankle {
             self.take(Part::Toes(side), &[Word::Foot]);
         }
     }

@@ -134,8 +134,8 @@ impl Anatomy {
     /// # Errors
     /// [`RolesError`] if the roles name a joint that the skeleton does not have.
     pub fn with_roles(skeleton: &Skeleton, roles: &Roles) -> Result<Self, RolesError> {
-        let said = roles.resolve(skeleton)?;
-        Ok(Self::of(skeleton, detect::detect(skeleton, &said)))
+        let assignments = roles.resolve(skeleton)?;
+        Ok(Self::of(skeleton, detect::detect(skeleton, &assignments)))
     }
 
     fn of(skeleton: &Skeleton, detected: detect::Detected) -> Self {

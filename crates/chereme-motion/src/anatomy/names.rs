@@ -124,8 +124,8 @@ fn common_prefix<'a>(names: &[&'a str]) -> &'a str {
     let head = |name: &'a str| {
         let end = name.find(['_', '-', '.', ' '])?;
         let head = &name[..=end];
-        let said = words(head);
-        let plain = said
+        let head_words = words(head);
+        let plain = head_words
             .iter()
             .all(|word| side(word).is_none() && word.len() > 1);
         (plain && read(head, false).is_none() && name.len() > head.len()).then_some(head)

@@ -81,7 +81,7 @@ pub(crate) fn label(value: &InventoryValue, language: Language) -> String {
 
 /// Returns a short text for a value: its id. In languages other than English, returns its name instead if the id is an
 /// English word, such as `hand-back`, and not a letter or a sign.
-pub(crate) fn said(value: &InventoryValue, language: Language) -> &str {
+pub(crate) fn short_name(value: &InventoryValue, language: Language) -> &str {
     let english = fold(value.name(Language::English.code()));
     let mut words = value.id.split(['-', '_', ' ']);
     let is_word = words.all(|word| word.len() > 1 && english.contains(&fold(word)));
@@ -230,8 +230,8 @@ mod tests {
                 names: names.map(|(a, b)| (a.to_owned(), b.to_owned())).into(),
                 ..InventoryValue::default()
             };
-            assert_eq!(said(&value, Language::French), want);
-            assert_eq!(said(&value, Language::English), id);
+            assert_eq!(short_name(&value, Language::French), want);
+            assert_eq!(short_name(&value, Language::English), id);
         }
     }
 

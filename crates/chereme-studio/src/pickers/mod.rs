@@ -352,7 +352,7 @@ fn face(
 ) -> Response {
     let value = chosen.and_then(|id| inventory.find(id));
     let text = match (value, chosen) {
-        (Some(value), _) => data::said(value, seen.language).to_owned(),
+        (Some(value), _) => data::short_name(value, seen.language).to_owned(),
         (None, Some(chosen)) => chosen.to_owned(),
         (None, None) => seen.say(words::CHOOSE).to_owned(),
     };

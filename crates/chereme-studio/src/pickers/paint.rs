@@ -84,7 +84,7 @@ pub(super) fn cell(
         value(ui, square, cells.seen, cells.inventory, it);
     }
     let label = if pictured {
-        data::said(it, cells.seen.language).to_owned()
+        data::short_name(it, cells.seen.language).to_owned()
     } else {
         data::label(it, cells.seen.language)
     };

@@ -128,12 +128,12 @@ mod tests {
 
     #[test]
     fn scripts_without_a_font_are_reported_once_by_name() {
-        let mut untold = Unreported::default();
+        let mut unreported = Unreported::default();
         let letters = BTreeSet::from(['ع', 'غ', 'Ж', '\u{e000}']);
-        let (text, _) = untold.of(&letters, Language::English).expect("news");
+        let (text, _) = unreported.of(&letters, Language::English).expect("news");
         assert!(text.contains("Arabic, Cyrillic"), "{text}");
-        assert!(untold.of(&letters, Language::English).is_none());
-        let (text, _) = untold
+        assert!(unreported.of(&letters, Language::English).is_none());
+        let (text, _) = unreported
             .of(&BTreeSet::from(['א']), Language::French)
             .expect("news");
         assert!(text.contains("hébreu"), "{text}");

@@ -196,7 +196,7 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
     Choice {
         spot: second.map_or(*first, |second| middle(first, second)),
         second: second.map(|second| second.site),
-        cost: sum(said)
+        cost: sum(penalty)
             + second.map_or(0.0, |second| {
                 let level = second.site.at != first.site.at;
                 let side = second.site.side != first.site.side;
@@ -216,7 +216,7 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
 }
 
 /// Returns the penalty (nepers) of a single place.
-fn said(spot: &Spot) -> f64 {
+fn penalty(spot: &Spot) -> f64 {
     let side = match spot.site.side {
         Some(Side::LeftAt) => tuned().choice.across,
         Some(Side::RightBeside) => tuned().choice.beside,

@@ -29,7 +29,7 @@ pub(in crate::transcribe) struct Together {
     /// The penalty (nepers) of that distance.
     unlikely: f64,
     /// Whether the parts differ from the implied ones, so that the notation must name them.
-    said: bool,
+    stated: bool,
     /// Whether the notation names them.
     pub(in crate::transcribe) named: bool,
 }
@@ -37,7 +37,7 @@ pub(in crate::transcribe) struct Together {
 impl Together {
     /// Returns the penalty (nepers) of the notation itself.
     pub(in crate::transcribe) fn cost(&self) -> f64 {
-        match (self.named, self.said) {
+        match (self.named, self.stated) {
             (false, _) => tuned().together.unnamed,
             (true, true) => tuned().together.parts + tuned().together.step * ranks(self),
             (true, false) => 0.0,
@@ -111,7 +111,7 @@ impl Body<'_> {
             },
             off: if touching { distance } else { off },
             unlikely: if touching { touch } else { close },
-            said: true,
+            stated: true,
             named: true,
         }
     }
@@ -132,7 +132,7 @@ impl Body<'_> {
         [mirrored, upon]
             .iter()
             .map(|[own, other]| Together {
-                said: false,
+                stated: false,
                 ..self.by_each_other([own, other])
             })
             .filter(|together| together.distance < reach)

@@ -13,7 +13,7 @@ impl Writer<'_> {
         track: Option<&HandTrajectory>,
         frame: usize,
         found: &Found<T>,
-        said: impl Fn(&T) -> WordsAndSymbols,
+        describe: impl Fn(&T) -> WordsAndSymbols,
     ) {
         let unit = match kind {
             FeatureKind::Location | FeatureKind::Contact | FeatureKind::Movement => {
@@ -30,7 +30,7 @@ impl Writer<'_> {
         } else {
             1.0
         };
-        let WordsAndSymbols { words, text } = said(&found.best);
+        let WordsAndSymbols { words, text } = describe(&found.best);
         self.features.push(Feature {
             kind,
             hand: track.map(|track| track.side),
@@ -42,7 +42,7 @@ impl Writer<'_> {
             residual: found.residual * scale,
             unit,
             runner_up: found.runner_up.as_ref().map(|(value, residual)| {
-                let WordsAndSymbols { words, text } = said(value);
+                let WordsAndSymbols { words, text } = describe(value);
                 RunnerUp {
                     value: words,
                     text,

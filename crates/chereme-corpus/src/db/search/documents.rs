@@ -255,8 +255,8 @@ impl<'c> Reader<'c> {
             ..TokenDocument::default()
         };
         if let (Some(around), Some(time)) = (&around, token.time) {
-            said_during(&around.translations, time, &mut document.translations);
-            said_during(&around.comments, time, &mut document.comments);
+            add_overlapping(&around.translations, time, &mut document.translations);
+            add_overlapping(&around.comments, time, &mut document.comments);
         }
         self.add_marks(token, &mut document)?;
         let (mut inventories, mut coded) = (Vec::new(), Hands::default());
@@ -357,8 +357,8 @@ impl<'c> Reader<'c> {
         let around = Rc::new(Around {
             signer,
             left_handed: handedness.as_deref() == Some("left"),
-            translations: self.said(id, "translation")?,
-            comments: self.said(id, "comment")?,
+            translations: self.timed_texts(id, "translation")?,
+            comments: self.timed_texts(id, "comment")?,
         });
         if self.recordings.len() > MOST_RECORDINGS {
             self.recordings.clear();
@@ -367,20 +367,20 @@ impl<'c> Reader<'c> {
         Ok(around)
     }
 
-    fn said(&self, recording: i64, role: &str) -> Result<Vec<TimedText>> {
+    fn timed_texts(&self, recording: i64, role: &str) -> Result<Vec<TimedText>> {
         let mut statement = self.connection.prepare_cached(
             "SELECT a.start_us, a.end_us, a.value FROM tier i JOIN annotation a ON a.tier_id = i.id
              WHERE i.recording_id = ?1 AND i.role = ?2 AND a.state = 'value' AND a.value <> ''
              ORDER BY a.start_us, i.position, a.id",
         )?;
-        let said = statement.query_map((recording, role), |row| {
+        let rows = statement.query_map((recording, role), |row| {
             Ok(TimedText {
                 start: row.get(0)?,
                 end: row.get(1)?,
                 text: fold(row.get_ref(2)?.as_str().unwrap_or_default()).into(),
             })
         })?;
-        Ok(said.collect::<rusqlite::Result<_>>()?)
+        Ok(rows.collect::<rusqlite::Result<_>>()?)
     }
 
     fn tier(&mut self, id: i64) -> Result<Rc<str>> {
@@ -454,9 +454,9 @@ fn named(
     Ok(name)
 }
 
-/// Adds the texts that overlap a token in time; `said` is ordered by start.
-fn said_during(said: &[TimedText], (start, end): (i64, i64), texts: &mut Vec<Rc<str>>) {
-    let until = said.partition_point(|said| said.start < end);
-    let during = said[..until].iter().filter(|said| said.end > start);
-    texts.extend(during.map(|said| said.text.clone()));
+/// Adds the texts that overlap a token in time; `timed` is ordered by start.
+fn add_overlapping(timed: &[TimedText], (start, end): (i64, i64), texts: &mut Vec<Rc<str>>) {
+    let until = timed.partition_point(|text| text.start < end);
+    let during = timed[..until].iter().filter(|text| text.end > start);
+    texts.extend(during.map(|text| text.text.clone()));
 }

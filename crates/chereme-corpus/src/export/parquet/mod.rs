@@ -95,8 +95,8 @@ pub(super) fn tokens(
                 "start_s" | "end_s" => Cells::Double(parsed(&cells)),
                 "token" => Cells::Integer(parsed(&cells)),
                 "citation" => {
-                    let said = cells.iter().map(|it| it.as_deref().map(|it| it == "yes"));
-                    Cells::Flag(said.collect())
+                    let flags = cells.iter().map(|it| it.as_deref().map(|it| it == "yes"));
+                    Cells::Flag(flags.collect())
                 }
                 name if numbers.contains(name) => Cells::Double(parsed(&cells)),
                 _ => Cells::Text(cells.iter().map(|it| Some(it.as_deref()?.into())).collect()),

@@ -115,12 +115,12 @@ pub(super) fn renamed(
 /// Returns the number of annotations that are the same in two files (id, time and value), and that of the file with
 /// more.
 pub(super) fn alike(a: &Transcript, b: &Transcript) -> (usize, usize) {
-    let said = |transcript: &'_ Transcript| -> BTreeMap<(String, String), ComparedParts> {
+    let parts_of = |transcript: &'_ Transcript| -> BTreeMap<(String, String), ComparedParts> {
         let own = Base::of(transcript);
-        own.said
+        own.parts
     };
-    let (a, b) = (said(a), said(b));
-    let same = a.iter().filter(|(key, said)| b.get(*key) == Some(*said));
+    let (a, b) = (parts_of(a), parts_of(b));
+    let same = a.iter().filter(|(key, parts)| b.get(*key) == Some(*parts));
     (same.count(), a.len().max(b.len()))
 }
 
@@ -220,7 +220,7 @@ fn millis(row: &AnnotationRow) -> [i64; 2] {
 
 /// The annotations of the earlier file, by tier and id.
 struct Base {
-    said: BTreeMap<(String, String), ComparedParts>,
+    parts: BTreeMap<(String, String), ComparedParts>,
 }
 
 impl Base {
@@ -232,7 +232,7 @@ impl Base {
             })
         });
         Self {
-            said: all.collect(),
+            parts: all.collect(),
         }
     }
 }
@@ -261,15 +261,15 @@ struct Update<'s> {
 }
 
 impl Update<'_> {
-    fn said_before(&self, tier: &str, id: &str) -> Option<&ComparedParts> {
+    fn parts_before(&self, tier: &str, id: &str) -> Option<&ComparedParts> {
         let key = (tier.to_owned(), id.to_owned());
-        self.base.as_ref()?.said.get(&key)
+        self.base.as_ref()?.parts.get(&key)
     }
 
     /// Reports whether a row was added or edited in the corpus.
     fn is_own(&self, tier: &str, row: &AnnotationRow) -> bool {
         let known = row.external_id.as_deref();
-        match known.and_then(|id| self.said_before(tier, id)) {
+        match known.and_then(|id| self.parts_before(tier, id)) {
             Some(before) => ComparedParts::in_corpus(row, &self.names) != *before,
             None => known.is_none() || self.base.is_some(),
         }
@@ -359,7 +359,7 @@ impl Update<'_> {
         free: bool,
     ) -> Result<Option<i64>> {
         let name = new.external_id.clone().unwrap_or_default();
-        let before = self.said_before(tier, &name).cloned();
+        let before = self.parts_before(tier, &name).cloned();
         if self.sides.merge {
             if before.as_ref() == Some(theirs) {
                 return Ok(None);
@@ -400,7 +400,7 @@ impl Update<'_> {
             }
             return Ok(id);
         }
-        let base = self.said_before(tier, new.external_id.as_deref().unwrap_or_default());
+        let base = self.parts_before(tier, new.external_id.as_deref().unwrap_or_default());
         let base = base.cloned();
         let lost = ComparedParts::is_lost(&mine, base.as_ref(), theirs);
         let mut take = [true; 3];
@@ -473,7 +473,7 @@ impl Update<'_> {
     /// Removes an annotation that the file no longer has, together with its children.
     fn remove(&mut self, job: &Job<'_>, tier: &str, row: &AnnotationRow) -> Result<()> {
         let before = row.external_id.as_deref();
-        let before = before.and_then(|id| self.said_before(tier, id)).cloned();
+        let before = before.and_then(|id| self.parts_before(tier, id)).cloned();
         let mine = ComparedParts::in_corpus(row, &self.names);
         let own = match &before {
             Some(before) => mine != *before,

@@ -24,7 +24,7 @@ pub(in crate::import) fn tier_inventory(
     let Some(TierRole::Component { component, feature }) = &guess.role else {
         return Ok(None);
     };
-    let said: BTreeSet<&str> = tier
+    let used: BTreeSet<&str> = tier
         .annotations
         .iter()
         .map(|annotation| annotation.value.trim())
@@ -34,7 +34,7 @@ pub(in crate::import) fn tier_inventory(
         let it = &stored.inventory;
         it.component == *component
             && it.feature == *feature
-            && it.distinguishes(said.iter().copied())
+            && it.distinguishes(used.iter().copied())
     };
     let vocabulary = tier.vocabulary.as_ref().and_then(|id| {
         transcript
@@ -52,7 +52,7 @@ pub(in crate::import) fn tier_inventory(
         .iter()
         .filter(builtin)
         .find(|it| fits(it) && listed(it));
-    if let Some(known) = known.filter(|_| vocabulary.is_some() || !said.is_empty()) {
+    if let Some(known) = known.filter(|_| vocabulary.is_some() || !used.is_empty()) {
         return Ok(Some(known.id));
     }
     match vocabulary {
@@ -73,7 +73,7 @@ pub(in crate::import) fn tier_inventory(
             job.inventories = inventories::load(job.connection)?.into();
             Ok(Some(id))
         }
-        None if said.is_empty() => Ok(None),
+        None if used.is_empty() => Ok(None),
         None => Ok(job.inventories.iter().find(fits).map(|stored| stored.id)),
     }
 }

@@ -13,7 +13,7 @@ use chereme_sign::hamnosys::{Act, Nonmanual, NonmanualPart, NonmanualTier, TierK
 pub(in super::super) fn read_nonmanual(
     element: &Element<'_>,
     findings: &mut Findings,
-    said: &mut Nonmanual,
+    nonmanual: &mut Nonmanual,
 ) {
     Node::new(element, findings).finish();
     for child in &element.children {
@@ -25,7 +25,7 @@ pub(in super::super) fn read_nonmanual(
         if tier.is_empty() {
             continue;
         }
-        if let Some(known) = said.tiers.get_mut(&kind) {
+        if let Some(known) = nonmanual.tiers.get_mut(&kind) {
             findings.add("tiers said twice", || {
                 let message = format!(
                     "<{}> stands twice; the second follows the first",
@@ -35,7 +35,7 @@ pub(in super::super) fn read_nonmanual(
             });
             known.groups.extend(tier.groups);
         } else {
-            said.tiers.insert(kind, tier);
+            nonmanual.tiers.insert(kind, tier);
         }
     }
 }
@@ -160,9 +160,9 @@ fn tag<'e>(node: &mut Node<'e, '_>, part: NonmanualPart) -> Option<&'e str> {
 }
 
 /// Returns `sign_nonmanual`.
-pub(in super::super) fn write_nonmanual(said: &Nonmanual) -> Element<'static> {
+pub(in super::super) fn write_nonmanual(nonmanual: &Nonmanual) -> Element<'static> {
     let mut whole = Element::new("sign_nonmanual");
-    for (kind, tier) in &said.tiers {
+    for (kind, tier) in &nonmanual.tiers {
         let mut element = Element::new(kind.word());
         element.word("presynchronization", tier.start);
         element.word("postsynchronization", tier.end);

@@ -65,13 +65,13 @@ impl<'e> Reader<'e> {
     }
 
     fn merge(&mut self, own: Posture, element: &Element<'_>, findings: &mut Findings) {
-        let said = &mut self.posture;
-        let twice = over(&mut said.shape, own.shape)
-            | over(&mut said.extended, own.extended)
-            | over(&mut said.palm, own.palm)
-            | (own.place.is_some() && said.place.is_some());
+        let posture = &mut self.posture;
+        let twice = over(&mut posture.shape, own.shape)
+            | over(&mut posture.extended, own.extended)
+            | over(&mut posture.palm, own.palm)
+            | (own.place.is_some() && posture.place.is_some());
         if own.place.is_some() {
-            said.place = own.place;
+            posture.place = own.place;
         }
         if twice {
             let parent = &self.parent.name;
@@ -93,12 +93,12 @@ fn shared<T>(one: Option<T>) -> Each<T> {
 }
 
 /// Replaces a value unless the new one is unset; returns whether it replaced one.
-fn over<T>(said: &mut Each<T>, own: Each<T>) -> bool {
+fn over<T>(target: &mut Each<T>, own: Each<T>) -> bool {
     if own.is_unset() {
         return false;
     }
-    let twice = !said.is_unset();
-    *said = own;
+    let twice = !target.is_unset();
+    *target = own;
     twice
 }
 
@@ -300,8 +300,8 @@ fn split_place(element: &Element<'_>, findings: &mut Findings) -> Place {
     for child in &element.children {
         if is_place(&child.name) && halves.len() < 2 {
             let place = read_place(child, findings);
-            let said = place != Place::Hand(HandSite::default());
-            halves.push(said.then(|| Box::new(place)));
+            let is_stated = place != Place::Hand(HandSite::default());
+            halves.push(is_stated.then(|| Box::new(place)));
         } else {
             unexpected(child, element, findings);
         }

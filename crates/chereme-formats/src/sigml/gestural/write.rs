@@ -110,7 +110,7 @@ fn posture_elements(posture: &Posture) -> Vec<Element<'static>> {
     elements
 }
 
-fn each<T>(said: &Each<T>, write: impl Fn(&T, &mut Element<'static>)) -> Option<Element<'static>> {
+fn each<T>(value: &Each<T>, write: impl Fn(&T, &mut Element<'static>)) -> Option<Element<'static>> {
     let hand = |one: Option<&T>| {
         let mut element = Element::new("handconfig");
         if let Some(one) = one {
@@ -118,7 +118,7 @@ fn each<T>(said: &Each<T>, write: impl Fn(&T, &mut Element<'static>)) -> Option<
         }
         element
     };
-    match said {
+    match value {
         Each::Unset => None,
         Each::Shared(one) => Some(hand(Some(one))),
         Each::Split(dominant, other) => {

@@ -115,11 +115,11 @@ impl<'s, 'i> Hands<'s, 'i> {
     }
 
     fn posture(&mut self, posture: &Posture, acting: Acting, lost: &mut Lost) {
-        for (dominant, said) in of_hands(&posture.shape, acting) {
-            let value = self.shapes.nearest(said.0, lost);
+        for (dominant, notated) in of_hands(&posture.shape, acting) {
+            let value = self.shapes.nearest(notated.0, lost);
             let hand = self.hand(dominant);
             hand.acts = true;
-            hand.shape = Some(said.0.clone());
+            hand.shape = Some(notated.0.clone());
             hand.shapes.extend(value.map(|value| vec![value]));
         }
         for (dominant, (aim, symmetry)) in of_hands(&posture.extended, acting) {
@@ -263,8 +263,8 @@ impl<'s, 'i> Hands<'s, 'i> {
             steps[usize::from(!dominant)].push(Step::of(Value::exact(kind)));
         }
         let turned =
-            |said: &mut dyn Iterator<Item = bool>, word: &str, steps: &mut [Vec<Step>; 2]| {
-                for dominant in said {
+            |changes: &mut dyn Iterator<Item = bool>, word: &str, steps: &mut [Vec<Step>; 2]| {
+                for dominant in changes {
                     let own = &mut steps[usize::from(!dominant)];
                     let step = Step::of(Value::near(word));
                     match own.last_mut() {
@@ -290,14 +290,14 @@ impl<'s, 'i> Hands<'s, 'i> {
 
 /// Returns each hand's notated value, with the symmetry that applies to it.
 fn of_hands<T>(
-    said: &Each<T>,
+    notated: &Each<T>,
     acting: Acting,
 ) -> impl Iterator<Item = (bool, (&T, Option<Symmetry>))> {
-    let shared = match said {
+    let shared = match notated {
         Each::Shared(one) => Some(one),
         _ => None,
     };
-    let split = match said {
+    let split = match notated {
         Each::Split(dominant, other) => [(true, dominant.as_ref()), (false, other.as_ref())],
         _ => [(true, None), (false, None)],
     };

@@ -142,7 +142,7 @@ impl<'i> Mapper<'i> {
         lost: &mut Lost,
     ) {
         let known = self.words.get(&(component, feature));
-        let mut said: Vec<Vec<(&str, bool)>> = Vec::new();
+        let mut written: Vec<Vec<(&str, bool)>> = Vec::new();
         for step in steps {
             let mut own = Vec::new();
             for value in step {
@@ -162,12 +162,12 @@ impl<'i> Mapper<'i> {
                 let ids = |(a, b): (&(&str, bool), &(&str, bool))| a.0 == b.0;
                 before.len() == own.len() && before.iter().zip(&own).all(ids)
             };
-            if !own.is_empty() && !said.last().is_some_and(same) {
-                said.push(own);
+            if !own.is_empty() && !written.last().is_some_and(same) {
+                written.push(own);
             }
         }
-        let last = said.len().saturating_sub(1);
-        for (at, step) in said.iter().enumerate() {
+        let last = written.len().saturating_sub(1);
+        for (at, step) in written.iter().enumerate() {
             let phase = match at {
                 _ if last == 0 => None,
                 0 => Some(Phase::Initial),
@@ -230,9 +230,9 @@ impl Lost {
 }
 
 /// Returns the successive values of each feature of face and body.
-fn nonmanual(said: &Nonmanual, lost: &mut Lost) -> BTreeMap<&'static str, Vec<Vec<Value>>> {
+fn nonmanual(notated: &Nonmanual, lost: &mut Lost) -> BTreeMap<&'static str, Vec<Vec<Value>>> {
     let mut features: BTreeMap<&'static str, Vec<Vec<Value>>> = BTreeMap::new();
-    for (_, act) in said.acts() {
+    for (_, act) in notated.acts() {
         let (feature, value) = match act.part {
             NonmanualPart::Shoulders => ("shoulders", act.code()),
             NonmanualPart::Body => ("body", act.code()),

@@ -146,20 +146,20 @@ fn bend_cost(a: Option<Bend>, b: Option<Bend>) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs() / 4.0).sum()
 }
 
-fn form_cost(said: &Form, known: &Form) -> f64 {
-    let class = if said.class == known.class {
+fn form_cost(notated: &Form, known: &Form) -> f64 {
+    let class = if notated.class == known.class {
         0.0
-    } else if group(said.class) == group(known.class) {
+    } else if group(notated.class) == group(known.class) {
         6.0
     } else {
         20.0
     };
-    let thumb = if thumb(said) == thumb(known) {
+    let thumb = if thumb(notated) == thumb(known) {
         0.0
     } else {
         1.2
     };
-    class + thumb + bend_cost(said.bend, known.bend)
+    class + thumb + bend_cost(notated.bend, known.bend)
 }
 
 /// Returns the thumb's position if it matters for the class: a cee has an opening instead, and a pinch has
@@ -191,28 +191,28 @@ fn group(class: HandClass) -> u8 {
 }
 
 /// Returns the penalty for different selected, bent and crossed fingers.
-fn finger_cost(said: &Handshape, known: &Handshape) -> f64 {
-    let both = |digit: &Digit| said.special.contains(*digit) != known.special.contains(*digit);
+fn finger_cost(notated: &Handshape, known: &Handshape) -> f64 {
+    let both = |digit: &Digit| notated.special.contains(*digit) != known.special.contains(*digit);
     let special = Digit::ALL.iter().filter(|digit| both(digit)).count() as f64;
-    let bends: f64 = said
+    let bends: f64 = notated
         .bends
         .iter()
         .zip(&known.bends)
-        .map(|(said, known)| bend_cost(*said, *known))
+        .map(|(notated, known)| bend_cost(*notated, *known))
         .sum();
     let crossed = |shape: &Handshape| {
         let pair = shape.contacts.first()?;
         let (a, b) = (pair.first.min(pair.second), pair.first.max(pair.second));
         Some((a, b))
     };
-    let contacts = if crossed(said) == crossed(known) {
+    let contacts = if crossed(notated) == crossed(known) {
         0.0
     } else {
         2.5
     };
-    let unknown = said.exempt.0.len() as f64 * 0.3
-        + if said.opposed.is_some() { 0.3 } else { 0.0 }
-        + if said.thumb.is_some() { 0.3 } else { 0.0 };
+    let unknown = notated.exempt.0.len() as f64 * 0.3
+        + if notated.opposed.is_some() { 0.3 } else { 0.0 }
+        + if notated.thumb.is_some() { 0.3 } else { 0.0 };
     special * 1.5 + bends * 0.6 + contacts + unknown
 }
 

@@ -16,7 +16,7 @@ use crate::words::{fill, import as words, shell};
 
 /// Shows the interpretation of a file.
 pub(super) fn show(
-    said: &mut ImportCorrections,
+    corrections: &mut ImportCorrections,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     file: &FileReport,
@@ -63,13 +63,13 @@ pub(super) fn show(
                     }
                 });
             }
-            understood(said, ui, seen, file, dry);
+            understood(corrections, ui, seen, file, dry);
             findings(ui, seen, file);
         });
 }
 
 fn understood(
-    said: &mut ImportCorrections,
+    corrections: &mut ImportCorrections,
     ui: &mut Ui,
     seen: &PaneInput<'_>,
     file: &FileReport,
@@ -95,7 +95,7 @@ fn understood(
         });
     }
     if dry {
-        joints(said, ui, seen, file);
+        joints(corrections, ui, seen, file);
     }
     let tiers = data::tiers(file);
     if !tiers.is_empty() {
@@ -108,7 +108,7 @@ fn understood(
                     let label = ui.add(eframe::egui::Label::new(&guess.name).truncate());
                     label.on_hover_text(&guess.why);
                     if dry {
-                        tier(said, ui, seen, guess);
+                        tier(corrections, ui, seen, guess);
                     } else {
                         ui.label(tier_box::role_text(&guess.role, seen));
                     }
@@ -123,8 +123,13 @@ fn understood(
 }
 
 /// Shows the role of a tier, which can be changed.
-fn tier(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>, guess: &data::Guess) {
-    let chosen = said.tiers.get(&guess.name).cloned();
+fn tier(
+    corrections: &mut ImportCorrections,
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    guess: &data::Guess,
+) {
+    let chosen = corrections.tiers.get(&guess.name).cloned();
     let now = chosen.clone().unwrap_or_else(|| guess.role.clone());
     let shown = if now.is_empty() {
         seen.say(words::NOT_KNOWN).to_owned()
@@ -144,7 +149,9 @@ fn tier(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>, guess: 
         for role in data::offered_roles() {
             let text = tier_box::role_text(role, seen);
             if ui.selectable_label(now == role, text).clicked() {
-                said.tiers.insert(guess.name.clone(), role.to_owned());
+                corrections
+                    .tiers
+                    .insert(guess.name.clone(), role.to_owned());
             }
         }
     });
@@ -160,7 +167,12 @@ fn pointed(file: &FileReport) -> Id {
 }
 
 /// Shows the joint of each part of the body, which can be changed; goes to the part that was clicked on the body.
-fn joints(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>, file: &FileReport) {
+fn joints(
+    corrections: &mut ImportCorrections,
+    ui: &mut Ui,
+    seen: &PaneInput<'_>,
+    file: &FileReport,
+) {
     let rows = data::joint_rows(file);
     if rows.is_empty() {
         return;
@@ -183,11 +195,11 @@ fn joints(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>, file:
             .num_columns(2)
             .show(ui, |ui| {
                 for (at, (part, joint)) in rows.iter().enumerate() {
-                    let changed = said.joints.contains_key(part);
+                    let changed = corrections.joints.contains_key(part);
                     let named = people::part(part, seen.language);
                     let name = RichText::new(&named).small();
                     ui.label(if changed { name.strong() } else { name });
-                    let mut text = said.joints.get(part).unwrap_or(joint).clone();
+                    let mut text = corrections.joints.get(part).unwrap_or(joint).clone();
                     let label = fill(seen.say(words::JOINT_OF), &[("part", &named)]);
                     let line = Line {
                         name: &label,
@@ -205,9 +217,9 @@ fn joints(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>, file:
                     }
                     if typed.changed {
                         if text == *joint {
-                            said.joints.remove(part);
+                            corrections.joints.remove(part);
                         } else {
-                            said.joints.insert(part.clone(), text);
+                            corrections.joints.insert(part.clone(), text);
                         }
                     }
                     ui.end_row();
@@ -227,8 +239,8 @@ fn findings(ui: &mut Ui, seen: &PaneInput<'_>, file: &FileReport) {
             Some(line) => format!("{}: ", fill(seen.say(words::LINE), &[("n", &line)])),
             None => String::new(),
         };
-        let said = people::remark(&finding.message, seen.language);
-        let text = RichText::new(format!("{place}{said}"))
+        let message = people::remark(&finding.message, seen.language);
+        let text = RichText::new(format!("{place}{message}"))
             .small()
             .color(colour);
         ui.label(text);

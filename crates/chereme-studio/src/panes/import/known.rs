@@ -49,7 +49,7 @@ impl ImportCorrections {
 }
 
 /// Shows the corrections that the user can make.
-pub(super) fn show(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>) {
+pub(super) fn show(corrections: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>) {
     CollapsingHeader::new(seen.say(words::KNOWN_BETTER))
         .id_salt("known")
         .show(ui, |ui| {
@@ -67,7 +67,7 @@ pub(super) fn show(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'
                     ui,
                     Id::unique("import signer"),
                     line,
-                    &mut said.signer,
+                    &mut corrections.signer,
                     &candidates,
                 );
                 typed.response.labelled_by(label.id);
@@ -77,7 +77,7 @@ pub(super) fn show(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'
                     (Some("right"), words::RIGHT),
                     (Some("left"), words::LEFT),
                 ];
-                list(ui, seen, words::HANDEDNESS, &mut said.hand, &hands);
+                list(ui, seen, words::HANDEDNESS, &mut corrections.hand, &hands);
                 let units = [
                     (None, words::AS_UNDERSTOOD),
                     (Some(1.0), words::METRES),
@@ -85,15 +85,27 @@ pub(super) fn show(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'
                     (Some(0.001), words::MILLIMETRES),
                     (Some(0.0254), words::INCHES),
                 ];
-                list(ui, seen, words::UNIT, &mut said.metres_per_unit, &units);
-                axes(ui, seen, &mut said.axes);
+                list(
+                    ui,
+                    seen,
+                    words::UNIT,
+                    &mut corrections.metres_per_unit,
+                    &units,
+                );
+                axes(ui, seen, &mut corrections.axes);
                 let edits = [
                     (OwnEdits::Ask, words::EDITS_ASK),
                     (OwnEdits::Merge, words::EDITS_MERGE),
                     (OwnEdits::Theirs, words::EDITS_THEIRS),
                     (OwnEdits::Mine, words::EDITS_MINE),
                 ];
-                list(ui, seen, words::OWN_EDITS, &mut said.own_edits, &edits);
+                list(
+                    ui,
+                    seen,
+                    words::OWN_EDITS,
+                    &mut corrections.own_edits,
+                    &edits,
+                );
                 let label = ui.label(seen.say(words::LICENCE));
                 let none = |_: &str| Vec::new();
                 let line = Line {
@@ -104,22 +116,22 @@ pub(super) fn show(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'
                     ui,
                     Id::unique("import licence"),
                     line,
-                    &mut said.licence,
+                    &mut corrections.licence,
                     &none,
                 );
                 typed.response.labelled_by(label.id);
                 ui.end_row();
             });
-            ui.checkbox(&mut said.mend_root, seen.say(words::MEND_ROOT));
+            ui.checkbox(&mut corrections.mend_root, seen.say(words::MEND_ROOT));
         });
-    joints(said, ui, seen);
+    joints(corrections, ui, seen);
 }
 
 /// Shows the joints that the user named, each with a button that forgets it, even if the files were refused because of
 /// them.
-fn joints(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>) {
+fn joints(corrections: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>) {
     let mut forgotten = None;
-    for (part, joint) in &said.joints {
+    for (part, joint) in &corrections.joints {
         ui.horizontal(|ui| {
             let joint = if joint.trim().is_empty() {
                 seen.say(words::NO_JOINT)
@@ -137,7 +149,7 @@ fn joints(said: &mut ImportCorrections, ui: &mut Ui, seen: &PaneInput<'_>) {
         });
     }
     if let Some(part) = forgotten {
-        said.joints.remove(&part);
+        corrections.joints.remove(&part);
     }
 }
 
@@ -202,11 +214,11 @@ mod tests {
             OwnEdits::Ask
         );
         for own_edits in [OwnEdits::Merge, OwnEdits::Theirs, OwnEdits::Mine] {
-            let said = ImportCorrections {
+            let corrections = ImportCorrections {
                 own_edits,
                 ..ImportCorrections::default()
             };
-            assert_eq!(said.options(false).own_edits, own_edits);
+            assert_eq!(corrections.options(false).own_edits, own_edits);
         }
     }
 }

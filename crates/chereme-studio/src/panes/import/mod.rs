@@ -32,7 +32,7 @@ pub(crate) struct Import {
     /// The dropped or chosen files, if there are several.
     dropped: Vec<PathBuf>,
     paths: Paths,
-    said: ImportCorrections,
+    corrections: ImportCorrections,
     /// The corrections at the last examination of the files.
     looked: ImportCorrections,
     asked: Option<WorkId>,
@@ -79,8 +79,8 @@ impl Import {
         if let Some(old) = self.asked.take() {
             out.send(Command::Stop(old));
         }
-        let options = Box::new(self.said.options(dry_run));
-        self.looked = self.said.clone();
+        let options = Box::new(self.corrections.options(dry_run));
+        self.looked = self.corrections.clone();
         (self.wrong, self.stopped) = (None, false);
         self.asked = Some(out.work(Work::Import(self.files(), options)));
     }
@@ -150,7 +150,7 @@ impl Import {
         }
         let ready = !self.files().is_empty();
         let looked = self.report.as_ref().is_some_and(|report| report.dry_run);
-        let changed = looked && self.looked != self.said;
+        let changed = looked && self.looked != self.corrections;
         ui.horizontal_wrapped(|ui| {
             let text = if looked {
                 words::LOOK_AGAIN
@@ -204,7 +204,14 @@ impl Import {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let open = report.files.len() <= 2;
             for file in data::in_order(&report) {
-                files::show(&mut self.said, ui, seen, file, (open, report.dry_run), out);
+                files::show(
+                    &mut self.corrections,
+                    ui,
+                    seen,
+                    file,
+                    (open, report.dry_run),
+                    out,
+                );
             }
         });
         self.report = Some(report);
@@ -225,12 +232,12 @@ impl Pane for Import {
                 (self.merged, self.wrong, self.stopped) = (None, None, false);
             }
         } else {
-            known::show(&mut self.said, ui, seen);
+            known::show(&mut self.corrections, ui, seen);
             self.buttons(ui, seen, out);
         }
         if let Some((wrong, remedy)) = &self.wrong {
-            let said = spoken(wrong, seen.language);
-            ui.label(RichText::new(said).color(seen.colours().trouble));
+            let message = spoken(wrong, seen.language);
+            ui.label(RichText::new(message).color(seen.colours().trouble));
             let remedy = remedy
                 .as_ref()
                 .and_then(|it| remedy::here(it, seen.language));

@@ -87,8 +87,8 @@ fn lines(report: &MergeReport, say: &dyn Fn(crate::words::Text) -> &'static str)
         let counts = counts.map(|(kind, count)| format!("{count} × {}", say(merge::kind(kind))));
         counts.collect::<Vec<_>>().join(", ")
     };
-    let said = kinds.into_iter().filter(|(_, counts)| !counts.is_empty());
-    let lines: Vec<String> = said
+    let changed = kinds.into_iter().filter(|(_, counts)| !counts.is_empty());
+    let lines: Vec<String> = changed
         .map(|(text, counts)| fill(say(text), &[("what", &counted(counts))]))
         .collect();
     if lines.is_empty() {

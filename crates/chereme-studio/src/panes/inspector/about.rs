@@ -8,7 +8,7 @@ use chereme_motion::{Instant, Side};
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Sense, Ui, vec2};
 
 use super::data;
-use super::edit::{choice, grid, line, notes, offered, said, title};
+use super::edit::{choice, grid, line, name_and_value, notes, offered, title};
 use super::ui::{lines, link};
 use super::{Inspector, Thing};
 use crate::command::Command;
@@ -109,24 +109,24 @@ pub(super) fn recording_more(
 ) {
     grid(ui, "recording file", |ui| {
         if let Some(metres) = it.metres_per_unit {
-            said(ui, seen, words::UNITS, &data::metres(metres));
+            name_and_value(ui, seen, words::UNITS, &data::metres(metres));
         }
         if let Some(axes) = &it.axes {
             let axes = match axes.parse() {
                 Ok(axes) => people::axes(axes, seen.language),
                 Err(_) => axes.clone(),
             };
-            said(ui, seen, words::AXES, &axes);
+            name_and_value(ui, seen, words::AXES, &axes);
         }
         if !it.files.is_empty() {
             let files: Vec<&str> = it.files.iter().map(|(_, name)| name.as_str()).collect();
-            said(ui, seen, words::FILES, &files.join(", "));
+            name_and_value(ui, seen, words::FILES, &files.join(", "));
         }
         if let Some(engine) = &it.engine {
-            said(ui, seen, words::ENGINE, engine);
+            name_and_value(ui, seen, words::ENGINE, engine);
         }
         if it.joints > 0 {
-            said(ui, seen, words::JOINTS, &it.joints.to_string());
+            name_and_value(ui, seen, words::JOINTS, &it.joints.to_string());
         }
     });
     tracks(ui, seen, it);
@@ -406,12 +406,12 @@ pub(super) fn value(
         crate::words::Language::French => "fr",
     };
     grid(ui, "value", |ui| {
-        said(ui, seen, words::INVENTORY, &stored.id);
+        name_and_value(ui, seen, words::INVENTORY, &stored.id);
         if let Some(name) = value.names.get(code) {
-            said(ui, seen, words::NAME, name);
+            name_and_value(ui, seen, words::NAME, name);
         }
         if !value.aliases.is_empty() {
-            said(ui, seen, words::ALIASES, &value.aliases.join(", "));
+            name_and_value(ui, seen, words::ALIASES, &value.aliases.join(", "));
         }
         if let Some(broader) = &value.broader {
             ui.weak(seen.say(words::BROADER));
@@ -420,12 +420,12 @@ pub(super) fn value(
         }
         if !value.features.is_empty() {
             let all: Vec<&str> = value.features.iter().map(String::as_str).collect();
-            said(ui, seen, words::FEATURES, &all.join(", "));
+            name_and_value(ui, seen, words::FEATURES, &all.join(", "));
         }
         if let Some(notes) = &value.notes {
-            said(ui, seen, words::NOTES, notes);
+            name_and_value(ui, seen, words::NOTES, notes);
         }
-        said(ui, seen, words::USES, &uses.to_string());
+        name_and_value(ui, seen, words::USES, &uses.to_string());
     });
     if let Some(text) = &value.hamnosys {
         super::token::hamnosys(ui, seen, text);

@@ -8,7 +8,7 @@ use crate::script::edit;
 use crate::words::{Text, inspector as words};
 
 /// Shows a name and a value.
-pub(super) fn said(ui: &mut Ui, seen: &PaneInput<'_>, text: Text, value: &str) {
+pub(super) fn name_and_value(ui: &mut Ui, seen: &PaneInput<'_>, text: Text, value: &str) {
     let name = RichText::new(seen.say(text)).weak();
     ui.add(eframe::egui::Label::new(name).extend());
     ui.add(eframe::egui::Label::new(value).wrap());

@@ -4,7 +4,7 @@ use chereme_corpus::{Hands, Stereotype, StoredInventory, TierChange, TierName, T
 use eframe::egui::{Id, Ui};
 
 use super::data;
-use super::edit::{choice, grid, line, said};
+use super::edit::{choice, grid, line, name_and_value};
 use crate::context::{Outbox, PaneInput};
 use crate::words::{fill, inspector as words};
 use crate::work::Work;
@@ -31,7 +31,7 @@ pub(super) fn show(
                 },
             );
         }
-        said(ui, seen, words::ROLE, &row.role.name());
+        name_and_value(ui, seen, words::ROLE, &row.role.name());
         if let Some(hand) = choice(ui, seen, words::HAND, &row.hand, &hands(seen)) {
             let hand = Some(hand);
             change(
@@ -78,7 +78,7 @@ pub(super) fn show(
                 .stereotype
                 .map_or("", Stereotype::elan_name)
                 .replace('_', " ");
-            said(
+            name_and_value(
                 ui,
                 seen,
                 words::PARENT,
@@ -90,12 +90,12 @@ pub(super) fn show(
             (words::ANNOTATOR, &row.annotator),
         ] {
             if let Some(value) = value {
-                said(ui, seen, text, value);
+                name_and_value(ui, seen, text, value);
             }
         }
         let (n, values) = data::tier_counts(tier);
         let counts: [(&str, &dyn std::fmt::Display); 2] = [("n", &n), ("values", &values)];
-        said(
+        name_and_value(
             ui,
             seen,
             words::COUNT,

@@ -4,7 +4,7 @@ use chereme_corpus::{Address, TokenDetails};
 use chereme_motion::{Instant, Span};
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Ui};
 
-use super::edit::{field, grid, said};
+use super::edit::{field, grid, name_and_value};
 use super::ui::{link, set, span_text, values_like};
 use super::{Inspector, Thing, data, notation};
 use crate::command::Command;
@@ -30,11 +30,11 @@ pub(super) fn show(
         link(it, ui, &row.gloss, Thing::Sign(row.sign_id));
         ui.end_row();
         let origin = seen.say(origin_text(row.origin));
-        said(ui, seen, words::ORIGIN, origin);
+        name_and_value(ui, seen, words::ORIGIN, origin);
         if let Some((start, end)) = row.start_us.zip(row.end_us) {
             let micros = Instant::from_micros;
             let span = Span::between(micros(start), micros(end));
-            said(ui, seen, words::SPAN, &span_text(span));
+            name_and_value(ui, seen, words::SPAN, &span_text(span));
         }
         ui.weak(seen.say(words::CITATION));
         if row.citation {
@@ -45,7 +45,7 @@ pub(super) fn show(
         ui.end_row();
         coding(it, ui, seen, token, out);
         if let Some(recipe) = &token.recipe {
-            said(ui, seen, words::RECIPE, &seen.snapshot.named(recipe));
+            name_and_value(ui, seen, words::RECIPE, &seen.snapshot.named(recipe));
         }
         if !token.made_from.is_empty() {
             ui.weak(seen.say(words::MADE_FROM));

@@ -9,7 +9,7 @@ use eframe::egui::{CollapsingHeader, Id, RichText, TextStyle, TextWrapMode, Ui, 
 
 use super::about::{self, recording, recording_more, signer, signer_more};
 use super::data::{self, Line};
-use super::edit::{grid, line, offered, said, title};
+use super::edit::{grid, line, name_and_value, offered, title};
 use super::{Inspector, Thing};
 use crate::context::{Outbox, PaneInput};
 use crate::model::Found;
@@ -21,7 +21,7 @@ use crate::work::Work;
 pub(super) fn lines(ui: &mut Ui, seen: &PaneInput<'_>, id: &str, lines: &[Line]) {
     grid(ui, id, |ui| {
         for (text, value) in lines {
-            said(ui, seen, *text, value);
+            name_and_value(ui, seen, *text, value);
         }
     });
 }
@@ -233,7 +233,7 @@ fn annotation(ui: &mut Ui, seen: &PaneInput<'_>, found: Found<'_>, out: &mut Out
             }
         }
         if let Some(sure) = columns.confidences[at] {
-            said(
+            name_and_value(
                 ui,
                 seen,
                 words::CONFIDENCE,
@@ -244,7 +244,7 @@ fn annotation(ui: &mut Ui, seen: &PaneInput<'_>, found: Found<'_>, out: &mut Out
             let text = value_text(&above.tier.annotations, above.at, |state| {
                 missing(seen, state)
             });
-            said(
+            name_and_value(
                 ui,
                 seen,
                 words::PARENT,
@@ -252,7 +252,7 @@ fn annotation(ui: &mut Ui, seen: &PaneInput<'_>, found: Found<'_>, out: &mut Out
             );
         }
         if let Some(annotator) = &row.annotator {
-            said(ui, seen, words::ANNOTATOR, annotator);
+            name_and_value(ui, seen, words::ANNOTATOR, annotator);
         }
     });
 }

@@ -219,7 +219,7 @@ fn facet(
         let coded = inventory.and_then(|it| it.get(value));
         let said = said
             .map(|text| seen.say(text))
-            .or_else(|| coded.map(|it| pickers::data::said(it, seen.language)))
+            .or_else(|| coded.map(|it| pickers::data::short_name(it, seen.language)))
             .unwrap_or(value);
         let at = rect.right_center() - vec2(6.0, 0.0);
         let weak = ui.visuals().weak_text_color();

@@ -172,7 +172,7 @@ pub(super) fn show(
     let stored = scene.inventory(tier);
     let pictured = stored.filter(|it| editing.pictures && edit::has_pictures(&it.inventory));
     if let Some(stored) = pictured {
-        let said = pictures(
+        let asked = pictures(
             timeline,
             ui,
             scene,
@@ -180,20 +180,20 @@ pub(super) fn show(
             (&choices, &digits, below),
         );
         timeline.entry.picker.inspect(scene.seen, out);
-        return done(timeline, (editing, tier), said, out);
+        return done(timeline, (editing, tier), asked, out);
     }
-    let said = field(ui, scene, (&mut editing, tier), (&choices, &digits), below);
-    done(timeline, (editing, tier), said, out);
+    let asked = field(ui, scene, (&mut editing, tier), (&choices, &digits), below);
+    done(timeline, (editing, tier), asked, out);
 }
 
 /// Carries out a key of the field.
 fn done(
     timeline: &mut Timeline,
     (editing, tier): (Editing, &TierContents),
-    said: FieldKey,
+    asked: FieldKey,
     out: &mut Outbox,
 ) {
-    match said {
+    match asked {
         FieldKey::Nothing => timeline.entry.editing = Some(editing),
         FieldKey::Drop => {}
         FieldKey::Keep(value, on) => {
@@ -244,7 +244,7 @@ fn field(
     };
     let fitting = choices.fitting(filter);
     value_list::step(editing, &fitting, up, down);
-    let mut said = FieldKey::Nothing;
+    let mut asked = FieldKey::Nothing;
     let mut turn = false;
     let opened = editing.begun;
     let pictured = scene.inventory(tier);
@@ -266,7 +266,7 @@ fn field(
                 .strip_prefix(before.as_str())
                 .unwrap_or_default();
             if let Some(value) = value_list::picked(&before, typed, choices, digits) {
-                said = FieldKey::Keep(value.to_owned(), false);
+                asked = FieldKey::Keep(value.to_owned(), false);
             }
             if editing.text != before {
                 editing.marked = None;
@@ -278,7 +278,7 @@ fn field(
                 (stored, choices, digits),
                 up || down,
             ) {
-                said = FieldKey::Keep(value, false);
+                asked = FieldKey::Keep(value, false);
             }
         });
     });
@@ -295,7 +295,7 @@ fn field(
             None => FieldKey::Nothing,
         };
     }
-    said
+    asked
 }
 
 /// Shows the values as pictures in place of the field.
@@ -319,7 +319,7 @@ fn pictures(
     let screen = ui.ctx().content_rect();
     let width = pickers::data::width(pickers::data::kind(inventory));
     let width = width.min(screen.width() - 48.0);
-    let mut said = FieldKey::Nothing;
+    let mut asked = FieldKey::Nothing;
     let mut back = false;
     let (area, width) = area(ui, below, vec2(width, f32::INFINITY));
     let shown = area.show(ui.ctx(), |ui| {
@@ -336,20 +336,20 @@ fn pictures(
                 chosen,
             );
             if let Some(value) = picked {
-                said = FieldKey::Keep(value, false);
+                asked = FieldKey::Keep(value, false);
             }
         });
     });
     if back {
         editing.turn_to_pictures();
     }
-    if matches!(said, FieldKey::Nothing) && opened && elsewhere(ui, shown.response.rect) {
+    if matches!(asked, FieldKey::Nothing) && opened && elsewhere(ui, shown.response.rect) {
         return match choices.kept(&editing.text, None) {
             Some(value) => FieldKey::Keep(value, false),
             None => FieldKey::Nothing,
         };
     }
-    said
+    asked
 }
 
 /// Returns the area for the field: below the annotation, or above it if there is more room.

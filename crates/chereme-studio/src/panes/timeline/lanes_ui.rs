@@ -144,8 +144,8 @@ impl Drawing<'_, '_> {
                 ui.visuals().weak_text_color()
             };
             let at = pos2(x, area.center().y);
-            let said = painter.text(at, Align2::LEFT_CENTER, part, font.clone(), colour);
-            x = said.right() + 10.0;
+            let painted = painter.text(at, Align2::LEFT_CENTER, part, font.clone(), colour);
+            x = painted.right() + 10.0;
         }
         let rule = Stroke::new(1.0, self.seen.colours().rule);
         painter.hline(area.x_range(), area.bottom(), rule);
@@ -260,8 +260,8 @@ impl Drawing<'_, '_> {
                 ui.visuals().weak_text_color()
             };
             let at = pos2(x, rect.bottom());
-            let said = painter.text(at, Align2::LEFT_BOTTOM, part, font.clone(), colour);
-            x = said.right() + 8.0;
+            let painted = painter.text(at, Align2::LEFT_BOTTOM, part, font.clone(), colour);
+            x = painted.right() + 8.0;
         }
     }
 

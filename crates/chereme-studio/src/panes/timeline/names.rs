@@ -77,12 +77,12 @@ impl Drawing<'_, '_> {
         let from = pos2(left + 15.0, name.center().y);
         let room = name.right() - 2.0 - from.x;
         let cut = Some(TextWrapMode::Truncate);
-        let said = RichText::new(&tier.row.name).color(text);
-        let said = WidgetText::from(said).into_galley(ui, cut, room, TextStyle::Body);
-        let elided = said.elided;
-        let at = pos2(from.x, from.y - said.size().y / 2.0);
+        let title = RichText::new(&tier.row.name).color(text);
+        let galley = WidgetText::from(title).into_galley(ui, cut, room, TextStyle::Body);
+        let elided = galley.elided;
+        let at = pos2(from.x, from.y - galley.size().y / 2.0);
         ui.painter_at(name.shrink2(vec2(2.0, 0.0)))
-            .galley(at, said, text);
+            .galley(at, galley, text);
         if elided {
             response.on_hover_text(&tier.row.name);
         }

@@ -71,7 +71,7 @@ pub(super) fn bar_text(tier: &TierContents, bar: &Bar, seen: &PaneInput<'_>) -> 
     let stored = all.find(|it| Some(it.id) == tier.row.inventory_id);
     let value = stored.and_then(|it| it.inventory.get(text));
     value
-        .map_or(text, |it| pickers::said(it, seen.language))
+        .map_or(text, |it| pickers::short_name(it, seen.language))
         .to_owned()
 }
 

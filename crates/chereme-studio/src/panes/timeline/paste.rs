@@ -37,9 +37,9 @@ pub(super) fn act(
         }
         Action::CopyTime => {
             let text = time_text(scene.seen.shown.player.playhead());
-            let said = fill(scene.seen.say(words::TIME_COPIED), &[("time", &text)]);
+            let message = fill(scene.seen.say(words::TIME_COPIED), &[("time", &text)]);
             out.send(Command::Copy(text));
-            out.send(Command::Say(said));
+            out.send(Command::Say(message));
             Acted::Yes
         }
         Action::Paste | Action::PasteHere => match timeline.boxes.clip.take() {
@@ -61,7 +61,7 @@ fn chosen(scene: &Scene<'_>) -> BTreeSet<i64> {
 }
 
 /// Returns annotations as lines of the clipboard's text, tier by tier.
-fn said_of(contents: &Contents, chosen: &BTreeSet<i64>) -> Vec<CopiedAnnotation> {
+fn copied_rows(contents: &Contents, chosen: &BTreeSet<i64>) -> Vec<CopiedAnnotation> {
     let mut all = Vec::new();
     for tier in &contents.tiers {
         let columns = &tier.annotations;
@@ -84,7 +84,7 @@ fn copy(scene: &Scene<'_>, with_below: bool, out: &mut Outbox) -> Acted {
     if with_below {
         chosen = dragged::with_below(scene.contents, chosen);
     }
-    let all = said_of(scene.contents, &chosen);
+    let all = copied_rows(scene.contents, &chosen);
     let rows = all.iter().map(|it| {
         let tier = it.tier.as_deref().unwrap_or_default();
         (tier, it.start, it.end, it.value.clone())
@@ -247,7 +247,7 @@ fn duplicate(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Ac
     if own.len() < chosen.len() {
         return Acted::Cannot(words::ONE_TIER);
     }
-    let mut all = said_of(scene.contents, &chosen);
+    let mut all = copied_rows(scene.contents, &chosen);
     let end = columns.ends[*last];
     if let [one] = all.as_mut_slice() {
         let until = dragged::limits(scene.contents, scene.frames().is_some()).to;

@@ -42,9 +42,9 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
                 .show(ui, |ui| {
                     for odd in plan.odd.iter().take(MOST) {
                         let what = paste::odd_text(scene, odd);
-                        let said: [(&str, &dyn std::fmt::Display); 2] =
+                        let values: [(&str, &dyn std::fmt::Display); 2] =
                             [("n", &odd.line), ("what", &what)];
-                        ui.add(Label::new(fill(say(words::PASTE_LINE), &said)).wrap());
+                        ui.add(Label::new(fill(say(words::PASTE_LINE), &values)).wrap());
                     }
                     if let Some(more) = plan.odd.len().checked_sub(MOST + 1) {
                         ui.weak(fill(say(words::PASTE_MORE), &[("n", &(more + 1))]));
