@@ -1,6 +1,7 @@
 //! The notes of operators on the signs they generate, and the moment at which a place is measured.
 
 use super::*;
+use crate::LetterStroke;
 use crate::body;
 use crate::recipe::HandPoint;
 use crate::work::Work;
@@ -302,4 +303,16 @@ fn the_second_piece_stands_where_the_first_ends_whatever_is_above_its_hips() {
         let (first, last) = (body(0), body(made.clip.frames() - 1));
         assert!(first.forward.angle_between(last.forward) < 0.5, "{recipe}");
     }
+}
+
+#[test]
+fn strokes_of_letters_keep_their_words_in_stored_answers() {
+    let stroke = LetterStroke {
+        displacement: [0.1, 0.0, 0.2],
+        turn: 0.5,
+    };
+    let text = r#"{"way":[0.1,0.0,0.2],"turn":0.5}"#;
+    assert_eq!(serde_json::to_string(&stroke).expect("written"), text);
+    let read: LetterStroke = serde_json::from_str(text).expect("read");
+    assert_eq!(read, stroke);
 }
