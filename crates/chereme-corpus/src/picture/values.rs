@@ -17,11 +17,12 @@ use super::built_in_body;
 use crate::error::Result;
 
 /// A view of the body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum Panel {
     /// Shoulders to hips, with both arms.
     Trunk,
     /// A close view of the head.
+    #[default]
     Head,
     /// The weak hand alone.
     Hand,
@@ -204,7 +205,9 @@ impl Scene {
             }
             Panel::Space => {
                 let (target, half) = middle(-0.25, 1.12);
-                look(target + forward * 0.12, towards, Vec3::Y, half)
+                // From the side the picture reaches from the back to the far end of the space.
+                let ahead = if turned { 0.56 * half } else { 0.12 };
+                look(target + forward * ahead, towards, Vec3::Y, half)
             }
             Panel::Head => {
                 let half = (top - chin).length() * 0.96;

@@ -18,8 +18,9 @@ use super::places::{self, Zone};
 
 /// Half of the least distance between the middles of two areas, in points.
 const RADIUS: f32 = 9.0;
-/// How far an area extends on the body, and off it, as a share of the picture's height.
+/// How far an area extends on the body, on the head and its surroundings, and off the body, as a share of the picture's height.
 const REACH: f32 = 0.2;
+const ON_HEAD: f32 = 0.11;
 const OFF: f32 = 0.05;
 /// The same in the picture of the space, which has no body to fill.
 const IN_SPACE: f32 = 0.1;
@@ -64,11 +65,12 @@ impl Areas {
     fn of(mut zones: Vec<Zone>, body: &[bool], size: [usize; 2], wanted: &Wanted) -> Self {
         zones.truncate(usize::from(u8::MAX));
         let high = wanted.size.y;
-        let space = wanted.view.0 == Panel::Space;
-        let (on, off) = if space {
-            (IN_SPACE * high, IN_SPACE * high)
-        } else {
-            (REACH * high, (OFF * high).max(RADIUS))
+        let off = (OFF * high).max(RADIUS);
+        let (on, off) = match wanted.view.0 {
+            Panel::Space => (IN_SPACE * high, IN_SPACE * high),
+            // Below the chin the body goes on, which the picture of the trunk shows.
+            Panel::Head => (ON_HEAD * high, off),
+            Panel::Trunk | Panel::Hand => (REACH * high, off),
         };
         let mut ids = vec![0; body.len()];
         let mut bounds = vec![[usize::MAX, usize::MAX, 0, 0]; zones.len()];

@@ -24,46 +24,45 @@ const ROW: f32 = 24.0;
 const FINER: f32 = 1.5;
 /// Height of the line with the name of the highlighted place, in points.
 const NAME: f32 = 26.0;
+/// In less width than this, one picture is shown at a time, with the list below it from this height on, in points.
+const NARROW: f32 = 540.0;
+const HIGH: f32 = 420.0;
+/// The least width of a single line of buttons above the pictures, in points.
+const LINE: f32 = 540.0;
+/// The least height of the list below a picture, in points.
+const LEAST_LIST: f32 = 76.0;
 
-/// The groups of places to choose from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Tab {
-    /// Those on head and body.
-    #[default]
-    Body,
-    /// Those on the weak hand.
-    Hand,
-    /// Those in space.
-    Space,
-}
+/// The groups of places to choose from side by side; the first panel stands for its group.
+const GROUPS: [(&[Panel], Text); 3] = [
+    (&[Panel::Head, Panel::Trunk], words::ON_BODY),
+    (&[Panel::Hand], words::WEAK_HAND),
+    (&[Panel::Space], words::IN_SPACE),
+];
+/// The same one by one.
+const SINGLE: [(&[Panel], Text); 4] = [
+    (&[Panel::Head], words::HEAD),
+    (&[Panel::Trunk], words::TRUNK),
+    (&[Panel::Hand], words::WEAK_HAND),
+    (&[Panel::Space], words::IN_SPACE),
+];
 
-impl Tab {
-    const ALL: [(Self, Text); 3] = [
-        (Self::Body, words::ON_BODY),
-        (Self::Hand, words::WEAK_HAND),
-        (Self::Space, words::IN_SPACE),
-    ];
-
-    fn of(panel: Panel) -> Self {
-        match panel {
-            Panel::Head | Panel::Trunk => Self::Body,
-            Panel::Hand => Self::Hand,
-            Panel::Space => Self::Space,
-        }
-    }
-}
-
-/// Draws the list and the pictures.
+/// Draws the list and the pictures side by side: several pictures, or one of them without room for more. In a narrow and
+/// high area the list is below the picture.
 pub(super) fn show(
     ui: &mut Ui,
     picker: &mut Picker,
     cells: &Cells<'_>,
     shown: &[usize],
 ) -> Option<String> {
-    let listed = (ui.available_width() * 0.26).clamp(110.0, 180.0);
-    let height = (ui.available_height() - 34.0).clamp(220.0, 470.0);
-    let mut picked = None;
     follow(picker, cells);
+    let height = (ui.available_height() - 34.0).max(220.0);
+    let single = ui.available_width() < NARROW;
+    if single && height >= HIGH {
+        return upright(ui, picker, cells, shown, height);
+    }
+    let listed = (ui.available_width() * 0.26).clamp(110.0, 180.0);
+    let height = height.min(470.0);
+    let mut picked = None;
     ui.horizontal_top(|ui| {
         let by_list = ui
             .allocate_ui(vec2(listed, height), |ui| {
@@ -73,13 +72,64 @@ pub(super) fn show(
             .inner;
         let by_picture = ui.vertical(|ui| {
             ui.set_height(height);
-            tabs(ui, picker, cells.seen);
+            let groups = if single { &SINGLE[..] } else { &GROUPS[..] };
+            tabs(ui, picker, cells.seen, groups);
             lit(ui, picker, cells);
-            pictures(ui, picker, cells, shown)
+            let group = groups.iter().find(|(all, _)| all.contains(&picker.panel));
+            let panels = match group {
+                Some((all, _)) if !single => panels(all, picker.turned),
+                _ => vec![(picker.panel, picker.turned, None)],
+            };
+            pictures(ui, picker, cells, shown, &panels)
         });
         picked = by_list.or(by_picture.inner);
     });
     picked
+}
+
+/// Draws one picture, and the list below it.
+fn upright(
+    ui: &mut Ui,
+    picker: &mut Picker,
+    cells: &Cells<'_>,
+    shown: &[usize],
+    height: f32,
+) -> Option<String> {
+    let top = ui.cursor().top();
+    tabs(ui, picker, cells.seen, &SINGLE);
+    lit(ui, picker, cells);
+    let width = ui.available_width();
+    let left = height - (ui.cursor().top() - top) - LEAST_LIST;
+    let by_picture = ui
+        .allocate_ui(vec2(width, left), |ui| {
+            ui.set_max_height(left);
+            // The name of a single picture is on its button already.
+            let panels = [(picker.panel, picker.turned, None)];
+            pictures(ui, picker, cells, shown, &panels)
+        })
+        .inner;
+    let left = (height - (ui.cursor().top() - top)).max(LEAST_LIST);
+    let by_list = ui
+        .allocate_ui(vec2(width, left), |ui| {
+            ui.set_max_height(left);
+            list(ui, picker, cells, shown)
+        })
+        .inner;
+    by_list.or(by_picture)
+}
+
+/// Returns the pictures of some panels, with the direction of view and the name of each.
+fn panels(all: &[Panel], turned: bool) -> Vec<(Panel, bool, Option<Text>)> {
+    let views = |panel: Panel| match panel {
+        Panel::Space => vec![
+            (panel, false, Some(words::SPACE_FRONT)),
+            (panel, true, Some(words::SPACE_SIDE)),
+        ],
+        Panel::Head => vec![(panel, turned, Some(words::HEAD))],
+        Panel::Trunk => vec![(panel, turned, Some(words::TRUNK))],
+        Panel::Hand => vec![(panel, turned, Some(words::WEAK_HAND))],
+    };
+    all.iter().copied().flat_map(views).collect()
 }
 
 /// Switches to the pictures that show the value at the keyboard cursor.
@@ -87,39 +137,50 @@ fn follow(picker: &mut Picker, cells: &Cells<'_>) {
     let walked = cells.pressed.direction.is_some();
     if walked || !picker.filter.is_empty() || std::mem::take(&mut picker.turns) {
         let at = picker.at.as_deref().and_then(|id| cells.inventory.get(id));
-        if let Some(landmark) = at.and_then(|value| value.landmark.as_ref()) {
-            picker.tab = Tab::of(Panel::of(landmark));
+        let found = at.and_then(|value| Some((value, value.landmark.as_ref()?)));
+        if let Some((value, landmark)) = found {
+            picker.panel = Panel::of(landmark);
+            if picker.panel == Panel::Space {
+                picker.depth = depth_of(value);
+            }
         }
     }
 }
 
-fn tabs(ui: &mut Ui, picker: &mut Picker, seen: &PaneInput<'_>) {
-    ui.horizontal(|ui| {
-        for (tab, name) in Tab::ALL {
-            let on = picker.tab == tab;
-            if ui.selectable_label(on, seen.say(name)).clicked() {
-                picker.tab = tab;
+/// Shows the buttons of the groups of places, and those of the direction of view or, in space, of the distance.
+fn tabs(ui: &mut Ui, picker: &mut Picker, seen: &PaneInput<'_>, groups: &[(&[Panel], Text)]) {
+    let single = groups.len() == SINGLE.len();
+    let line = !single && ui.available_width() >= LINE;
+    ui.horizontal_wrapped(|ui| {
+        for (group, name) in groups {
+            let on = group.contains(&picker.panel);
+            if ui.selectable_label(on, seen.say(*name)).clicked() && !on {
+                picker.panel = group.first().copied().unwrap_or_default();
             }
         }
-        ui.separator();
-        if picker.tab == Tab::Space {
-            for (depth, name) in [words::NEAR, words::REACH, words::FAR]
-                .into_iter()
-                .enumerate()
-            {
-                if ui
-                    .selectable_label(picker.depth == depth, seen.say(name))
-                    .clicked()
-                {
+        // Without room for both groups of buttons in one line, they have one each.
+        if line {
+            ui.separator();
+        } else {
+            ui.end_row();
+        }
+        // Single pictures of the space are seen from the side, too.
+        let space = picker.panel == Panel::Space;
+        if space && !(single && picker.turned) {
+            let depths = [words::NEAR, words::REACH, words::FAR];
+            for (depth, name) in depths.into_iter().enumerate() {
+                let on = picker.depth == depth;
+                if ui.selectable_label(on, seen.say(name)).clicked() {
                     picker.depth = depth;
                 }
             }
-        } else {
+        }
+        if !space || single {
             for (turned, name) in [(false, words::FROM_FRONT), (true, words::FROM_SIDE)] {
-                if ui
-                    .selectable_label(picker.turned == turned, seen.say(name))
-                    .clicked()
-                {
+                let on = picker.turned == turned;
+                // In space, the view from the front is the one with the distances.
+                let shown = !space || turned || picker.turned;
+                if shown && ui.selectable_label(on, seen.say(name)).clicked() {
                     picker.turned = turned;
                 }
             }
@@ -197,6 +258,7 @@ fn pictures(
     picker: &mut Picker,
     cells: &Cells<'_>,
     shown: &[usize],
+    panels: &[(Panel, bool, Option<Text>)],
 ) -> Option<String> {
     if places::ready().is_none() {
         gallery::picture(ui.ctx(), key(("scene", 0)), || {
@@ -206,34 +268,35 @@ fn pictures(
         ui.weak(cells.seen.say(words::DRAWING));
         return None;
     }
-    let panels: &[(Panel, bool, Text)] = &match picker.tab {
-        Tab::Space => vec![
-            (Panel::Space, false, words::SPACE_FRONT),
-            (Panel::Space, true, words::SPACE_SIDE),
-        ],
-        Tab::Body => vec![
-            (Panel::Head, picker.turned, words::HEAD),
-            (Panel::Trunk, picker.turned, words::TRUNK),
-        ],
-        Tab::Hand => vec![(Panel::Hand, picker.turned, words::WEAK_HAND)],
-    };
     let gap = 6.0;
     let aspects: f32 = panels.iter().map(|(panel, ..)| panel.aspect()).sum();
-    let room = ui.available_width() - gap * (panels.len() as f32 - 1.0);
-    let height = (room / aspects).min(ui.available_height() - 22.0).max(80.0);
-    let width = aspects * height + gap * (panels.len() as f32 - 1.0);
-    let (area, _) = ui.allocate_exact_size(vec2(width, height + 20.0), Sense::hover());
-    let mut left = area.left();
+    let gaps = gap * (panels.len() as f32 - 1.0);
+    let room = ui.available_width() - gaps;
+    let named = panels.iter().any(|(.., name)| name.is_some());
+    let caption = if named { 20.0 } else { 0.0 };
+    let most = ui.available_height() - caption - 2.0;
+    let height = (room / aspects).min(most).max(80.0);
+    let width = aspects * height + gaps;
+    let (area, _) = ui.allocate_exact_size(vec2(room + gaps, height + caption), Sense::hover());
+    // A single picture is in the middle.
+    let spare = if named {
+        0.0
+    } else {
+        (area.width() - width) / 2.0
+    };
+    let mut left = area.left() + spare.max(0.0);
     let mut picked = None;
     for (panel, turned, name) in panels {
         let size = vec2(panel.aspect() * height, height);
-        let rect = Rect::from_min_size(pos2(left, area.top() + 20.0), size);
+        let rect = Rect::from_min_size(pos2(left, area.top() + caption), size);
         left = rect.right() + gap;
-        let font = TextStyle::Small.resolve(ui.style());
-        let at = pos2(rect.left() + 2.0, rect.top() - 3.0);
-        let weak = ui.visuals().weak_text_color();
-        ui.painter()
-            .text(at, Align2::LEFT_BOTTOM, cells.seen.say(*name), font, weak);
+        if let Some(name) = name {
+            let font = TextStyle::Small.resolve(ui.style());
+            let at = pos2(rect.left() + 2.0, rect.top() - 3.0);
+            let weak = ui.visuals().weak_text_color();
+            ui.painter()
+                .text(at, Align2::LEFT_BOTTOM, cells.seen.say(*name), font, weak);
+        }
         if let Some(texture) = picture(ui, *panel, *turned, cells.seen.dark) {
             image(ui.painter(), texture, rect);
         }

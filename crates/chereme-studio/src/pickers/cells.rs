@@ -2,7 +2,7 @@
 
 use chereme_sign::Inventory;
 use chereme_sign::inventory::InventoryValue;
-use eframe::egui::{EventFilter, Id, Rect, Response, Role, Sense, Ui, WidgetInfo};
+use eframe::egui::{Align, EventFilter, Id, Rect, Response, Role, Sense, Ui, WidgetInfo};
 
 use super::data::{self, PickerForm, walk};
 use super::keys::Pressed;
@@ -64,6 +64,10 @@ impl Cells<'_> {
         let mut picked = None;
         let focused = focused(ui, picker);
         let moved = self.pressed.direction.is_some();
+        if let Some(at) = at.filter(|_| picker.reveals > 0) {
+            picker.reveals -= 1;
+            ui.scroll_to_rect(cells[at].rect, Some(Align::Center));
+        }
         for (number, cell) in cells.iter().enumerate() {
             let response = self.cell(ui, cell, id_of(cell));
             if response.hovered()

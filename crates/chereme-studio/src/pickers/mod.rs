@@ -25,6 +25,7 @@ mod places;
 mod rose;
 mod worn;
 
+use chereme_corpus::value_pictures::Panel;
 use chereme_sign::Inventory;
 use eframe::egui::{
     Id, Key, Popup, PopupCloseBehavior, Rect, Response, RichText, Role, ScrollArea, Sense,
@@ -59,10 +60,12 @@ pub(crate) struct Picker {
     pub(crate) digits: Vec<String>,
     /// The inventory and the value whose details were requested.
     asked: Option<(String, String)>,
-    /// The group of places that is shown: on head and body, on the weak hand, or in space.
-    tab: body::Tab,
+    /// The view of the body whose places are shown.
+    panel: Panel,
     /// Whether to switch to the pictures that show the value at the keyboard cursor.
     turns: bool,
+    /// For how many more frames to scroll to that value; an opened picker has its final size after the first ones.
+    reveals: u8,
     turned: bool,
     depth: usize,
 }
@@ -96,6 +99,7 @@ impl Picker {
         Self {
             fresh: true,
             turns: true,
+            reveals: 3,
             depth: 1,
             ..Self::default()
         }
@@ -184,13 +188,19 @@ pub(crate) fn below(
     let left = left.max(pane.left().max(4.0));
     let below = Rect::from_x_y_ranges(left..=left + width, response.rect.y_range());
     let popup = popup.anchor(below);
+    // Above or below the button, whichever has more room, without a margin and the status line.
+    let (over, under) = (response.rect.top(), screen.y - response.rect.bottom());
+    let room = over.max(under) - 70.0;
+    // A narrower picker is higher.
+    let height = data::height(data::kind(inventory)) * wide / width;
+    let height = height.min(room.max(260.0));
     let id = popup.get_id();
     if std::mem::take(&mut picker.opens) {
         Popup::open_id(ui.ctx(), id);
     }
     let picked = popup.show(|ui| {
         ui.set_width(width);
-        ui.set_max_height((screen.y - 120.0).min(data::height(data::kind(inventory))));
+        ui.set_max_height(height);
         pick(ui, picker, seen, inventory, chosen)
     });
     let away = picked.is_some() && ui.input(|input| input.key_pressed(Key::Escape));
@@ -258,14 +268,32 @@ fn filter(
 /// The width of the preview hand, and the least width of the pictures beside it, in points.
 const WORN: f32 = 176.0;
 const BESIDE: f32 = 250.0;
+/// The width of the preview hand below the pictures, and the least height for both, in points.
+const BELOW: f32 = 112.0;
+const HIGH: f32 = 350.0;
 
-/// Draws pictures of hands, and beside them a preview hand in the handshape under the pointer or the keyboard cursor.
+/// Draws pictures of hands, and beside or below them a preview hand in the handshape under the pointer or the keyboard
+/// cursor.
 fn hands(ui: &mut Ui, picker: &mut Picker, cells: &Cells<'_>, shown: &[usize]) -> Option<String> {
     let room = ui.available_width();
+    let high = ui.available_height();
     if room < WORN + BESIDE {
+        if high >= HIGH {
+            let left = high - BELOW - 8.0;
+            let picked = ui
+                .allocate_ui(vec2(room, left), |ui| {
+                    ui.set_max_height(left);
+                    grid(ui, picker, cells, shown, PickerForm::Hands)
+                })
+                .inner;
+            let (rect, _) = ui.allocate_exact_size(vec2(room, BELOW), Sense::hover());
+            let square = Rect::from_min_size(rect.min, vec2(BELOW, BELOW));
+            let text = Rect::from_min_max(square.right_top() + vec2(6.0, 4.0), rect.max);
+            worn_hand(ui, (square, text), picker, cells, shown);
+            return picked;
+        }
         return grid(ui, picker, cells, shown, PickerForm::Hands);
     }
-    let high = ui.available_height();
     ui.horizontal_top(|ui| {
         let picked = ui
             .allocate_ui(vec2(room - WORN - 8.0, high), |ui| {
@@ -274,24 +302,36 @@ fn hands(ui: &mut Ui, picker: &mut Picker, cells: &Cells<'_>, shown: &[usize]) -
             })
             .inner;
         let (rect, _) = ui.allocate_exact_size(vec2(WORN, WORN + 64.0), Sense::hover());
-        let at = picker.at.as_deref().or(cells.chosen);
-        let at = at.and_then(|id| cells.inventory.get(id));
-        let at = at.or_else(|| cells.inventory.values.get(*shown.first()?));
-        if let Some((value, angles)) = at.and_then(|it| Some((it, data::hand(it)?))) {
-            let square = Rect::from_min_size(rect.min, vec2(WORN, WORN));
-            ui.painter()
-                .rect_filled(square, 8.0, paint::paper(cells.seen.dark));
-            worn::show(ui, square.shrink(4.0), cells.seen.dark, &angles);
-            let font = TextStyle::Body.resolve(ui.style());
-            let text = ui.visuals().strong_text_color();
-            let label = data::label(value, cells.seen.language);
-            let galley = ui.painter().layout(label, font, text, WORN);
-            let at = pos2(square.left() + 4.0, square.bottom() + 6.0);
-            ui.painter().galley(at, galley, text);
-        }
+        let square = Rect::from_min_size(rect.min, vec2(WORN, WORN));
+        let text = Rect::from_min_max(square.left_bottom() + vec2(4.0, 6.0), rect.max);
+        worn_hand(ui, (square, text), picker, cells, shown);
         picked
     })
     .inner
+}
+
+/// Draws the preview hand in a square, and its name in another rectangle.
+fn worn_hand(
+    ui: &Ui,
+    (square, text): (Rect, Rect),
+    picker: &Picker,
+    cells: &Cells<'_>,
+    shown: &[usize],
+) {
+    let at = picker.at.as_deref().or(cells.chosen);
+    let at = at.and_then(|id| cells.inventory.get(id));
+    let first = || shown.first().and_then(|at| cells.inventory.values.get(*at));
+    let Some((value, angles)) = at.or_else(first).and_then(|it| Some((it, data::hand(it)?))) else {
+        return;
+    };
+    ui.painter()
+        .rect_filled(square, 8.0, paint::paper(cells.seen.dark));
+    worn::show(ui, square.shrink(4.0), cells.seen.dark, &angles);
+    let font = TextStyle::Body.resolve(ui.style());
+    let colour = ui.visuals().strong_text_color();
+    let label = data::label(value, cells.seen.language);
+    let galley = ui.painter().layout(label, font, colour, text.width());
+    ui.painter().galley(text.min, galley, colour);
 }
 
 /// Draws values in rows.

@@ -10,8 +10,10 @@ use chereme_motion::HandAngles;
 use chereme_sign::Inventory;
 use chereme_sign::inventory::InventoryValue;
 use eframe::egui::emath::GuiRounding;
+use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextStyle, Ui, Vec2, pos2, vec2,
+    Align, Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextStyle, Ui, Vec2,
+    pos2, vec2,
 };
 
 use super::cells::{Cells, State};
@@ -21,6 +23,8 @@ use crate::context::PaneInput;
 
 /// Width and height of a hand's picture, in pixels.
 const HAND: usize = 144;
+/// The height of a line of a name, in points.
+const LINE: f32 = 22.0;
 /// The least and the greatest width of the picture of a place or a face, in pixels.
 const LEAST: usize = 16;
 const MOST: usize = 400;
@@ -71,6 +75,10 @@ pub(super) fn cell(
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     let paper = paper(cells.seen.dark);
     painter.rect_filled(rect, 5.0, paper);
+    if state.chosen {
+        // Below the picture, which stays as clear as the others.
+        painter.rect_filled(rect, 5.0, colours.accent.gamma_multiply(0.3));
+    }
     let name = TextStyle::Body.resolve(ui.style());
     let text = ui.visuals().text_color();
     let foot = 20.0;
@@ -83,29 +91,51 @@ pub(super) fn cell(
         );
         value(ui, square, cells.seen, cells.inventory, it);
     }
-    let label = if pictured {
-        data::short_name(it, cells.seen.language).to_owned()
+    let room = rect.width() - 8.0;
+    if pictured {
+        let label = data::short_name(it, cells.seen.language).to_owned();
+        let label = fitted(ui, label, &name, room);
+        let at = pos2(rect.center().x, rect.bottom() - foot / 2.0 - 1.0);
+        painter.text(at, Align2::CENTER_CENTER, label, name, text);
     } else {
-        data::label(it, cells.seen.language)
-    };
-    let label = fitted(ui, label, &name, rect.width() - 8.0);
-    let at = if pictured {
-        pos2(rect.center().x, rect.bottom() - foot / 2.0 - 1.0)
-    } else {
-        rect.center()
-    };
-    painter.text(at, Align2::CENTER_CENTER, label, name, text);
+        // A cell as high as those with pictures has room for several lines.
+        let label = data::label(it, cells.seen.language);
+        let mut lines = LayoutJob::simple(label, name, text, room);
+        lines.wrap.max_rows = ((rect.height() / LINE) as usize).max(1);
+        lines.halign = Align::Center;
+        let galley = painter.layout_job(lines);
+        let at = rect.center() - vec2(0.0, galley.size().y / 2.0);
+        painter.galley(at, galley, text);
+    }
     if let Some(digit) = digit {
         let small = FontId::proportional(10.0);
         let at = rect.left_top() + vec2(5.0, 3.0);
+        if pictured {
+            let back = Rect::from_min_size(rect.left_top(), vec2(14.0, 17.0));
+            painter.rect_filled(back, 5.0, paper.gamma_multiply(0.8));
+        }
         let weak = ui.visuals().weak_text_color();
         painter.text(at, Align2::LEFT_TOP, digit, small, weak);
     }
-    frame(&painter, rect, state, colours.accent, colours.rule);
+    outline(&painter, rect, state, colours.accent, colours.rule);
 }
 
-/// Paints the frame that shows the state of a cell.
+/// Paints the frame and the filling that show the state of a cell.
 pub(super) fn frame(
+    painter: &eframe::egui::Painter,
+    rect: Rect,
+    state: &State,
+    accent: Color32,
+    rule: Color32,
+) {
+    if state.chosen {
+        painter.rect_filled(rect, 5.0, accent.gamma_multiply(0.14));
+    }
+    outline(painter, rect, state, accent, rule);
+}
+
+/// Paints the frame alone.
+fn outline(
     painter: &eframe::egui::Painter,
     rect: Rect,
     state: &State,
@@ -117,9 +147,6 @@ pub(super) fn frame(
         (false, true) => Stroke::new(1.5, accent.gamma_multiply(0.7)),
         _ => Stroke::new(1.0, rule.gamma_multiply(0.6)),
     };
-    if state.chosen {
-        painter.rect_filled(rect, 5.0, accent.gamma_multiply(0.14));
-    }
     painter.rect_stroke(rect, 5.0, stroke, StrokeKind::Inside);
 }
 

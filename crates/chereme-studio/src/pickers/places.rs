@@ -172,6 +172,21 @@ mod tests {
     }
 
     #[test]
+    fn each_place_in_space_is_whole_in_its_picture() {
+        let scene = scene().expect("the body of the program");
+        let high = 300.0;
+        let rect = Rect::from_min_size(Pos2::ZERO, vec2(high * Panel::Space.aspect(), high));
+        for turned in [false, true] {
+            let view = (Panel::Space, turned);
+            for zone in zones(scene, placements(), &all(Panel::Space), view, rect, 1.0) {
+                let id = &placements().values[zone.value].id;
+                let room = rect.shrink(0.06 * high);
+                assert!(room.contains(zone.at), "{id} {turned}: {:?}", zone.at);
+            }
+        }
+    }
+
+    #[test]
     fn the_signers_left_is_on_the_right_of_the_picture() {
         let scene = scene().expect("the body of the program");
         let rect = Rect::from_min_size(Pos2::ZERO, vec2(200.0, 250.0));

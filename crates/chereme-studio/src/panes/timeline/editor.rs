@@ -321,11 +321,19 @@ fn pictures(
     let width = width.min(screen.width() - 48.0);
     let mut asked = FieldKey::Nothing;
     let mut back = false;
-    let (area, width) = area(ui, below, vec2(width, f32::INFINITY));
+    let height = pickers::data::height(pickers::data::kind(inventory));
+    let free = stage::place(ui.ctx()).and_then(|it| column(it, screen, below));
+    let (area, size) = match free {
+        Some(free) => in_column(free, vec2(width, height)),
+        None => {
+            let (area, width) = area(ui, below, vec2(width, f32::INFINITY));
+            (area, vec2(width, (screen.height() - 80.0).min(460.0)))
+        }
+    };
     let shown = area.show(ui.ctx(), |ui| {
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
-            ui.set_width(width);
-            ui.set_max_height((screen.height() - 80.0).min(460.0));
+            ui.set_width(size.x);
+            ui.set_max_height(size.y);
             back = switch(ui, scene, words::BY_TEXT);
             let chosen = inventory.find(&editing.text).map(|value| value.id.as_str());
             let picked = pickers::pick(
@@ -378,12 +386,49 @@ fn area(ui: &Ui, below: Rect, size: Vec2) -> (Area, f32) {
     (area, width)
 }
 
+/// The space between the edge of a column beside the stage and the contents of an area in it, in points.
+const EDGE: f32 = 18.0;
+
+/// Returns the free part of the screen left or right of the stage, whichever is wider: below the menus, and above the
+/// line of the annotation with the name of its tier, if that leaves enough. `None` if it is too small for pictures.
+fn column(stage: Rect, screen: Rect, annotation: Rect) -> Option<Rect> {
+    /// The height of the menus, and the least useful size, in points.
+    const MENUS: f32 = 30.0;
+    const LEAST: Vec2 = vec2(290.0, 340.0);
+    let left = screen.left()..=stage.left();
+    let right = stage.right()..=screen.right();
+    let across = if left.end() - left.start() >= right.end() - right.start() {
+        left
+    } else {
+        right
+    };
+    let whole = Rect::from_x_y_ranges(across, screen.top() + MENUS..=screen.bottom());
+    let above = whole.with_max_y(annotation.top());
+    let aside = annotation.x_range().intersection(whole.x_range()).span() <= 0.0;
+    let fits = |it: &Rect| it.width() >= LEAST.x && it.height() >= LEAST.y;
+    let free = Some(above).filter(fits).or(aside.then_some(whole));
+    free.filter(fits)
+}
+
+/// Returns an area at the lower end of a column, as near to the timeline as possible, and the size of its
+/// contents, which are higher in a narrower column.
+fn in_column(free: Rect, wanted: Vec2) -> (Area, Vec2) {
+    let most = free.size() - vec2(EDGE, EDGE);
+    let width = wanted.x.min(most.x);
+    let size = vec2(width, (wanted.y * wanted.x / width).min(most.y));
+    let area = Area::new(Id::unique("timeline value").with("column"))
+        .order(Order::Foreground)
+        .pivot(Align2::LEFT_BOTTOM)
+        .fixed_pos(free.left_bottom() + vec2(2.0, -2.0))
+        .constrain_to(free);
+    (area, size)
+}
+
 /// Returns the left edge and the width of an area that does not cover the middle of the stage, where the signer is;
 /// without room for that, returns `left` and `width` unchanged.
 fn beside(left: f32, width: f32, stage: Rect, screen: Rect) -> (f32, f32) {
-    /// The least useful width, and a margin, in points.
+    /// The least useful width, in points.
     const LEAST: f32 = 260.0;
-    const EDGE: f32 = 18.0;
     let half = (stage.width() * 0.5).min(stage.height() * 0.55).min(150.0);
     let (from, to) = (stage.center().x - half, stage.center().x + half);
     if left + width + EDGE <= from || left >= to {
@@ -539,5 +584,29 @@ mod tests {
         }
         let small = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0));
         assert_eq!(beside(50.0, 260.0, small, small), (50.0, 260.0));
+    }
+
+    #[test]
+    fn pictures_of_values_cover_neither_the_stage_nor_the_annotation() {
+        for (size, stage) in [
+            (vec2(1280.0, 800.0), [340.0, 60.0, 1000.0, 390.0]),
+            (vec2(1280.0, 800.0), [676.0, 60.0, 1272.0, 390.0]),
+            (vec2(1920.0, 1080.0), [500.0, 60.0, 1500.0, 560.0]),
+        ] {
+            let screen = Rect::from_min_size(pos2(0.0, 0.0), size);
+            let [left, top, right, bottom] = stage;
+            let stage = Rect::from_min_max(pos2(left, top), pos2(right, bottom));
+            for left in [210.0, 600.0, 1100.0] {
+                let lane = size.y - 130.0;
+                let below = Rect::from_min_max(pos2(left, lane), pos2(left + 60.0, lane + 22.0));
+                let free = column(stage, screen, below).expect("room");
+                assert!(!free.intersects(stage.shrink(1.0)) && !free.intersects(below.shrink(1.0)));
+                assert!(screen.contains_rect(free) && free.width() > 300.0);
+                let (_, inside) = in_column(free, vec2(780.0, 560.0));
+                assert!(inside.x <= free.width() - EDGE && inside.y <= free.height() - EDGE);
+            }
+        }
+        let small = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0));
+        assert_eq!(column(small, small, small), None);
     }
 }
