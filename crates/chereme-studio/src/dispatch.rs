@@ -436,8 +436,8 @@ impl Studio {
         };
         self.films.follow(snapshot, self.shown.recording, ctx);
         let whole = self.shown.player.whole;
-        let end = self.films.end();
-        if end > whole.end() && self.shown.recording.is_some() {
+        let end = self.shown.recording.map(|id| self.films.end(id));
+        if let Some(end) = end.filter(|end| *end > whole.end()) {
             self.shown.player.fit(Span::between(whole.start(), end));
         }
     }
@@ -653,7 +653,8 @@ impl Studio {
                 };
             }
             Some(glance) => {
-                let end = Instant::from_micros(glance.row.duration_us).max(self.films.end());
+                let end = Instant::from_micros(glance.row.duration_us);
+                let end = end.max(self.films.end(glance.row.id));
                 self.shown.player.fit(Span::between(Instant::ZERO, end));
             }
         }

@@ -5,7 +5,8 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    Address, Corpus, ImportOptions, MediaChange, Name, PictureOptions, Progress, unheard,
+    Address, Corpus, ImportOptions, MediaChange, Name, PictureOptions, Progress, TrackChange,
+    unheard, unpack_starter,
 };
 use chereme_studio::Options;
 use common::{Window, click, has, idle, options, small_corpus, until, window};
@@ -172,4 +173,77 @@ fn a_missing_or_damaged_film_is_reported() {
     std::fs::write(broken, b"\0\0\0\x08ftyp\0\0\0\x07moov").expect("written");
     let mut window = film_alone(folder.path(), "broken.mp4");
     until(&mut window, "word of it", |window| has(window, "Find it…"));
+}
+
+#[test]
+fn a_missing_film_takes_a_line_below_the_films_that_are_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut alone, path) = filmed(folder.path());
+    let shown = |window: &mut Window<'_>| {
+        until(window, "the film", |window| {
+            shows(window, "film frame 1 of")
+        });
+        window.get_by_label("film.mp4").rect()
+    };
+    let before = shown(&mut alone);
+    drop(alone);
+    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let take = Name::Text("escargot".to_owned());
+    corpus
+        .change_media(&take, &MediaChange::Add("nowhere.mp4".to_owned()))
+        .expect("linked");
+    drop(corpus);
+    let mut window = window(Options {
+        corpus: Some(path),
+        ..options(folder.path())
+    });
+    until(&mut window, "word of it", |window| {
+        shows(window, "nowhere.mp4 is missing")
+    });
+    let after = shown(&mut window);
+    assert_eq!(before.width(), after.width());
+    assert!(before.height() - after.height() < 30.0);
+}
+
+#[test]
+fn a_recording_does_not_last_as_long_as_the_film_of_the_recording_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path());
+    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    film(&mut corpus, folder.path());
+    let files = unpack_starter(&folder.path().join("more")).expect("unpacked");
+    let bol = files.into_iter().filter(|it| it.ends_with("bol.bvh"));
+    let mut hear = unheard;
+    let mut progress = Progress::new(&mut hear);
+    let options_of_import = ImportOptions::default();
+    corpus
+        .import(&bol.collect::<Vec<_>>(), &options_of_import, &mut progress)
+        .expect("imported");
+    let take = Name::Text("escargot".to_owned());
+    let link = MediaChange::Add("film.mp4".to_owned());
+    corpus.change_media(&take, &link).expect("linked");
+    let late = TrackChange::Offset(20_000_000);
+    corpus
+        .change_track(&take, "linked 1", &late)
+        .expect("moved");
+    drop(corpus);
+    let mut window = window(Options {
+        corpus: Some(path),
+        ..options(folder.path())
+    });
+    until(&mut window, "the film", |window| {
+        has(window, "film.mp4") && window.state().is_filmed()
+    });
+    let end = |window: &mut Window<'_>| {
+        click(window, "To the end");
+        window.run_steps(3);
+        window.state().playhead().micros()
+    };
+    assert!(end(&mut window) > 20_000_000);
+    click(&mut window, "bol");
+    idle(&mut window);
+    until(&mut window, "the other recording", |window| {
+        !has(window, "film.mp4")
+    });
+    assert!(end(&mut window) < 10_000_000);
 }

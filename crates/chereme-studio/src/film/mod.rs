@@ -71,10 +71,14 @@ impl Films {
         !self.screens.borrow().is_empty()
     }
 
-    /// Returns the end of the last film on the recording's clock, as far as it is known.
-    pub(crate) fn end(&self) -> Instant {
+    /// Returns the end of a recording's last film on its clock, as far as it is known.
+    pub(crate) fn end(&self, recording: i64) -> Instant {
         let screens = self.screens.borrow();
-        let ends = screens.iter().filter_map(Screen::end);
+        // The films of the recording before stay until the next one has been read.
+        let own = screens
+            .iter()
+            .filter(|it| it.track.recording_id == recording);
+        let ends = own.filter_map(Screen::end);
         Instant::from_micros(ends.max().unwrap_or_default())
     }
 

@@ -56,6 +56,11 @@ impl Screen {
         }
     }
 
+    /// Returns whether the film was not found, or cannot be played.
+    pub(super) fn is_missing(&self) -> bool {
+        matches!(self.news.known, Known::Gone(_) | Known::Refused(..))
+    }
+
     /// Returns the place of the film's time 0 on the recording's clock, in microseconds.
     pub(super) fn offset(&self) -> i64 {
         self.dragged.unwrap_or(self.track.offset_us)

@@ -1,10 +1,12 @@
 //! The widgets of films: their pictures, and the controls that place them on the recording's clock.
 
+use std::path::PathBuf;
+
 use chereme_corpus::{Name, TrackChange};
 use chereme_motion::Instant;
 use eframe::egui::{
-    self, Align2, Button, Color32, DragValue, Rect, RichText, Role, Sense, TextStyle, Ui,
-    UiBuilder, WidgetInfo, pos2, vec2,
+    self, Align2, Button, Color32, DragValue, Label, Rect, RichText, Role, Sense, TextStyle,
+    TextWrapMode, Ui, UiBuilder, WidgetInfo, WidgetText, pos2, vec2,
 };
 
 use super::projector::Known;
@@ -19,6 +21,8 @@ use crate::work::Work;
 
 /// The height of the line of controls below a film, in points.
 const LINE: f32 = 26.0;
+/// The least room for the button that holds a film and the film's start, in points.
+const HOLDS: f32 = 116.0;
 /// The gap between films, in points.
 const GAP: f32 = 6.0;
 /// The largest size of a picture in pixels; larger areas show it scaled.
@@ -32,7 +36,25 @@ pub(super) fn show(
     out: &mut Outbox,
     rect: Rect,
 ) {
-    let count = screens.len();
+    // Films that cannot be shown take a line each, below those that can.
+    let shown = screens.iter().filter(|it| !it.is_missing()).count();
+    let lines = match shown {
+        0 => 0,
+        shown => screens.len() - shown,
+    };
+    let (whole, foot) = rect.split_top_bottom_at_y(rect.bottom() - LINE * lines as f32);
+    let mut line = Rect::from_min_size(foot.min, vec2(foot.width(), LINE));
+    let mut screens: Vec<&mut Screen> = screens.iter_mut().collect();
+    if shown > 0 {
+        screens.retain_mut(|screen| {
+            if screen.is_missing() {
+                below(screen, ui, seen, out, line);
+                line = line.translate(vec2(0.0, LINE));
+            }
+            !screen.is_missing()
+        });
+    }
+    let (count, rect) = (screens.len(), whole);
     if count == 0 {
         return;
     }
@@ -42,7 +64,7 @@ pub(super) fn show(
         (rect.width() - GAP * (columns - 1) as f32) / columns as f32,
         (rect.height() - GAP * (rows - 1) as f32) / rows as f32,
     );
-    for (at, screen) in screens.iter_mut().enumerate() {
+    for (at, screen) in screens.into_iter().enumerate() {
         let (column, row) = (at % columns, at / columns);
         let corner = vec2(column as f32 * (size.x + GAP), row as f32 * (size.y + GAP));
         let cell = Rect::from_min_size(rect.min + corner, size);
@@ -92,20 +114,7 @@ fn one(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox,
             write_text(ui, room, seen.say(text));
         }
         (Known::Coming, _) => write_text(ui, room, seen.say(words::COMING)),
-        (Known::Gone(path), _) => {
-            let path = path.as_ref().map_or_else(
-                || screen.track.url.clone(),
-                |path| path.display().to_string(),
-            );
-            write_text(ui, room, &fill(seen.say(words::GONE), &[("path", &path)]));
-        }
-        (Known::Refused(why, remedy), _) => {
-            let remedy = remedy.as_ref();
-            let remedy = remedy.and_then(|it| remedy::here(it, seen.language));
-            let shown = [Some(spoken(why, seen.language)), remedy];
-            let shown: Vec<String> = shown.into_iter().flatten().collect();
-            write_text(ui, room, &shown.join("\n\n"));
-        }
+        (Known::Gone(_) | Known::Refused(..), _) => write_text(ui, room, &reason(screen, seen)),
     }
     let mut builder = UiBuilder::new().max_rect(line);
     builder = builder.id_salt(("film line", screen.track.id));
@@ -115,6 +124,46 @@ fn one(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox,
             Known::Open(..) => controls(screen, ui, seen, out, at),
             Known::Coming => {}
             _ => missing(screen, ui, seen, out),
+        });
+    });
+}
+
+/// Returns the reason why a film cannot be shown, and the remedy.
+fn reason(screen: &Screen, seen: &PaneInput<'_>) -> String {
+    match &screen.news.known {
+        Known::Gone(path) => {
+            // Without the `.` of relative paths.
+            let path = path.as_ref().map_or_else(
+                || screen.track.url.clone(),
+                |path| path.components().collect::<PathBuf>().display().to_string(),
+            );
+            fill(seen.say(words::GONE), &[("path", &path)])
+        }
+        Known::Refused(why, remedy) => {
+            let remedy = remedy.as_ref();
+            let remedy = remedy.and_then(|it| remedy::here(it, seen.language));
+            let shown = [Some(spoken(why, seen.language)), remedy];
+            let shown: Vec<String> = shown.into_iter().flatten().collect();
+            shown.join("\n\n")
+        }
+        Known::Coming | Known::Open(..) => String::new(),
+    }
+}
+
+/// Shows in one line that a film is missing, with the remedies; the reason is in its tip.
+fn below(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, line: Rect) {
+    // Meanwhile the film may be there again.
+    screen.follow(None, [64; 2], false, ui.ctx());
+    let mut builder = UiBuilder::new().max_rect(line);
+    builder = builder.id_salt(("missing film", screen.track.id));
+    ui.scope_builder(builder, |ui| {
+        ui.set_clip_rect(line.intersect(ui.clip_rect()));
+        ui.horizontal(|ui| {
+            find(screen, ui, seen, out);
+            let name = name(&screen.track.url);
+            let text = fill(seen.say(words::MISSING), &[("name", &name)]);
+            let label = Label::new(RichText::new(text).small().weak()).truncate();
+            ui.add(label).on_hover_text(reason(screen, seen));
         });
     });
 }
@@ -143,15 +192,19 @@ fn picture(screen: &Screen, ui: &Ui, seen: &PaneInput<'_>, room: Rect, frame: us
 /// Writes a text on the dark background.
 fn write_text(ui: &Ui, room: Rect, text: &str) {
     let painter = ui.painter().with_clip_rect(room.intersect(ui.clip_rect()));
-    let font = TextStyle::Body.resolve(ui.style());
     let white = Color32::from_gray(230);
-    let galley = painter.layout(
-        text.to_owned(),
-        font,
-        white,
-        (room.width() - 24.0).max(40.0),
-    );
-    let place = Align2::CENTER_CENTER.anchor_size(room.center(), galley.size());
+    let laid = |style: TextStyle| {
+        let width = (room.width() - 24.0).max(40.0);
+        painter.layout(text.to_owned(), style.resolve(ui.style()), white, width)
+    };
+    let mut galley = laid(TextStyle::Body);
+    if galley.size().y > room.height() - 12.0 {
+        galley = laid(TextStyle::Small);
+    }
+    let mut place = Align2::CENTER_CENTER.anchor_size(room.center(), galley.size());
+    // A text that is too long still begins in sight.
+    let down = (room.top() + 6.0 - place.top()).max(0.0);
+    place = place.translate(vec2(0.0, down));
     let back = place.expand(6.0);
     painter.rect_filled(back, 4.0, Color32::from_black_alpha(170));
     painter.galley(place.min, galley, white);
@@ -159,14 +212,19 @@ fn write_text(ui: &Ui, room: Rect, text: &str) {
 
 /// Offers remedies for a film that cannot be found.
 fn missing(screen: &Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
-    if ui.small_button(seen.say(words::FIND)).clicked() {
-        let (recording, track) = (screen.track.recording_id, screen.track.id);
-        out.send(Command::Choose(Choose::Media(recording, Some(track))));
-    }
+    find(screen, ui, seen, out);
     if ui.small_button(seen.say(words::ABOUT)).clicked() {
         out.send(Command::Inspect(Thing::Recording(
             screen.track.recording_id,
         )));
+    }
+}
+
+/// Offers to choose the file of a film.
+fn find(screen: &Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+    if ui.small_button(seen.say(words::FIND)).clicked() {
+        let (recording, track) = (screen.track.recording_id, screen.track.id);
+        out.send(Command::Choose(Choose::Media(recording, Some(track))));
     }
 }
 
@@ -195,12 +253,14 @@ fn controls(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Ou
         }
     }
     let held = screen.loose.is_some();
-    let hold = ui.selectable_label(held, seen.say(words::HOLD));
-    if hold.on_hover_text(seen.say(words::HOLD_HINT)).clicked() {
-        screen.loose = match held {
-            true => None,
-            false => Some(screen.frame_at(at).unwrap_or_default()),
-        };
+    if held || ui.available_width() >= HOLDS {
+        let hold = ui.selectable_label(held, seen.say(words::HOLD));
+        if hold.on_hover_text(seen.say(words::HOLD_HINT)).clicked() {
+            screen.loose = match held {
+                true => None,
+                false => Some(screen.frame_at(at).unwrap_or_default()),
+            };
+        }
     }
     if let Some(frame) = screen.loose {
         let here = ui.small_button(seen.say(words::HERE));
@@ -215,8 +275,18 @@ fn controls(screen: &mut Screen, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Ou
     offset(screen, ui, seen, out);
     let frame = screen.frame_at(at).map_or(0, |frame| frame + 1);
     let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &frame), ("all", &times.frames())];
-    let text = fill(seen.say(words::FRAME_OF), &values);
+    let long = fill(seen.say(words::FRAME_OF), &values);
+    let fits = |text: &String| {
+        let text = WidgetText::from(RichText::new(text).small());
+        let galley = text.into_galley(ui, Some(TextWrapMode::Extend), 0.0, TextStyle::Small);
+        galley.size().x <= ui.available_width()
+    };
+    // Without room for the words the numbers are enough, and the tip has the rest.
+    let short = format!("{frame} / {}", times.frames());
+    let mut texts = [long.clone(), short].into_iter();
+    let text = texts.find(fits).unwrap_or_else(|| "…".to_owned());
     let label = ui.label(RichText::new(text).small().weak());
+    label.widget_info(|| WidgetInfo::labeled(Role::Label, true, &long));
     if let Known::Open(facts, _) = &screen.news.known {
         let findings = facts.findings.join("\n");
         let tip = format!(
