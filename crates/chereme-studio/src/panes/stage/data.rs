@@ -255,7 +255,9 @@ pub(crate) struct Inset {
 /// A part of the stage narrower or lower than this, in points, has no room for close-ups.
 const ROOM: [f32; 2] = [300.0, 220.0];
 /// The side of a close-up as a share of the shorter side of its part, and its least and greatest side in points.
-const INSET: (f32, f32, f32) = (0.36, 84.0, 190.0);
+const INSET: (f32, f32, f32) = (0.36, 72.0, 190.0);
+/// The largest share of the width that a close-up takes, so that two of them leave the signer's arms in sight.
+const ACROSS: f32 = 0.25;
 /// The distance between a close-up and the edges.
 const MARGIN: f32 = 8.0;
 
@@ -270,6 +272,7 @@ pub(crate) fn insets(part: &StagePart, view: View, wanted: Insets) -> Vec<Inset>
     }
     let (share, least, most) = INSET;
     let side = (part.rect.size().min_elem() * share)
+        .min(part.rect.width() * ACROSS)
         .clamp(least, most)
         .round();
     let room = part.rect.shrink(MARGIN);
@@ -413,6 +416,7 @@ mod tests {
             assert_eq!(insets.len(), 3);
             for (at, inset) in insets.iter().enumerate() {
                 assert!(part.rect.contains_rect(inset.rect));
+                assert!(inset.rect.width() <= wide * 0.26, "the arms stay in sight");
                 let mut others = insets[at + 1..].iter();
                 assert!(others.all(|other| !other.rect.intersects(inset.rect)));
             }
