@@ -162,6 +162,7 @@ impl Studio {
         self.name_window(&ctx);
         self.panes.search.show_made(&mut self.out);
         self.panes.library.show_made(&mut self.out);
+        self.panes.map.show_made(&mut self.out);
         if self.panes.recombine.has_news() {
             // The pictures requested in this frame must show the new movement.
             self.keep_up(&ctx);

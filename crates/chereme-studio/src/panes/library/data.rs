@@ -127,6 +127,17 @@ pub(crate) enum Moves {
     Not,
 }
 
+impl Moves {
+    /// Returns the movement of a sign.
+    pub(crate) fn of(sign: &SignGlance) -> Self {
+        match sign.place {
+            Some((recording, span)) => Self::Recorded(recording, span),
+            None if sign.notated => Self::Notated,
+            None => Self::Not,
+        }
+    }
+}
+
 /// A sign as a row of the list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct SignRow {
@@ -156,22 +167,14 @@ pub(crate) fn signs(
         gloss: it.gloss.clone(),
         about: about(it, origin(it), language),
         token: it.citation,
-        moves: moves(it),
+        moves: Moves::of(it),
     };
     signs.iter().filter(fits).map(row).collect()
 }
 
-fn moves(sign: &SignGlance) -> Moves {
-    match sign.place {
-        Some((recording, span)) => Moves::Recorded(recording, span),
-        None if sign.notated => Moves::Notated,
-        None => Moves::Not,
-    }
-}
-
 /// Returns the text about a sign's origin and its number of tokens.
 pub(crate) fn about(sign: &SignGlance, origin: Option<Origin>, language: Language) -> String {
-    let what = match moves(sign) {
+    let what = match Moves::of(sign) {
         // A generated recording was not captured.
         Moves::Recorded(..) => origin
             .filter(|it| *it != Origin::Captured)

@@ -106,7 +106,7 @@ impl View {
 pub(super) struct Labels(BTreeSet<(i32, i32)>);
 
 /// The side of a grid square, in points.
-const SQUARE: f32 = 8.0;
+pub(super) const SQUARE: f32 = 8.0;
 
 impl Labels {
     /// Occupies a rectangle if it is free; returns whether it was.

@@ -6,14 +6,15 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::SignMap;
-use chereme_motion::Span;
 use chereme_sign::Component;
 use eframe::egui::{
-    Align2, Checkbox, FontId, Pos2, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui,
-    Vec2, WidgetInfo, pos2, vec2,
+    Align2, Checkbox, FontId, Label, Pos2, Rect, Response, RichText, Role, Sense, Stroke,
+    StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::Pane;
+use super::library::data::Moves;
+use super::notated::Notated;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::miniatures::{self, Cell, Motion};
@@ -33,6 +34,8 @@ const COMPONENTS: [(Component, crate::words::Text); 4] = [
 /// The side of a little figure, in points, and the most of them at once.
 const FIGURE: f32 = 84.0;
 const MOST_FIGURES: usize = 40;
+/// Signs with only a notation are animated if no more signs than this are in sight.
+const FEW: usize = 160;
 /// The number of signs in sight from which their points are small and faint.
 const DENSE: usize = 800;
 /// The most glosses.
@@ -55,8 +58,9 @@ pub(crate) struct Map {
     chosen: Option<usize>,
     /// The outline of a selection by dragging, drawn so far.
     lasso: Vec<Pos2>,
-    /// Recordings and spans of the citation forms, by token, and the address of the overview that they come from.
-    moving: (usize, BTreeMap<i64, (i64, Span)>),
+    /// The movement of the citation forms, by token, and the address of the overview that it comes from.
+    moving: (usize, BTreeMap<i64, Moves>),
+    notated: Notated,
     /// Computed maps by their components, each with its corpus generation.
     kept: BTreeMap<[bool; 4], (i64, Arc<SignMap>)>,
 }
@@ -74,6 +78,7 @@ impl Default for Map {
             chosen: None,
             lasso: Vec::new(),
             moving: (0, BTreeMap::new()),
+            notated: Notated::default(),
             kept: BTreeMap::new(),
         }
     }
@@ -113,9 +118,12 @@ impl Map {
                 ui.spinner();
             } else if let Some(map) = &self.map {
                 let text = fill(seen.say(words::COUNT), &[("n", &map.signs.len())]);
-                ui.weak(text);
+                // Whole, in the next line if there is no room in this one.
+                let whole = |text: String| Label::new(RichText::new(text).weak()).extend();
+                ui.add(whole(text));
                 if map.left_out > 0 {
-                    ui.weak(fill(seen.say(words::LEFT_OUT), &[("n", &map.left_out)]));
+                    let text = fill(seen.say(words::LEFT_OUT), &[("n", &map.left_out)]);
+                    ui.add(whole(text));
                 }
             }
         });
@@ -138,7 +146,7 @@ impl Map {
         let overview = Arc::as_ptr(&seen.snapshot.overview) as usize;
         if self.moving.0 != overview {
             let signs = seen.snapshot.overview.signs.iter();
-            let moving = signs.filter_map(|it| Some((it.citation?, it.place?)));
+            let moving = signs.filter_map(|it| Some((it.citation?, Moves::of(it))));
             self.moving = (overview, moving.collect());
         }
         let places: Vec<Pos2> = map
@@ -161,61 +169,31 @@ impl Map {
                 .map(|it| it.1)
         });
         let colours = seen.colours();
-        let weak = ui.visuals().weak_text_color();
         if let Some(at) = under.or(self.chosen) {
             for near in data::near(map, at) {
                 painter.line_segment([places[at], places[near]], Stroke::new(1.0, colours.accent));
             }
         }
-        let mut rooms: Vec<Rect> = Vec::new();
-        let font = FontId::proportional(11.0);
-        let (mut labels, mut names) = (Labels::default(), Vec::new());
-        // Where many signs lie close together, their density is visible.
-        let (small, weak) = match visible.len() > DENSE {
-            true => (1.6, weak.gamma_multiply(0.6)),
-            false => (2.5, weak),
+        let mut marked: Vec<usize> = [self.chosen, under].into_iter().flatten().collect();
+        marked.dedup();
+        let others = visible.iter().copied().filter(|at| !marked.contains(at));
+        let order: Vec<usize> = marked.iter().copied().chain(others).collect();
+        let shown = Shown {
+            map,
+            places: &places,
+            order: &order,
+            marked: &marked,
         };
-        let first = [self.chosen, under].into_iter().flatten();
-        let order = first.chain(visible.iter().copied());
-        for at in order {
-            let sign = &map.signs[at];
-            let marked = self.chosen == Some(at) || under == Some(at);
-            let colour = if marked { colours.accent } else { weak };
-            let room = Rect::from_center_size(places[at], Vec2::splat(FIGURE));
-            let free = rooms.len() < MOST_FIGURES && rooms.iter().all(|it| !it.intersects(room));
-            let moves = self.moving.1.get(&sign.token).copied().filter(|_| free);
-            if let Some((recording, span)) = moves {
-                rooms.push(room);
-                let cell = Cell::new(Motion::Span(recording, span), room.size());
-                seen.little
-                    .paint(ui, seen, out, &cell.playing(miniatures::clock(ui)), room);
-                if marked {
-                    painter.rect_stroke(room, 6.0, Stroke::new(2.0, colour), StrokeKind::Inside);
-                }
-            } else {
-                painter.circle_filled(places[at], if marked { 4.5 } else { small }, colour);
-            }
-            if names.len() >= MOST_NAMES && !marked {
-                continue;
-            }
-            let below = if moves.is_some() { FIGURE / 2.0 } else { 4.0 };
-            let at = places[at] + vec2(0.0, below);
-            let text = if marked {
-                ui.visuals().strong_text_color()
-            } else {
-                ui.visuals().text_color()
-            };
-            let galley = painter.layout_no_wrap(sign.gloss.clone(), font.clone(), text);
-            let room = Align2::CENTER_TOP.anchor_size(at, galley.size());
-            if labels.take(room) || marked {
-                names.push((room, galley, text));
-            }
-        }
-        // Glosses stay readable on top of all points.
-        let back = ui.visuals().extreme_bg_color.gamma_multiply(0.75);
-        for (room, galley, text) in names {
-            painter.rect_filled(room.expand2(vec2(2.0, 0.0)), 2.0, back);
-            painter.galley(room.min, galley, text);
+        // Figures at the edge are cut off there.
+        let mut inside = ui.new_child(UiBuilder::new().max_rect(rect));
+        inside.set_clip_rect(painter.clip_rect());
+        let figures = self.figures(&inside, seen, out, &shown);
+        glosses(&inside, &shown, &figures);
+        if visible.is_empty() && !map.signs.is_empty() {
+            let text = seen.say(words::NONE_IN_SIGHT);
+            let colour = ui.visuals().weak_text_color();
+            let font = FontId::proportional(13.0);
+            painter.text(rect.center(), Align2::CENTER_CENTER, text, font, colour);
         }
         if self.lasso.len() > 1 {
             let stroke = Stroke::new(1.5, colours.accent);
@@ -246,9 +224,59 @@ impl Map {
                 let few = MOST_FIGURES / 2;
                 let to = self.view.near(rect, pos2(sign.x, sign.y), places, few);
                 self.towards = Some(to);
-                open(seen, map.signs[at].token, out);
+                self.open(seen, map.signs[at].token, out);
             }
         }
+    }
+
+    /// Paints the signs as little figures if there is room and movement, else as points; returns the rectangles of the
+    /// figures by the indices of their signs.
+    fn figures(
+        &mut self,
+        ui: &Ui,
+        seen: &PaneInput<'_>,
+        out: &mut Outbox,
+        shown: &Shown<'_>,
+    ) -> BTreeMap<usize, Rect> {
+        let mut rooms: BTreeMap<usize, Rect> = BTreeMap::new();
+        let accent = seen.colours().accent;
+        let weak = ui.visuals().weak_text_color();
+        // Where many signs lie close together, their density is visible.
+        let (small, weak) = match shown.order.len() > DENSE {
+            true => (1.6, weak.gamma_multiply(0.6)),
+            false => (2.5, weak),
+        };
+        for &at in shown.order {
+            let (sign, place) = (&shown.map.signs[at], shown.places[at]);
+            let marked = shown.marked.contains(&at);
+            let room = Rect::from_center_size(place, Vec2::splat(FIGURE));
+            let free = rooms.len() < MOST_FIGURES && rooms.values().all(|it| !it.intersects(room));
+            let moves = self.moving.1.get(&sign.token).copied().filter(|_| free);
+            // Notated signs are animated one by one, so only if few are in sight.
+            let few = shown.order.len() <= FEW || marked;
+            let motion = match moves {
+                Some(Moves::Recorded(recording, span)) => Some(Motion::Span(recording, span)),
+                Some(Moves::Notated) if few => {
+                    let made = self.notated.get(sign.token, &sign.gloss, out);
+                    made.map(Motion::Made)
+                }
+                _ => None,
+            };
+            let Some(motion) = motion else {
+                let (radius, colour) = if marked { (4.5, accent) } else { (small, weak) };
+                ui.painter().circle_filled(place, radius, colour);
+                continue;
+            };
+            rooms.insert(at, room);
+            let cell = Cell::new(motion, room.size()).playing(miniatures::clock(ui));
+            seen.little.paint(ui, seen, out, &cell, room);
+            if marked {
+                let stroke = Stroke::new(2.0, accent);
+                let painter = ui.painter();
+                painter.rect_stroke(room, 6.0, stroke, StrokeKind::Inside);
+            }
+        }
+        rooms
     }
 
     /// Moves a step along the flight.
@@ -289,6 +317,35 @@ impl Map {
         }
     }
 
+    /// Shows a sign on the stage, animated if it has only a notation; or its coding in the inspector if it has no
+    /// movement.
+    fn open(&mut self, seen: &PaneInput<'_>, token: i64, out: &mut Outbox) {
+        let signs = &seen.snapshot.overview.signs;
+        let Some(sign) = signs.iter().find(|it| it.citation == Some(token)) else {
+            return out.send(Command::Inspect(Thing::Token(token)));
+        };
+        match Moves::of(sign) {
+            Moves::Recorded(recording, span) => {
+                out.send(Command::Made(None));
+                out.send(Command::Place(recording, span));
+                out.send(Command::Look);
+            }
+            Moves::Notated => {
+                out.send(Command::Note(Thing::Token(token)));
+                self.notated.open(token, &sign.gloss, out);
+            }
+            Moves::Not => {
+                out.send(Command::Made(None));
+                out.send(Command::Inspect(Thing::Token(token)));
+            }
+        }
+    }
+
+    /// Shows the opened notated sign on the stage once it is animated, even if another pane covers this one.
+    pub(crate) fn show_made(&mut self, out: &mut Outbox) {
+        self.notated.show(out);
+    }
+
     /// Shows the chosen sign and those most similar to it, as buttons.
     fn foot(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap, out: &mut Outbox) {
         let Some(chosen) = self.chosen.filter(|&at| at < map.signs.len()) else {
@@ -301,33 +358,65 @@ impl Map {
             for at in data::near(map, chosen) {
                 if ui.link(&map.signs[at].gloss).clicked() {
                     self.chosen = Some(at);
-                    open(seen, map.signs[at].token, out);
+                    self.open(seen, map.signs[at].token, out);
                 }
             }
         });
     }
 }
 
-/// Returns the recording and the span of a citation form with movement.
-fn place(seen: &PaneInput<'_>, token: i64) -> Option<(i64, Span)> {
-    let signs = &seen.snapshot.overview.signs;
-    signs.iter().find(|it| it.citation == Some(token))?.place
+/// The signs in sight.
+struct Shown<'a> {
+    map: &'a SignMap,
+    /// The point of every sign of the map in the window.
+    places: &'a [Pos2],
+    /// The indices of the signs in sight, the marked ones first.
+    order: &'a [usize],
+    /// The chosen sign, and the one under the pointer.
+    marked: &'a [usize],
 }
 
-/// Shows a sign on the stage, or its coding in the inspector if it has no movement.
-fn open(seen: &PaneInput<'_>, token: i64, out: &mut Outbox) {
-    match place(seen, token) {
-        Some((recording, span)) => {
-            out.send(Command::Made(None));
-            out.send(Command::Place(recording, span));
-            out.send(Command::Look);
+/// Writes glosses below points and figures as far as there is room for them; they cover no figure.
+fn glosses(ui: &Ui, shown: &Shown<'_>, figures: &BTreeMap<usize, Rect>) {
+    let font = FontId::proportional(11.0);
+    let mut labels = Labels::default();
+    for room in figures.values() {
+        labels.take(room.shrink(data::SQUARE));
+    }
+    // They stay readable on top of all points.
+    let back = ui.visuals().extreme_bg_color.gamma_multiply(0.75);
+    let mut written = 0;
+    for &at in shown.order {
+        let marked = shown.marked.contains(&at);
+        if written >= MOST_NAMES && !marked {
+            break;
         }
-        None => out.send(Command::Inspect(Thing::Token(token))),
+        let below = if figures.contains_key(&at) {
+            FIGURE / 2.0
+        } else {
+            4.0
+        };
+        let text = if marked {
+            ui.visuals().strong_text_color()
+        } else {
+            ui.visuals().text_color()
+        };
+        let gloss = shown.map.signs[at].gloss.clone();
+        let galley = ui.painter().layout_no_wrap(gloss, font.clone(), text);
+        let top = shown.places[at] + vec2(0.0, below);
+        let room = Align2::CENTER_TOP.anchor_size(top, galley.size());
+        if labels.take(room) || marked {
+            let painter = ui.painter();
+            painter.rect_filled(room.expand2(vec2(2.0, 0.0)), 2.0, back);
+            painter.galley(room.min, galley, text);
+            written += 1;
+        }
     }
 }
 
 impl Pane for Map {
     fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+        self.notated.follow(seen.snapshot.overview.generation);
         self.follow(seen, out);
         self.tools(ui, seen);
         if let Some(wrong) = &self.wrong {
@@ -341,6 +430,7 @@ impl Pane for Map {
     }
 
     fn hear(&mut self, id: WorkId, ended: &Ended) {
+        self.notated.hear(id, ended);
         if self.asked.take_if(|asked| *asked == id).is_none() {
             return;
         }
