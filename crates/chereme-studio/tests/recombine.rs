@@ -353,7 +353,12 @@ fn a_path_is_a_curve_that_is_pulled_by_keys_and_drawn_on_the_stage() {
     let curve = "travel right through 0cm,6cm,0cm then 6cm,8cm,0cm";
     type_into(&mut window, "Recipe", &format!("ESCARGOT | {curve}"));
     idle(&mut window);
-    assert!(!has(&window, "Point 1 of the path"), "no card is chosen");
+    until(&mut window, "the only path", |it| {
+        has(it, "Point 1 of the path")
+    });
+    press(&mut window, "Card: Sign");
+    idle(&mut window);
+    assert!(!has(&window, "Point 1 of the path"), "the sign is chosen");
     press(&mut window, "Card: Path");
     idle(&mut window);
     window.run_steps(60);

@@ -205,16 +205,20 @@ impl Recombine {
         }
     }
 
-    /// Returns the path that can be pulled on the stage: that of the chosen card.
+    /// Returns the path that can be pulled on the stage: that of the chosen card; while none is chosen, as after typing a
+    /// recipe, the last one.
     fn course(&self) -> Option<Course> {
         let made = self.live.made.is_some() && self.on_stage && self.wrong.is_none();
-        let card = self.chosen.filter(|_| made)?;
-        let at = self.stack.position(card)?;
-        let What::Step(Step::Travel(travel)) = &self.stack.cards()[at].what else {
+        let chosen = self.chosen.and_then(|card| self.stack.position(card));
+        let is_path = |card: &stack::Card| matches!(card.what, What::Step(Step::Travel(_)));
+        let at = chosen.or_else(|| self.stack.cards().iter().rposition(is_path));
+        let at = at.filter(|_| made)?;
+        let card = &self.stack.cards()[at];
+        let What::Step(Step::Travel(travel)) = &card.what else {
             return None;
         };
         self.stack.counts(at).then(|| Course {
-            card,
+            card: card.id,
             travel: travel.clone(),
         })
     }
