@@ -43,6 +43,8 @@ const STEPS: [(Text, Text, Loop); 5] = [
 /// The side of a loop in points, and its duration in seconds.
 const SIDE: f32 = 104.0;
 const LASTS: f64 = 4.0;
+/// The height of the last sentence in points.
+const MORE: f32 = 48.0;
 
 /// The window with the first steps; it stays open beside the work.
 #[derive(Debug, Default)]
@@ -73,8 +75,10 @@ impl FirstSteps {
                 ui.set_width(width);
                 let high = (room.y - 140.0).max(120.0);
                 let area = ScrollArea::vertical().max_height(high);
-                area.min_scrolled_height(high.min(5.0 * (SIDE + 8.0)))
+                area.min_scrolled_height(high.min(5.0 * (SIDE + 12.0) + MORE))
                     .show(ui, |ui| {
+                        // The bar that scrolls covers no text.
+                        ui.set_max_width(width - 10.0);
                         let signs = wall::signs(ui.ctx());
                         for (at, (what, how, film)) in STEPS.into_iter().enumerate() {
                             ui.horizontal_top(|ui| {

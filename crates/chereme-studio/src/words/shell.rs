@@ -22,7 +22,7 @@ texts! {
     START_OPEN_HINT: "A file ending in .chereme.", "Un fichier en .chereme.";
     START_NEW: "New empty corpus…", "Nouveau corpus vide…";
     START_IMPORT: "Import a folder…", "Importer un dossier…";
-    START_IMPORT_HINT: "A folder of recordings and annotations (.bvh, .c3d, .eaf, .sigml and more): you look at it first, then it becomes a corpus next to it.", "Un dossier d’enregistrements et d’annotations (.bvh, .c3d, .eaf, .sigml et d’autres) : vous l’examinez d’abord, puis il devient un corpus à côté.";
+    START_IMPORT_HINT: "Recordings and annotations: you look at them first, then they become a corpus.", "Enregistrements et annotations : vous les examinez, puis ils deviennent un corpus.";
     START_NEW_HINT: "Creates a file, into which you import recordings afterwards.", "Crée un fichier, dans lequel vous importez ensuite des enregistrements.";
     START_TYPED: "Or type a path", "Ou écrivez un chemin";
     START_TYPED_OPEN: "Open", "Ouvrir";
