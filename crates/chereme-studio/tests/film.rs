@@ -198,7 +198,7 @@ fn a_missing_film_takes_a_line_below_the_films_that_are_there() {
         ..options(folder.path())
     });
     until(&mut window, "word of it", |window| {
-        shows(window, "nowhere.mp4 is missing")
+        shows(window, "Missing: nowhere.mp4")
     });
     let after = shown(&mut window);
     assert_eq!(before.width(), after.width());

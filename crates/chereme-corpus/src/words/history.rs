@@ -56,6 +56,7 @@ texts! {
     DID_CITE: "Citation form: {what}", "Forme de citation : {what}";
     DID_TRANSCRIBE: "Transcribed: {what}", "Transcrit : {what}";
     DID_PROPOSE: "Proposed from movement: {what}", "Proposé d’après le mouvement : {what}";
+    DID_ACCEPT: "Proposed values accepted: {n}, in {place}", "Valeurs proposées acceptées : {n}, dans {place}";
     DID_ADD_TIERS: "Tiers added: {what}", "Acteurs ajoutés : {what}";
     DID_COPY_TIER: "Tier copied: {what}", "Acteur copié : {what}";
     DID_ORDER_TIERS: "Tiers put in order: {what}", "Acteurs remis en ordre : {what}";
@@ -107,9 +108,21 @@ pub fn sentence(it: &OperationRow, language: Language) -> String {
         "merge" => Some(say(super::merge::DID_MERGE, &[("what", &summary)])),
         "decide" => Some(say(super::merge::DID_DECIDE, &[("what", &summary)])),
         "propose" => annotated(summary, language).map(|what| say(DID_PROPOSE, &[("what", &what)])),
+        "accept" => {
+            accepted(summary).map(|(n, place)| say(DID_ACCEPT, &[("n", &n), ("place", &place)]))
+        }
         name => plain(name).map(|text| say(text, &[("what", &summary)])),
     };
     known.unwrap_or_else(|| format!("{}: {summary}", it.name))
+}
+
+/// Returns the number of proposals that `2 added, 2 removed in X` accepted, and X: each is replaced by a value.
+fn accepted(summary: &str) -> Option<(&str, &str)> {
+    let (counts, place) = summary.rsplit_once(" in ")?;
+    let n = counts
+        .split(", ")
+        .find_map(|it| it.strip_suffix(" removed"))?;
+    Some((n, place))
 }
 
 /// Returns the sentence for operations whose summary is inserted unchanged.
@@ -259,6 +272,12 @@ mod tests {
                 "2 added in Un",
                 "Proposed from movement: 2 annotations added in Un",
                 "Proposé d’après le mouvement : 2 annotations ajoutées dans Un",
+            ),
+            (
+                "accept",
+                "2 added, 2 removed in Un",
+                "Proposed values accepted: 2, in Un",
+                "Valeurs proposées acceptées : 2, dans Un",
             ),
             (
                 "keep search",

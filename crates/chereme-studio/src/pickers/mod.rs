@@ -40,6 +40,7 @@ use crate::words::{fill, pickers as words};
 use cells::{Cell, Cells};
 use data::PickerForm;
 use keys::Pressed;
+pub(crate) use paint::fitted;
 
 /// A pane narrower than this, in points, has no room for an embedded picker.
 const LEAST: f32 = 240.0;

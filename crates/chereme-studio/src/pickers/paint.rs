@@ -151,7 +151,7 @@ fn outline(
 }
 
 /// Returns a text, shortened if necessary to fit into `width` points.
-pub(super) fn fitted(ui: &Ui, text: String, font: &FontId, width: f32) -> String {
+pub(crate) fn fitted(ui: &Ui, text: String, font: &FontId, width: f32) -> String {
     let wide = |text: &str| {
         ui.painter()
             .layout_no_wrap(text.to_owned(), font.clone(), Color32::WHITE)

@@ -6,7 +6,7 @@ texts! {
     LINK: "Link a film…", "Lier un film…";
     COMING: "Opening the film…", "Ouverture du film…";
     GONE: "The film is not at {path}, nor in the folders next to the corpus.", "Le film n’est ni à {path}, ni dans les dossiers à côté du corpus.";
-    MISSING: "{name} is missing", "{name} est introuvable";
+    MISSING: "Missing: {name}", "Introuvable : {name}";
     FIND: "Find it…", "Le retrouver…";
     ABOUT: "About the recording", "À propos de l’enregistrement";
     NOT_BEGUN: "The film has not begun here.", "Le film n’a pas encore commencé ici.";

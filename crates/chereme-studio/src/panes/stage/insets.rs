@@ -101,16 +101,22 @@ pub(super) fn proposal(ui: &Ui, seen: &PaneInput<'_>, insets: &[Inset]) {
     let picture = rect.with_max_y(rect.bottom() - 18.0).shrink(2.0);
     let stored = seen.snapshot.overview.inventories.iter();
     let mut stored = stored.filter(|it| Some(it.id) == proposal.inventory);
+    let mut value = proposal.value.as_str();
     if let Some(stored) = stored.next() {
-        pickers::picture(ui, picture, seen, &stored.inventory, &proposal.value);
+        pickers::picture(ui, picture, seen, &stored.inventory, value);
+        let known = stored.inventory.find(value);
+        value = known.map_or(value, |it| pickers::data::short_name(it, seen.language));
     }
     let stroke = Stroke::new(1.5, seen.colours().component);
     painter.rect_stroke(rect, CornerRadius::same(3), stroke, StrokeKind::Inside);
     let sure = proposal
         .sure
         .map(|sure| format!(" · {:.0} %", sure * 100.0));
-    let text = format!("{}{}", proposal.value, sure.unwrap_or_default());
     let font = TextStyle::Small.resolve(ui.style());
+    let sure = sure.unwrap_or_default();
+    // A long name leaves room for the confidence.
+    let room = rect.width() - 4.0 - 6.0 * sure.chars().count() as f32;
+    let text = pickers::fitted(ui, value.to_owned(), &font, room) + &sure;
     let at = rect.center_bottom() - vec2(0.0, 9.0);
     let colour = ui.visuals().text_color();
     painter.text(at, Align2::CENTER_CENTER, text, font, colour);

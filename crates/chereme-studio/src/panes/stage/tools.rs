@@ -1,7 +1,8 @@
 //! The line above the stage: the number of views, the extras beside the signer, and the comparison with the original.
 
 use eframe::egui::{
-    Button, DragValue, Label, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    Align, Button, DragValue, Label, Layout, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui,
+    WidgetInfo, vec2,
 };
 
 use super::Stage;
@@ -117,7 +118,10 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>, out: &m
             let name = RichText::new(name).color(seen.colours().accent);
             // The width is fixed, so that the stage keeps its place whatever the recipe.
             let size = vec2(MADE, ui.spacing().interact_size.y);
-            ui.add_sized(size, Label::new(name).truncate());
+            ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+                ui.set_min_width(size.x);
+                ui.add(Label::new(name).truncate());
+            });
             let keys = seen.keys.text(Action::StageRecording);
             let back = match seen.shown.recording {
                 Some(_) => words::BACK,
