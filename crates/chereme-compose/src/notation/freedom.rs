@@ -51,10 +51,11 @@ const WITHIN: f64 = 9e4;
 /// Distance (arm lengths) of an elbow behind its shoulder that costs nothing, and the cost of an arm's length beyond it;
 /// grows with the square.
 const BEHIND: (f64, f64) = (0.12, 300.0);
-/// Costs of a wrist that is bent to its limit and of a forearm that is turned to its own, from the shares of the limit on
-/// that cost nothing; grow with the square.
-const BENT: f64 = 20.0;
-const TWISTED: f64 = 3.0;
+/// Bend of a wrist (share of its limit) that costs nothing, and the cost of a whole limit beyond it; grows with the square.
+const BENT: (f64, f64) = (0.6, 20.0);
+/// Turn of a forearm (share of its limit) that costs nothing, and the cost of a whole limit beyond it; grows with the
+/// square.
+const TWISTED: (f64, f64) = (0.75, 3.0);
 /// A plane whose cost without the hand exceeds that of the rule's plane, with the hand, by this much is not tried with the
 /// hand.
 const UNTRIED: f64 = 100.0;
@@ -346,15 +347,15 @@ impl Arm<'_> {
         };
         let coarse = Want { outlines, ..*want };
         let hung = self.hang(&coarse, bearing, high, tries);
-        let bend = (hung.angles.bend(&self.limits.wrist) - 0.6).max(0.0);
-        let twist = (hung.angles.turned(&self.limits.wrist) - 0.75).max(0.0);
+        let bend = (hung.angles.bend(&self.limits.wrist) - BENT.0).max(0.0);
+        let twist = (hung.angles.turned(&self.limits.wrist) - TWISTED.0).max(0.0);
         let apart = hung.rotation.angle_between(want.turned);
         let missed = hung.residual / self.rig().length();
         let off = given * self.off(apart) + MISSED * missed * missed;
         let cost = self.held(&hung.posed, bearing, usual)
             + SHRUGGED * bearing.shrug * bearing.shrug
-            + BENT * bend * bend
-            + TWISTED * twist * twist
+            + BENT.1 * bend * bend
+            + TWISTED.1 * twist * twist
             + off;
         let amiss = off + self.within(&hung.posed);
         Choice {

@@ -11,11 +11,11 @@ use super::plan::{Act, Event, HandState, PhaseKind, Planner};
 
 /// Smallest distance (arm lengths) between a wrist in transition and its shoulder.
 const ROUND: f64 = 0.42;
-/// Largest distance (arm lengths) of an elbow behind its shoulder on the way from one posture to another, and the steps in
-/// which the path is bent until the elbow keeps to it.
+/// Largest distance (arm lengths) of an elbow behind its shoulder on the path from one posture to another.
 const BEHIND: f64 = 0.1;
+/// Bends of the path (arm lengths) that are tried in turn until the elbow keeps to [`BEHIND`].
 const BENT: [f64; 6] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3];
-/// Shares of the path at which the elbow is looked at.
+/// Shares of the path at which the elbow is compared with [`BEHIND`].
 const LOOKED_AT: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Planner<'_> {

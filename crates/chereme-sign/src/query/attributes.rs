@@ -63,12 +63,7 @@ pub(super) fn prefixed(word: &str) -> Option<&str> {
 /// Returns whether the operator and the text after it compare a name with a number, as in `frequency>0.4` or
 /// `frequency=0.2..0.5`; the cursor is before the operator.
 pub(super) fn follows(cursor: &Cursor<'_>) -> bool {
-    let mut ahead = cursor.clone();
-    let at = operator_place(&mut ahead);
-    let operator = ahead.text(at);
-    ahead.skip_blanks();
-    let chunk = ahead.chunk();
-    let text = ahead.text(chunk);
+    let (operator, text) = ahead(cursor);
     match &*operator {
         "<" | "<=" | "=<" | "≤" | ">" | ">=" | "=>" | "≥" => number(&text).is_some(),
         "=" => text.split_once("..").is_some_and(|(from, to)| {
@@ -82,14 +77,19 @@ pub(super) fn follows(cursor: &Cursor<'_>) -> bool {
 /// Returns whether the operator and the text after it compare a name with a single number, or ask whether it has a
 /// value: `iconicity=5`, `frequency!=2`, `frequency=*`, `frequency=unset`; the cursor is before the operator.
 pub(super) fn equals(cursor: &Cursor<'_>) -> bool {
+    let (operator, text) = ahead(cursor);
+    ["=", "==", "!=", "≠"].contains(&&*operator)
+        && (number(&text).is_some() || ["*", "unset"].contains(&&*text))
+}
+
+/// Returns the operator at the cursor and the text after it, without moving the cursor.
+fn ahead(cursor: &Cursor<'_>) -> (String, String) {
     let mut ahead = cursor.clone();
     let at = operator_place(&mut ahead);
     let operator = ahead.text(at);
     ahead.skip_blanks();
     let chunk = ahead.chunk();
-    let text = ahead.text(chunk);
-    ["=", "==", "!=", "≠"].contains(&&*operator)
-        && (number(&text).is_some() || ["*", "unset"].contains(&&*text))
+    (operator, ahead.text(chunk))
 }
 
 /// Reads `("name")` and the comparison after the word `attribute`, which is at `at`.

@@ -123,8 +123,8 @@ pub(super) fn cut(
         .collect()
 }
 
-/// Returns the paths that are long enough to be intended, and shorter ones that alternate back and forth; the more
-/// loosely the hands move, the longer an intended path must be.
+/// Returns the paths that are long enough to be intended, and shorter ones that alternate back and forth. The least length
+/// of an intended path grows with how loosely the hands move ([`Scene`]).
 pub(super) fn sure(
     scene: &Scene<'_>,
     mover: &Mover<'_>,
