@@ -4,11 +4,11 @@ use chereme_motion::glam::{DQuat, DVec3};
 
 use super::hands_apart::Parted;
 use super::solve::eased;
-use super::stage::{Hand, Stage};
+use super::stage::{FINGER_FLESH, Hand, Stage};
 use super::track::Wanted;
 
 /// Half the thickness of a finger, of the thumb's root, and of a palm, in hand lengths.
-const FLESH: [f64; 3] = [0.042, 0.055, 0.07];
+const FLESH: [f64; 3] = [FINGER_FLESH, 0.055, 0.07];
 /// Depth (m) by which the flesh of two hands can be compressed.
 const SOFT: f64 = 0.0075;
 /// Hands whose palms are farther apart than this (hand lengths) cannot meet.
@@ -167,7 +167,7 @@ fn separation(
 }
 
 /// A hand in its intended pose.
-struct Placed<'a> {
+pub(super) struct Placed<'a> {
     wrist: DVec3,
     turned: DQuat,
     points: &'a [DVec3],
@@ -175,7 +175,7 @@ struct Placed<'a> {
 
 impl<'a> Placed<'a> {
     /// Returns the hand in a frame; `None` if its skeleton has no fingers.
-    fn of(wanted: &'a Wanted<'_>, frame: usize) -> Option<Self> {
+    pub(super) fn of(wanted: &'a Wanted<'_>, frame: usize) -> Option<Self> {
         let [_, outline] = wanted.outlines.at(frame);
         if outline.points.len() < 22 {
             return None;
@@ -192,6 +192,13 @@ impl<'a> Placed<'a> {
             turned,
             points: &outline.points,
         })
+    }
+
+    /// Returns the least distance of the outline from a plane through a point with a normal, in the normal's direction.
+    pub(super) fn least(&self, (point, normal): (DVec3, DVec3)) -> f64 {
+        let own = self.turned.inverse() * normal;
+        let least = self.points.iter().map(|at| at.dot(own)).fold(0.0, f64::min);
+        (self.wrist - point).dot(normal) + least
     }
 
     /// Returns the position of a point of the outline.

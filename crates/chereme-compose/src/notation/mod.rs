@@ -30,6 +30,8 @@
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | annotations of the synthesised movement |
 
+#[cfg(test)]
+mod apart_tests;
 mod approach;
 mod arm;
 mod bulk;
@@ -44,6 +46,7 @@ mod natural;
 mod nonmanual;
 mod notes;
 mod orient;
+mod own_side;
 mod pace;
 mod path;
 mod perform;
@@ -73,13 +76,15 @@ use crate::outcome::{ChannelReport, Generated, HandReport, Report, StepReport};
 use crate::sources::Material;
 use crate::work::Group;
 
+use bulk::Cleared;
+use hands_apart::Parted;
 use life::Alive;
 use pace::Paces;
 pub use perform::Performer;
 use plan::{Planner, SignPlan};
 use stage::Stage;
 use stretch_time::{Fastest, Warp};
-use track::{ArmTrack, Fit};
+use track::{ArmTrack, Fit, Timing, Wanted};
 
 /// The most frames of one animation: ten minutes at 120 Hz.
 const MOST_FRAMES: usize = 72_000;
@@ -166,30 +171,13 @@ pub fn animate(
         total,
     };
     let hands = sides.map(|side| body.hand(side));
-    let [mut first, mut second] = [0, 1].map(|n| track::wanted(&body, &plan, n, &timing));
-    let alive = Alive::of(
-        &body,
-        signs,
-        &plan,
-        &settings.language,
-        [&first, &second],
-        rate,
-    );
-    for wanted in [&mut first, &mut second] {
-        alive.carry(&body, wanted);
-    }
-    let parted = match hands {
-        [Some(a), Some(b)] => hands_apart::part(&body, [a, b], [&mut first, &mut second], rate),
-        _ => None,
-    };
-    let cleared = match hands {
-        [Some(a), Some(b)] if !plan.laced => {
-            let contacts = &plan.contacts;
-            bulk::clear(&body, [a, b], [&mut first, &mut second], contacts, rate)
-        }
-        _ => None,
-    };
-    let mut wanted = [Some(first), Some(second)];
+    let Goals {
+        alive,
+        wanted,
+        parted,
+        cleared,
+    } = Goals::of(&body, signs, &plan, &settings.language, &timing);
+    let mut wanted = wanted.map(Some);
     let made = [0, 1].map(|n| {
         let (hand, wanted) = (hands[n]?, wanted[n].take()?);
         let made = track::SolvedFrames::of(&body, hand, (&plan, n), wanted, &limits, &timing);
@@ -274,6 +262,52 @@ pub fn animate(
         signer: stage.signer.clone(),
         report,
     })
+}
+
+/// The goals of both hands of signs in each frame, before the arms are solved.
+struct Goals<'a> {
+    alive: Alive,
+    wanted: [Wanted<'a>; 2],
+    /// The separation of hands that pass each other.
+    parted: Option<Parted>,
+    /// The separation of hands that would penetrate each other.
+    cleared: Option<Cleared>,
+}
+
+impl<'a> Goals<'a> {
+    /// Turns a plan into goals, with the body's sway, and moves two hands out of each other.
+    fn of(
+        body: &'a Stage,
+        signs: &[&Notated],
+        plan: &'a SignPlan,
+        language: &BodyLanguage,
+        timing: &Timing<'_>,
+    ) -> Self {
+        let rate = timing.rate;
+        let hands = plan.sides.map(|side| body.hand(side));
+        let [mut first, mut second] = [0, 1].map(|n| track::wanted(body, plan, n, timing));
+        if let [Some(a), Some(b)] = hands {
+            own_side::keep(body, plan, [a, b], [&mut first, &mut second], rate);
+        }
+        let alive = Alive::of(body, signs, plan, language, [&first, &second], rate);
+        for wanted in [&mut first, &mut second] {
+            alive.carry(body, wanted);
+        }
+        let (mut parted, mut cleared) = (None, None);
+        if let [Some(a), Some(b)] = hands {
+            parted = hands_apart::part(body, [a, b], [&mut first, &mut second], rate);
+            if !plan.laced {
+                let both = [&mut first, &mut second];
+                cleared = bulk::clear(body, [a, b], both, &plan.contacts, rate);
+            }
+        }
+        Self {
+            alive,
+            wanted: [first, second],
+            parted,
+            cleared,
+        }
+    }
 }
 
 /// Returns the number of frames for a duration in seconds.

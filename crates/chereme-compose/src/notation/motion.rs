@@ -2,6 +2,7 @@
 
 mod relative;
 mod repeat;
+mod room;
 mod size;
 mod target;
 
@@ -24,6 +25,8 @@ use super::plan::{
 
 /// Seconds in which a hand that leaves a contact changes its pivot from the contact point to the palm.
 const LET_GO: f64 = 0.15;
+/// A hand that rotates farther than this (rad) while it moves rotates about its palm.
+const FAR_TURN: f64 = 1.0;
 
 /// Modifiers that a motion inherits from the motions around it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -248,7 +251,7 @@ impl Planner<'_> {
             [l.circle_small, l.circle_normal, l.circle_big],
         );
         let turns = turns(circular) + env.rounds;
-        let skin = acting(who).find_map(|(n, frame)| self.skin(n, frame));
+        let skin = self.outwards(who);
         let (start, quarter) = self.rim(circular, radius * env.size, skin);
         let path = Path::Circle {
             start,
@@ -259,14 +262,28 @@ impl Planner<'_> {
         let usual = l.time_circle * turns.max(0.4);
         let end = time + self.timed(usual, path.length(), env);
         self.along(&path, who, [time, end], Pace::of(manner, Pace::Linear));
+        self.make_room(&path, who, [time, end]);
         let says = format!("circle {}", circular.axis);
         self.add_phase(who, PhaseKind::Stroke, time, end, &says);
         end
     }
 
+    /// Returns the direction (left, up, forward in the hand's frame) away from that which a circle should start at: the
+    /// skin that a hand touches, or the other of two mirrored hands that are together.
+    fn outwards(&self, who: Who) -> Option<DVec3> {
+        let skin = acting(who).find_map(|(n, frame)| self.skin(n, frame));
+        let beside = || match who {
+            [Some(own), Some(other)] if self.together.is_some() && own.mirrors(&other) => {
+                Some(DVec3::X * (self.sides[0].sign() * own.axes.x))
+            }
+            _ => None,
+        };
+        skin.or_else(beside)
+    }
+
     /// Returns the vectors from a circle's centre to its start and to the point a quarter turn on. The
-    /// default start is above; a hand that touches the body starts at the body, whose outward normal is
-    /// `skin`.
+    /// default start is above; a hand that touches the body or the other hand starts there: `skin` is the direction
+    /// away from it.
     fn rim(&self, circular: &Circular, radius: f64, skin: Option<DVec3>) -> (DVec3, DVec3) {
         let l = self.language;
         let axis = mean(circular.axis, circular.second);
@@ -307,7 +324,7 @@ impl Planner<'_> {
         let Some(frame) = who[1].filter(|frame| frame.behind) else {
             return;
         };
-        let skin = acting(who).find_map(|(n, frame)| self.skin(n, frame));
+        let skin = self.outwards(who);
         fn circle(motion: &Motion) -> Option<&Circular> {
             match &motion.kind {
                 MotionKind::Circular(circular) => Some(circular),
@@ -450,7 +467,8 @@ impl Planner<'_> {
         now
     }
 
-    /// Makes hands that rotate while they leave each other rotate about their palms instead of their fingertips.
+    /// Makes hands that rotate while they leave each other, or that rotate far while they move, rotate about their palms
+    /// instead of their fingertips: otherwise the rotation would consume the path of the wrist.
     fn let_go(&mut self, motions: &[Motion], who: Who, time: f64) {
         let goes = |motion: &Motion| {
             matches!(
@@ -466,10 +484,23 @@ impl Planner<'_> {
             }
             _ => false,
         };
-        if self.together.is_none() || !motions.iter().any(goes) || !motions.iter().any(turns) {
+        if !motions.iter().any(goes) || !motions.iter().any(turns) {
             return;
         }
-        for (n, _) in acting(who) {
+        let inwards = |motion: &Motion| match &motion.kind {
+            MotionKind::Directed(path) => mean(path.direction, path.second).z < -0.3,
+            _ => false,
+        };
+        let turned = match self.together {
+            Some(_) => [f64::INFINITY; 2],
+            // A hand that leads to the body does so with the part that is nearest to it.
+            None if motions.iter().any(inwards) => return,
+            None => self.turned_by(motions.iter().filter(|motion| turns(motion)), who),
+        };
+        for (n, frame) in acting(who) {
+            if turned[n] < FAR_TURN || self.skin(n, frame).is_some() {
+                continue;
+            }
             let palm = self.offset(n, &[HandPoint::Palm]);
             let mut goal = self.state[n].clone();
             if goal.offset.distance(palm) < 1e-9 {
@@ -479,6 +510,22 @@ impl Planner<'_> {
             goal.offset = palm;
             self.go(n, &goal, time, time + LET_GO, Pace::Linear);
         }
+    }
+
+    /// Returns the angles (rad) by which motions rotate the hands, by a trial plan.
+    fn turned_by<'m>(&mut self, motions: impl Iterator<Item = &'m Motion>, who: Who) -> [f64; 2] {
+        let before = [0, 1].map(|n| self.state[n].rotation);
+        self.enter();
+        let after = self.aside(|planner| {
+            for motion in motions {
+                planner.motion(motion, who, 0.0, &Env::default());
+            }
+            [0, 1].map(|n| planner.state[n].rotation)
+        });
+        if let Some(trail) = &mut self.trail {
+            trail.within -= 1;
+        }
+        [0, 1].map(|n| before[n].angle_between(after[n]))
     }
 
     fn parallel(&mut self, motions: &[Motion], who: Who, time: f64, env: &Env) -> f64 {

@@ -5,14 +5,11 @@ use std::sync::Arc;
 use chereme_motion::Clip;
 use chereme_sign::hamnosys::{Notated, Sign};
 
-use super::life::Alive;
 use super::pace::Paces;
 use super::plan::Planner;
 use super::solve::Arm;
 use super::stage::Stage;
-use super::{
-    NotationError, Settings, animate, bulk, frames, hands_apart, lay, nonmanual, standing, track,
-};
+use super::{Goals, NotationError, Settings, animate, frames, lay, nonmanual, standing, track};
 use crate::outcome::About;
 use crate::sources::Material;
 
@@ -93,26 +90,10 @@ impl Performer {
         };
         let mut channels = standing(body, 1);
         let hands = sides.map(|side| body.hand(side));
-        let [mut first, mut second] = [0, 1].map(|n| track::wanted(body, &plan, n, &timing));
-        let own = notated(sign);
         let language = &self.settings.language;
-        let alive = Alive::of(body, &[&own], &plan, language, [&first, &second], rate);
-        for wanted in [&mut first, &mut second] {
-            alive.carry(body, wanted);
-        }
-        if let [Some(a), Some(b)] = hands {
-            hands_apart::part(body, [a, b], [&mut first, &mut second], rate);
-        }
-        if let ([Some(a), Some(b)], false) = (hands, plan.laced) {
-            bulk::clear(
-                body,
-                [a, b],
-                [&mut first, &mut second],
-                &plan.contacts,
-                rate,
-            );
-        }
-        for (n, (hand, wanted)) in hands.into_iter().zip([first, second]).enumerate() {
+        let Goals { alive, wanted, .. } =
+            Goals::of(body, &[&notated(sign)], &plan, language, &timing);
+        for (n, (hand, wanted)) in hands.into_iter().zip(wanted).enumerate() {
             let Some(hand) = hand else { continue };
             let solver = Arm::of(body, hand, &limits);
             let (_, got) = solver.over_time(&wanted.cut(span.clone()), rate);

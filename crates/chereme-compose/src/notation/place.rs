@@ -15,6 +15,10 @@ use chereme_sign::hamnosys::{
 use super::lift::inside;
 use super::plan::{Frame, Planner, Who, acting};
 use super::solve::Arm;
+use super::stage::FINGER_FLESH;
+
+/// Farthest move of a hand, in hand lengths, that makes room for the other hand on the skin.
+const BESIDE: f64 = 0.4;
 
 /// Returns whether a place is at the other hand.
 pub(super) fn is_at_hand(place: &Place) -> bool {
@@ -126,10 +130,10 @@ impl Planner<'_> {
         if site.site.region == Region::Trunk && skin.is_some() {
             self.lay(n, &points, at);
         }
-        let at = if apart && self.symmetric && !touching && site.site.lateral == 0.0 {
-            self.apart(n, at)
-        } else {
-            at
+        let at = match apart && self.symmetric && site.site.lateral == 0.0 {
+            true if !touching => self.apart(n, at),
+            true if site.site.region == Region::Trunk => self.beside(n, &points, at),
+            _ => at,
         };
         Goal {
             at,
@@ -169,6 +173,21 @@ impl Planner<'_> {
         };
         let local = DVec3::new(out.dot(stage.left), out.y, out.dot(stage.forward));
         Some(local * frame.axes)
+    }
+
+    /// Moves a place on the skin in the middle to the hand's own side, so that the other hand touches the skin beside it.
+    fn beside(&self, n: usize, points: &[HandPoint], at: DVec3) -> DVec3 {
+        let Some(hand) = self.stage.hand(self.sides[n]) else {
+            return at;
+        };
+        let state = &self.state[n];
+        let outwards = self.stage.left * hand.side.sign();
+        let own = state.rotation.inverse() * -outwards;
+        let offset = self.offset(n, points);
+        let outline = &self.plan.shapes[n][state.shape].outline.points;
+        let reach = outline.iter().map(|part| (*part - offset).dot(own));
+        let reach = reach.fold(0.0, f64::max) + FINGER_FLESH * hand.length();
+        at + outwards * reach.min(BESIDE * hand.length())
     }
 
     /// Moves a place in the middle to the front of the hand's own shoulder.

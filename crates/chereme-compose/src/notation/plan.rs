@@ -140,6 +140,8 @@ pub(crate) struct SignPlan {
     pub(crate) courses: [Vec<Course>; 2],
     /// Time spans (s, as planned) in which each hand moves to a named place.
     pub(crate) arrivals: [Vec<(f64, f64)>; 2],
+    /// Time spans (s, as planned) in which the hands mirror each other.
+    pub(crate) mirrored: Vec<(f64, f64)>,
     pub(crate) end: f64,
     /// Whether the hands interlock or cross, so that their bulk may overlap.
     pub(crate) laced: bool,
@@ -269,6 +271,7 @@ impl<'a> Planner<'a> {
                 contacts: [Vec::new(), Vec::new()],
                 courses: [Vec::new(), Vec::new()],
                 arrivals: [Vec::new(), Vec::new()],
+                mirrored: Vec::new(),
                 end: 0.0,
                 laced: false,
                 remarks: Vec::new(),
@@ -389,6 +392,11 @@ impl<'a> Planner<'a> {
             if named[n].is_some() || who[n].is_some() {
                 self.phase(n, PhaseKind::Hold, now, now + hold, "");
             }
+        }
+        if let [Some(own), Some(other)] = who
+            && own.mirrors(&other)
+        {
+            self.plan.mirrored.push((reached, now + hold));
         }
         (reached, now + hold)
     }

@@ -11,6 +11,9 @@ use chereme_sign::hamnosys::sites::{Face, HandPoint, digit_joint, from_bone, on_
 use super::arm::{HeldDirections, Rig};
 use crate::sources::Material;
 
+/// Half the thickness of a finger, in hand lengths.
+pub(crate) const FINGER_FLESH: f64 = 0.042;
+
 /// A body in its standing posture.
 pub(crate) struct Stage {
     pub(crate) skeleton: Arc<Skeleton>,

@@ -7,15 +7,13 @@ use chereme_sign::hamnosys::angles::selected;
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 use chereme_sign::hamnosys::{Digit, HandClass, Handshape, ThumbPosition};
 
-use super::stage::{Hand, Shape, Stage};
+use super::stage::{FINGER_FLESH, Hand, Shape, Stage};
 
 /// Distance between the middles of two tips that meet, in hand lengths.
 const APART: f64 = 0.045;
 /// Largest change of an angle from the table's, in radians.
 const MOST: f64 = 0.45;
 
-/// Half the thickness of a finger, in hand lengths.
-const FLESH: f64 = 0.042;
 /// Height of the palm's skin over the bones, in hand lengths.
 const SKIN: f64 = 0.07;
 /// Ranges of a thumb's angles in degrees: radial, palmar, opposition, and both flexions.
@@ -79,7 +77,7 @@ fn across(stage: &Stage, side: Side, handshape: &Handshape, angles: &HandAngles)
             let (middle, ring) = (base(Digit::Middle), base(Digit::Ring));
             let at = middle.lerp(ring, 0.4) - hand.along * (0.11 * length);
             let level = at - hand.palm * at.dot(hand.palm);
-            vec![level + hand.palm * ((SKIN + FLESH) * length)]
+            vec![level + hand.palm * ((SKIN + FINGER_FLESH) * length)]
         }
         HandClass::Fist | HandClass::Finger2 | HandClass::Finger23 | HandClass::Finger23Spread => {
             let on = rests_on(handshape)?;
@@ -90,7 +88,7 @@ fn across(stage: &Stage, side: Side, handshape: &Handshape, angles: &HandAngles)
             let aside = bone.cross(out) * bone.cross(out).dot(hand.radial).signum();
             let round = |&(share, turn): &(f64, f64)| {
                 let out = out * turn.cos() + aside * turn.sin();
-                near.lerp(far, share) + out * (2.0 * FLESH * length)
+                near.lerp(far, share) + out * (2.0 * FINGER_FLESH * length)
             };
             ON_FINGER.iter().map(round).collect()
         }
@@ -122,7 +120,7 @@ fn brought(
         let tip = stage.point(hand, shape, HandPoint::Tip(Digit::Thumb, Face::Middle));
         let joint = stage.point(hand, shape, HandPoint::Middle(Digit::Thumb, Face::Middle));
         let bone = (tip - joint).normalize_or(hand.along);
-        let off = goal - (tip - bone * (FLESH * length));
+        let off = goal - (tip - bone * (FINGER_FLESH * length));
         [off.x, off.y, off.z, level * (goal - joint).dot(hand.palm)]
     };
     let squares = |off: [f64; 4]| off.iter().map(|off| off * off).sum::<f64>();

@@ -5,6 +5,7 @@ use chereme_sign::hamnosys::sites::{Face, HandPoint};
 
 use super::plan::Planner;
 use super::solve::MARGIN;
+use super::stage::FINGER_FLESH;
 
 /// Largest turn (rad) of a hand off its notated orientation to lie flat on the skin; it still reads as
 /// notated.
@@ -14,8 +15,6 @@ const BEHIND: f64 = 0.5;
 /// If the cosine between the hand part's outward normal and the skin's exceeds this, the part faces away
 /// from the skin: its normal is more than 60 degrees off the direction into the skin.
 const AWAY: f64 = -0.5;
-/// Half the thickness of a finger, in hand lengths.
-const FLESH: f64 = 0.042;
 /// Offset (m) above which the substitution is reported.
 const REPORTED: f64 = 2e-3;
 /// Step of the search for that offset, in metres.
@@ -38,7 +37,7 @@ impl Planner<'_> {
         let shape = &self.plan.shapes[n][self.state[n].shape];
         let out = self.stage.outward(hand, shape, *point);
         let own = self.stage.point(hand, shape, *point).dot(out);
-        let flesh = FLESH * hand.length();
+        let flesh = FINGER_FLESH * hand.length();
         let far = shape
             .outline
             .points

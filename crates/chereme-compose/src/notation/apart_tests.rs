@@ -1,0 +1,128 @@
+//! Tests of two hands beside each other, and of paths that would lead through the trunk or be lost in a turn.
+
+use chereme_motion::glam::DVec3;
+use chereme_motion::{ModelPose, Part, Side};
+use chereme_sign::hamnosys::{BodyLanguage, Notated, from_names, parse};
+
+use super::stage::Stage;
+use super::tests::stage;
+use super::*;
+use crate::About;
+use crate::testing::Axes;
+
+/// Animates a sign, given by the names of its symbols, on a body that does not sway.
+fn made(names: &str) -> Generated {
+    let text = from_names(names.split(' ')).expect("names of symbols");
+    let sign = Notated {
+        sign: parse(&text).expect("HamNoSys").sign,
+        ..Notated::default()
+    };
+    let settings = Settings {
+        language: BodyLanguage::usual().without_life(),
+        ..Settings::default()
+    };
+    animate(&[&sign], &stage(Axes::Plain), &settings).expect("it can be animated")
+}
+
+/// Returns the postures from the sign's first to its last.
+fn postures(made: &Generated) -> Vec<ModelPose> {
+    let gloss = made.notes.iter().find(|note| note.about == About::Gloss);
+    let span = gloss.expect("the gloss is noted").span;
+    let rate = made.clip.rate();
+    let frames = rate.frame_at(span.start())..rate.frame_at(span.end());
+    frames.map(|frame| made.clip.model_pose(frame)).collect()
+}
+
+/// Returns the least distance (m) of a hand's joints from the signer's middle, to its own side.
+fn own_side(made: &Generated, side: Side) -> f64 {
+    let body = Stage::of(&stage(Axes::Plain)).expect("a body");
+    let outwards = body.left * side.sign();
+    let joints = made.anatomy.fingers(side);
+    let postures = postures(made);
+    let all = postures.iter().flat_map(|model| {
+        let at = joints.iter().map(|joint| model.position(*joint));
+        at.map(|at| (at - body.middle()).dot(outwards))
+    });
+    all.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn circles_of_hands_that_are_together_begin_at_each_other() {
+    for axis in ["hamcircleo", "hamcirclei", "hamcircleu", "hamcircled"] {
+        let made = made(&format!(
+            "hamsymmlr hamfinger2 hamextfingeruo hampalmd hamparbegin hamindexfinger hamfingertip hamplus \
+             hamindexfinger hamfingertip hamparend hamclose {axis}"
+        ));
+        for side in Side::BOTH {
+            let least = own_side(&made, side);
+            assert!(least > -0.005, "{axis}, {side:?}: {least} m");
+        }
+        let said = &made.report.warnings;
+        let met = said
+            .iter()
+            .any(|said| said.contains("go through each other"));
+        assert!(!met, "{axis}: {said:?}");
+    }
+}
+
+#[test]
+fn mirrored_fists_lie_beside_each_other_on_the_chest() {
+    let made = made("hamsymmlr hamfist hamextfingerl hampalmd hamchest hamtouch hamnomotion");
+    for side in Side::BOTH {
+        let least = own_side(&made, side);
+        assert!(least > 0.0, "{side:?}: {least} m");
+    }
+    let said = &made.report.warnings;
+    let amiss = |said: &&String| said.contains("deep in each other") || said.contains("short of");
+    assert!(!said.iter().any(|said| amiss(&said)), "{said:?}");
+}
+
+#[test]
+fn mirrored_hands_meet_at_the_middle_and_stay_level() {
+    let made = made(
+        "hamsymmlr hamflathand hamextfingero hampalmu hamchest hammovel hamlargemod hamrepeatfromstart",
+    );
+    for model in postures(&made) {
+        let [right, left] = Side::BOTH.map(|side| {
+            let hand = made.anatomy.joint(Part::Hand(side)).expect("a hand");
+            model.position(hand)
+        });
+        let off = (right - left) * (DVec3::Y + DVec3::Z);
+        assert!(off.length() < 0.02, "{off} m from level");
+    }
+}
+
+#[test]
+fn a_big_level_circle_stays_before_the_trunk_as_a_whole() {
+    for start in ["hamclocku", "hamclockr", "hamclockd", "hamclockl"] {
+        let made = made(&format!(
+            "hamflathand hamextfingerol hampalmd hamchest hamclose hamcircled hamlargemod {start}"
+        ));
+        let said = made.report.warnings.iter();
+        let pushed = said.filter_map(|said| {
+            let (_, rest) = said.split_once("was moved ")?;
+            rest.split_once(" cm out of the trunk")?
+                .0
+                .parse::<f64>()
+                .ok()
+        });
+        let most = pushed.fold(0.0, f64::max);
+        assert!(most < 3.0, "{start}: {most} cm");
+    }
+}
+
+#[test]
+fn a_turn_of_the_hand_does_not_consume_the_path_of_the_wrist() {
+    let made = made(
+        "hamflathand hamextfingerui hampalmu hamear hamclose hamparbegin hammoveo hamlargemod hamreplace \
+         hamextfingero hampalmd hamparend",
+    );
+    let hand = made.anatomy.joint(Part::Hand(Side::Right)).expect("a hand");
+    let postures = postures(&made);
+    let [first, last] = [postures.first(), postures.last()].map(|model| {
+        let model = model.expect("some");
+        model.position(hand)
+    });
+    let far = first.distance(last);
+    assert!(far > 0.12, "{far} m");
+}

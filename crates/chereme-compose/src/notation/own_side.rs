@@ -1,0 +1,70 @@
+//! Keeps each hand of a mirrored movement on its own side of the signer's middle.
+//!
+//! Two mirrored hands that would pass through each other move outwards as a whole, so that both stay mirrored. Hands
+//! that a sign crosses on purpose are left alone.
+
+use chereme_motion::glam::DVec3;
+
+use super::bulk::Placed;
+use super::plan::SignPlan;
+use super::solve::eased;
+use super::stage::{FINGER_FLESH, Hand, Stage};
+use super::track::Wanted;
+
+/// A hand that reaches farther than this beyond the middle (hand lengths) crosses it on purpose.
+const CROSSES: f64 = 0.65;
+/// Depth (m) beyond the middle that is left to the flesh of the hands.
+const SOFT: f64 = 0.004;
+/// Seconds before and after over which a displacement is spread.
+const AROUND: f64 = 0.3;
+
+/// Moves the goals of mirrored hands outwards, wherever a hand reaches beyond the middle and neither touches anything.
+pub(crate) fn keep(
+    stage: &Stage,
+    plan: &SignPlan,
+    hands: [&Hand; 2],
+    wanted: [&mut Wanted<'_>; 2],
+    rate: f64,
+) {
+    let total = wanted[0].points.len();
+    let middle = stage.middle();
+    let length = hands[0].length();
+    let outwards = [0, 1].map(|n| stage.left * plan.sides[n].sign());
+    let mut beyond = vec![DVec3::ZERO; total];
+    for (from, to) in &plan.mirrored {
+        let [first, last] = [from, to].map(|time| ((time * rate) as usize).min(total));
+        let own = first..last;
+        let deep = |frame: usize| {
+            let both = [0, 1].map(|n| {
+                let hand = Placed::of(wanted[n], frame);
+                let reach = hand.map(|hand| hand.least((middle, outwards[n])));
+                reach.map_or(0.0, |least| FINGER_FLESH * length - least)
+            });
+            both[0].max(both[1]).max(0.0)
+        };
+        let depths: Vec<f64> = own.clone().map(deep).collect();
+        let most = depths.iter().copied().fold(0.0, f64::max);
+        if !(SOFT..CROSSES * length).contains(&most) {
+            continue;
+        }
+        for (frame, depth) in own.zip(depths) {
+            let touch = wanted
+                .iter()
+                .map(|one| one.touch[frame])
+                .fold(0.0, f64::max);
+            beyond[frame].x = depth.max(SOFT) - SOFT;
+            beyond[frame].x *= 1.0 - touch;
+        }
+    }
+    if beyond.iter().all(|by| by.x == 0.0) {
+        return;
+    }
+    let near = ((AROUND * rate).ceil() as usize).max(1);
+    let eased = eased(&beyond, near);
+    for (wanted, out) in wanted.into_iter().zip(outwards) {
+        for (frame, by) in eased.iter().enumerate() {
+            let free = 1.0 - wanted.touch[frame];
+            wanted.points[frame] += out * (by.x * free);
+        }
+    }
+}
