@@ -78,10 +78,31 @@ fn mirrored_fists_lie_beside_each_other_on_the_chest() {
 }
 
 #[test]
-fn mirrored_hands_meet_at_the_middle_and_stay_level() {
+fn palms_that_touch_each_other_stay_together_while_they_move() {
     let made = made(
-        "hamsymmlr hamflathand hamextfingero hampalmu hamchest hammovel hamlargemod hamrepeatfromstart",
+        "hamsymmlr hamflathand hamextfingeru hampalml hamparbegin hampalm hamplus hampalm hamparend hamtouch \
+         hammovedo hamsmallmod hamrepeatfromstart",
     );
+    let apart = postures(&made).into_iter().map(|model| {
+        let [right, left] = Side::BOTH.map(|side| {
+            let tip = format!("{}-middle-tip", side.name());
+            let skeleton = made.clip.skeleton();
+            made.anatomy
+                .landmark(skeleton, &model, &tip)
+                .expect("a tip")
+        });
+        right.distance(left)
+    });
+    let [least, most] = apart.fold([f64::INFINITY, 0.0], |[least, most], at| {
+        [least.min(at), most.max(at)]
+    });
+    assert!(most - least < 0.012, "{least} to {most} m");
+}
+
+#[test]
+fn mirrored_hands_meet_at_the_middle_and_stay_level() {
+    let made =
+        made("hamsymmlr hamflathand hamextfingero hampalmu hamchest hammovel hamrepeatfromstart");
     for model in postures(&made) {
         let [right, left] = Side::BOTH.map(|side| {
             let hand = made.anatomy.joint(Part::Hand(side)).expect("a hand");

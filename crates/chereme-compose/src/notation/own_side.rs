@@ -15,6 +15,8 @@ use super::track::Wanted;
 const CROSSES: f64 = 0.65;
 /// Depth (m) beyond the middle that is left to the flesh of the hands.
 const SOFT: f64 = 0.004;
+/// Distance (m) of one hand from the mirror image of the other below which they count as mirrored.
+const LIKE: f64 = 0.03;
 /// Seconds before and after over which a displacement is spread.
 const AROUND: f64 = 0.3;
 
@@ -34,7 +36,17 @@ pub(crate) fn keep(
     for (from, to) in &plan.mirrored {
         let [first, last] = [from, to].map(|time| ((time * rate) as usize).min(total));
         let own = first..last;
+        let touch = |frame: usize| {
+            let both = wanted.iter().map(|one| one.touch[frame]);
+            both.fold(0.0, f64::max)
+        };
         let deep = |frame: usize| {
+            let [a, b] = [0, 1].map(|n| wanted[n].points[frame] - middle);
+            if (a - b).reject_from_normalized(stage.left).length() > LIKE
+                || (a + b).dot(stage.left).abs() > LIKE
+            {
+                return 0.0;
+            }
             let both = [0, 1].map(|n| {
                 let hand = Placed::of(wanted[n], frame);
                 let reach = hand.map(|hand| hand.least((middle, outwards[n])));
@@ -44,16 +56,15 @@ pub(crate) fn keep(
         };
         let depths: Vec<f64> = own.clone().map(deep).collect();
         let most = depths.iter().copied().fold(0.0, f64::max);
-        if !(SOFT..CROSSES * length).contains(&most) {
+        // Hands that touch each other may stay as deep as they are then.
+        let held = own.clone().zip(&depths);
+        let held = held.filter(|(frame, _)| touch(*frame) > 0.5);
+        let left = held.map(|(_, depth)| *depth).fold(SOFT, f64::max);
+        if !(left..CROSSES * length).contains(&most) {
             continue;
         }
         for (frame, depth) in own.zip(depths) {
-            let touch = wanted
-                .iter()
-                .map(|one| one.touch[frame])
-                .fold(0.0, f64::max);
-            beyond[frame].x = depth.max(SOFT) - SOFT;
-            beyond[frame].x *= 1.0 - touch;
+            beyond[frame].x = (depth - left).max(0.0) * (1.0 - touch(frame));
         }
     }
     if beyond.iter().all(|by| by.x == 0.0) {

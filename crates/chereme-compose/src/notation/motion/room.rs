@@ -35,7 +35,7 @@ impl Planner<'_> {
                     let wrist = start + own.at(at as f64 / POINTS as f64) + by;
                     let parts = outline.iter().map(|part| wrist + state.rotation * *part);
                     let parts = parts.chain([wrist]);
-                    let out = parts.map(|part| stage.torso.way_out(part, MARGIN).length());
+                    let out = parts.map(|part| stage.torso.offset_out(part, MARGIN).length());
                     out.fold(0.0, f64::max)
                 });
                 points.fold(0.0, f64::max)
@@ -45,8 +45,8 @@ impl Planner<'_> {
             }
             let outside = stage.left * hand.side.sign();
             let directions = [stage.forward, (stage.forward + outside).normalize()];
-            let steps =
-                (1..=STEPS).flat_map(|step| directions.map(|way| way * (STEP * step as f64)));
+            let steps = (1..=STEPS)
+                .flat_map(|step| directions.map(|direction| direction * (STEP * step as f64)));
             let Some(by) = steps.into_iter().find(|by| deep(*by) < SHALLOW) else {
                 continue;
             };
