@@ -93,10 +93,8 @@ fn palms_that_touch_each_other_stay_together_while_they_move() {
         });
         right.distance(left)
     });
-    let [least, most] = apart.fold([f64::INFINITY, 0.0], |[least, most], at| {
-        [least.min(at), most.max(at)]
-    });
-    assert!(most - least < 0.012, "{least} to {most} m");
+    let most = apart.fold(0.0, f64::max);
+    assert!(most < 0.03, "{most} m");
 }
 
 #[test]
