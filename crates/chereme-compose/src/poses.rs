@@ -70,6 +70,8 @@ impl std::fmt::Display for PoseOrigin {
 
 /// The greatest distance of a neighbouring value, as the root mean square of its angles' differences in radians.
 const NEAR: f64 = 0.25;
+/// The greatest such distance of a posture from the value that it shows.
+const SHOWN: f64 = 0.2;
 /// The number of examples that are tried before the next best kind of source.
 const TRIES: usize = 8;
 
@@ -186,6 +188,17 @@ fn from_neighbour(
         }
     }
     Ok(None)
+}
+
+/// Returns the value that a posture shows: the nearest of the inventories, if one is near enough.
+pub(crate) fn nearest_value(sources: &dyn Sources, angles: &HandAngles) -> Option<String> {
+    let values = sources.values(Component::Configuration).into_iter();
+    let near = values.filter_map(|value| match &value.meaning {
+        Some(Meaning::Hand(own)) => Some((distance(angles, own), value.id)),
+        _ => None,
+    });
+    let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0));
+    nearest.filter(|it| it.0 < SHOWN).map(|it| it.1)
 }
 
 fn distance(a: &HandAngles, b: &HandAngles) -> f64 {

@@ -32,11 +32,18 @@ const VIA: Slot<LearnedProfile> = Slot::new("point/via");
 /// Asks for the body, the hand's shape and the place of a pointing gesture.
 pub(crate) fn resolve(settings: &Point, ask: &mut Ask<'_>) -> Result<Setting, Cause> {
     let setting = ask.body(&BODY, settings.on.as_deref())?;
-    if let Some(with) = &settings.with {
-        let side = settings.hand.sides(setting.handedness)[0];
-        let poses = poses::choose(ask.sources, with, side, &setting)?;
-        ask.put(&WITH, poses);
-    }
+    let poses = match &settings.with {
+        Some(with) => {
+            let side = settings.hand.sides(setting.handedness)[0];
+            poses::choose(ask.sources, with, side, &setting)?
+        }
+        None => {
+            let mut pose = index_finger();
+            pose.value = poses::nearest_value(ask.sources, &pose.angles);
+            vec![pose]
+        }
+    };
+    ask.put(&WITH, poses);
     ask.spot(&AT, &settings.at)?;
     ask.course(&VIA, &settings.via)?;
     Ok(setting)
@@ -241,4 +248,33 @@ fn finger(work: &Work, model: &ModelPose, side: Side) -> Option<(DVec3, DVec3)> 
     let name = format!("{}-index-tip", side.name());
     let tip = work.anatomy.landmark(&work.skeleton, model, &name)?;
     Some((model.position(base), tip))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sources::{Meaning, Value};
+    use crate::testing::Shelf;
+
+    #[test]
+    fn a_pointing_hand_has_the_value_that_it_shows() {
+        let mut shelf = Shelf::new();
+        let angles = index_finger().angles;
+        let found = poses::nearest_value(&shelf, &angles);
+        assert_eq!(found, None, "no value is near enough");
+        let index = Value {
+            id: "1".into(),
+            inventory: "configurations".into(),
+            meaning: Some(Meaning::Hand(angles)),
+        };
+        shelf.values.push((Component::Configuration, index));
+        let recipe: crate::Recipe = "point right at 30cm,140cm,50cm".parse().expect("a recipe");
+        let resolved = crate::resolve(&recipe, &shelf).expect("resolved");
+        let made = crate::evaluate(&resolved).expect("made");
+        let shown = made
+            .notes
+            .iter()
+            .find(|note| note.about == About::Component(Component::Configuration, None));
+        assert_eq!(shown.and_then(|note| note.value.value()), Some("1"));
+    }
 }
