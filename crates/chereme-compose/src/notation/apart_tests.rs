@@ -1,11 +1,13 @@
 //! Tests of two hands beside each other, and of paths that would lead through the trunk or be lost in a turn.
 
-use chereme_motion::glam::DVec3;
 use chereme_motion::{ModelPose, Part, Side};
-use chereme_sign::hamnosys::{BodyLanguage, Notated, from_names, parse};
+use chereme_sign::hamnosys::{
+    BodyLanguage, BodyLocation, Contact, HandClass, Motion, MotionKind, Notated, Posture,
+    from_names, parse,
+};
 
 use super::stage::Stage;
-use super::tests::stage;
+use super::tests::{at, directed, mirrored, notated, posture, stage};
 use super::*;
 use crate::About;
 use crate::testing::Axes;
@@ -13,15 +15,19 @@ use crate::testing::Axes;
 /// Animates a sign, given by the names of its symbols, on a body that does not sway.
 fn made(names: &str) -> Generated {
     let text = from_names(names.split(' ')).expect("names of symbols");
-    let sign = Notated {
+    animated(&Notated {
         sign: parse(&text).expect("HamNoSys").sign,
         ..Notated::default()
-    };
+    })
+}
+
+/// Animates a sign on a body that does not sway.
+fn animated(sign: &Notated) -> Generated {
     let settings = Settings {
         language: BodyLanguage::usual().without_life(),
         ..Settings::default()
     };
-    animate(&[&sign], &stage(Axes::Plain), &settings).expect("it can be animated")
+    animate(&[sign], &stage(Axes::Plain), &settings).expect("it can be animated")
 }
 
 /// Returns the postures from the sign's first to its last.
@@ -98,17 +104,33 @@ fn palms_that_touch_each_other_stay_together_while_they_move() {
 }
 
 #[test]
-fn mirrored_hands_meet_at_the_middle_and_stay_level() {
-    let made =
-        made("hamsymmlr hamflathand hamextfingero hampalmu hamchest hammovel hamrepeatfromstart");
-    for model in postures(&made) {
-        let [right, left] = Side::BOTH.map(|side| {
-            let hand = made.anatomy.joint(Part::Hand(side)).expect("a hand");
-            model.position(hand)
-        });
-        let off = (right - left) * (DVec3::Y + DVec3::Z);
-        assert!(off.length() < 0.02, "{off} m from level");
-    }
+fn a_hand_without_movement_does_not_follow_the_other_to_its_place() {
+    let leads = Motion::new(MotionKind::Split(Some(Box::new(directed("ui"))), None));
+    let target = Motion::new(MotionKind::Target {
+        motion: Some(Box::new(leads)),
+        posture: Box::new(Posture {
+            place: Some(at(BodyLocation::Lips, Some(Contact::Touch))),
+            ..Posture::default()
+        }),
+    });
+    let chest = Some(at(BodyLocation::Chest, None));
+    let sign = notated(
+        mirrored(),
+        posture(HandClass::Flat, "ol", "l", chest),
+        vec![target],
+    );
+    let made = animated(&sign);
+    let postures = postures(&made);
+    let far = Side::BOTH.map(|side| {
+        let hand = made.anatomy.joint(Part::Hand(side)).expect("a hand");
+        let [first, last] = [postures.first(), postures.last()];
+        first
+            .expect("some")
+            .position(hand)
+            .distance(last.expect("some").position(hand))
+    });
+    let [right, left] = far;
+    assert!(right > 0.1 && left < 0.01, "{far:?} m");
 }
 
 #[test]
@@ -144,4 +166,26 @@ fn a_turn_of_the_hand_does_not_consume_the_path_of_the_wrist() {
     });
     let far = first.distance(last);
     assert!(far > 0.12, "{far} m");
+}
+
+#[test]
+fn fingers_that_play_in_a_pinch_stay_closed() {
+    for shape in ["hampinch12", "hampinchall"] {
+        let made = made(&format!(
+            "{shape} hamextfingero hampalmu hamchest hamfingerplay"
+        ));
+        let tip = |model: &ModelPose, digit: &str| {
+            let skeleton = made.clip.skeleton();
+            let name = format!("right-{digit}-tip");
+            made.anatomy
+                .landmark(skeleton, model, &name)
+                .expect("a tip")
+        };
+        let gaps: Vec<f64> = postures(&made)
+            .iter()
+            .map(|model| tip(model, "thumb").distance(tip(model, "index")))
+            .collect();
+        let most = gaps.iter().copied().fold(0.0, f64::max);
+        assert!(most - gaps[0] < 0.006, "{shape}: {} to {most} m", gaps[0]);
+    }
 }

@@ -11,8 +11,8 @@ use std::f64::consts::TAU;
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::sites::HandPoint;
 use chereme_sign::hamnosys::{
-    BodyAction, Circular, Curve, Digit, Digits, Directed, Manner, Motion, MotionKind, Place,
-    Posture, Repeat, Repetition, Size, WristMotion,
+    BodyAction, Circular, Curve, Digit, Digits, Directed, HandClass, Manner, Motion, MotionKind,
+    Place, Posture, Repeat, Repetition, Size, WristMotion,
 };
 
 use size::{across, amount, grown, is_round, sized, turns, wrist_name};
@@ -25,6 +25,8 @@ use super::plan::{
 
 /// Seconds in which a hand that leaves a contact changes its pivot from the contact point to the palm.
 const LET_GO: f64 = 0.15;
+/// Share of the usual angle by which the fingers of a pinch play: they rub each other and stay closed.
+const RUBS: f64 = 0.25;
 /// A hand that rotates farther than this (rad) while it moves rotates about its palm.
 const FAR_TURN: f64 = 1.0;
 
@@ -413,19 +415,25 @@ impl Planner<'_> {
         let l = self.language;
         let cycles = l.play_cycles + env.rounds;
         let end = time + l.time_play * cycles * env.slower;
-        let playing = if digits.is_empty() {
-            [false, true, true, true, true]
-        } else {
-            Digit::ALL.map(|digit| digits.contains(digit))
-        };
         for (n, _) in acting(who) {
+            let (usual, share) = match self.state[n].handshape.form.class {
+                HandClass::Pinch12 | HandClass::Pinch12Open => {
+                    ([true, true, false, false, false], RUBS)
+                }
+                HandClass::PinchAll => ([true; 5], RUBS),
+                _ => ([false, true, true, true, true], 1.0),
+            };
+            let playing = match digits.is_empty() {
+                true => usual,
+                false => Digit::ALL.map(|digit| digits.contains(digit)),
+            };
             self.plan.events[n].push(Event {
                 from: time,
                 to: end,
                 pace: Pace::Linear,
                 act: Act::Play {
                     digits: playing,
-                    angle: l.play_angle.to_radians(),
+                    angle: l.play_angle.to_radians() * share,
                     cycles,
                 },
             });

@@ -20,7 +20,10 @@ impl Planner<'_> {
         time: f64,
         env: &Env,
     ) -> f64 {
-        let named = self.addressed(posture, who);
+        let mut named = self.addressed(posture, who);
+        if let (Some(still), Some(Place::Body(_))) = (waiting(motion), &posture.place) {
+            named[still] = None;
+        }
         let start = self.state.clone();
         let raised = [0, 1].map(|n| named[n].is_some() && !start[n].used);
         for n in (0..2).filter(|&n| raised[n]) {
@@ -224,6 +227,11 @@ fn rested(now: &HandState, raised: &HandState, start: &HandState) -> HandState {
 
 /// Returns the hand that stays in place in a motion that brings both together.
 fn staying(motion: Option<&Motion>, who: Who) -> Option<usize> {
+    waiting(motion).or_else(|| (0..2).find(|&n| who[n].is_none()))
+}
+
+/// Returns the hand for which a motion of both writes no movement, if there is one.
+fn waiting(motion: Option<&Motion>) -> Option<usize> {
     let still = |half: &Option<Box<Motion>>| match half {
         Some(half) => matches!(half.kind, MotionKind::Still),
         None => true,
@@ -232,7 +240,7 @@ fn staying(motion: Option<&Motion>, who: Who) -> Option<usize> {
         Some(MotionKind::Split(own, other)) if still(own) != still(other) => {
             Some(usize::from(still(other)))
         }
-        _ => (0..2).find(|&n| who[n].is_none()),
+        _ => None,
     }
 }
 
