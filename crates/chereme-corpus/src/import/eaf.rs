@@ -225,6 +225,7 @@ fn update(
     report.edits = updated.edits;
     let mut lines: Vec<ReportFinding> = Vec::new();
     if own_edits == OwnEdits::Mine {
+        report.status = FileStatus::Unchanged;
         lines.push(ReportFinding::note(format!(
             "it would take back {many} of yours: the recording stays as it is"
         )));

@@ -220,7 +220,10 @@ fn own_edits_that_conflict_with_a_changed_file_are_asked_about() {
                         .is_some_and(|it| it.text().contains("--merge"))
                 );
             }
-            OwnEdits::Mine => assert!(has(&file.findings, "stays as it is"), "{file:?}"),
+            OwnEdits::Mine => {
+                assert!(has(&file.findings, "stays as it is"), "{file:?}");
+                assert_eq!(file.status, FileStatus::Unchanged);
+            }
             OwnEdits::Theirs => {
                 assert!(has(
                     &file.findings,
