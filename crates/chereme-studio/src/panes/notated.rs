@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use chereme_corpus::Error;
 
+use super::inspector::Thing;
+use super::library::data::Moves;
 use super::without_movement::Bare;
 use crate::command::Command;
 use crate::context::Outbox;
@@ -53,6 +55,26 @@ impl Notated {
     pub(crate) fn open(&mut self, token: i64, gloss: &str, out: &mut Outbox) {
         self.wanted = Some((token, gloss.to_owned()));
         self.get(token, gloss, out);
+    }
+
+    /// Chooses a sign: shows it in its recording, or animates its notation; a sign without either is shown in the
+    /// inspector alone.
+    pub(crate) fn choose(&mut self, moves: Moves, (token, gloss): (i64, &str), out: &mut Outbox) {
+        match moves {
+            Moves::Recorded(recording, span) => {
+                out.send(Command::Made(None));
+                out.send(Command::Place(recording, span));
+                out.send(Command::Look);
+            }
+            Moves::Notated => {
+                out.send(Command::Note(Thing::Token(token)));
+                self.open(token, gloss, out);
+            }
+            Moves::Not => {
+                out.send(Command::Made(None));
+                out.send(Command::Inspect(Thing::Token(token)));
+            }
+        }
     }
 
     /// Shows the opened token on the stage once it is animated.

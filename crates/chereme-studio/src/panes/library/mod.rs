@@ -170,21 +170,7 @@ impl Library {
     fn choose(&mut self, row: &SignRow, out: &mut Outbox) {
         self.chosen = Some(row.clone());
         let Some(token) = row.token else { return };
-        match row.moves {
-            Moves::Recorded(recording, span) => {
-                out.send(Command::Made(None));
-                out.send(Command::Place(recording, span));
-                out.send(Command::Look);
-            }
-            Moves::Notated => {
-                out.send(Command::Note(Thing::Token(token)));
-                self.notated.open(token, &row.gloss, out);
-            }
-            Moves::Not => {
-                out.send(Command::Made(None));
-                out.send(Command::Inspect(Thing::Token(token)));
-            }
-        }
+        self.notated.choose(row.moves, (token, &row.gloss), out);
     }
 
     /// Shows the chosen notated sign on the stage once it is animated, even if another pane covers this one.

@@ -324,21 +324,8 @@ impl Map {
         let Some(sign) = signs.iter().find(|it| it.citation == Some(token)) else {
             return out.send(Command::Inspect(Thing::Token(token)));
         };
-        match Moves::of(sign) {
-            Moves::Recorded(recording, span) => {
-                out.send(Command::Made(None));
-                out.send(Command::Place(recording, span));
-                out.send(Command::Look);
-            }
-            Moves::Notated => {
-                out.send(Command::Note(Thing::Token(token)));
-                self.notated.open(token, &sign.gloss, out);
-            }
-            Moves::Not => {
-                out.send(Command::Made(None));
-                out.send(Command::Inspect(Thing::Token(token)));
-            }
-        }
+        self.notated
+            .choose(Moves::of(sign), (token, &sign.gloss), out);
     }
 
     /// Shows the opened notated sign on the stage once it is animated, even if another pane covers this one.
