@@ -22,7 +22,7 @@ const BESIDE: f64 = 0.08;
 /// The number of rounds in which hands are moved apart.
 const ROUNDS: usize = 4;
 /// Displacement (m) of each hand above which it is reported.
-const ASIDE: f64 = 0.005;
+pub(super) const ASIDE: f64 = 0.005;
 /// Depth (m) that remains after hands were moved apart.
 const GIVES: f64 = 0.9 * SOFT;
 /// Further depth (m) above which a warning is issued.

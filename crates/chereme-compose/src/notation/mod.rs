@@ -229,8 +229,7 @@ pub fn animate(
         ));
     }
     let most = cleared.and_then(|cleared| cleared.most);
-    let parted = [parted, most].into_iter().flatten();
-    if let Some(parted) = parted.max_by(|a, b| a.by.total_cmp(&b.by)) {
+    if let Some(parted) = farther(parted, most) {
         plan.remarks.push(format!(
             "the hands would go through each other at {:.2} s: each moves {:.1} cm aside",
             warp.at(parted.time),
@@ -268,7 +267,7 @@ pub fn animate(
 struct Goals<'a> {
     alive: Alive,
     wanted: [Wanted<'a>; 2],
-    /// The separation of hands that pass each other.
+    /// The separation of hands that pass each other, or that reach beyond the middle.
     parted: Option<Parted>,
     /// The separation of hands that would penetrate each other.
     cleared: Option<Cleared>,
@@ -286,16 +285,18 @@ impl<'a> Goals<'a> {
         let rate = timing.rate;
         let hands = plan.sides.map(|side| body.hand(side));
         let [mut first, mut second] = [0, 1].map(|n| track::wanted(body, plan, n, timing));
+        let mut parted = None;
         if let [Some(a), Some(b)] = hands {
-            own_side::keep(body, plan, [a, b], [&mut first, &mut second], rate);
+            parted = own_side::keep(body, plan, [a, b], [&mut first, &mut second], rate);
         }
         let alive = Alive::of(body, signs, plan, language, [&first, &second], rate);
         for wanted in [&mut first, &mut second] {
             alive.carry(body, wanted);
         }
-        let (mut parted, mut cleared) = (None, None);
+        let mut cleared = None;
         if let [Some(a), Some(b)] = hands {
-            parted = hands_apart::part(body, [a, b], [&mut first, &mut second], rate);
+            let passed = hands_apart::part(body, [a, b], [&mut first, &mut second], rate);
+            parted = farther(parted, passed);
             if !plan.laced {
                 let both = [&mut first, &mut second];
                 cleared = bulk::clear(body, [a, b], both, &plan.contacts, rate);
@@ -308,6 +309,12 @@ impl<'a> Goals<'a> {
             cleared,
         }
     }
+}
+
+/// Returns the separation in which each hand moves farther.
+fn farther(a: Option<Parted>, b: Option<Parted>) -> Option<Parted> {
+    let both = a.into_iter().chain(b);
+    both.max_by(|a, b| a.by.total_cmp(&b.by))
 }
 
 /// Returns the number of frames for a duration in seconds.

@@ -586,11 +586,11 @@ impl Planner<'_> {
         end
     }
 
-    /// Runs a trial plan and discards its events; returns its result.
+    /// Runs a trial plan and discards its events and remarks; returns its result.
     pub(crate) fn aside<T>(&mut self, plan: impl FnOnce(&mut Self) -> T) -> T {
         let state = self.state.clone();
         let events = [0, 1].map(|n| self.plan.events[n].len());
-        let phases = self.plan.phases.len();
+        let (phases, remarks) = (self.plan.phases.len(), self.plan.remarks.len());
         let (named, together) = (self.named.clone(), self.together.clone());
         let contacts = [0, 1].map(|n| self.plan.contacts[n].len());
         let arrivals = [0, 1].map(|n| self.plan.arrivals[n].len());
@@ -606,6 +606,7 @@ impl Planner<'_> {
             self.plan.arrivals[n].truncate(arrivals[n]);
         }
         self.plan.phases.truncate(phases);
+        self.plan.remarks.truncate(remarks);
         end
     }
 }

@@ -5,7 +5,8 @@
 
 use chereme_motion::glam::DVec3;
 
-use super::bulk::Placed;
+use super::bulk::{ASIDE, Placed};
+use super::hands_apart::Parted;
 use super::plan::SignPlan;
 use super::solve::eased;
 use super::stage::{FINGER_FLESH, Hand, Stage};
@@ -20,19 +21,21 @@ const LIKE: f64 = 0.03;
 /// Seconds before and after over which a displacement is spread.
 const AROUND: f64 = 0.3;
 
-/// Moves the goals of mirrored hands outwards, wherever a hand reaches beyond the middle and neither touches anything.
+/// Moves the goals of mirrored hands outwards, wherever a hand reaches beyond the middle and neither touches anything;
+/// returns the farthest move of each, if it is large enough to report.
 pub(crate) fn keep(
     stage: &Stage,
     plan: &SignPlan,
     hands: [&Hand; 2],
     wanted: [&mut Wanted<'_>; 2],
     rate: f64,
-) {
+) -> Option<Parted> {
     let total = wanted[0].points.len();
     let middle = stage.middle();
     let length = hands[0].length();
     let outwards = [0, 1].map(|n| stage.left * plan.sides[n].sign());
-    let mut beyond = vec![DVec3::ZERO; total];
+    // Moves of the first hand; the other one makes the mirror image of each.
+    let mut moves = vec![DVec3::ZERO; total];
     for (from, to) in &plan.mirrored {
         let [first, last] = [from, to].map(|time| ((time * rate) as usize).min(total));
         let own = first..last;
@@ -64,18 +67,23 @@ pub(crate) fn keep(
             continue;
         }
         for (frame, depth) in own.zip(depths) {
-            beyond[frame].x = (depth - left).max(0.0) * (1.0 - touch(frame));
+            moves[frame] = outwards[0] * ((depth - left).max(0.0) * (1.0 - touch(frame)));
         }
     }
-    if beyond.iter().all(|by| by.x == 0.0) {
-        return;
+    if moves.iter().all(|by| *by == DVec3::ZERO) {
+        return None;
     }
     let near = ((AROUND * rate).ceil() as usize).max(1);
-    let eased = eased(&beyond, near);
-    for (wanted, out) in wanted.into_iter().zip(outwards) {
-        for (frame, by) in eased.iter().enumerate() {
-            let free = 1.0 - wanted.touch[frame];
-            wanted.points[frame] += out * (by.x * free);
+    let mut most: Option<Parted> = None;
+    let [first, second] = wanted;
+    for (frame, by) in eased(&moves, near).into_iter().enumerate() {
+        first.points[frame] += by * (1.0 - first.touch[frame]);
+        second.points[frame] -= by * (1.0 - second.touch[frame]);
+        let by = by.length();
+        if by > most.map_or(ASIDE, |most| most.by) {
+            let time = frame as f64 / rate;
+            most = Some(Parted { time, by });
         }
     }
+    most
 }

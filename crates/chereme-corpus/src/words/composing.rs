@@ -264,6 +264,10 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "la main {side} est tournée jusqu’à {angle} de moins qu’il n’est écrit : {why}",
     ),
     (
+        "the {side} hand's circle is moved {cm} cm, so that it stays out of the trunk",
+        "le cercle de la main {side} est déplacé de {cm} cm, pour qu’il reste hors du tronc",
+    ),
+    (
         "the {side} hand was moved {cm} cm out of the trunk",
         "la main {side} a été écartée du tronc de {cm} cm",
     ),

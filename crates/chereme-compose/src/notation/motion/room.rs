@@ -7,8 +7,9 @@ use super::*;
 const SHALLOW: f64 = 0.02;
 /// The number of points of a circle that are tried.
 const POINTS: usize = 16;
-/// Step by which a circle is moved, in metres, and the largest number of such steps.
+/// Step by which a circle is moved, in metres.
 const STEP: f64 = 0.01;
+/// The largest number of such steps.
 const STEPS: usize = 30;
 /// The share of a circle after which it is clear of the trunk.
 const SOON: f64 = 0.25;
@@ -50,6 +51,11 @@ impl Planner<'_> {
             let Some(by) = steps.into_iter().find(|by| deep(*by) < SHALLOW) else {
                 continue;
             };
+            self.remark(&format!(
+                "the {} hand's circle is moved {:.0} cm, so that it stays out of the trunk",
+                hand.side.name(),
+                by.length() * 100.0
+            ));
             self.state[n].point += by;
             self.plan.events[n].push(Event {
                 from,
