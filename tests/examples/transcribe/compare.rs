@@ -4,8 +4,8 @@ use chereme_analysis::transcribe::{Options, off_place};
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::{
-    Aim, BodyLanguage, BodyPlace, Compass, Direction, Each, HandsUsed, Handshape, Manner, Manual,
-    Motion, MotionKind, Place, Posture, Repeat, Size, WristMotion, orientation,
+    Aim, BodyLanguage, BodyPlace, Direction, Each, HandsUsed, Handshape, Manner, Manual, Motion,
+    MotionKind, Place, Posture, Repeat, Size, WristMotion, orientation,
 };
 
 use crate::notation::Again;
@@ -179,7 +179,7 @@ fn posture(
     if let Some(aim) = of(&written.palm, n) {
         let other = of(&found.palm, n);
         let off = other.map_or(180.0, |other| {
-            let apart = (angle(aim) - angle(other)).to_degrees();
+            let apart = (aim.angle() - other.angle()).to_degrees();
             ((apart + 180.0).rem_euclid(360.0) - 180.0).abs()
         });
         let (a, b) = (aimed(Some(aim)), aimed(other));
@@ -217,13 +217,13 @@ fn held(
     say("direction where held", agrees, a, b);
     let palm = of(&written.palm, 0)?;
     let normal = level(again.anatomy.palm_normal(Side::Right, &model)?);
-    let want = orientation::palm(vector(aim).to_array(), angle(palm));
+    let want = orientation::palm(vector(aim).to_array(), palm.angle());
     if normal.angle_between(want.into()).to_degrees() > HELD {
         return None;
     }
     let inferred = of(&found.palm, 0);
     let agrees = inferred.is_some_and(|inferred| {
-        let apart = (angle(palm) - angle(inferred)).to_degrees();
+        let apart = (palm.angle() - inferred.angle()).to_degrees();
         ((apart + 180.0).rem_euclid(360.0) - 180.0).abs() < 1.0
     });
     let (a, b) = (aimed(Some(palm)), aimed(inferred));
@@ -276,16 +276,6 @@ fn vector(aim: &Aim<Direction>) -> DVec3 {
         Some(second) => (of(aim.first) + of(second)).normalize_or(of(aim.first)),
         None => of(aim.first),
     }
-}
-
-fn angle(aim: &Aim<Compass>) -> f64 {
-    let first = aim.first.angle();
-    let Some(second) = aim.second else {
-        return first;
-    };
-    let apart = second.angle() - first;
-    let turns = (apart / std::f64::consts::TAU).round();
-    first + (apart - turns * std::f64::consts::TAU) / 2.0
 }
 
 fn aimed<D: std::fmt::Display>(aim: Option<&Aim<D>>) -> String {

@@ -22,13 +22,6 @@ pub(super) fn vector(aim: &Aim<Direction>) -> DVec3 {
     }
 }
 
-/// Returns the angle of a palm about the hand's axis.
-pub(super) fn palm_angle(aim: &Aim<Compass>) -> f64 {
-    let first = aim.first.angle();
-    let half = |second: Compass| wrapped(second.angle() - first) / 2.0;
-    first + aim.second.map_or(0.0, half)
-}
-
 /// Returns an angle from -π to π.
 pub(super) fn wrapped(angle: f64) -> f64 {
     (angle + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI

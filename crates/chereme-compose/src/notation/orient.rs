@@ -1,7 +1,7 @@
 //! Turns hands to their notated direction and palm.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_sign::hamnosys::{Aim, Compass, orientation};
+use chereme_sign::hamnosys::orientation;
 
 use super::plan::{HandState, Planner};
 
@@ -38,17 +38,6 @@ impl Planner<'_> {
             self.state[n].rotation = led;
         }
     }
-}
-
-/// Returns the angle of a palm (rad); half-way on the shorter side if there are two.
-pub(crate) fn palm_angle(aim: &Aim<Compass>) -> f64 {
-    let first = aim.first.angle();
-    let Some(second) = aim.second else {
-        return first;
-    };
-    let apart = second.angle() - first;
-    let turns = (apart / std::f64::consts::TAU).round();
-    first + (apart - turns * std::f64::consts::TAU) / 2.0
 }
 
 /// Returns the directions of a hand's axis and palm (left, up, forward).

@@ -15,7 +15,6 @@ use chereme_sign::hamnosys::{
 
 use super::approach::Course;
 use super::arm::Limits;
-use super::orient::palm_angle;
 use super::pace::{Pace, Paces};
 use super::path::Path;
 use super::stage::{Shape, Stage};
@@ -518,7 +517,7 @@ impl<'a> Planner<'a> {
                 self.state[n].axes[0] = self.axes(&posture.extended, n, frame);
             }
             if let Some(aim) = palm {
-                self.state[n].palm = palm_angle(aim);
+                self.state[n].palm = aim.angle();
                 self.state[n].axes[1] = self.axes(&posture.palm, n, frame);
             }
             if extended.is_some() || palm.is_some() {

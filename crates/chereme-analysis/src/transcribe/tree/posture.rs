@@ -237,7 +237,7 @@ fn otherwise(one: &HandReading, other: &HandReading, signs: DVec3) -> bool {
         let along = aim::vector(&seen.extended.best);
         let palm = seen.palm.as_ref()?;
         let sure = seen.extended.residual.max(palm.residual) < tuned().tree.sure;
-        let angle = aim::palm_angle(&palm.best);
+        let angle = palm.best.angle();
         let normal = orientation::palm(along.to_array(), angle);
         sure.then_some([along, normal.into()])
     };

@@ -177,6 +177,20 @@ impl<D> Aim<D> {
     }
 }
 
+impl Aim<Compass> {
+    /// Returns the angle (rad) as in [`Compass::angle`]; half-way on the shorter side if there are two.
+    #[must_use]
+    pub fn angle(&self) -> f64 {
+        let first = self.first.angle();
+        let Some(second) = self.second else {
+            return first;
+        };
+        let apart = second.angle() - first;
+        let turns = (apart / std::f64::consts::TAU).round();
+        first + (apart - turns * std::f64::consts::TAU) / 2.0
+    }
+}
+
 /// The reference frame of a direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
