@@ -67,12 +67,13 @@ impl Act {
     }
 }
 
-/// Queries about the parts of a hand that may be meant, and tolerances.
+/// Queries about the parts of a hand whose path notation may describe, and tolerances.
 pub(super) struct Seeing<'a> {
-    /// Returns the positions in the second frame of the parts that touch the body or the other hand in the
-    /// first frame.
+    /// `parts(contact, at)` returns the positions in frame `at` of the parts that touch the body or the
+    /// other hand in frame `contact`.
     pub(super) parts: &'a dyn Fn(usize, usize) -> Vec<DVec3>,
-    /// Like `parts`, for less likely parts, each with its penalty in nepers.
+    /// `others(contact, at)` returns positions in the same way for parts that are less likely to be the
+    /// ones in contact, each with its penalty in nepers.
     pub(super) others: &'a dyn Fn(usize, usize) -> Vec<(DVec3, f64)>,
     /// The number of frames in which a part of the hand lets go of its contact.
     pub(super) lets_go: usize,
@@ -123,7 +124,8 @@ impl<'a> Mover<'a> {
         }
     }
 
-    /// Returns the path with the lowest score among the points that notation may refer to.
+    /// Fits a path to the trajectory of each point that notation may refer to, from frame `first` to
+    /// `last`, and returns the one with the lowest [`score`](Self::score).
     fn fit(&self, first: usize, last: usize) -> Fitted {
         let fits = self.points[..self.meant]
             .iter()
@@ -217,8 +219,8 @@ impl<'a> Mover<'a> {
         tuned().path.exact * self.seen.loose * self.seen.loose
     }
 
-    /// Returns the score of a path: its error (m), weighted by how much notation it takes; lower is
-    /// better.
+    /// Returns the score of a path: its error (m), multiplied by a factor for the notation that it takes;
+    /// lower is better.
     fn score(&self, fitted: &Fitted) -> f64 {
         let aside = tuned().acts.aside * aside(&fitted.path) / self.seen.loose.powi(4);
         (fitted.residual.hypot(aside) + self.exact()) * plain(&fitted.path)

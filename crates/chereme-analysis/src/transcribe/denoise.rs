@@ -33,7 +33,8 @@ pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
         }
         most = most.max(trembles.to_degrees());
         joints += 1;
-        // Such a kernel of n frames reduces white noise by the square root of 32 n / 27 times that of pi.
+        // A kernel n frames wide divides the standard deviation of white noise by the square root of
+        // 32 √π n / 27. This width leaves half of the noise that counts as trembling.
         let enough =
             (2.0 * trembles / tuned().denoise.trembles).powi(2) * 27.0 / (32.0 * PI.sqrt());
         let wide = enough.min(tuned().denoise.widest * clip.rate().per_second());
@@ -52,7 +53,7 @@ pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
 /// Returns the noise of rotations about each axis (rad), by the median of their fourth differences, which
 /// hold little of real movement.
 fn noise(rotations: &[DQuat]) -> f64 {
-    // Ratio of the median length in three dimensions to the standard deviation along one of them.
+    // Ratio of the median length of normally distributed vectors to their standard deviation along one axis.
     const MEDIAN: f64 = 1.538;
     if rotations.len() < FEWEST {
         return 0.0;

@@ -7,6 +7,9 @@
 //! ([`chereme_sign::hamnosys::angles`], [`sites`] and the [`BodyLanguage`]), so that transcription inverts
 //! animation.
 //!
+//! Readings compete by penalties in nepers, which are natural logarithms: a reading with one neper more is
+//! e times less likely. A longer notation costs nepers, as does a hand that is far from its notated place.
+//!
 //! [`sites`]: chereme_sign::hamnosys::sites
 //!
 //! | module | holds |

@@ -257,7 +257,8 @@ fn circle(points: &[DVec3], exact: f64) -> Option<(PathForm, f64)> {
     })
 }
 
-/// Returns the centre of the circle nearest to points (Kåsa's fit), in the plane across `axis`.
+/// Returns the centre of the circle nearest to points (Kåsa's fit), in the plane through their mean that is
+/// perpendicular to `axis`; `None` if they determine no circle.
 fn centred(points: &[DVec3], axis: DVec3) -> Option<DVec3> {
     let mean = points.iter().sum::<DVec3>() / points.len() as f64;
     let x = axis.any_orthonormal_vector();

@@ -301,7 +301,8 @@ impl Proof<'_, '_> {
         near
     }
 
-    /// Returns the hands that miss their observed position.
+    /// Returns the hands that miss their observed position: those whose error `off` is above
+    /// `resynthesis.nearly`, both in metres.
     fn open(&self, off: [f64; 2]) -> Vec<usize> {
         self.beyond(off, tuned().resynthesis.nearly)
     }

@@ -27,11 +27,12 @@ pub(super) struct Hand {
     pub(super) points: Vec<Spotted>,
     /// The parts that notation may name, single or of two digits together, with their positions and ranks.
     named: Vec<(DVec3, Vec<HandPoint>, f64)>,
+    /// The expected distance between the hand and its goal, in metres.
     slack: f64,
 }
 
 impl Hand {
-    /// Reads hand `n` in one frame; `shape` is its transcribed handshape.
+    /// Reads hand `n` (0 is the dominant hand) in one frame; `shape` is its transcribed handshape.
     pub(super) fn of(
         scene: &Scene<'_>,
         axes: &Axes,
@@ -98,8 +99,9 @@ impl Hand {
         at.copied().unwrap_or_else(|| self.middle())
     }
 
-    /// Returns the nameable part nearest to a place: its position, its points and its rank. An offset
-    /// along `pushed`, the direction in which the trunk pushes hands out, counts less.
+    /// Returns the nameable part nearest to a place: its position, its points and its rank. A part of a
+    /// higher [`rank`] must be nearer. An offset along `pushed`, the direction in which the trunk pushes
+    /// hands out, counts less.
     pub(super) fn nearest(
         &self,
         to: DVec3,
@@ -196,6 +198,7 @@ fn points(scene: &Scene<'_>, axes: &Axes, model: &ModelPose, side: Half) -> Vec<
     let (Some(wrist), Some(palm)) = (wrist, palm) else {
         return points;
     };
+    // The distance from the wrist to the middle knuckle.
     let knuckle = (palm - wrist).dot(along) / on_palm(HandPoint::Palm)[0];
     let [up, out, aside] = on_palm(HandPoint::ThumbBall);
     let ball = wrist + along * (up * knuckle) + (normal * out + radial * aside) * scene.hand;

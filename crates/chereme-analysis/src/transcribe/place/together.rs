@@ -1,4 +1,7 @@
 //! Constellations: places of the two hands relative to each other.
+//!
+//! A constellation names a part of each hand, such as the index fingertip and the palm, and says whether they
+//! touch. The candidates are pairs of near parts, and the pairs that notation implies if it names no parts.
 
 use chereme_sign::hamnosys::sites::{HandPoint, Region};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Site};
@@ -54,8 +57,8 @@ impl Body<'_> {
         self.pairs(1, near).into_iter().next()
     }
 
-    /// Returns at most `most` pairs of near parts of the two hands, those with the lowest `better` first.
-    fn pairs(&self, most: usize, better: impl Fn(&Together) -> f64) -> Vec<Together> {
+    /// Returns at most `most` pairs of near parts of the two hands, those with the lowest `penalty` first.
+    fn pairs(&self, most: usize, penalty: impl Fn(&Together) -> f64) -> Vec<Together> {
         let [Some(dominant), Some(other)] = &self.hands else {
             return Vec::new();
         };
@@ -65,7 +68,7 @@ impl Body<'_> {
             for other in &other.points {
                 if own.at.distance(other.at) < reach {
                     let together = self.by_each_other([own, other]);
-                    all.push((better(&together), together));
+                    all.push((penalty(&together), together));
                 }
             }
         }
@@ -74,8 +77,8 @@ impl Body<'_> {
         all.into_iter().map(|(_, together)| together).collect()
     }
 
-    /// Returns the parts of a hand that may be at the other one, each with its penalty against the
-    /// likeliest; those above `most` nepers are left out.
+    /// Returns the parts of hand `n` that may be next to the other hand, each with its penalty (nepers)
+    /// relative to the likeliest; those with a penalty of `most` or more are left out.
     pub(super) fn other_pairs(&self, n: usize, most: f64) -> Vec<(HandPoint, f64)> {
         let unlikely = |it: &Together| it.unlikely + tuned().together.step * ranks(it);
         let all = self.pairs(4 * tuned().together.pairs, unlikely);
@@ -84,6 +87,7 @@ impl Body<'_> {
         others.filter(|(_, less)| *less < most).collect()
     }
 
+    /// Returns the constellation of two parts with the likelier contact: touching, or close.
     fn by_each_other(&self, [own, other]: [&Spotted; 2]) -> Together {
         let apart = own.at - other.at;
         let distance = apart.length();
@@ -124,6 +128,7 @@ impl Body<'_> {
         };
         let own = dominant.meant(DVec3::NEG_X, Region::Trunk);
         let mirrored = [own, other.meant(DVec3::X, Region::Trunk)];
+        // The dominant hand is above the other one, to its right and a little in front of it.
         let direction = DVec3::new(-0.6, 1.0, 0.3).normalize();
         let below = other.meant(-direction, Region::Trunk);
         let region = Region::Arm(self.scene.dominant.other());
@@ -139,8 +144,8 @@ impl Body<'_> {
             .collect()
     }
 
-    /// Returns the likeliest constellation of the two hands with the place they share, if it is likelier
-    /// than separate places, whose penalty is `apart` (nepers).
+    /// Returns the likeliest constellation of the two hands with the place they share; `None` if separate
+    /// places, whose penalty is `apart` (nepers), are likelier by more than `together.rather`.
     pub(in crate::transcribe) fn constellation(&self, apart: f64) -> Option<(Together, Placed)> {
         let mut all = self.meant_pairs();
         all.extend(self.pairs(tuned().together.pairs, |it| {
@@ -153,13 +158,13 @@ impl Body<'_> {
             .into_iter()
             .filter_map(|together| {
                 let mut placed = self.shared(together.at[0].midpoint(together.at[1]))?;
-                let apart = match together.contact {
+                let merely_close = match together.contact {
                     Contact::Close if touch => tuned().together.touches,
                     _ => 0.0,
                 };
                 placed.residual = placed.residual.max(together.off);
                 Some((
-                    placed.score + together.unlikely + together.cost() + apart,
+                    placed.score + together.unlikely + together.cost() + merely_close,
                     together,
                     placed,
                 ))
@@ -169,7 +174,8 @@ impl Body<'_> {
         (score < rather + apart).then_some((together, placed))
     }
 
-    /// Returns the candidate constellations, the likeliest first.
+    /// Returns the candidate constellations, the likeliest first; the implied ones also as constellations
+    /// that the notation does not name.
     pub(in crate::transcribe) fn likeliest_pairs(&self) -> Vec<Together> {
         let mut all = self.meant_pairs();
         let unnamed = |it: &Together| Together {

@@ -7,7 +7,8 @@ use super::*;
 use crate::transcribe::tuned::tuned;
 
 impl Writer<'_> {
-    /// Writes a path through space.
+    /// Notates the path of an act: records its kind, direction and size as features, and returns the
+    /// motion. An act that is no path gives a motion that stands still.
     pub(super) fn path(&mut self, track: &HandTrajectory, act: &Act) -> Motion {
         let ActKind::Path(fitted) = &act.kind else {
             return Motion::new(MotionKind::Still);
