@@ -372,7 +372,8 @@ impl HandModel {
     }
 }
 
-/// Fills missing angles of a row with the values that the components predict from the others.
+/// Returns a row whose missing angles, which are not finite, have the values that the principal components predict from
+/// the other angles.
 fn whole(row: &[f64], components: &Pca) -> Vec<f64> {
     let mut own: Vec<f64> = row
         .iter()

@@ -522,7 +522,7 @@ const LONGEST: f64 = 0.6;
 struct Around {
     /// The target of the previous key.
     before: Option<usize>,
-    /// The time in which the movement to the previous key ends, in seconds.
+    /// The time at which the movement to the previous key ends, in seconds.
     arrived: f64,
     /// The target.
     frame: usize,

@@ -259,7 +259,8 @@ impl Envelope {
     }
 }
 
-/// A call of [`Envelope::sums`] that is compiled for each instruction set and selected at run time.
+/// The arguments of a call of [`Envelope::sums`]; `pulp` compiles the call for several instruction sets and selects one
+/// of them at run time.
 struct Bounds<'a> {
     envelope: &'a Envelope,
     candidate: &'a Series,

@@ -11,9 +11,9 @@ use serde::Serialize;
 /// A key: the number of its placement (0 is rest) and of its shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub struct DikeyEnd {
-    /// The placement.
+    /// The number of the placement; 0 is rest.
     pub placement: u8,
-    /// The shape.
+    /// The number of the handshape.
     pub shape: u8,
 }
 

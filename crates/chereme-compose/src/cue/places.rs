@@ -197,7 +197,7 @@ impl Bow {
         bow
     }
 
-    /// Returns the bow of a small movement away and back, which shows a key a second time.
+    /// Returns the bow between two equal keys: the hand moves a little away and back, so that a viewer sees two keys.
     pub(super) fn renewed() -> Self {
         Self {
             by: DVec3::new(0.02, 0.0, 0.07),

@@ -7,7 +7,8 @@ use crate::cue::face::share_of;
 use crate::cue::labels::{CHEEKS, FACE, JAW, LIPS, THROAT};
 use crate::cue::rigid::Rigid;
 
-/// The true weights with which the throat's markers follow the head.
+/// Returns the share of the head's motion that each marker of the throat follows in generated takes; estimates are
+/// compared with these weights.
 #[must_use]
 pub fn throat_weights() -> Vec<f64> {
     (0..THROAT.len())

@@ -113,7 +113,7 @@ pub struct TrueKey {
     pub kind: usize,
     /// The placement: 1 side, 2 mouth, 3 chin, 4 cheek, 5 throat.
     pub placement: u8,
-    /// The shape.
+    /// The number of the handshape.
     pub shape: u8,
     /// The acoustic start, the start of the vowel and the end, in seconds.
     pub sound: [f64; 3],
@@ -140,7 +140,7 @@ pub struct Take {
     pub head: Vec<Rigid>,
     /// The phones with their start and end in seconds.
     pub phones: Vec<(String, f64, f64)>,
-    /// The keys.
+    /// The keys with their true properties.
     pub keys: Vec<TrueKey>,
 }
 
@@ -191,7 +191,8 @@ const CONSONANTS: [(&str, u8, f64, f64); 16] = [
     ("N", 8, 0.8, 110.0),
 ];
 
-/// Returns a sentence of `syllables` random syllables; `number` is that of the sentence within a session.
+/// Returns a generated take of `syllables` random syllables; `number`, the sentence's place in the session, makes its
+/// random numbers differ from those of the other sentences.
 #[must_use]
 pub fn sentence(settings: &Settings, number: u64, syllables: usize) -> Take {
     let mut random = Random::new(settings.seed.wrapping_mul(0x5851_F42D_4C95_7F2D) ^ number);
