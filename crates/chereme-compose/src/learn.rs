@@ -1,4 +1,7 @@
 //! Learns the course of transitions from captured movement, and tests courses against it.
+//!
+//! A course is the progress of a transition over time: at each share of the time, the share of the path from one
+//! posture to the next that is covered.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -27,11 +30,11 @@ pub struct Stretch<'a> {
 
 /// Returns the usual course of transitions: shares of the path at equal steps of time, from 0 to 1, never falling.
 ///
-/// The share of a frame is the best fit, by least squares over the joints, of its rotation to the rotation from the
-/// first frame to the last; rotations about other axes do not count. Each step takes the mean of the middle half of all
-/// transitions, so that transitions that overshoot or wait do not bend the course. Stretches of fewer than three
-/// frames, outside of their clip, or with joints that hardly rotate are left out; without any stretch the result is
-/// `None`.
+/// The rotations of all joints from the first frame to the last, multiplied by the share of a frame, fit the rotations
+/// from the first frame to this one best, by least squares; rotations about other axes do not count. Each step takes
+/// the mean of the middle half of all transitions, so that transitions that overshoot or wait do not bend the course.
+/// Stretches of fewer than three frames, outside of their clip, or with joints that hardly rotate are left out; without
+/// any stretch the result is `None`.
 #[must_use]
 pub fn learn_course<'a>(stretches: impl IntoIterator<Item = Stretch<'a>>) -> Option<Vec<f64>> {
     let mut learner = CourseLearner::default();
@@ -106,7 +109,8 @@ fn middle(mut values: Vec<f64>) -> f64 {
 /// Returns the clip with one stretch synthesised: its joints go from the stretch's first posture to its last by a
 /// course. A comparison with the captured clip shows the accuracy of the course.
 ///
-/// Returns `None` if the stretch is empty or outside of its clip, or the learned course is named but missing.
+/// `learned` is the course for [`Profile::Learned`], as [`learn_course`] returns it; other profiles ignore it. Returns
+/// `None` if the stretch is empty or outside of its clip, or if `profile` is [`Profile::Learned`] without a course.
 #[must_use]
 pub fn bridge(stretch: &Stretch<'_>, profile: Profile, learned: Option<&[f64]>) -> Option<Clip> {
     let course = Course::of(profile, learned)?;
@@ -127,6 +131,7 @@ pub fn bridge(stretch: &Stretch<'_>, profile: Profile, learned: Option<&[f64]>) 
     Clip::new(Arc::clone(clip.skeleton()), clip.rate(), channels).ok()
 }
 
+/// Returns whether a stretch is not empty, and its frames and joints are in its clip.
 fn is_inside(stretch: &Stretch<'_>) -> bool {
     let clip = stretch.clip;
     !stretch.frames.is_empty()
@@ -137,6 +142,7 @@ fn is_inside(stretch: &Stretch<'_>) -> bool {
             .all(|&joint| joint < clip.skeleton().len())
 }
 
+/// Returns the share of the path covered in each frame; `None` for a stretch that does not count.
 fn shares(stretch: &Stretch<'_>) -> Option<Vec<f64>> {
     if !is_inside(stretch) || stretch.frames.len() < 3 {
         return None;

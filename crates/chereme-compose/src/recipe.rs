@@ -156,7 +156,7 @@ impl Profile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spell {
-    /// The word.
+    /// The word to spell.
     pub word: String,
     /// The hand that spells.
     #[serde(default = "dominant")]

@@ -85,7 +85,7 @@ pub enum Input {
     Notation(Vec<Notated>),
     /// Body language that differs from the default one.
     Language(Language),
-    /// Learned courses.
+    /// Learned courses of transitions: the progress of arms and fingers over time.
     Courses(LearnedProfile),
     /// The times of held letters, and of the change from one to the next.
     Times(SpellingTimes),
@@ -95,7 +95,7 @@ pub enum Input {
     Expression(ExpressionInput),
 }
 
-/// The expression of the face that was found.
+/// The expression of the face that was found for a recipe.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpressionInput {
@@ -105,7 +105,7 @@ pub struct ExpressionInput {
     pub milestones: Milestones,
 }
 
-/// The source of movement that was found.
+/// The source of movement that was found for a recipe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialInput {
@@ -121,7 +121,7 @@ pub struct MaterialInput {
     pub held: Vec<HeldValue>,
 }
 
-/// The place that was found.
+/// The place that was found for a recipe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlaceInput {

@@ -249,7 +249,7 @@ pub struct HeldValue {
 pub struct Value {
     /// The id under which annotations name it.
     pub id: String,
-    /// The inventory.
+    /// The id of the inventory.
     pub inventory: String,
     /// Its meaning, if the inventory gives one.
     pub meaning: Option<Meaning>,
@@ -303,7 +303,7 @@ impl Value {
 /// A token that is an example of something, with the hand and span that show it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Example {
-    /// Its address.
+    /// Its address, such as `token:41`.
     pub address: String,
     /// Its signer's address, if known.
     pub signer: Option<String>,

@@ -32,14 +32,15 @@ impl Circle {
         along + (self.start - along) * angle.cos() + self.line.cross(self.start) * angle.sin()
     }
 
-    /// Returns whether no direction rotates by more than `most` from one frame to the next at angle zero.
+    /// Returns whether no direction rotates by more than `most` radians from one frame to the next while every free
+    /// angle is zero.
     pub(super) fn is_calm(all: &[Self], most: f64) -> bool {
         let least = most.min(PI).cos();
         all.windows(2)
             .all(|two| two[0].start.dot(two[1].start) >= least)
     }
 
-    /// Returns the rotation of the direction beyond `most` from one frame to the next.
+    /// Returns by how much the direction rotates beyond `most` radians from one frame to the next.
     pub(super) fn excess(two: [&Self; 2], angles: [f64; 2], most: f64) -> Excess {
         let [before, now] = [0, 1].map(|n| two[n].at(angles[n]));
         let turn = before.angle_between(now);
@@ -62,14 +63,15 @@ pub(super) struct Turned {
 }
 
 impl Turned {
-    /// Returns whether no rotation changes by more than `most` from one frame to the next at angle zero.
+    /// Returns whether no rotation changes by more than `most` radians from one frame to the next while every free
+    /// angle is zero.
     pub(super) fn is_calm(all: &[Self], most: f64) -> bool {
         let least = (most / 2.0).min(FRAC_PI_2).cos();
         all.windows(2)
             .all(|two| two[0].start.dot(two[1].start).abs() >= least)
     }
 
-    /// Returns the change of the rotation beyond `most` from one frame to the next.
+    /// Returns by how much the rotation changes beyond `most` radians from one frame to the next.
     pub(super) fn excess(two: [&Self; 2], angles: [f64; 2], most: f64) -> Excess {
         let at = |n: usize| DQuat::from_axis_angle(two[n].line, angles[n]) * two[n].start;
         let rotated = |n: usize, at: DQuat| DQuat::from_vec4(two[n].line.extend(0.0)) * at;
