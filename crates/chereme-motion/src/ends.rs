@@ -83,7 +83,7 @@ const UNBIND: f64 = 0.05;
 /// Rotations within this angle of the rest pose, in radians, count as the rest pose.
 const SAME: f64 = 1e-3;
 /// The least distance from shoulder to wrist in a T-pose as a share of the arm's length, and the least cosine of the
-/// angle to the side.
+/// angle between the arm and the direction to its side.
 const TEE: (f64, f64) = (0.93, 0.9);
 /// The least depth of a resting wrist below its shoulder in arm lengths, and its greatest speed in metres per second.
 const REST: (f64, f64) = (0.7, 0.15);

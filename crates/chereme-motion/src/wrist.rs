@@ -8,7 +8,7 @@ pub struct WristAngles {
     pub flexion: f64,
     /// Bend towards the thumb.
     pub deviation: f64,
-    /// Turn of the forearm from thumb up; negative is palm down.
+    /// Turn of the forearm: 0 if the thumb is up, negative towards palm down, positive towards palm up.
     pub turn: f64,
 }
 
@@ -25,8 +25,8 @@ pub struct WristLimits {
 }
 
 impl WristAngles {
-    /// Returns the bend of the wrist as a multiple of its limit, which is an ellipse of both bends; above 1 it is out of
-    /// range.
+    /// Returns the bend of the wrist as a multiple of the largest bend in the same direction; above 1 it is out of
+    /// range. The largest bends form an ellipse over flexion and deviation.
     #[must_use]
     pub fn bend(&self, limits: &WristLimits) -> f64 {
         let ends = self.ends(limits);
@@ -86,7 +86,8 @@ impl WristAngles {
         flexion.max(deviation).max((self.turn - other.turn).abs())
     }
 
-    /// Returns the limits of both bends in the directions of these angles: the half axes of the ellipse.
+    /// Returns the limits of flexion and deviation on the sides to which the wrist bends: the half axes of the ellipse
+    /// of limits there.
     fn ends(&self, limits: &WristLimits) -> [f64; 2] {
         [
             limits.flexion[usize::from(self.flexion > 0.0)],

@@ -22,8 +22,8 @@ pub struct ConventionGuess {
     pub reasons: Vec<String>,
 }
 
-/// The units files are written in: name, metres, and the least and greatest stature in the unit.
-/// Acclaim's unit is 1/0.45 inch, as CMU's skeletons state it.
+/// The units in which files are written, each with its name and its length in metres. Acclaim's unit is 1/0.45 inch,
+/// as CMU's skeletons state it.
 const UNITS: [(&str, f64); 5] = [
     ("m", 1.0),
     ("cm", 0.01),

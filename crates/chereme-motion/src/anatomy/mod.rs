@@ -355,8 +355,9 @@ impl Anatomy {
             .all(|&finger| self.found.contains_key(&Part::Finger(side, finger, 1)))
     }
 
-    /// Returns for each joint its counterpart on the other side: itself for a joint in the middle, or if neither part
-    /// nor name give it a side; `None` if the other side has no such joint.
+    /// Returns for each joint its counterpart on the other side: itself for a joint in the middle, `None` if the other
+    /// side has no such joint. A joint that is no part of the body is paired by its name with the sides exchanged, or
+    /// by its order below paired parents.
     #[must_use]
     pub fn mirror_map(&self, skeleton: &Skeleton) -> Vec<Option<usize>> {
         detect::mirror_map(self, skeleton)

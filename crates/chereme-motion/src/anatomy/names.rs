@@ -209,7 +209,7 @@ const FILLERS: [&str; 12] = [
     "joint", "jnt", "bone", "def", "org", "mch", "bip", "bend", "smplhf", "c", "center", "b",
 ];
 
-/// Returns the meaning of one name; `from_zero` if the skeleton counts its fingers from the thumb, which is 0.
+/// Returns the meaning of one name. `from_zero`: the skeleton numbers its digits from 0, the thumb, rather than from 1.
 fn read(name: &str, from_zero: bool) -> Option<Label> {
     let all = words(name);
     if let [letter, number] = all.as_slice()
