@@ -53,7 +53,7 @@ pub struct SpokenWord {
 pub struct CueKey {
     /// The number of the handshape.
     pub shape: u8,
-    /// The placement.
+    /// The name of the placement.
     pub placement: String,
     /// Another placement, for speakers who pronounce the vowel differently.
     pub or_placement: Option<String>,

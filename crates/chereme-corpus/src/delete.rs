@@ -125,7 +125,7 @@ impl Corpus {
     }
 }
 
-/// Everything that goes, and what depends on it.
+/// The rows that a deletion removes, and those that depend on them.
 #[derive(Default)]
 struct Plan {
     recordings: BTreeSet<i64>,
@@ -134,7 +134,7 @@ struct Plan {
     entries: Vec<i64>,
     /// Tokens of the signs in recordings that stay.
     annotated: Vec<TokenRow>,
-    /// Generated recordings that take movement from something that goes, by row.
+    /// The names of generated recordings that take movement from something deleted, by row.
     made: BTreeMap<i64, String>,
 }
 

@@ -41,7 +41,7 @@ pub struct SignMap {
 /// A sign on a map.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MapPoint {
-    /// The token.
+    /// The row of the token.
     pub token: i64,
     /// Its gloss.
     pub gloss: String,

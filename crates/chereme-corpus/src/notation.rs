@@ -25,7 +25,7 @@ const MOST_BYTES: u64 = 1 << 26;
 /// A token as notation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Notation {
-    /// The token.
+    /// The row of the token.
     pub token: i64,
     /// `hamnosys` or `sigml`.
     pub system: String,

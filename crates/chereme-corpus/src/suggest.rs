@@ -18,7 +18,7 @@ use crate::inventories;
 /// Suggestions from a sign.
 #[derive(Debug, Clone, Serialize)]
 pub struct Suggestions {
-    /// The token.
+    /// The row of the token.
     pub token: i64,
     /// Its gloss.
     pub gloss: String,
@@ -36,7 +36,7 @@ pub struct Suggestions {
 /// A sign that differs from another in one component.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Partner {
-    /// Its token.
+    /// The row of its token.
     pub token: i64,
     /// Its gloss.
     pub gloss: String,

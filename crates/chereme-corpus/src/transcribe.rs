@@ -28,11 +28,11 @@ const MUCH: f64 = 0.15;
 /// The HamNoSys transcription of a piece of movement, with the residual of each feature.
 #[derive(Debug, Clone, Serialize)]
 pub struct Transcribed {
-    /// The token, if the address names one.
+    /// The row of the token, if the address names one.
     pub token: Option<i64>,
     /// Its gloss, otherwise the recording's name.
     pub gloss: String,
-    /// The recording.
+    /// The row of the recording.
     pub recording: i64,
     /// The start of the sign itself, without the transitions from and to rest, in microseconds from the start of the
     /// recording.

@@ -44,7 +44,7 @@ impl TierTiming {
 /// Annotations of one tier that are being dragged, with those that may be in their way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DraggedAnnotations {
-    /// The tier.
+    /// The row of the tier.
     pub tier: i64,
     /// How its annotations get their times.
     pub kind: TierTiming,

@@ -22,7 +22,7 @@ use crate::progress::Progress;
 /// An annotation to add.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PastedAnnotation {
-    /// Its tier.
+    /// The row of its tier.
     pub tier: i64,
     /// The times to request, in microseconds.
     pub span: (i64, i64),

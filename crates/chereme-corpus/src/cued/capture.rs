@@ -35,7 +35,7 @@ const MOST_FRAMES: usize = 400_000;
 /// The markers of a recording that models of cued speech know.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CuedMarkers {
-    /// The recording.
+    /// The name of the recording.
     pub recording: String,
     /// The track of markers.
     pub track: String,

@@ -44,7 +44,7 @@ pub struct CueConfusion {
 /// A key that was recognised as another.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Misread {
-    /// The recording.
+    /// The name of the recording.
     pub recording: String,
     /// The time of its target, in microseconds.
     pub at_us: i64,

@@ -25,7 +25,7 @@ use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use crate::track::{NewTrack, Track, store};
 
-/// Options for restoring markers.
+/// Settings for restoring hidden markers: the takes to learn from, and the size of the model.
 #[derive(Debug, Clone)]
 pub struct RestoreOptions {
     /// The recordings from which the models learn; without names takes of the hand alone and of the face alone,
@@ -53,7 +53,7 @@ impl Default for RestoreOptions {
 /// A take whose hidden markers were restored.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RestoredTake {
-    /// The recording.
+    /// The name of the recording.
     pub recording: String,
     /// The recordings from which the model of the hand learned; empty without a model.
     pub hand_from: Vec<String>,

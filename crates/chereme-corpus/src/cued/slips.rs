@@ -17,7 +17,7 @@ use crate::error::{Error, Result};
 /// The slips of a take.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CueSlips {
-    /// The recording.
+    /// The name of the recording.
     pub recording: String,
     /// The source of the produced keys: `tier` if somebody annotated them, `recognised` from markers.
     pub produced_by: &'static str,
@@ -66,7 +66,7 @@ impl SlipKind {
 /// A difference between produced and predicted keys.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct CueSlip {
-    /// The kind.
+    /// The difference.
     pub kind: SlipKind,
     /// Its time, in microseconds; nothing for a missing key whose time is unknown.
     pub at_us: Option<i64>,

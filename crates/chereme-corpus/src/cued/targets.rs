@@ -24,7 +24,7 @@ use crate::picture;
 /// The targets of the keys of a take.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CueTargets {
-    /// The recording.
+    /// The name of the recording.
     pub recording: String,
     /// The keys in order; empty if the take has too few frames for them.
     pub keys: Vec<FoundKey>,
@@ -60,7 +60,7 @@ pub struct FoundKey {
 /// The times at which hands and fingers begin and arrive relative to the sounds of keys.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CuePhaseStatistics {
-    /// The recordings.
+    /// The names of the recordings.
     pub recordings: Vec<String>,
     /// How many keys they have.
     pub keys: u64,

@@ -10,7 +10,7 @@ use crate::db::tracks::TrackKind;
 /// The annotations before and after a token on its tier.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Around {
-    /// The token.
+    /// The row of the token.
     pub token: i64,
     /// Its annotation; a lexicon entry has no annotation.
     pub annotation: Option<i64>,

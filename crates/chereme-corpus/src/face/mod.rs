@@ -58,7 +58,7 @@ pub use propose::{FaceProposal, FaceProposals};
 /// The face of a recording, derived from its capture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FaceReport {
-    /// The recording.
+    /// The name of the recording.
     pub recording: String,
     /// The track with the captured channels.
     pub track: String,

@@ -181,8 +181,8 @@ pub(crate) fn shown_alone(connection: &Connection) -> Result<BTreeMap<i64, Shown
     Ok(all)
 }
 
-/// Returns the time of the first frame of a recording's movement on its clock, in microseconds: that of its skeleton,
-/// otherwise that of its face; 0 if it has neither.
+/// Returns the time of the first frame of a recording's movement within `span`, in microseconds on its clock: a frame
+/// of its skeleton, otherwise one of its face; 0 if it has neither.
 pub(crate) fn first_frame(connection: &Connection, recording: i64, span: Span) -> Result<i64> {
     if recordings::body_track(connection, recording)?.is_some() {
         let track = crate::movement::MotionTrack::of(connection, recording)?;

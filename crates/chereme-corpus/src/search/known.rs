@@ -110,7 +110,7 @@ impl Memory {
         Ok(known)
     }
 
-    /// Returns the signs of the corpus.
+    /// Returns the signs of the corpus in the order of their glosses; reads them once, then keeps them.
     pub(crate) fn signs(&mut self, connection: &Connection) -> Result<Arc<Signs>> {
         if let Some(signs) = &self.signs {
             return Ok(signs.clone());

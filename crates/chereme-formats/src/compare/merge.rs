@@ -21,7 +21,7 @@ pub struct Merged {
 /// An annotation on which two documents do not agree, or which has no room on its tier.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Conflict {
-    /// The tier.
+    /// The name of the tier.
     pub tier: String,
     /// Its state before both changes; `None` if it did not exist.
     pub base: Option<ComparedAnnotation>,

@@ -46,9 +46,9 @@ pub struct Difference {
 /// An annotation in one of the documents.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct ComparedAnnotation {
-    /// Its tier.
+    /// The name of its tier.
     pub tier: String,
-    /// Its id.
+    /// Its id in the document.
     pub id: String,
     /// Its start in microseconds.
     pub start_us: i64,

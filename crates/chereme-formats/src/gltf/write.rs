@@ -10,13 +10,13 @@ use crate::tracks::unique;
 /// An annotation of the movement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Note {
-    /// The tier.
+    /// The name of the tier.
     pub tier: String,
     /// The beginning in seconds from the first frame.
     pub begin: f64,
     /// The end in seconds from the first frame.
     pub end: f64,
-    /// The value.
+    /// The text of the annotation.
     pub value: String,
 }
 

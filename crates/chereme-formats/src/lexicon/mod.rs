@@ -84,7 +84,7 @@ pub struct Coding {
     pub reading: Reading,
     /// The part of the cell with the value, as written.
     pub raw: String,
-    /// The column.
+    /// The index of the column, from 0.
     pub column: usize,
 }
 
