@@ -1,4 +1,7 @@
-//! Parts of the canonical head: eyeballs, brows, teeth, tongue, ears, and hair that hangs.
+//! Parts of the canonical head: eyeballs, brows, nostrils, teeth, tongue, ears, and hair that hangs.
+//!
+//! Lengths are in head heights, in the axes of `face`: x to the signer's left, y up, z forward. Each part is a surface
+//! of its own, separate from the net of the head. `side` is 0 for right and 1 for left, `sign` the same as -1 and 1.
 
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
@@ -29,6 +32,7 @@ const RINGS: [f32; 11] = [
     7.0, 15.0, 16.5, 25.0, 32.0, 34.5, 50.0, 75.0, 100.0, 130.0, 160.0,
 ];
 
+/// Adds an eyeball with pupil and iris in the direction of gaze, and a glint unless the lid is more than half closed.
 fn eye(mesh: &mut Mesh, features: &Features, sign: f32, side: usize, palette: &Palette) {
     let [left, up] = features.gaze;
     let turn = Quat::from_rotation_y(left * 26f32.to_radians())
@@ -78,6 +82,7 @@ fn eye(mesh: &mut Mesh, features: &Features, sign: f32, side: usize, palette: &P
     mesh.append(&small);
 }
 
+/// Adds a brow: a ridge of hair above the eye, raised, lowered or drawn to the middle with the expression.
 fn brow(
     mesh: &mut Mesh,
     features: &Features,
@@ -157,6 +162,7 @@ fn finish(mesh: &mut Mesh, base: usize, mut triangles: Vec<[u32; 3]>, flip: bool
     mesh.triangles.extend(triangles);
 }
 
+/// Adds a nostril: a dark spot on the skin that grows when the nose widens.
 fn nostril(mesh: &mut Mesh, features: &Features, canon: &Canon, sign: f32, palette: &Palette) {
     let widened = (-features.nose).max(0.0);
     let (x, y) = ((0.024 + 0.016 * widened) * sign, -0.188);
@@ -174,6 +180,7 @@ fn nostril(mesh: &mut Mesh, features: &Features, canon: &Canon, sign: f32, palet
     mesh.append(&whole);
 }
 
+/// Adds an ear: a flat ellipsoid, narrow towards the lobe, with a darker hollow.
 fn ear(mesh: &mut Mesh, sign: f32, palette: &Palette) {
     let turn = Quat::from_rotation_y(sign * 0.45) * Quat::from_rotation_z(-sign * 0.12);
     let skin = palette.face;
@@ -203,6 +210,7 @@ fn ear(mesh: &mut Mesh, sign: f32, palette: &Palette) {
     }
 }
 
+/// Adds the upper and the lower row of teeth, as far as the open mouth shows them.
 fn teeth(mesh: &mut Mesh, features: &Features, palette: &Palette) {
     const LONG: usize = 11;
     let [above, below] = features.gap();
@@ -260,6 +268,7 @@ fn teeth(mesh: &mut Mesh, features: &Features, palette: &Palette) {
     }
 }
 
+/// Adds the tongue, in the mouth or stretched out over the lower lip.
 fn tongue(mesh: &mut Mesh, features: &Features, palette: &Palette) {
     const AROUND: usize = 14;
     let [above, below] = features.gap();
@@ -321,6 +330,7 @@ fn tongue(mesh: &mut Mesh, features: &Features, palette: &Palette) {
     finish(mesh, base, triangles, false);
 }
 
+/// Returns a vertex of the head whose normal is computed later.
 fn vertex(position: Vec3, colour: Colour) -> Vertex {
     Vertex {
         position,
@@ -349,6 +359,7 @@ pub(super) fn cut(mesh: &mut Mesh, palette: &Palette) {
     }
 }
 
+/// Adds hair that hangs round the back and both sides of the head, as a shell with an outside and an inside.
 fn curtain(mesh: &mut Mesh, palette: &Palette) {
     const AROUND: usize = 26;
     let base = mesh.vertices.len();
