@@ -86,7 +86,7 @@ pub(crate) enum Context {
     Everywhere,
     /// Only with a corpus open.
     Corpus,
-    /// Only in that pane; there they take precedence over other actions with the same keys.
+    /// Only in the pane of this kind; there they take precedence over other actions with the same keys.
     Pane(PaneKind),
 }
 
@@ -95,13 +95,13 @@ pub(crate) enum Context {
 pub(crate) enum Owner {
     /// The window, with or without a corpus.
     Window,
-    /// The window, by bringing that pane to the front.
+    /// The window, which brings the pane of this kind to the front.
     Shows(PaneKind),
     /// The player: the recording or sign on the stage.
     Player,
     /// The window, with a corpus open.
     WithCorpus,
-    /// That pane.
+    /// The pane of this kind.
     In(PaneKind),
 }
 

@@ -45,7 +45,7 @@ const REACH: f32 = 14.0;
 
 /// The pane.
 pub(crate) struct Map {
-    /// Which of [`COMPONENTS`] are used.
+    /// For each of [`COMPONENTS`] whether it helps to place the signs.
     by: [bool; 4],
     asked: Option<WorkId>,
     map: Option<Arc<SignMap>>,

@@ -83,7 +83,7 @@ pub(crate) struct Search {
     conditions: facets::Conditions,
     /// The height of the query in the last frame, with everything between it and the results.
     head: f32,
-    /// Whether that left too little room for the results.
+    /// Whether the query left too little room for the results in the last frame.
     low: bool,
     /// The time of a change of the text that has not been searched for.
     changed: Option<f64>,

@@ -1,4 +1,4 @@
-//! The path of a recipe on the stage: a curve that can be drawn, and pulled at its points or between them.
+//! The path of the hand in a recipe, on the stage: a curve that can be drawn, and pulled at its points or between them.
 
 use chereme_figure::camera::Projection;
 use chereme_motion::{ModelPose, Part as Joint};
@@ -16,28 +16,29 @@ use crate::context::{Outbox, PaneInput};
 use crate::panes::recombine::{draw_on_stage, drawing, lengths, points_of_line};
 use crate::words::{fill, recombine as words};
 
-/// The size of a point for the pointer, and the distance from the line within which a press pulls it, in points of the
-/// window.
+/// The side of the square around a point of the path in which a press pulls it, in points of the window.
 const POINT: f32 = 18.0;
+/// The distance from the line within which a press pulls the line, in points of the window.
 const NEAR: f32 = 9.0;
 /// How far an arrow key moves a point, in metres.
 const STEP: f64 = 0.01;
-/// The most points of a path.
+/// The most points of a path; a path with this many takes no more.
 const MOST: usize = 32;
 
-/// A path in one picture.
+/// A path as it lies in one picture of the stage.
 struct Laid<'a> {
     pane: Rect,
     projection: &'a Projection,
     /// The beginning of the path in model space, and the signer's directions.
     base: DVec3,
     axes: DMat3,
-    /// Its points in metres, to the left, up and forward of the base.
+    /// The points that can be pulled, in metres to the left, up and forward of the base.
     points: Vec<DVec3>,
-    /// Positions along the path in the picture.
+    /// Positions along the path in the window, with the same number of pieces between any two points.
     line: Vec<Pos2>,
+    /// The number of the recipe's card that holds the path.
     card: u64,
-    /// The index of the picture's eye.
+    /// The index of the camera that shows the picture.
     eye: usize,
 }
 
@@ -107,6 +108,7 @@ fn spot(projection: &Projection, pane: Rect, at: DVec3) -> Pos2 {
     pane.min + vec2(seen.x, seen.y)
 }
 
+/// Draws the path with a ring at its beginning and an arrow at its end.
 fn paint(painter: &Painter, seen: &PaneInput<'_>, laid: &Laid<'_>) {
     let colours = seen.colours();
     painter.line(
@@ -123,7 +125,7 @@ fn paint(painter: &Painter, seen: &PaneInput<'_>, laid: &Laid<'_>) {
     }
 }
 
-/// Handles a point of the path: it can be pulled, moved by keys, or removed.
+/// Handles a point of the path: it can be pulled, moved by keys, or removed by a click with the secondary button.
 fn pull_point(
     stage: &mut Stage,
     ui: &mut Ui,
@@ -275,7 +277,8 @@ fn pulled(ui: &Ui, laid: &Laid<'_>, place: DVec3) -> Option<DVec3> {
     Some(laid.axes.transpose() * (to - laid.base))
 }
 
-/// Returns the distance by which arrow keys move a focused point: to the left, up and forward, in metres.
+/// Returns the distance by which a key moves a focused point, in metres to the left, up and forward: arrow keys, and
+/// Page Up and Page Down for the depth.
 fn stepped(ui: &Ui, id: &Id) -> Option<DVec3> {
     ui.memory_mut(|memory| {
         memory.set_focus_lock_filter(
@@ -303,6 +306,7 @@ fn stepped(ui: &Ui, id: &Id) -> Option<DVec3> {
     })
 }
 
+/// Sends the path with these points to its card.
 fn send(laid: &Laid<'_>, points: &[DVec3], out: &mut Outbox) {
     let points = points.iter().map(|at| lengths(*at)).collect();
     out.send(Command::Travelled(laid.card, points));

@@ -52,7 +52,7 @@ impl Ray {
 pub(super) struct Directions {
     /// Left, up and forward.
     pub(super) axes: DMat3,
-    /// In metres.
+    /// The length of the arm, in metres.
     pub(super) arm: f64,
 }
 
