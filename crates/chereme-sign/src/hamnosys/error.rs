@@ -33,7 +33,7 @@ pub enum HamnosysError {
         expected: &'static str,
     },
     /// The text ends too early.
-    #[error("after the last symbol, {index}, expected {expected}")]
+    #[error("after the last symbol, {}, expected {expected}", index.saturating_sub(1))]
     Ended {
         /// The number of symbols.
         index: usize,
