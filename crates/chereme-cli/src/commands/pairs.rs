@@ -34,7 +34,7 @@ pub(crate) struct Args {
 enum EmptyWord {
     /// An empty field is a value like any other
     Value,
-    /// An empty field is unknown: signs with one take no part
+    /// An empty field is unknown: signs with an empty field do not count
     Unknown,
 }
 

@@ -7,7 +7,7 @@ use crate::OperationRow;
 
 texts! {
     TITLE: "History", "Historique";
-    EMPTY: "Nothing was done yet.", "Rien n’a encore été fait.";
+    EMPTY: "Nothing has been done yet.", "Rien n’a encore été fait.";
     FILTER: "Who or what", "Qui ou quoi";
     NONE_FIT: "Nothing like that was done.", "Rien de tel n’a été fait.";
     NOW: "now", "maintenant";

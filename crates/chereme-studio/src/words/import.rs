@@ -45,9 +45,9 @@ texts! {
     OWN_EDITS: "My edits of files that changed", "Mes modifications de fichiers changés";
     EDITS_ASK: "refuse the file and list them", "refuser le fichier et les lister";
     EDITS_MERGE: "merge with the file; if both changed an annotation, keep mine", "fusionner avec le fichier ; si les deux ont changé une annotation, garder la mienne";
-    EDITS_THEIRS: "take the file", "prendre le fichier";
+    EDITS_THEIRS: "take the file's version", "prendre la version du fichier";
     EDITS_MINE: "keep mine", "garder les miennes";
-    AXES_ARE: "up is the file's {up}, the signer's left its {left}", "le haut est l’{up} du fichier, la gauche du signeur l’{left}";
+    AXES_ARE: "up is the file's {up}, and the signer's left is its {left}", "le haut est l’{up} du fichier, la gauche du signeur l’{left}";
     AXIS: "{axis} axis", "axe {axis}";
     AXIS_REVERSED: "{axis} axis reversed", "axe {axis} inversé";
     AS_CHOSEN: "as you chose", "comme vous l’avez choisi";

@@ -253,7 +253,7 @@ mod tests {
         let said = |text: &str, language| axes(text.parse().expect("axes"), language);
         assert_eq!(
             said("+Y,+X", Language::English),
-            "up is the file's Y axis, the signer's left its X axis"
+            "up is the file's Y axis, and the signer's left is its X axis"
         );
         assert_eq!(
             said("+Z,-X", Language::French),
