@@ -20,19 +20,29 @@ use std::ops::Range;
 
 use serde::Serialize;
 
-/// The thresholds: shares of the usual range, seconds, degrees.
+/// The threshold of raised brows. This one and the next five are shares of the usual range.
 const BROWS: f64 = 0.3;
+/// The threshold of one raised brow: its height above the other.
 const SIDE: f64 = 0.4;
+/// The threshold of brows drawn together.
 const SQUEEZE: f64 = 0.35;
+/// The threshold of closed eyes.
 const CLOSED: f64 = 0.6;
+/// The threshold of a gaze to a side, up or down.
 const GAZE: f64 = 0.35;
+/// The threshold of an open mouth.
 const OPEN: f64 = 0.3;
+/// Eyes that are closed for less than this, in seconds, blink.
 const BLINK: f64 = 0.4;
+/// The shortest action of brows, gaze or mouth, in seconds.
 const LEAST: f64 = 0.15;
+/// Pauses shorter than this, in seconds, do not end an action.
 const PAUSE: f64 = 0.1;
+/// The smallest half swing of a head, from one turning point to the next, in degrees.
 const SWING: f64 = 3.0;
 /// The shortest and the longest half swing of a head, in seconds.
 const HALF_SWING: [f64; 2] = [1.0 / 12.0, 0.5];
+/// The fewest half swings of a shake or a nod.
 const SWINGS: usize = 3;
 /// The share of the threshold above which a curve must stay for an action to last.
 const STAYS: f64 = 0.7;

@@ -59,6 +59,7 @@ pub struct Partner {
 
 /// The fewest equal fields that make a comparison meaningful.
 const LEAST_EQUAL: usize = 2;
+/// The most unused values that are listed for a field.
 const MOST_UNUSED: usize = 40;
 
 /// The values of a token by field, hands by their part in signing and phases in order: `beak > 5`.

@@ -28,6 +28,7 @@ impl Default for ChartOptions {
 
 /// Space around the grid for names and numbers, in pixels.
 const MARGIN: usize = 34;
+/// The colour of the path on a light and on a dark background.
 const PATH: [Colour; 2] = [Colour::hex(0x00_5F_9E), Colour::hex(0x6F_C3_FF)];
 
 /// Draws the alignment of two clips of `lengths` frames: the first runs to the right, the second up, and

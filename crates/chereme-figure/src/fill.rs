@@ -6,6 +6,7 @@ use crate::buffers::{Band, packed, whole};
 
 /// Steps per sample to which corners are snapped.
 pub(crate) const SUBPIXELS: f32 = 16.0;
+/// [`SUBPIXELS`] as a whole number.
 const UNIT: i32 = SUBPIXELS as i32;
 /// Largest width and height of a triangle, in parts of a sample, for which products of its sides fit 32
 /// bits.

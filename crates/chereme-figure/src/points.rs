@@ -29,7 +29,9 @@ const MANY: usize = 60;
 const UNSURE: f64 = 0.3;
 /// The eye's distance relative to half the height of the visible area.
 const DISTANCE: f32 = 7.0;
+/// The height of a line of small text, in pixels.
 const LABEL: usize = 18;
+/// The space between pictures, in pixels.
 const GAP: usize = 6;
 
 /// The dots and limbs of a track of points, with their space; it holds the points or a reference to them.

@@ -290,9 +290,12 @@ pub fn on_waiting(report: fn()) {
 
 /// The longest pause between two tries, in milliseconds; the first pause is the shortest.
 const PAUSE: u64 = 25;
+/// The try at which the program reports that it waits: after about one second.
 const REPORTED_AFTER: i32 = 44;
+/// The last try: after about 20 seconds.
 const REFUSED_AFTER: i32 = 804;
 
+/// Waits after a try to lock the database; returns whether to try again. `before` is the number of earlier waits.
 fn wait(before: i32) -> bool {
     if before == REPORTED_AFTER
         && let Some(report) = WAITING.get()

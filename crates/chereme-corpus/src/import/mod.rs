@@ -63,6 +63,7 @@ pub fn time_of_day(timecode: &str) -> Option<Instant> {
 
 /// The size of the largest annotation file, lexicon or inventory that is read, in bytes.
 const LARGEST_TEXT: u64 = 512 << 20;
+/// The greatest depth of folders that an import searches.
 const DEEPEST_FOLDER: usize = 32;
 
 /// Information from the caller that overrides the files, and choices for the import.

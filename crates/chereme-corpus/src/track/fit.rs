@@ -16,9 +16,9 @@ use crate::error::{Error, Result};
 use crate::movement;
 use crate::picture::built_in_body;
 
-/// The largest median distance of usable results, in metres. A larger distance, or markers that are missing in too many
-/// frames, give a warning.
+/// The largest median distance between markers and a usable skeleton, in metres; a larger one gives a warning.
 const FAR: f64 = 0.02;
+/// The least share of frames in which the markers of a usable result are seen; a smaller one gives a warning.
 const SEEN: f64 = 0.6;
 
 /// A skeleton that was fitted to markers.

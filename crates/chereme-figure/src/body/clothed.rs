@@ -89,8 +89,9 @@ const ROWS: [[f32; 3]; 15] = [
     [4.0, 152.0, 86.0],
     [36.0, 140.0, 72.0],
 ];
-/// Half the breadth and half the depth of the collar, and the position of its middle.
+/// Half the breadth and half the depth of the collar.
 const COLLAR: [f32; 2] = [58.0, 55.0];
+/// The position of the collar's middle, forward; negative is backward.
 pub(super) const COLLAR_BACK: f32 = -14.0;
 /// The radius of the neck in that collar.
 pub(super) const NECK: f32 = 46.5;

@@ -81,9 +81,12 @@ pub(super) const RADII: [[f32; 7]; 5] = [
 const AROUND: [f32; 12] = [
     0.0, 38.0, 62.0, 90.0, 118.0, 142.0, 180.0, 218.0, 242.0, 270.0, 298.0, 322.0,
 ];
-/// The posture in which the hand is built, in degrees: fingers apart, as they would grow together otherwise.
+/// The spread of each finger in the posture in which the hand is built, in degrees; fingers that touched would grow
+/// together.
 const SPREAD: [f32; 4] = [11.0, 2.0, -7.0, -16.0];
+/// The bend of each finger's joints in that posture, from its base on, in degrees.
 const BENT: [f32; 3] = [6.0, 6.0, 4.0];
+/// The thumb in that posture, in degrees: radial, palmar, opposition, and the bend of its middle and end joints.
 const THUMB_ANGLES: [f32; 5] = [42.0, 24.0, 10.0, 4.0, 4.0];
 
 impl Glove {

@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 
 /// The size of a block of the file, in bytes.
 const BLOCK: usize = 512;
-/// The key that the second byte of the header and words of its event table hold.
+/// The second byte of the header of a C3D file.
 const KEY: u8 = 0x50;
+/// The word of the header that says that it holds a table of events.
 const EVENTS_KEY: u16 = 12345;
 /// The most parameters; a file with more parameters, points or channels is not a capture.
 const MOST_PARAMETERS: usize = 10_000;

@@ -55,6 +55,7 @@ const MEMORY: (usize, usize) = (64 << 20, 96);
 const MOST_MEMORY: usize = 4 << 30;
 /// The greatest depth of a tree of nodes.
 const DEEPEST: u32 = 512;
+/// The most nodes of a scene.
 const MOST_NODES: usize = 20_000;
 /// The most joints times frames.
 const MOST_POSITIONS: usize = 60_000_000;

@@ -16,9 +16,11 @@ pub(super) struct Target {
 /// Weight of the pull of every joint towards its rest, in square metres per square radian; it determines the joints
 /// that no marker shows.
 const PULL: f64 = 2e-4;
-/// Damping of the first step, and its factors after success and failure.
+/// Damping of the first step.
 const DAMPING: f64 = 1e-3;
+/// The factor on the damping after a step that succeeds.
 const EASIER: f64 = 0.4;
+/// The factor on the damping after a step that fails.
 const HARDER: f64 = 6.0;
 /// A step with a relative gain below this ends the search.
 const ENOUGH: f64 = 1e-5;

@@ -24,6 +24,7 @@ const ASKED: usize = 4;
 const SWEEP: u64 = 60;
 /// Interval between repaints of a playing loop, in seconds.
 const BEAT: f64 = 1.0 / 30.0;
+/// The radius of a picture's corners, in points.
 const RADIUS: f32 = 6.0;
 /// All of a texture.
 const WHOLE: Rect = Rect {

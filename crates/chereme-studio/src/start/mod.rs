@@ -55,12 +55,15 @@ type Typed = (Text, fn(PathBuf) -> Begin);
 
 /// The keys that give the keyboard to the page if nothing has it.
 const KEYS: [Key; 4] = [Key::ArrowDown, Key::ArrowUp, Key::Enter, Key::Space];
+/// The greatest width of the column, in points.
 const WIDE: f32 = 620.0;
-/// The least width of the column beside the wall, and the margin at its sides, in points.
+/// The least width of the column beside the wall, in points.
 const LEAST: f32 = 400.0;
+/// The margin at the sides of the column, in points.
 const EDGE: f32 = 20.0;
-/// A window narrower than this has the wall below the column; the height of that wall. Both in points.
+/// A window narrower than this, in points, has the wall below the column.
 const WALLED: f32 = 860.0;
+/// The height of a wall below the column, in points.
 const STRIP: f32 = 190.0;
 /// How many recent corpora the page shows; the menu lists all.
 const RECENT: usize = 4;

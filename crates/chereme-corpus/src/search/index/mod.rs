@@ -42,9 +42,13 @@ use read::{KnownLabels, Reading};
 
 /// The version of the documents' format, raised with every change of it: indexes of other versions are rebuilt.
 const FORMAT: i64 = 3;
+/// The name under which the index knows its analyser of words.
 const WORDS: &str = "words";
+/// The memory for writing changes to the index, in bytes; a new index takes four times as much.
 const MEMORY: usize = 64 << 20;
+/// Segments with fewer documents than this are merged if there are more than [`MOST_SMALL_SEGMENTS`] of them.
 const SMALL_SEGMENT: u32 = 20_000;
+/// The most small segments that are kept apart.
 const MOST_SMALL_SEGMENTS: usize = 8;
 
 /// The fields of a document.

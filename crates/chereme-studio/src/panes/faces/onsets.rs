@@ -12,9 +12,11 @@ use crate::context::{Outbox, PaneInput};
 use crate::words::{Text, faces as words, fill};
 use crate::work::Work;
 
-/// The height of a row of the plot, and the width of the names beside it, in points.
+/// The height of a row of the plot, in points.
 const ROW: f32 = 18.0;
+/// The width of the names beside the plot, in points.
 const NAMES: f32 = 190.0;
+/// The space between the halves of the plot, those of the beginnings and of the ends, in points.
 const GAP: f32 = 16.0;
 
 impl Faces {

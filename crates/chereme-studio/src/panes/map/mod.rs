@@ -31,8 +31,9 @@ const COMPONENTS: [(Component, crate::words::Text); 4] = [
     (Component::Orientation, inspector::ORIENTATION),
 ];
 
-/// The side of a little figure, in points, and the most of them at once.
+/// The side of a little figure, in points.
 const FIGURE: f32 = 84.0;
+/// The most little figures at once.
 const MOST_FIGURES: usize = 40;
 /// Signs with only a notation are animated if no more signs than this are in sight.
 const FEW: usize = 160;

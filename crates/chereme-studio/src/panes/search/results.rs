@@ -23,6 +23,7 @@ const ROW: f32 = 26.0;
 const FOOT: f32 = 36.0;
 /// The least width of a figure, in points.
 const FIGURE: f32 = 132.0;
+/// The space between two figures, in points.
 const GAP: f32 = 6.0;
 
 /// The columns of the table: the title of each, and the order that it sorts by.

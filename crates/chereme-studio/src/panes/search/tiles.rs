@@ -12,9 +12,11 @@ use crate::miniatures;
 use crate::pickers::{self, Picker};
 use crate::words::{Text, search as words};
 
-/// The height of a tile in points, and the time for which it shows each value, in seconds.
+/// The height of a tile, in points.
 const HIGH: f32 = 92.0;
+/// The time for which a tile shows each value, in seconds.
 const TURN: f64 = 1.6;
+/// The space between two tiles, in points.
 const GAP: f32 = 8.0;
 /// The room on the right for the bar that scrolls the pane.
 const MARGIN: f32 = 6.0;

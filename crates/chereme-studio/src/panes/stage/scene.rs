@@ -11,8 +11,9 @@ use glam::Vec3;
 
 use crate::model::reel::Reel;
 
-/// The distance between ghosts in seconds, and the opacity of each, nearest first.
+/// The time between ghosts, which are faint figures of earlier and later postures, in seconds.
 const GHOST_STEP: f64 = 0.1;
+/// The opacity of each ghost, the nearest first.
 const GHOSTS: [f32; 3] = [0.5, 0.36, 0.24];
 /// The distance between points of a trail, in microseconds.
 const TRAIL_STEP: i64 = 20_000;

@@ -24,8 +24,11 @@ const NAMES: f32 = 96.0;
 const NAMES_SHARE: f32 = 0.35;
 /// How long the rows must rest before the column of names grows for newly visible names, in seconds.
 const RESTS: f64 = 0.25;
+/// The indent of a child tier's name relative to its parent's, in points.
 pub(super) const INDENT: f32 = 12.0;
+/// The height of a tier's row, in points.
 const ROW: f32 = 26.0;
+/// The height of the ruler of times, in points.
 const RULER: f32 = 22.0;
 /// Annotations at least this wide, in points, are separate widgets for the keyboard and assistive technology.
 const NAMED: f32 = 8.0;
