@@ -165,9 +165,9 @@ fn scene(
         return Ok(report);
     }
     let bytes = job.bytes()?;
-    job.report(progress)?;
+    job.report_progress(progress)?;
     let (scene, findings) = read(&bytes).map_err(Error::wrong)?;
-    job.report(progress)?;
+    job.report_progress(progress)?;
     let mut report = begun(job, findings);
     let skeleton = scene.clip.skeleton().clone();
     let roles = job.options.roles.clone().unwrap_or_default();
@@ -307,10 +307,10 @@ fn take(
         return Ok(report);
     }
     let bytes = job.bytes()?;
-    job.report(progress)?;
+    job.report_progress(progress)?;
     let damaged = |why| Error::wrong(why).advise(DAMAGED);
     let (document, findings) = read(&bytes).map_err(damaged)?;
-    job.report(progress)?;
+    job.report_progress(progress)?;
     keep_take(job, document, findings, progress)
 }
 

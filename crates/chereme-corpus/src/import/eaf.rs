@@ -81,10 +81,10 @@ pub(super) fn import_as(
         return Ok(report);
     }
     let bytes = job.bytes()?;
-    job.report(progress)?;
+    job.report_progress(progress)?;
     let (mut transcript, findings) = read(&bytes).map_err(Error::wrong)?;
     super::elan::fill(job, &mut transcript)?;
-    job.report(progress)?;
+    job.report_progress(progress)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
     report
         .findings
@@ -547,7 +547,7 @@ fn write_annotations(
     for tier in parents_first(transcript) {
         for (index, annotation) in transcript.tiers[tier].annotations.iter().enumerate() {
             if count % 256 == 255 {
-                job.report(progress)?;
+                job.report_progress(progress)?;
             }
             let parent = annotation
                 .parent

@@ -156,7 +156,7 @@ impl Job<'_> {
     }
 
     /// Reports progress; fails if the caller asks the work to stop.
-    fn report(&mut self, progress: &mut Progress<'_>) -> Result<()> {
+    fn report_progress(&mut self, progress: &mut Progress<'_>) -> Result<()> {
         self.steps += 1;
         progress.report(Step {
             task: &self.file_name,

@@ -54,7 +54,7 @@ fn import(job: &mut Job<'_>, form: Form, progress: &mut Progress<'_>) -> Result<
     };
     for (done, (sign, line)) in entries.iter().enumerate() {
         if done % 64 == 63 {
-            job.report(progress)?;
+            job.report_progress(progress)?;
         }
         import_sign(job, sign, *line, &words, &mut place, &mut report)?;
     }

@@ -98,7 +98,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
             return Ok(report);
         }
     }
-    job.report(progress)?;
+    job.report_progress(progress)?;
     let (document, findings) = reader.finish(job.options.rate).map_err(wrong)?;
     captured::keep_take(job, document, findings, progress)
 }

@@ -147,7 +147,7 @@ pub(super) fn annotations(
     };
     let order = parents_first(sides.transcript);
     for &tier in &order {
-        job.report(progress)?;
+        job.report_progress(progress)?;
         let name = &sides.transcript.tiers[tier].name;
         let old = match sides.known.get(name) {
             Some(row) => tiers::annotations(job.connection, row.id)?,
@@ -309,7 +309,7 @@ impl Update<'_> {
         let mut old = Standing::of(old);
         for (index, annotation) in it.annotations.iter().enumerate() {
             if index % 256 == 255 {
-                job.report(progress)?;
+                job.report_progress(progress)?;
             }
             let above = annotation.parent.and_then(|place| self.rows.get(&place));
             let parent = above.copied();
