@@ -6,22 +6,21 @@
 pub(crate) mod begin;
 mod carry;
 pub(crate) mod desk;
+mod outcome;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
-    Choice, ChooseOptions, Copied, CueSlips, Curves, Decision, DeleteOptions, Deleted, Details,
-    Error, ExportOptions, ExportReport, ExportWhat, Expressions, Function, ImportOptions,
-    ImportReport, KeptSearch, MadePart, MediaChange, MergeReport, Moving, Name, NewTier, Onsets,
-    OperationRow, Picture, PictureOptions, PointsPiece, ProposeOptions, Proposed, Recombination,
-    RecordingChange, Scheme, SearchOptions, SignChange, SignMap, SignerChange, Suggestions,
-    TierChange, TierName, TrackChange, Unit,
+    Address, AnnotateOptions, AnnotationChange, ChooseOptions, Copied, Decision, DeleteOptions,
+    Error, ExportOptions, ExportWhat, Function, ImportOptions, KeptSearch, MadePart, MediaChange,
+    Name, NewTier, PictureOptions, ProposeOptions, RecordingChange, Scheme, SearchOptions,
+    SignChange, SignerChange, TierChange, TierName, TrackChange, Unit,
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
-use eframe::egui::ColorImage;
+
+pub(crate) use outcome::Outcome;
 
 use crate::model::generated::GeneratedClip;
 use crate::panes::inspector::Thing;
@@ -183,91 +182,6 @@ pub(crate) enum Work {
         piece: usize,
         /// Its span.
         span: Span,
-    },
-}
-
-/// The outcome of a piece of [`Work`].
-#[derive(Debug)]
-#[allow(dead_code, reason = "panes read what they need")]
-pub(crate) enum Outcome {
-    /// Annotations were changed.
-    Annotated(AnnotateReport),
-    /// Something was changed that the next snapshot shows.
-    Changed,
-    /// A sign was generated and stored.
-    Recombined(Box<Recombination>),
-    /// Files were imported, or examined for an import.
-    Imported(ImportReport),
-    /// Another corpus was merged in.
-    Merged(MergeReport),
-    /// An operation was undone.
-    Undone(OperationRow),
-    /// An operation was redone.
-    Redone(OperationRow),
-    /// Several operations were undone or redone.
-    Walked {
-        /// Whether they were undone.
-        back: bool,
-        /// Their number.
-        steps: usize,
-    },
-    /// Recordings and signs were deleted, or examined for that.
-    Deleted(Deleted),
-    /// The corpus was checked.
-    Checked(CheckReport),
-    /// Values of a component were proposed from movement.
-    Proposed(Proposed),
-    /// All details of something.
-    Looked(Details),
-    /// Tokens were found.
-    Found(Answer),
-    /// The annotations around tokens.
-    Around(Vec<Around>),
-    /// The map of signs.
-    Mapped(Arc<SignMap>),
-    /// The slips of a take.
-    CueSlips(Box<CueSlips>),
-    /// The expressions of faces.
-    Expressions(Arc<Expressions>),
-    /// Performances were ranked.
-    Chosen(Arc<Choice>),
-    /// The begin and end of non-manuals were measured.
-    Onsets(Arc<Onsets>),
-    /// Movement was generated.
-    Previewed(Arc<Recombination>),
-    /// Suggested recipes.
-    Suggested(Suggestions),
-    /// The completions of a typed path: the path, and its completions.
-    Paths(String, Vec<String>),
-    /// Files were written.
-    Exported(ExportReport),
-    /// The stage was drawn to a file.
-    Shared(Picture),
-    /// A piece of movement.
-    Moved {
-        /// The recording's row id.
-        recording: i64,
-        /// The piece's number.
-        piece: usize,
-        /// The movement.
-        moving: Arc<Moving>,
-    },
-    /// The points of a span of a recording.
-    Points(Vec<PointsPiece>),
-    /// The movement of a span, if there is any.
-    Stretch(Option<Arc<Moving>>),
-    /// A picture of a film, for a span without movement.
-    Still(Arc<ColorImage>),
-    /// Pieces of a generated sign, each with its original if it has one.
-    Originals(Vec<(MadePart, Option<Arc<Moving>>)>),
-    /// A piece of movement was measured.
-    Measured {
-        /// The recording's row id.
-        recording: i64,
-        /// The piece's number.
-        piece: usize,
-        /// Its curves.
-        curves: Box<Curves>,
     },
 }
 

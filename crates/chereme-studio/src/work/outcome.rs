@@ -1,0 +1,95 @@
+//! The results of the use cases, which panes and notices match on.
+
+use std::sync::Arc;
+
+use chereme_corpus::{
+    AnnotateReport, Answer, Around, CheckReport, Choice, CueSlips, Curves, Deleted, Details,
+    ExportReport, Expressions, ImportReport, MadePart, MergeReport, Moving, Onsets, OperationRow,
+    Picture, PointsPiece, Proposed, Recombination, SignMap, Suggestions,
+};
+use eframe::egui::ColorImage;
+
+/// The outcome of a piece of [`Work`](super::Work).
+#[derive(Debug)]
+#[allow(dead_code, reason = "panes read what they need")]
+pub(crate) enum Outcome {
+    /// Annotations were changed.
+    Annotated(AnnotateReport),
+    /// Something was changed that the next snapshot shows.
+    Changed,
+    /// A sign was generated and stored.
+    Recombined(Box<Recombination>),
+    /// Files were imported, or examined for an import.
+    Imported(ImportReport),
+    /// Another corpus was merged in.
+    Merged(MergeReport),
+    /// An operation was undone.
+    Undone(OperationRow),
+    /// An operation was redone.
+    Redone(OperationRow),
+    /// Several operations were undone or redone.
+    Walked {
+        /// Whether they were undone.
+        back: bool,
+        /// Their number.
+        steps: usize,
+    },
+    /// Recordings and signs were deleted, or examined for that.
+    Deleted(Deleted),
+    /// The corpus was checked.
+    Checked(CheckReport),
+    /// Values of a component were proposed from movement.
+    Proposed(Proposed),
+    /// All details of something.
+    Looked(Details),
+    /// Tokens were found.
+    Found(Answer),
+    /// The annotations around tokens.
+    Around(Vec<Around>),
+    /// The map of signs.
+    Mapped(Arc<SignMap>),
+    /// The slips of a take.
+    CueSlips(Box<CueSlips>),
+    /// The expressions of faces.
+    Expressions(Arc<Expressions>),
+    /// Performances were ranked.
+    Chosen(Arc<Choice>),
+    /// The begin and end of non-manuals were measured.
+    Onsets(Arc<Onsets>),
+    /// Movement was generated.
+    Previewed(Arc<Recombination>),
+    /// Suggested recipes.
+    Suggested(Suggestions),
+    /// The completions of a typed path: the path, and its completions.
+    Paths(String, Vec<String>),
+    /// Files were written.
+    Exported(ExportReport),
+    /// The stage was drawn to a file.
+    Shared(Picture),
+    /// A piece of movement.
+    Moved {
+        /// The recording's row id.
+        recording: i64,
+        /// The piece's number.
+        piece: usize,
+        /// The movement.
+        moving: Arc<Moving>,
+    },
+    /// The points of a span of a recording.
+    Points(Vec<PointsPiece>),
+    /// The movement of a span, if there is any.
+    Stretch(Option<Arc<Moving>>),
+    /// A picture of a film, for a span without movement.
+    Still(Arc<ColorImage>),
+    /// Pieces of a generated sign, each with its original if it has one.
+    Originals(Vec<(MadePart, Option<Arc<Moving>>)>),
+    /// A piece of movement was measured.
+    Measured {
+        /// The recording's row id.
+        recording: i64,
+        /// The piece's number.
+        piece: usize,
+        /// Its curves.
+        curves: Box<Curves>,
+    },
+}
