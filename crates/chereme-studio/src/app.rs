@@ -21,6 +21,7 @@ use crate::miniatures::Figures;
 use crate::model::Snapshot;
 use crate::model::reel::Reel;
 use crate::overlay::Overlays;
+use crate::overlay::notices::NoticeOffer;
 use crate::panes::carry::{self, Sprung};
 use crate::panes::{PaneKind, Panes};
 use crate::script::fonts::Unreported;
@@ -29,7 +30,7 @@ use crate::start::Start;
 use crate::words::{Text, fill};
 use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::{Desk, News, Wake};
-use crate::work::{Lane, Outcome, Work};
+use crate::work::{Lane, Outcome, movement};
 use crate::{clipboard, layout, theme};
 
 /// The window's whole state; [`ui`](Self::ui) is one frame of it.
@@ -343,10 +344,10 @@ impl Studio {
         let text = fill(words, &[("path", &path.display())]);
         let mut offers = vec![(
             crate::words::shell::SAVE_COPY,
-            Command::Choose(Choose::Copy),
+            NoticeOffer::Choose(Choose::Copy),
         )];
         if !path.exists() && path.parent().is_some_and(std::path::Path::is_dir) {
-            let back = (crate::words::shell::PUT_BACK, Command::SaveCopy(path));
+            let back = (crate::words::shell::PUT_BACK, NoticeOffer::SaveCopy(path));
             offers.insert(0, back);
         }
         let remedy = crate::words::shell::GONE_REMEDY.of(language);
@@ -399,18 +400,14 @@ impl Studio {
         let player = &self.shown.player;
         let (at, direction) = (player.playhead(), player.direction());
         let loading = self.desk.as_ref().map_or(0, |desk| {
-            let lanes = desk.running.values().map(|it| it.lane);
+            let lanes = desk.running.values().map(|it| it.about.lane);
             lanes.filter(|lane| *lane == Lane::Movement).count()
         });
         // While the user drags over hours of movement, passed pieces are not loaded.
         if loading < 2
             && let Some((recording, piece, span)) = self.reel.wanted(at, direction)
         {
-            self.out.work(Work::Movement {
-                recording,
-                piece,
-                span,
-            });
+            self.out.work(movement::load(recording, piece, span));
         }
     }
 

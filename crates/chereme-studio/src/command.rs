@@ -17,15 +17,15 @@ use crate::panes::stage::StageSettings;
 use crate::settings::{Searches, Settings};
 use crate::words::Text;
 use crate::work::begin::Begin;
-use crate::work::{Work, WorkId};
+use crate::work::{Job, WorkId};
 
 /// A request to the window.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) enum Command {
     /// Carry out an action of keys, menus or the palette.
     Do(Action),
     /// Run a use case of the corpus.
-    Work(WorkId, Work),
+    Work(WorkId, Job),
     /// Stop a piece of work.
     Stop(WorkId),
     /// Open a corpus.

@@ -18,7 +18,7 @@ use crate::settings::Settings;
 use crate::theme::Colours;
 use crate::words::{Language, Text};
 use crate::work::desk::Running;
-use crate::work::{Far, Work, WorkId};
+use crate::work::{Far, Job, WorkId};
 
 /// The state of the display and the selection; only commands change it.
 #[derive(Debug, Clone, Default)]
@@ -162,11 +162,11 @@ impl Outbox {
         self.commands.push(command);
     }
 
-    /// Requests work, and returns the id that its outcome carries.
-    pub(crate) fn work(&mut self, work: Work) -> WorkId {
+    /// Requests a job, and returns the id that its outcome carries.
+    pub(crate) fn work(&mut self, job: Job) -> WorkId {
         self.next += 1;
         let id = WorkId(self.next);
-        self.commands.push(Command::Work(id, work));
+        self.commands.push(Command::Work(id, job));
         id
     }
 

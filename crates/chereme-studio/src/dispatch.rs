@@ -26,9 +26,9 @@ use crate::player::{Player, Preview};
 use crate::settings::{ThemeChoice, View, view_of};
 use crate::theme;
 use crate::words::{shell as words, timeline};
-use crate::work::Work;
 use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::Desk;
+use crate::work::{recordings, whole_corpus};
 
 const SECOND: i64 = 1_000_000;
 /// Time added on either side of the selection when playing around it, in microseconds; as in ELAN.
@@ -57,9 +57,9 @@ impl Studio {
     fn command(&mut self, command: Command, ctx: &Context) {
         match command {
             Command::Do(action) => self.act(action, ctx),
-            Command::Work(id, work) => {
+            Command::Work(id, job) => {
                 if let Some(desk) = &mut self.desk {
-                    desk.give(id, work);
+                    desk.give(id, job);
                 }
             }
             Command::Stop(id) => {
@@ -121,7 +121,7 @@ impl Studio {
                     None => MediaChange::Add(path),
                 };
                 let name = chereme_corpus::Name::Number(recording);
-                self.out.work(Work::ChangeMedia(name, change));
+                self.out.work(recordings::change_media(name, change));
             }
             Command::Import(paths) => {
                 self.panes.import.propose(&paths);
@@ -230,7 +230,7 @@ impl Studio {
             }
             Action::Check => {
                 let mend = !self.is_read_only();
-                self.out.work(Work::Check { mend });
+                self.out.work(whole_corpus::check(mend));
             }
             Action::MergeCorpus => {
                 // If no chooser opens, the path can be typed in the import pane.
@@ -280,8 +280,7 @@ impl Studio {
         {
             return;
         }
-        let work = if back { Work::Undo } else { Work::Redo };
-        self.out.work(work);
+        self.out.work(whole_corpus::undo_or_redo(back));
     }
 
     /// Opens the recipe of the displayed recording again.

@@ -245,13 +245,13 @@ impl Studio {
             ui.weak(fill(words::STATUS_MODE.of(language), &[("mode", &mode)]));
             for (id, running) in &desk.running {
                 if matches!(
-                    running.lane,
+                    running.about.lane,
                     Lane::Movement | Lane::Little | Lane::Make | Lane::Draft | Lane::Measure
                 ) {
                     continue;
                 }
                 ui.separator();
-                ui.label(running.task.of(language));
+                ui.label(running.about.task.of(language));
                 match running.far.share() {
                     Some(share) => drop(ui.add(ProgressBar::new(share).desired_width(120.0))),
                     None => drop(ui.spinner()),

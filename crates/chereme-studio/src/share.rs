@@ -12,7 +12,8 @@ use crate::command::Command;
 use crate::overlay::export::{What, file_name};
 use crate::panes::recombine::selected_token;
 use crate::words::stage as words;
-use crate::work::{Shared, Work};
+use crate::work::Job;
+use crate::work::exchange::{self, Shared};
 
 /// Height of a shared film, in pixels.
 const HEIGHT: usize = 720;
@@ -21,14 +22,14 @@ impl Studio {
     /// Writes the contents of the stage: generated movement, else the selected sign, else the recording.
     pub(crate) fn share(&mut self, action: Action, ctx: &Context) {
         match self.shared(action, ctx) {
-            Ok(work) => {
-                self.out.work(work);
+            Ok(job) => {
+                self.out.work(job);
             }
             Err(text) => self.out.send(Command::Cannot(text)),
         }
     }
 
-    fn shared(&self, action: Action, ctx: &Context) -> Result<Work, crate::words::Text> {
+    fn shared(&self, action: Action, ctx: &Context) -> Result<Job, crate::words::Text> {
         let nothing = words::SHARE_NOTHING;
         let corpus = self.corpus().ok_or(nothing)?;
         let ending = match action {
@@ -68,7 +69,7 @@ impl Studio {
         match (ending, what) {
             ("glb", Shared::Stored(address)) => {
                 let what = ExportWhat::Address(address);
-                Ok(Work::Export(what, to, ExportOptions::default()))
+                Ok(exchange::export(what, to, ExportOptions::default()))
             }
             ("glb", Shared::Made(_)) => Err(words::SHARE_STORE),
             (ending, what) => {
@@ -77,7 +78,7 @@ impl Studio {
                     captions: ending != "png",
                     ..PictureOptions::default()
                 };
-                Ok(Work::Share(what, to, options))
+                Ok(exchange::share(what, to, options))
             }
         }
     }

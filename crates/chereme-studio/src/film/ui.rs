@@ -17,7 +17,7 @@ use crate::file_dialogs::Choose;
 use crate::overlay::remedy;
 use crate::panes::inspector::Thing;
 use crate::words::{fill, film as words, spoken};
-use crate::work::Work;
+use crate::work::recordings;
 
 /// The height of the line of controls below a film, in points.
 const LINE: f32 = 26.0;
@@ -332,7 +332,7 @@ fn lay(screen: &mut Screen, out: &mut Outbox, offset: i64) {
     screen.dragged = Some(offset);
     let recording = Name::Number(screen.track.recording_id);
     let track = screen.track.name.clone();
-    out.work(Work::ChangeTrack(
+    out.work(recordings::change_track(
         recording,
         track,
         TrackChange::Offset(offset),

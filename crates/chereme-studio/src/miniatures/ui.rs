@@ -16,7 +16,7 @@ use super::{Cell, Figures, Focus, Key, Motion, Own, Source, Texture, data};
 use crate::context::{Outbox, PaneInput};
 use crate::model::generated::GeneratedClip;
 use crate::words::{Language, stage as words};
-use crate::work::Work;
+use crate::work::movement;
 
 /// The most movements requested at once, so that figures that scroll out of sight leave no long queue.
 const ASKED: usize = 4;
@@ -188,8 +188,8 @@ impl Figures {
             Motion::Made(_) => return,
             Motion::Span(..) if own.asked.len() >= ASKED => return,
             Motion::Span(recording, span) => {
-                let work = Work::Stretch(*recording, data::shown(*span));
-                own.asked.insert(out.work(work), source.clone());
+                let job = movement::stretch(*recording, data::shown(*span));
+                own.asked.insert(out.work(job), source.clone());
                 Film::Loading
             }
         };

@@ -12,7 +12,7 @@ use crate::panes::import::Paths;
 use crate::panes::recombine::selected_token;
 use crate::settings::Settings;
 use crate::words::{Text, export as words, fill, shell, spoken};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, exchange};
 
 /// The object of an export.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -320,18 +320,20 @@ impl Export {
             format: None,
         };
         let address = |address: Address| ExportWhat::Address(address);
-        let work = match what {
-            What::Token(id, _) => Work::Export(address(Address::Token(*id)), to.clone(), options),
-            What::Tier(id, _) => Work::Export(address(Address::Tier(*id)), to.clone(), options),
+        let job = match what {
+            What::Token(id, _) => {
+                exchange::export(address(Address::Token(*id)), to.clone(), options)
+            }
+            What::Tier(id, _) => exchange::export(address(Address::Tier(*id)), to.clone(), options),
             What::Recording(id, _) => {
                 let recording = Address::Recording(Name::Number(*id));
-                Work::Export(address(recording), to.clone(), options)
+                exchange::export(address(recording), to.clone(), options)
             }
-            What::Found(query, _) => Work::ExportFound(query.clone(), to.clone(), options),
-            What::All => Work::Export(ExportWhat::All, to.clone(), options),
+            What::Found(query, _) => exchange::export_found(query.clone(), to.clone(), options),
+            What::All => exchange::export(ExportWhat::All, to.clone(), options),
         };
         (self.wrong, self.written, self.stopped) = (None, None, false);
-        self.asked = Some(out.work(work));
+        self.asked = Some(out.work(job));
         let folder = to.parent().map(Path::to_owned);
         if folder != settings.export_folder {
             out.send(Command::Settings(Box::new(Settings {

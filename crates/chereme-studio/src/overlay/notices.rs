@@ -1,6 +1,7 @@
 //! Notices: reports of actions, and failures with remedies; they never block the user.
 
 use std::fmt::Display;
+use std::path::PathBuf;
 
 use chereme_corpus::{Cause, CheckReport, Deleted, Error};
 use eframe::egui::text::{LayoutJob, TextFormat, TextWrapping};
@@ -13,6 +14,7 @@ use super::{remedy, trouble};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::Outbox;
+use crate::file_dialogs::Choose;
 use crate::theme;
 use crate::theme::Colours;
 use crate::words::{Language, Text, fill, history, shell as words, spoken};
@@ -54,6 +56,27 @@ impl NoticeKind {
     }
 }
 
+/// A remedy that a notice offers, as often as the user wants.
+#[derive(Debug, Clone)]
+pub(crate) enum NoticeOffer {
+    /// Carry out an action.
+    Do(Action),
+    /// Let the user choose a file or a folder.
+    Choose(Choose),
+    /// Save a copy of the corpus there and continue in it.
+    SaveCopy(PathBuf),
+}
+
+impl NoticeOffer {
+    fn command(&self) -> Command {
+        match self {
+            Self::Do(action) => Command::Do(*action),
+            Self::Choose(what) => Command::Choose(*what),
+            Self::SaveCopy(path) => Command::SaveCopy(path.clone()),
+        }
+    }
+}
+
 /// A notice.
 #[derive(Debug, Clone)]
 pub(crate) struct Notice {
@@ -61,8 +84,8 @@ pub(crate) struct Notice {
     pub(crate) kind: NoticeKind,
     /// Whether it appears in the status line only, as it reports the user's own action.
     quiet: bool,
-    /// Commands that the notice offers as remedies, with their labels.
-    offers: Vec<(Text, Command)>,
+    /// The remedies that the notice offers, with their labels.
+    offers: Vec<(Text, NoticeOffer)>,
     pub(crate) text: String,
     pub(crate) remedy: Option<String>,
     /// The original message of the corpus.
@@ -110,7 +133,7 @@ impl Notices {
     }
 
     /// Shows a failure that stays, with commands that can help at once.
-    pub(crate) fn offer(&mut self, text: String, remedy: &str, offers: Vec<(Text, Command)>) {
+    pub(crate) fn offer(&mut self, text: String, remedy: &str, offers: Vec<(Text, NoticeOffer)>) {
         self.add(NoticeKind::Error, text, Some(remedy.to_owned()), true);
         if let Some(notice) = self.all.last_mut() {
             notice.offers = offers;
@@ -211,7 +234,7 @@ impl Notices {
         let values: [(&str, &dyn Display); 1] = [("what", &done.summary)];
         self.hint(fill(history::DID_DELETE.of(language), &values));
         if let Some(notice) = self.all.last_mut() {
-            notice.offers = vec![(Action::Undo.row().name, Command::Do(Action::Undo))];
+            notice.offers = vec![(Action::Undo.row().name, NoticeOffer::Do(Action::Undo))];
         }
     }
 
@@ -349,9 +372,9 @@ impl Notices {
                         });
                     }
                     ui.horizontal_wrapped(|ui| {
-                        for (text, command) in &notice.offers {
+                        for (text, offer) in &notice.offers {
                             if ui.button(text.of(language)).clicked() {
-                                out.send(command.clone());
+                                out.send(offer.command());
                             }
                         }
                         if notice.stays && ui.button(words::CLOSE.of(language)).clicked() {
@@ -538,7 +561,7 @@ mod tests {
         notices.offer(
             "gone".into(),
             "copy",
-            vec![(words::SAVE_COPY, Command::StopBeginning)],
+            vec![(words::SAVE_COPY, NoticeOffer::Do(Action::Undo))],
         );
         notices.withdraw();
         assert!(notices.all.iter().all(|it| it.text != "gone"));

@@ -11,7 +11,7 @@ use super::without_movement::Bare;
 use crate::command::Command;
 use crate::context::Outbox;
 use crate::model::generated::GeneratedClip;
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, recombining};
 
 /// How many animated signs are kept.
 const KEPT: usize = 80;
@@ -45,7 +45,7 @@ impl Notated {
         let first = self.wanted.as_ref().is_none_or(|(id, _)| *id == token);
         if self.making.is_none() && first {
             let recipe = format!("token:{token}");
-            let work = out.work(Work::Preview(recipe));
+            let work = out.work(recombining::preview(recipe));
             self.making = Some((work, token, gloss.to_owned()));
         }
         None
@@ -140,10 +140,11 @@ impl Notated {
 mod tests {
     use super::*;
 
-    fn asked(out: &mut Outbox) -> Vec<(WorkId, String)> {
+    /// Returns the requested animations with the token in progress.
+    fn asked(notated: &Notated, out: &mut Outbox) -> Vec<(WorkId, i64)> {
         let commands = out.take().into_iter();
         let work = commands.filter_map(|command| match command {
-            Command::Work(id, Work::Preview(recipe)) => Some((id, recipe)),
+            Command::Work(id, _) => Some((id, notated.making.as_ref()?.1)),
             _ => None,
         });
         work.collect()
@@ -154,19 +155,19 @@ mod tests {
         let (mut notated, mut out) = (Notated::default(), Outbox::default());
         assert!(notated.get(3, "A", &mut out).is_none());
         assert!(notated.get(4, "B", &mut out).is_none());
-        let first = asked(&mut out);
+        let first = asked(&notated, &mut out);
         assert_eq!(first.len(), 1);
-        assert_eq!(first[0].1, "token:3");
+        assert_eq!(first[0].1, 3);
         notated.open(4, "B", &mut out);
         assert_eq!(notated.bare(4), Some(Bare::Making));
         notated.hear(first[0].0, &Err(Error::wrong("no hand")));
-        assert!(notated.get(3, "A", &mut out).is_none() && asked(&mut out).is_empty());
+        assert!(notated.get(3, "A", &mut out).is_none() && asked(&notated, &mut out).is_empty());
         assert_eq!(notated.bare(3), Some(Bare::Failed("no hand".into())));
-        assert!(notated.get(5, "C", &mut out).is_none() && asked(&mut out).is_empty());
+        assert!(notated.get(5, "C", &mut out).is_none() && asked(&notated, &mut out).is_empty());
         assert!(notated.wanted(&mut out).is_none());
         assert_eq!(
-            asked(&mut out)[0].1,
-            "token:4",
+            asked(&notated, &mut out)[0].1,
+            4,
             "what is waited for goes first"
         );
         notated.follow(7);

@@ -11,10 +11,8 @@ use std::time::Duration;
 
 use chereme_corpus::{Corpus, Error, FileIdentity, Progress, Step};
 
-use super::carry::carry;
-use super::{Ended, Far, Lane, Work, WorkId};
+use super::{About, Ended, Far, Job, Lane, WorkId};
 use crate::model::{Opened, Snapshot};
-use crate::words::Text;
 
 /// Interval between checks for changes by other programs.
 const LOOK: Duration = Duration::from_millis(300);
@@ -41,27 +39,17 @@ pub(crate) enum News {
     Ended(WorkId, Ended, About),
 }
 
-/// The title of a piece of work, and the treatment of its errors.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct About {
-    pub(crate) task: Text,
-    /// Whether the pane that requested it shows errors itself.
-    pub(crate) quiet: bool,
-}
-
 /// Work that has been started and has not ended.
 #[derive(Debug)]
 pub(crate) struct Running {
-    pub(crate) task: Text,
-    pub(crate) lane: Lane,
+    pub(crate) about: About,
     pub(crate) far: Far,
-    may_stop: bool,
     stop: Arc<AtomicBool>,
 }
 
 struct Order {
     id: WorkId,
-    work: Work,
+    job: Job,
     stop: Arc<AtomicBool>,
 }
 
@@ -77,7 +65,7 @@ enum SnapshotRequest {
 /// An open corpus with its threads; dropping it waits until the user's edits are stored.
 pub(crate) struct Desk {
     pub(crate) path: PathBuf,
-    lanes: BTreeMap<Lane, Sender<Box<Order>>>,
+    lanes: BTreeMap<Lane, Sender<Order>>,
     reader: Option<Sender<SnapshotRequest>>,
     news: Receiver<News>,
     pub(crate) running: BTreeMap<WorkId, Running>,
@@ -118,20 +106,18 @@ impl Desk {
         }
     }
 
-    /// Starts work on its lane.
-    pub(crate) fn give(&mut self, id: WorkId, work: Work) {
-        let lane = work.lane();
+    /// Starts a job on its lane.
+    pub(crate) fn give(&mut self, id: WorkId, job: Job) {
+        let about = job.about;
         let stop = Arc::new(AtomicBool::new(false));
         let running = Running {
-            task: work.task(),
-            lane,
+            about,
             far: Far::default(),
-            may_stop: work.may_stop(),
             stop: stop.clone(),
         };
-        let order = Order { id, work, stop };
-        let lane = self.lanes.get(&lane);
-        if lane.is_some_and(|lane| lane.send(Box::new(order)).is_ok()) {
+        let order = Order { id, job, stop };
+        let lane = self.lanes.get(&about.lane);
+        if lane.is_some_and(|lane| lane.send(order).is_ok()) {
             self.running.insert(id, running);
         }
     }
@@ -182,7 +168,8 @@ impl Desk {
 
 impl Drop for Desk {
     fn drop(&mut self) {
-        for running in self.running.values().filter(|running| running.may_stop) {
+        let stoppable = |running: &&Running| running.about.may_stop;
+        for running in self.running.values().filter(stoppable) {
             running.stop.store(true, Ordering::Relaxed);
         }
         self.lanes.clear();
@@ -214,22 +201,22 @@ impl Station {
         (self.wake)();
     }
 
-    fn work(&self, orders: &Receiver<Box<Order>>, lane: Lane, reader: &Sender<SnapshotRequest>) {
+    fn work(&self, orders: &Receiver<Order>, lane: Lane, reader: &Sender<SnapshotRequest>) {
         let mut corpus = None;
         while let Ok(order) = orders.recv() {
-            let Order { id, work, stop } = *order;
-            let (task, quiet) = (work.task(), work.is_quiet());
+            let Order { id, job, stop } = order;
+            let about = job.about;
             let edits = lane == Lane::Edit;
             // Only one lane edits, so begins and ends alternate.
             if edits {
                 self.edits.fetch_add(1, Ordering::SeqCst);
             }
-            let ended = self.carry_out(&mut corpus, id, work, &stop);
+            let ended = self.carry_out(&mut corpus, id, job, &stop);
             if edits {
                 self.edits.fetch_add(1, Ordering::SeqCst);
                 let _ = reader.send(SnapshotRequest::Again);
             }
-            self.say(News::Ended(id, ended, About { task, quiet }));
+            self.say(News::Ended(id, ended, about));
         }
     }
 
@@ -237,13 +224,13 @@ impl Station {
         &self,
         corpus: &mut Option<Corpus>,
         id: WorkId,
-        work: Work,
+        job: Job,
         stop: &AtomicBool,
     ) -> Ended {
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Stopped);
         }
-        if (work.lane() == Lane::Edit || corpus.is_none()) && !self.place.stands() {
+        if (job.about.lane == Lane::Edit || corpus.is_none()) && !self.place.stands() {
             return Err(Error::file(&self.path, std::io::ErrorKind::NotFound.into()));
         }
         let corpus = match corpus {
@@ -262,7 +249,7 @@ impl Station {
                 ControlFlow::Continue(())
             }
         };
-        carry(corpus, work, &mut Progress::new(&mut hear))
+        job.carry_out(corpus, &mut Progress::new(&mut hear))
     }
 
     fn read(&self, wishes: &Receiver<SnapshotRequest>) {
@@ -356,7 +343,49 @@ impl Reading {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Outcome;
     use super::*;
+
+    /// Reports progress; returns the error if the job has been stopped.
+    fn step(progress: &mut Progress<'_>) -> Result<(), Error> {
+        progress.report(Step {
+            task: "",
+            done: 0,
+            total: None,
+            unit: chereme_corpus::Unit::Items,
+        })
+    }
+
+    #[test]
+    fn closing_stops_queries_and_lets_edits_finish() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.chereme");
+        drop(Corpus::create(&path, "A").expect("created"));
+        let wake: Wake = Arc::new(|| {});
+        let mut desk = Desk::open(&path, "A", &wake);
+        let (asking, asked) = channel();
+        let (stop, stopped) = channel();
+        let (edit, edited) = channel();
+        let query = Job::new(About::ASK, move |_, progress| {
+            // The desk has closed already if nobody listens.
+            let _ = asking.send(());
+            let ended = (0..u32::MAX).find_map(|_| step(progress).err());
+            let _ = stop.send(());
+            Err(ended.unwrap_or(Error::wrong("never stopped")))
+        });
+        let change = Job::new(About::EDIT, move |_, progress| {
+            // The query ends when the desk closes, so the rest of the edit happens afterwards.
+            let _ = stopped.recv();
+            let ended = step(progress);
+            let _ = edit.send(ended.is_ok());
+            ended.map(|()| Outcome::Changed)
+        });
+        desk.give(WorkId(1), change);
+        desk.give(WorkId(2), query);
+        asked.recv().expect("the query runs");
+        drop(desk);
+        assert_eq!(edited.recv(), Ok(true));
+    }
 
     #[test]
     fn changes_read_during_or_after_own_work_count_as_own() {

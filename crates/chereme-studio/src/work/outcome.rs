@@ -9,9 +9,8 @@ use chereme_corpus::{
 };
 use eframe::egui::ColorImage;
 
-/// The outcome of a piece of [`Work`](super::Work).
+/// The result of a [`Job`](super::Job).
 #[derive(Debug)]
-#[allow(dead_code, reason = "panes read what they need")]
 pub(crate) enum Outcome {
     /// Annotations were changed.
     Annotated(AnnotateReport),
@@ -60,8 +59,8 @@ pub(crate) enum Outcome {
     Previewed(Arc<Recombination>),
     /// Suggested recipes.
     Suggested(Suggestions),
-    /// The completions of a typed path: the path, and its completions.
-    Paths(String, Vec<String>),
+    /// The completions of a typed path.
+    Paths(Vec<String>),
     /// Files were written.
     Exported(ExportReport),
     /// The stage was drawn to a file.
@@ -85,8 +84,6 @@ pub(crate) enum Outcome {
     Originals(Vec<(MadePart, Option<Arc<Moving>>)>),
     /// A piece of movement was measured.
     Measured {
-        /// The recording's row id.
-        recording: i64,
         /// The piece's number.
         piece: usize,
         /// Its curves.

@@ -20,7 +20,7 @@ use crate::context::{Outbox, PaneInput};
 use crate::model::generated::GeneratedClip;
 use crate::script::edit;
 use crate::words::{Text, cue as words, fill};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, analysis, recombining};
 use data::{Choices, Corrections, Exercise, Reading, key_name};
 
 /// Time without changes, in seconds, after which a text is shown on the stage.
@@ -96,7 +96,7 @@ impl CuePane {
         }
         self.of.clone_from(&recipe);
         (self.made, self.given, self.wrong) = (None, None, None);
-        self.making = Some(out.work(Work::Preview(recipe)));
+        self.making = Some(out.work(recombining::preview(recipe)));
     }
 
     fn settings(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
@@ -324,10 +324,8 @@ impl CuePane {
                 .add_enabled(ready, Button::new(seen.say(words::STORE)))
                 .clicked()
             {
-                self.storing = Some(out.work(Work::Recombine {
-                    recipe: self.of.clone(),
-                    gloss: self.gloss.trim().to_owned(),
-                }));
+                let gloss = self.gloss.trim().to_owned();
+                self.storing = Some(out.work(recombining::store(self.of.clone(), gloss)));
             }
         });
         if let Some(name) = &self.stored {
@@ -459,7 +457,7 @@ impl CuePane {
                     .get(self.choices.code)
                     .map_or("french", |code| code.id.as_str());
                 (self.slips, self.slips_wrong) = (None, None);
-                self.comparing = Some(out.work(Work::CueSlips(recording, code.to_owned())));
+                self.comparing = Some(out.work(analysis::cue_slips(recording, code.to_owned())));
             }
             if seen.is_running(self.comparing) {
                 ui.spinner();

@@ -13,7 +13,7 @@ use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::miniatures::{self, Cell, Focus, Motion};
 use crate::words::{Text, faces as words, fill};
-use crate::work::Work;
+use crate::work::recombining;
 
 /// The least width of a figure, and the height of its name below it, in points.
 const FIGURE: f32 = 150.0;
@@ -101,7 +101,7 @@ impl Faces {
         let running = |id: &crate::work::WorkId| seen.running.contains_key(id);
         let busy = self.carrying.keys().filter(|id| running(id)).count();
         if !asked && busy < AT_ONCE && self.carrying.len() < AT_ONCE {
-            let id = out.work(Work::Preview(it.recipe.clone()));
+            let id = out.work(recombining::preview(it.recipe.clone()));
             self.carrying.insert(id, it.recipe.clone());
         }
         None
@@ -242,10 +242,7 @@ impl Faces {
             {
                 let gloss = self.gloss.trim().to_owned();
                 self.stored = None;
-                self.storing = Some(out.work(Work::Recombine {
-                    recipe: recipe.clone(),
-                    gloss,
-                }));
+                self.storing = Some(out.work(recombining::store(recipe.clone(), gloss)));
             }
             let button = ui.add_enabled(recipe.is_some(), Button::new(seen.say(words::RECIPE)));
             if button.clicked()

@@ -18,7 +18,7 @@ use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::model::generated::GeneratedClip;
 use crate::words::{Text, faces as words, fill};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, analysis, faces};
 
 /// How many candidates are shown.
 const CANDIDATES: usize = 12;
@@ -78,7 +78,7 @@ impl Faces {
         let generation = seen.snapshot.overview.generation;
         if self.of != Some(generation) && !seen.is_running(self.finding) {
             self.of = Some(generation);
-            self.finding = Some(out.work(Work::Expressions));
+            self.finding = Some(out.work(faces::expressions()));
         }
         let Some(asked) = self.question(generation) else {
             return;
@@ -87,12 +87,8 @@ impl Faces {
             return;
         }
         let options = data::options(asked.rank, asked.compared, asked.lengths, CANDIDATES);
-        let work = Work::ChooseFace {
-            function: asked.function.clone(),
-            target: asked.target.clone(),
-            options: Box::new(options),
-        };
-        self.choosing = Some(out.work(work));
+        let job = faces::choose(asked.function.clone(), asked.target.clone(), options);
+        self.choosing = Some(out.work(job));
         self.made.clear();
         self.asked = Some(asked);
     }
@@ -223,7 +219,7 @@ impl Faces {
             let open = !seen.snapshot.is_read_only();
             let write = ui.add_enabled(open, Button::new(seen.say(words::WRITE)).small());
             if write.on_hover_text(seen.say(words::WRITE_TIP)).clicked() {
-                out.work(Work::Milestones(it.function.clone()));
+                out.work(faces::milestones(it.function.clone()));
             }
         });
         for finding in &it.findings {
@@ -238,9 +234,9 @@ impl Faces {
         if button.on_hover_text(seen.say(words::PROPOSE_TIP)).clicked()
             && let Some(id) = recording
         {
-            out.work(Work::ProposeNonmanuals(Address::Recording(Name::Number(
-                id,
-            ))));
+            out.work(analysis::propose_nonmanuals(Address::Recording(
+                Name::Number(id),
+            )));
         }
     }
 

@@ -10,7 +10,7 @@ use super::Faces;
 use super::data::Extent;
 use crate::context::{Outbox, PaneInput};
 use crate::words::{Text, faces as words, fill};
-use crate::work::Work;
+use crate::work::faces;
 
 /// The height of a row of the plot, in points.
 const ROW: f32 = 18.0;
@@ -30,7 +30,7 @@ impl Faces {
             ui.horizontal(|ui| {
                 let button = Button::new(seen.say(words::MEASURE));
                 if ui.add_enabled(!running, button).clicked() {
-                    self.measuring = Some(out.work(Work::Onsets(self.function.clone())));
+                    self.measuring = Some(out.work(faces::onsets(self.function.clone())));
                 }
                 if running {
                     ui.spinner();

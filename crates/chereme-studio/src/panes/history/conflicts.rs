@@ -7,7 +7,7 @@ use eframe::egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::words::merge as words;
-use crate::work::Work;
+use crate::work::whole_corpus;
 
 /// The greatest height of the list, as a share of the pane's height.
 const SHARE: f32 = 0.6;
@@ -86,7 +86,7 @@ fn row(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, conflict: &CorpusCon
             let label = seen.say(words::decision(decision));
             let button = ui.button(label).on_hover_text(seen.say(words::TIP));
             if button.clicked() {
-                out.work(Work::Decide(conflict.number, decision));
+                out.work(whole_corpus::decide(conflict.number, decision));
             }
             ui.label(text);
         });

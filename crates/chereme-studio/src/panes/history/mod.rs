@@ -17,7 +17,7 @@ use crate::action::Action;
 use crate::context::{Outbox, PaneInput};
 use crate::script::edit;
 use crate::words::{Language, fill, history as words};
-use crate::work::Work;
+use crate::work::whole_corpus;
 use data::{HistoryRow, Standing};
 
 /// Several undos or redos, which wait to be confirmed.
@@ -71,7 +71,7 @@ impl History {
                 if button.on_hover_text(seen.keys.text(action)).clicked() {
                     // This undoes changes of the corpus, even if the recipe changed since.
                     let back = action == Action::Undo;
-                    out.work(if back { Work::Undo } else { Work::Redo });
+                    out.work(whole_corpus::undo_or_redo(back));
                 }
             }
             let width = ui.available_width() - 8.0;
@@ -143,7 +143,7 @@ impl History {
 
 fn walk_now(walk: Walk, out: &mut Outbox) {
     let (back, steps) = (walk.back, walk.steps);
-    out.work(Work::Walk { back, steps });
+    out.work(whole_corpus::walk(back, steps));
 }
 
 impl Pane for History {

@@ -21,7 +21,7 @@ use crate::context::{Outbox, PaneInput};
 use crate::file_dialogs::Choose;
 use crate::overlay::remedy;
 use crate::words::{fill, import as words, shell, spoken};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, exchange};
 use known::ImportCorrections;
 pub(crate) use paths::Paths;
 
@@ -79,10 +79,10 @@ impl Import {
         if let Some(old) = self.asked.take() {
             out.send(Command::Stop(old));
         }
-        let options = Box::new(self.corrections.options(dry_run));
+        let options = self.corrections.options(dry_run);
         self.looked = self.corrections.clone();
         (self.wrong, self.stopped) = (None, false);
-        self.asked = Some(out.work(Work::Import(self.files(), options)));
+        self.asked = Some(out.work(exchange::import(self.files(), options)));
     }
 
     fn choosing(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {

@@ -4,7 +4,7 @@ use eframe::egui::{Id, Ui};
 
 use crate::context::Outbox;
 use crate::panes::complete::{Line, Typed, complete, fitting};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, exchange};
 
 /// The requested completions of a typed path.
 #[derive(Default)]
@@ -30,7 +30,7 @@ impl Paths {
             && let Some(folder) = folder(text)
             && folder != self.of
         {
-            self.asked = Some(out.work(Work::Paths(folder.clone())));
+            self.asked = Some(out.work(exchange::paths(folder.clone())));
             self.of = folder;
             self.all.clear();
         }
@@ -45,7 +45,7 @@ impl Paths {
 
     pub(crate) fn hear(&mut self, id: WorkId, ended: &Ended) {
         if self.asked.take_if(|asked| *asked == id).is_some()
-            && let Ok(Outcome::Paths(_, all)) = ended
+            && let Ok(Outcome::Paths(all)) = ended
         {
             self.all.clone_from(all);
         }

@@ -10,7 +10,7 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::words::{fill, import as words, merge, shell, spoken};
-use crate::work::{Work, WorkId};
+use crate::work::{WorkId, whole_corpus};
 
 /// Returns whether a path names a corpus.
 pub(super) fn is_corpus(path: &Path) -> bool {
@@ -45,7 +45,7 @@ pub(super) fn show(
     let open = !seen.snapshot.is_read_only();
     let button = Button::new(RichText::new(seen.say(words::MERGE)).strong());
     if ui.add_enabled(open, button).clicked() {
-        begun = Some(out.work(Work::Merge(path.to_owned())));
+        begun = Some(out.work(whole_corpus::merge(path.to_owned())));
     }
     if let Some(report) = report {
         ui.separator();

@@ -19,7 +19,7 @@ use crate::panes::import::people;
 use crate::panes::library::data as library;
 use crate::panes::timeline::data::time_text;
 use crate::words::{fill, inspector as words};
-use crate::work::Work;
+use crate::work::recordings;
 
 pub(super) fn recording(
     ui: &mut Ui,
@@ -29,10 +29,7 @@ pub(super) fn recording(
 ) {
     let row = &glance.row;
     let change = |out: &mut Outbox, change: RecordingChange| {
-        out.work(Work::ChangeRecording(
-            Name::Number(row.id),
-            Box::new(change),
-        ));
+        out.work(recordings::change_recording(Name::Number(row.id), change));
     };
     let key = |what: &str| Id::unique(("recording", row.id, what.to_owned()));
     grid(ui, "recording", |ui| {
@@ -184,7 +181,7 @@ fn tracks(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails) {
 /// Shows the media files of a recording: whether they exist, and how to link them.
 fn media(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails, out: &mut Outbox) {
     let change = |out: &mut Outbox, change: MediaChange| {
-        out.work(Work::ChangeMedia(Name::Number(it.id), change));
+        out.work(recordings::change_media(Name::Number(it.id), change));
     };
     for (at, place) in it.media.iter().enumerate() {
         let track = &place.track;
@@ -222,7 +219,7 @@ fn media(ui: &mut Ui, seen: &PaneInput<'_>, it: &RecordingDetails, out: &mut Out
 
 pub(super) fn signer(ui: &mut Ui, seen: &PaneInput<'_>, row: &SignerRow, out: &mut Outbox) {
     let change = |out: &mut Outbox, change: SignerChange| {
-        out.work(Work::ChangeSigner(Name::Number(row.id), Box::new(change)));
+        out.work(recordings::change_signer(Name::Number(row.id), change));
     };
     grid(ui, "signer", |ui| {
         let key = Id::unique(("signer name", row.id));
@@ -297,7 +294,7 @@ pub(super) fn sign(
 ) {
     title(ui, seen.say(words::SIGN), &sign.gloss);
     let change = |out: &mut Outbox, change: SignChange| {
-        out.work(Work::ChangeSign(Name::Number(sign.id), Box::new(change)));
+        out.work(recordings::change_sign(Name::Number(sign.id), change));
     };
     grid(ui, "sign", |ui| {
         let key = Id::unique(("sign gloss", sign.id));

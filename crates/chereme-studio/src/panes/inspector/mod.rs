@@ -16,7 +16,7 @@ use eframe::egui::{ScrollArea, Ui};
 use super::Pane;
 use crate::context::{Outbox, PaneInput};
 use crate::words::inspector as words;
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, recordings};
 
 /// Something that the inspector can show.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -71,7 +71,7 @@ impl Inspector {
             return Some(known.clone());
         }
         if !self.asked.values().any(|asked| asked == thing) {
-            let id = out.work(Work::Look(thing.clone()));
+            let id = out.work(recordings::look(thing.clone()));
             self.asked.insert(id, thing.clone());
         }
         None

@@ -7,7 +7,7 @@ use super::data;
 use super::edit::{choice, grid, line, name_and_value};
 use crate::context::{Outbox, PaneInput};
 use crate::words::{fill, inspector as words};
-use crate::work::Work;
+use crate::work::editing;
 
 pub(super) fn show(
     ui: &mut Ui,
@@ -17,7 +17,7 @@ pub(super) fn show(
 ) {
     let row = &tier.row;
     let change = |out: &mut Outbox, change: TierChange| {
-        out.work(Work::ChangeTier(TierName::Number(row.id), Box::new(change)));
+        out.work(editing::change_tier(TierName::Number(row.id), change));
     };
     grid(ui, "tier", |ui| {
         let key = Id::unique(("tier name", row.id));

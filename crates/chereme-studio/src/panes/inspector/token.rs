@@ -15,7 +15,7 @@ use crate::panes::recombine::recipe_of;
 use crate::panes::search::feature_text;
 use crate::pickers::hamnosys;
 use crate::words::inspector as words;
-use crate::work::Work;
+use crate::work::recordings;
 
 pub(super) fn show(
     it: &mut Inspector,
@@ -40,7 +40,7 @@ pub(super) fn show(
         if row.citation {
             ui.label(seen.say(words::CITATION_IS));
         } else if ui.small_button(seen.say(words::CITATION_MAKE)).clicked() {
-            out.work(Work::SetCitation(Address::Token(row.id)));
+            out.work(recordings::set_citation(Address::Token(row.id)));
         }
         ui.end_row();
         coding(it, ui, seen, token, out);

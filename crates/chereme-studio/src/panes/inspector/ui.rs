@@ -1,8 +1,7 @@
 //! The inspector's widgets, part by part.
 
 use chereme_corpus::{
-    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, Details, Moment, TierRole,
-    ValueState,
+    AnnotationAction, AnnotationChange, AnnotationName, Details, Moment, TierRole, ValueState,
 };
 use chereme_motion::{Instant, Span};
 use eframe::egui::{CollapsingHeader, Id, RichText, TextStyle, TextWrapMode, Ui, WidgetText};
@@ -16,7 +15,7 @@ use crate::model::Found;
 use crate::panes::complete::fitting;
 use crate::panes::timeline::data::{time_text, value_text};
 use crate::words::{Text, inspector as words, timeline};
-use crate::work::Work;
+use crate::work::editing;
 
 pub(super) fn lines(ui: &mut Ui, seen: &PaneInput<'_>, id: &str, lines: &[Line]) {
     grid(ui, id, |ui| {
@@ -175,7 +174,7 @@ pub(super) fn set(out: &mut Outbox, id: i64, times: [Option<Instant>; 2], value:
         value,
     };
     let changes = vec![AnnotationChange::from(action)];
-    out.work(Work::Annotate(changes, AnnotateOptions::default()));
+    out.work(editing::annotate(changes));
 }
 
 /// Returns the values of an inventory that match the typed text.

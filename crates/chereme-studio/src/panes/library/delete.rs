@@ -8,7 +8,7 @@ use crate::action::Action;
 use crate::context::{Outbox, PaneInput};
 use crate::panes::Acted;
 use crate::words::{fill, library as words, shell};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, recordings};
 
 /// The largest height of the list of dependents, in points.
 const LIST: f32 = 180.0;
@@ -72,7 +72,7 @@ impl Library {
             dry_run: true,
             ..DeleteOptions::default()
         };
-        let id = out.work(Work::Delete(vec![doomed.address.clone()], options));
+        let id = out.work(recordings::delete(vec![doomed.address.clone()], options));
         self.leaving = Leaving::Examined(doomed, id);
     }
 
@@ -116,7 +116,10 @@ impl Library {
     pub(super) fn deletion(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         match std::mem::take(&mut self.leaving) {
             Leaving::Free(doomed) => {
-                out.work(Work::Delete(vec![doomed.address], DeleteOptions::default()));
+                out.work(recordings::delete(
+                    vec![doomed.address],
+                    DeleteOptions::default(),
+                ));
             }
             Leaving::Asked(doomed, report) => match ask(ui, seen, &doomed, &report) {
                 Answer::Waits => self.leaving = Leaving::Asked(doomed, report),
@@ -126,7 +129,7 @@ impl Library {
                         dependents,
                         dry_run: false,
                     };
-                    out.work(Work::Delete(vec![doomed.address], options));
+                    out.work(recordings::delete(vec![doomed.address], options));
                 }
             },
             other => self.leaving = other,

@@ -20,7 +20,7 @@ use crate::context::{Outbox, PaneInput};
 use crate::miniatures::{self, Cell, Motion};
 use crate::panes::inspector::Thing;
 use crate::words::{fill, inspector, map as words};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, searching};
 use data::{Labels, View};
 
 /// The components that can place the signs, with their names.
@@ -100,7 +100,7 @@ impl Map {
         }
         let wanted = COMPONENTS.iter().zip(self.by).filter(|(_, on)| *on);
         let components = wanted.map(|((component, _), _)| *component).collect();
-        self.asked = Some(out.work(Work::Map(components)));
+        self.asked = Some(out.work(searching::map(components)));
     }
 
     fn tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {

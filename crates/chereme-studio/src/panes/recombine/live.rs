@@ -11,7 +11,8 @@ use chereme_corpus::{Error, Meant, Recombination};
 use super::stack::Stack;
 use crate::command::Command;
 use crate::context::Outbox;
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::recombining::{self, Draft};
+use crate::work::{Ended, Outcome, WorkId};
 
 /// The input of an evaluation.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,15 +99,21 @@ impl Live {
             }
             return;
         }
-        if self.of.as_ref() == Some(&wish) && !self.again {
+        let Some(draft) = self.next(&wish) else {
             return;
-        }
-        let id = out.work(Work::Draft {
-            recipe: wish.text.clone(),
-            again: std::mem::take(&mut self.again),
-        });
+        };
+        let id = out.work(recombining::draft(draft));
         self.running = Some((id, wish, stack.clone()));
         self.since = now;
+    }
+
+    /// Returns the evaluation to request; `None` if the last one had the same input.
+    fn next(&mut self, wish: &EvaluationRequest) -> Option<Draft> {
+        let again = std::mem::take(&mut self.again);
+        (again || self.of.as_ref() != Some(wish)).then(|| Draft {
+            recipe: wish.text.clone(),
+            again,
+        })
     }
 
     /// Makes the next evaluation look everything up again, even if the recipe is the same.
@@ -244,12 +251,16 @@ mod tests {
         live.follow(&stack, "A | swap", (1, 1.0), &mut out);
         assert!(out.take().is_empty(), "it is known already");
         live.reload();
+        let recipe = "A | swap".to_owned();
+        let wish = EvaluationRequest {
+            text: recipe.clone(),
+            generation: 1,
+        };
+        let again = true;
+        assert_eq!(live.next(&wish), Some(Draft { recipe, again }));
+        live.reload();
         live.follow(&stack, "A | swap", (1, 1.0), &mut out);
-        let again = out.take();
-        let again = again
-            .iter()
-            .any(|it| matches!(it, Command::Work(_, Work::Draft { again: true, .. })));
-        assert!(again);
+        assert!(matches!(out.take()[..], [Command::Work(..)]));
     }
 
     #[test]

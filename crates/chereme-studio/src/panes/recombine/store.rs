@@ -7,7 +7,7 @@ use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::panes::button_width;
 use crate::words::{fill, recombine as words};
-use crate::work::Work;
+use crate::work::recombining;
 
 impl Recombine {
     /// Shows the bar with the gloss and the button that stores the sign.
@@ -113,13 +113,13 @@ impl Recombine {
         if button.on_disabled_hover_text(seen.say(why)).clicked() {
             self.stored = None;
             let recording = glance.row.id;
-            self.storing = Some(out.work(Work::RecombineAgain { recipe, recording }));
+            self.storing = Some(out.work(recombining::store_again(recipe, recording)));
         }
     }
 
     fn store(&mut self, out: &mut Outbox) {
         let (recipe, gloss) = (self.stack.text(), self.gloss.trim().to_owned());
         self.stored = None;
-        self.storing = Some(out.work(Work::Recombine { recipe, gloss }));
+        self.storing = Some(out.work(recombining::store(recipe, gloss)));
     }
 }

@@ -6,7 +6,7 @@ use eframe::egui::{RichText, Ui};
 use crate::context::{Outbox, PaneInput};
 use crate::panes::list_row;
 use crate::words::{Text, fill, recombine as words};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, recombining};
 
 /// A proposed recipe.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -99,7 +99,7 @@ impl Suggest {
         of.clone_into(&mut self.of);
         (self.found, self.wrong) = (None, None);
         match of.parse::<Address>() {
-            Ok(address) => self.asked = Some(out.work(Work::Suggest(address))),
+            Ok(address) => self.asked = Some(out.work(recombining::suggest(address))),
             Err(error) => self.wrong = Some(error.to_string()),
         }
     }

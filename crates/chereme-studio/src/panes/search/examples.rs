@@ -10,7 +10,7 @@ use super::builder::{self, Condition};
 use crate::context::{Outbox, PaneInput};
 use crate::model::Known;
 use crate::panes::inspector::Thing;
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, recordings};
 
 /// The known examples; others are looked up.
 #[derive(Debug, Default)]
@@ -46,7 +46,7 @@ impl Examples {
             match seen.snapshot.token(token) {
                 Some(known) => drop(self.known.insert(token, known)),
                 None => {
-                    let id = out.work(Work::Look(Thing::Token(token)));
+                    let id = out.work(recordings::look(Thing::Token(token)));
                     self.looking.insert(id, token);
                 }
             }

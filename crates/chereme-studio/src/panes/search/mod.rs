@@ -42,7 +42,7 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::words::{fill, search as words};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, searching};
 pub(crate) use builder::with_value;
 use field::Field;
 pub(crate) use hits::walk as walked;
@@ -178,7 +178,7 @@ impl Search {
         self.changed = None;
         (self.wrong, self.stopped) = (None, false);
         self.query = self.field.text.clone();
-        self.asked = Some(out.work(Work::Search(self.query.clone(), self.options(0))));
+        self.asked = Some(out.work(searching::search(self.query.clone(), self.options(0))));
     }
 
     fn options(&self, page: usize) -> SearchOptions {
@@ -214,8 +214,8 @@ impl Search {
             && self.pages.is_empty()
             && let Some(page) = found.missing(range.clone())
         {
-            let work = Work::Search(self.query.clone(), self.options(page));
-            self.pages.insert(out.work(work), page);
+            let job = searching::search(self.query.clone(), self.options(page));
+            self.pages.insert(out.work(job), page);
         }
         if self.around.is_none() && self.view == View::Table {
             let all = if found.is_whole() {
@@ -226,7 +226,7 @@ impl Search {
             let mut lonely = found.lonely(all);
             lonely.truncate(MOST_AROUND.max(PAGE));
             if !lonely.is_empty() {
-                self.around = Some(out.work(Work::Around(lonely, NEIGHBOURS)));
+                self.around = Some(out.work(searching::around(lonely, NEIGHBOURS)));
             }
         }
     }
@@ -253,8 +253,8 @@ impl Search {
                 match found.around(hit.token).cloned() {
                     Some(around) => select(&around, out),
                     None => {
-                        let work = Work::Around(vec![hit.token], NEIGHBOURS);
-                        self.aside.opening = Some(out.work(work));
+                        let job = searching::around(vec![hit.token], NEIGHBOURS);
+                        self.aside.opening = Some(out.work(job));
                     }
                 }
             }

@@ -12,7 +12,7 @@ use crate::context::{Outbox, PaneInput};
 use crate::script::edit;
 use crate::settings::Searches;
 use crate::words::{fill, search as words};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, searching};
 
 /// The list of saved searches.
 #[derive(Debug, Default)]
@@ -101,7 +101,7 @@ impl Kept {
             if named && (pressed || entered) {
                 let name = std::mem::take(&mut self.name);
                 let query = query.to_owned();
-                out.work(Work::KeepSearches(vec![KeptSearch { name, query }]));
+                out.work(searching::save_searches(vec![KeptSearch { name, query }]));
             }
         });
     }
@@ -134,7 +134,7 @@ impl Kept {
                         }
                         let name = fill(seen.say(words::DELETE), &[("name", &kept.name)]);
                         if named(ui, "×", &name) {
-                            out.work(Work::ForgetSearch(kept.name.clone()));
+                            out.work(searching::delete_search(kept.name.clone()));
                         }
                     });
                 });
@@ -160,7 +160,7 @@ impl Kept {
         if response.lost_focus() {
             let to = shown.trim();
             if !to.is_empty() && to != name {
-                out.work(Work::RenameSearch(name.to_owned(), to.to_owned()));
+                out.work(searching::rename_search(name.to_owned(), to.to_owned()));
             }
             self.renaming = None;
         } else if !response.has_focus() {
@@ -187,7 +187,7 @@ impl Kept {
                     name: it.name.clone(),
                     query: it.query.clone(),
                 });
-                self.taking = Some(out.work(Work::KeepSearches(all.collect())));
+                self.taking = Some(out.work(searching::save_searches(all.collect())));
             }
             self.taken |= ui.button(seen.say(words::LEAVE_BEHIND)).clicked();
         });
@@ -198,7 +198,7 @@ impl Kept {
             return;
         }
         self.counts.insert(query.to_owned(), None);
-        let id = out.work(Work::Search(query.to_owned(), only_counted()));
+        let id = out.work(searching::search(query.to_owned(), only_counted()));
         self.counting.insert(id, query.to_owned());
     }
 }

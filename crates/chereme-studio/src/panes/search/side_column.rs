@@ -15,7 +15,7 @@ use super::saved::{Kept, only_counted};
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::words::{Text, fill, search as words, spoken};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, analysis, searching};
 
 /// The examples of the help: a query, and a description of its results.
 const EXAMPLES: [(&str, Text); 9] = [
@@ -62,7 +62,7 @@ impl Coded {
         self.counting.clear();
         for component in components(query) {
             let query = format!("{}=*", component.name());
-            let id = out.work(Work::Search(query, only_counted()));
+            let id = out.work(searching::search(query, only_counted()));
             self.counting.insert(id, component);
         }
     }
@@ -101,7 +101,7 @@ impl Coded {
             {
                 let text = fill(seen.say(words::PROPOSE), &[("n", &moving)]);
                 if ui.button(text).clicked() {
-                    self.proposing = Some(out.work(Work::Propose(component)));
+                    self.proposing = Some(out.work(analysis::propose_coding(component)));
                 }
             }
         }
@@ -264,7 +264,7 @@ impl Aside {
             self.coded.follow(query, out);
             let parts = parts(query);
             for (at, (_, rest)) in parts.iter().enumerate() {
-                let id = out.work(Work::Search(rest.clone(), only_counted()));
+                let id = out.work(searching::search(rest.clone(), only_counted()));
                 self.leaving.insert(id, at);
             }
             self.without = Some(Without {

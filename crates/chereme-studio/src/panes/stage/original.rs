@@ -7,7 +7,7 @@ use chereme_motion::Instant;
 
 use super::scene::Subject;
 use crate::context::{Outbox, PaneInput};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, movement};
 
 /// The originals of the movement on the stage.
 #[derive(Default)]
@@ -47,13 +47,13 @@ impl Original {
         if source == self.source {
             return false;
         }
-        let work = source.clone().map(|source| match source {
-            Source::Parts(parts) => Work::Originals(parts),
-            Source::Stored(recording, _) => Work::OriginalsOf(recording),
+        let job = source.clone().map(|source| match source {
+            Source::Parts(parts) => movement::originals(parts),
+            Source::Stored(recording, _) => movement::originals_of(recording),
         });
         *self = Self {
             source,
-            work: work.map(|work| out.work(work)),
+            work: job.map(|job| out.work(job)),
             ..Self::default()
         };
         true

@@ -9,7 +9,7 @@ use chereme_figure::{PointCloud, Theme, View};
 use chereme_motion::{Instant, Markers, Span};
 
 use crate::context::{Outbox, PaneInput};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, movement};
 
 /// Length of a piece, in microseconds.
 const PIECE: i64 = 20_000_000;
@@ -61,7 +61,7 @@ impl Points {
             if let Some(piece) = wanted {
                 let start = Instant::from_micros(piece * PIECE);
                 let span = Span::between(start, start.shifted(PIECE));
-                self.asked = Some((out.work(Work::Points(recording, span)), piece));
+                self.asked = Some((out.work(movement::points(recording, span)), piece));
             }
         }
         changed

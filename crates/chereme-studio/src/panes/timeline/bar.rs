@@ -12,7 +12,7 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::words::{Text, fill, timeline as words};
-use crate::work::Work;
+use crate::work::editing;
 
 /// The greatest height of the list of recordings, in points.
 const LIKE: f32 = 300.0;
@@ -188,7 +188,7 @@ pub(super) fn like(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
                     .clicked()
                 {
                     let scheme = Scheme::Like(Name::Number(other.row.id));
-                    out.work(Work::AddTiers(Name::Number(here), scheme));
+                    out.work(editing::add_tiers(Name::Number(here), scheme));
                     ui.close();
                 }
             }

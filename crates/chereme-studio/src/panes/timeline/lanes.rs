@@ -12,7 +12,7 @@ use super::lane_shape;
 use crate::action::Action;
 use crate::context::Outbox;
 use crate::words::{Text, timeline as words};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, movement};
 
 /// Frames of a piece, and of a summary within it.
 const PIECE: usize = 1200;
@@ -147,12 +147,9 @@ impl Curves {
             return;
         };
         let frames = piece * PIECE..((piece + 1) * PIECE).min(source.frames);
-        let work = Work::Measure {
-            recording: source.recording,
-            piece,
-            span: source.rate.span(frames).shifted(source.offset),
-        };
-        self.asked = Some((out.work(work), piece));
+        let span = source.rate.span(frames).shifted(source.offset);
+        let job = movement::measure(source.recording, piece, span);
+        self.asked = Some((out.work(job), piece));
     }
 
     fn next(&self, source: Source, (from, to): (i64, i64), playhead: i64) -> Option<usize> {
@@ -169,7 +166,7 @@ impl Curves {
         }
         self.asked = None;
         match ended {
-            Ok(Outcome::Measured { piece, curves, .. }) => {
+            Ok(Outcome::Measured { piece, curves }) => {
                 let time = |frame: usize| curves.rate.instant(frame).micros() + curves.offset_us;
                 let minima = curves.minima.iter().map(|frame| time(*frame)).collect();
                 let mut measured = Piece::new(&curves.kinematics, minima);

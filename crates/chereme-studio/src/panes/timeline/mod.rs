@@ -51,14 +51,14 @@ mod view_settings;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_corpus::{AnnotateOptions, TierContents, requests};
+use chereme_corpus::{TierContents, requests};
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::panes::{Acted, Pane};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId, editing};
 use chereme_sign::tier::spans::{self, Item};
 use data::Window;
 use edit::Scene;
@@ -181,7 +181,7 @@ impl Timeline {
         out: &mut Outbox,
     ) -> Acted {
         self.asked.ghosts.extend_from_slice(&then.ghosts);
-        let id = out.work(Work::Annotate(changes, AnnotateOptions::default()));
+        let id = out.work(editing::annotate(changes));
         self.asked.pending.insert(id, then);
         Acted::Yes
     }

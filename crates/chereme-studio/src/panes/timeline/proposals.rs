@@ -12,7 +12,7 @@ use crate::command::Command;
 use crate::context::Outbox;
 use crate::panes::Acted;
 use crate::words::timeline as words;
-use crate::work::Work;
+use crate::work::analysis;
 
 /// A proposal is doubtful below this confidence, or if none is known.
 const SURE: f64 = 0.75;
@@ -53,7 +53,7 @@ pub(super) fn act(
                 .into_iter()
                 .filter(|it| !chosen.contains(&it.id))
                 .collect();
-            let id = out.work(Work::Accept(chosen.into_iter().collect()));
+            let id = out.work(analysis::accept(chosen.into_iter().collect()));
             timeline.asked.pending.insert(id, Then::default());
             if let Some(next) = next(&left, here(scene)) {
                 go(timeline, next, out);
@@ -77,7 +77,7 @@ fn propose(scene: &Scene<'_>, out: &mut Outbox) {
         (None, Some(span)) => ProposeScope::Span(recording, span),
         (None, None) => ProposeScope::Recording(recording),
     };
-    out.work(Work::ProposeIn(ProposeOptions {
+    out.work(analysis::propose(ProposeOptions {
         components: Proposed::COMPONENTS.to_vec(),
         scope,
     }));

@@ -16,7 +16,7 @@ use crate::panes::combo;
 use crate::panes::search::field_text;
 use crate::script::edit;
 use crate::words::{Text, fill, shell, timeline as words};
-use crate::work::Work;
+use crate::work::{Job, editing};
 
 /// The id of the name field.
 const NAME_FIELD: &str = "timeline tier name";
@@ -145,15 +145,12 @@ impl TierBox {
         adds.then(|| self.name.trim().to_owned())
     }
 
-    /// Returns the work to request; `None` if the role cannot be read.
-    fn work(&self, recording: i64, before: Option<&Self>) -> Option<Work> {
+    /// Returns the job to request; `None` if the role cannot be read.
+    fn job(&self, recording: i64, before: Option<&Self>) -> Option<Job> {
         if let What::Copy(id) = self.what {
             let name = self.name.trim().to_owned();
-            return Some(Work::CopyTier(
-                TierName::Number(id),
-                name,
-                self.copied.clone(),
-            ));
+            let copied = self.copied.clone();
+            return Some(editing::copy_tier(TierName::Number(id), name, copied));
         }
         let role: TierRole = self.role.parse().ok()?;
         Some(match &self.what {
@@ -161,22 +158,25 @@ impl TierBox {
                 let mut tier = NewTier::new(Name::Number(recording), self.name.trim(), role);
                 tier.hand = self.hand;
                 tier.parent.clone_from(&self.parent);
-                Work::AddTier(Box::new(tier))
+                editing::add_tier(tier)
             }
             What::Change(id) => {
-                let before = before?;
-                let change = TierChange {
-                    name: (self.name != before.name).then(|| self.name.clone()),
-                    role: (self.role != before.role).then_some(role),
-                    hand: (self.hand != before.hand).then_some(self.hand),
-                    values: (self.role != before.role).then(Default::default),
-                    parent: (self.parent != before.parent).then(|| self.parent.clone()),
-                    ..TierChange::default()
-                };
-                Work::ChangeTier(TierName::Number(*id), Box::new(change))
+                editing::change_tier(TierName::Number(*id), self.change(before?, role))
             }
-            What::Remove(id) | What::Copy(id) => Work::RemoveTier(TierName::Number(*id)),
+            What::Remove(id) | What::Copy(id) => editing::remove_tier(TierName::Number(*id)),
         })
+    }
+
+    /// Returns the changes of the fields that differ from those of `before`.
+    fn change(&self, before: &Self, role: TierRole) -> TierChange {
+        TierChange {
+            name: (self.name != before.name).then(|| self.name.clone()),
+            role: (self.role != before.role).then_some(role),
+            hand: (self.hand != before.hand).then_some(self.hand),
+            values: (self.role != before.role).then(Default::default),
+            parent: (self.parent != before.parent).then(|| self.parent.clone()),
+            ..TierChange::default()
+        }
     }
 }
 
@@ -301,8 +301,8 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
             .map(|it| TierBox::of(scene.contents, it, What::Change(id))),
         _ => None,
     };
-    if let Some(work) = tier.work(scene.contents.recording.id, before.as_ref()) {
-        let id = out.work(work);
+    if let Some(job) = tier.job(scene.contents.recording.id, before.as_ref()) {
+        let id = out.work(job);
         timeline.boxes.tier_asked = Some((id, tier));
     }
 }
@@ -500,16 +500,13 @@ mod tests {
             parent: None,
             ..before.clone()
         };
-        let Some(Work::ChangeTier(name, change)) = after.work(1, Some(&before)) else {
-            panic!("a change");
-        };
-        assert_eq!(name, TierName::Number(2));
+        let role = after.role.parse().expect("a role");
         let want = TierChange {
             name: Some("new".into()),
             parent: Some(None),
             ..TierChange::default()
         };
-        assert_eq!(*change, want);
+        assert_eq!(after.change(&before, role), want);
     }
 
     #[test]

@@ -13,7 +13,7 @@ use crate::action::Action;
 use crate::context::Outbox;
 use crate::panes::Acted;
 use crate::words::timeline as words;
-use crate::work::Work;
+use crate::work::editing;
 
 /// Carries out an action on tiers.
 pub(super) fn act(
@@ -58,7 +58,7 @@ pub(super) fn act(
         let scheme = chosen.map_or(Scheme::Usual, |it| {
             Scheme::Below(TierName::Number(it.row.id))
         });
-        out.work(Work::AddTiers(recording, scheme));
+        out.work(editing::add_tiers(recording, scheme));
         return Acted::Yes;
     }
     let Some(tier) = scene.tier() else {
@@ -91,7 +91,7 @@ pub(super) fn act(
                 place: Some(place),
                 ..TierChange::default()
             };
-            out.work(Work::ChangeTier(TierName::Number(id), Box::new(change)));
+            out.work(editing::change_tier(TierName::Number(id), change));
             return Acted::Yes;
         }
         Action::HideTier => {
@@ -110,7 +110,7 @@ pub(super) fn order(scene: &Scene<'_>, order: Vec<i64>, out: &mut Outbox) -> Act
         return Acted::Cannot(words::SORTED_ALREADY);
     }
     let recording = Name::Number(scene.contents.recording.id);
-    out.work(Work::OrderTiers(recording, order));
+    out.work(editing::order_tiers(recording, order));
     Acted::Yes
 }
 
