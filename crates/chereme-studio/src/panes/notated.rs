@@ -138,13 +138,24 @@ impl Notated {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use chereme_corpus::{Corpus, Progress, unheard};
 
-    /// Returns the requested animations with the token in progress.
-    fn asked(notated: &Notated, out: &mut Outbox) -> Vec<(WorkId, i64)> {
+    use super::*;
+    use crate::work::Job;
+
+    /// Returns the requested animations, each with its error in an empty corpus, which names the token.
+    fn asked(out: &mut Outbox) -> Vec<(WorkId, String)> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let corpus = Corpus::create(&folder.path().join("empty.chereme"), "A");
+        let mut corpus = corpus.expect("created");
+        let mut fail = |job: Job| {
+            let mut hear = unheard;
+            let ended = job.carry_out(&mut corpus, &mut Progress::new(&mut hear));
+            ended.expect_err("no token").to_string()
+        };
         let commands = out.take().into_iter();
         let work = commands.filter_map(|command| match command {
-            Command::Work(id, _) => Some((id, notated.making.as_ref()?.1)),
+            Command::Work(id, job) => Some((id, fail(job))),
             _ => None,
         });
         work.collect()
@@ -155,20 +166,20 @@ mod tests {
         let (mut notated, mut out) = (Notated::default(), Outbox::default());
         assert!(notated.get(3, "A", &mut out).is_none());
         assert!(notated.get(4, "B", &mut out).is_none());
-        let first = asked(&notated, &mut out);
+        let first = asked(&mut out);
         assert_eq!(first.len(), 1);
-        assert_eq!(first[0].1, 3);
+        assert!(first[0].1.contains("token:3"), "{}", first[0].1);
         notated.open(4, "B", &mut out);
         assert_eq!(notated.bare(4), Some(Bare::Making));
         notated.hear(first[0].0, &Err(Error::wrong("no hand")));
-        assert!(notated.get(3, "A", &mut out).is_none() && asked(&notated, &mut out).is_empty());
+        assert!(notated.get(3, "A", &mut out).is_none() && asked(&mut out).is_empty());
         assert_eq!(notated.bare(3), Some(Bare::Failed("no hand".into())));
-        assert!(notated.get(5, "C", &mut out).is_none() && asked(&notated, &mut out).is_empty());
+        assert!(notated.get(5, "C", &mut out).is_none() && asked(&mut out).is_empty());
         assert!(notated.wanted(&mut out).is_none());
-        assert_eq!(
-            asked(&notated, &mut out)[0].1,
-            4,
-            "what is waited for goes first"
+        let next = &asked(&mut out)[0].1;
+        assert!(
+            next.contains("token:4"),
+            "what is waited for goes first: {next}"
         );
         notated.follow(7);
         assert!(notated.made.is_empty());

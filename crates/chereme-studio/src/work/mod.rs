@@ -108,7 +108,8 @@ impl Job {
         })
     }
 
-    fn carry_out(self, corpus: &mut Corpus, progress: &mut Progress<'_>) -> Ended {
+    /// Carries out the job.
+    pub(crate) fn carry_out(self, corpus: &mut Corpus, progress: &mut Progress<'_>) -> Ended {
         (self.call)(corpus, progress)
     }
 }
