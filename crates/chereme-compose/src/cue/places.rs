@@ -271,6 +271,90 @@ mod tests {
     }
 
     #[test]
+    fn paths_bend_outwards_only_as_far_as_the_lips_require() {
+        let open = Face {
+            jaw: 0.75,
+            wide: 0.8,
+            ..Face::default()
+        };
+        let head = head();
+        let mut aside = 0;
+        for (from, to) in PLACES.iter().flat_map(|a| PLACES.map(|b| (*a, b))) {
+            let (a, b) = (head.spot(from).expect(from), head.spot(to).expect(to));
+            let bow = Bow::between(&a, &b, head.size);
+            let nearest = |bow: &Bow| {
+                let places = (0..=24).map(|n| bow.at(&a, &b, f64::from(n) / 24.0));
+                let far = places.map(|at| clearance(at, &open, head.size));
+                far.fold(f64::INFINITY, f64::min)
+            };
+            let ends = [a, b].map(|spot| clearance(spot.at, &open, head.size));
+            let wanted = PLANNED.min(ends[0]).min(ends[1]) - 1e-9;
+            assert!(nearest(&bow) >= wanted, "{from} to {to}");
+            if bow.by.x > 0.0 {
+                aside += 1;
+                let less = Bow {
+                    by: bow.by - DVec3::X * 0.01,
+                };
+                assert!(nearest(&less) < wanted, "{from} to {to}: {}", bow.by);
+            }
+            let middle = bow.at(&a, &b, 0.5) - a.at.midpoint(b.at);
+            let forward = match a.touches || b.touches {
+                true => 0.03 + 0.15 * a.at.distance(b.at),
+                false => 0.0,
+            };
+            assert!((middle.z - forward).abs() < 1e-9 && middle.y.abs() < 1e-9);
+            assert!(bow.at(&a, &b, 0.0).distance(a.at) < 1e-12);
+            assert!(bow.at(&a, &b, 1.0).distance(b.at) < 1e-12);
+        }
+        assert!((1..PLACES.len().pow(2) / 2).contains(&aside), "{aside}");
+    }
+
+    #[test]
+    fn the_space_of_a_head_moves_and_turns_with_it() {
+        let mut own = head();
+        let turned = chereme_motion::glam::DQuat::from_scaled_axis(DVec3::new(0.3, -0.5, 0.8));
+        own.axes = own.axes.map(|axis| turned * axis);
+        own.origin = DVec3::new(0.1, 1.5, -0.2);
+        let at = DVec3::new(0.3, -0.2, 0.5);
+        let there = own.point(at);
+        assert!(there.distance(own.origin + turned * at * 0.23) < 1e-12);
+        assert!(own.local(there).distance(at) < 1e-12);
+    }
+
+    #[test]
+    fn the_contour_of_the_lips_grows_with_the_jaw_and_the_corners() {
+        let size = 0.2;
+        for (jaw, wide, half_width, low) in [
+            (0.0, 0.0, 0.11, 0.16),
+            (1.0, 0.0, 0.11, 0.09),
+            (0.5, 1.0, 0.1232, 0.125),
+            (0.0, -1.0, 0.0968, 0.16),
+        ] {
+            let face = Face {
+                jaw,
+                wide,
+                ..Face::default()
+            };
+            let middle = 0.21 - 0.035 * jaw;
+            let aside = DVec3::new(half_width + 0.1, middle, 0.3);
+            assert!(
+                (clearance(aside, &face, size) - 0.02).abs() < 1e-9,
+                "{jaw} {wide}"
+            );
+            let below = DVec3::new(0.0, low - 0.1, 0.3);
+            assert!(
+                (clearance(below, &face, size) - 0.02).abs() < 1e-9,
+                "{jaw} {wide}"
+            );
+            let inside = DVec3::new(0.0, low + 0.01, 0.3);
+            assert!(
+                (clearance(inside, &face, size) + 0.002).abs() < 1e-9,
+                "{jaw} {wide}"
+            );
+        }
+    }
+
+    #[test]
     fn clearance_is_the_distance_to_the_contour() {
         let face = Face::default();
         let outside = clearance(DVec3::new(0.21, 0.21, 0.0), &face, 0.2);

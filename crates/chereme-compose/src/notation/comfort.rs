@@ -307,7 +307,14 @@ fn lowest(cost: impl Fn(DVec3, f64) -> f64, room: [DVec3; 2]) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
+    use chereme_sign::Handedness;
+    use chereme_sign::hamnosys::{BodyLanguage, HandClass};
+
+    use super::super::pace::Paces;
+    use super::super::stage::Stage;
+    use super::super::tests::{at, posture, stage};
     use super::*;
+    use crate::testing::Axes;
 
     #[test]
     fn hands_move_to_the_least_cost_within_their_tolerance() {
@@ -318,5 +325,39 @@ mod tests {
         let far = lowest(|by, _| 10.0 * by.distance(DVec3::new(0.5, 0.0, 0.0)), room);
         assert!(far.x > 0.02 && share(far, room) <= 1.0, "{far}");
         assert_eq!(lowest(|by, _| by.length_squared(), room), DVec3::ZERO);
+    }
+
+    #[test]
+    fn a_strained_hand_is_shifted_only_as_far_as_that_helps() {
+        let material = stage(Axes::Plain);
+        let body = Stage::of(&material).expect("a body");
+        let paces = Paces::of(BodyLanguage::usual());
+        let language = (BodyLanguage::usual(), &paces);
+        let shifted = |room: f64, along: &str, palm: &str| {
+            let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
+            let who = [Some(planner.own_frame()), None];
+            let place = at(BodyLocation::Chest, None);
+            let begun = posture(HandClass::Flat, along, palm, Some(place));
+            planner.assume(&begun, who, false);
+            let before = planner.stance(0);
+            let axes = [Some(DVec3::ONE), None];
+            planner.shift(Some([DVec3::splat(room); 2]), axes, who, None);
+            let after = planner.stance(0);
+            let strain = |stance| planner.strain(0, stance, DVec3::ZERO);
+            let ends = [DVec3::splat(room * TAKEN * body.arm); 2];
+            let by = after.point - before.point;
+            (share(by, ends), [strain(&before), strain(&after)])
+        };
+        let (share, strain) = shifted(0.3, "d", "l");
+        assert!(strain[0] > STRAINED && share > 0.0, "{share} {strain:?}");
+        assert!(
+            strain[1] + SHIFTED * share * share < strain[0],
+            "{strain:?}"
+        );
+        let (share, strain) = shifted(1e-3, "d", "l");
+        assert!(strain[0] > STRAINED, "{strain:?}");
+        assert_eq!(share, 0.0, "no place so near relieves the arm");
+        let (share, strain) = shifted(0.3, "l", "d");
+        assert!(strain[0] < STRAINED && share == 0.0, "{share} {strain:?}");
     }
 }

@@ -18,6 +18,8 @@ use super::*;
 use crate::outcome::About;
 use crate::testing::Axes;
 
+mod planned;
+
 fn alive(sign: &Notated) -> Generated {
     animate(&[sign], &stage(Axes::Odd), &Settings::default()).expect("it can be animated")
 }

@@ -175,6 +175,9 @@ fn through(points: &[DVec3], s: f64) -> DVec3 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::pace::Pace;
+    use super::super::plan::{Act, Event, HandState};
+    use super::super::track::goals;
     use super::*;
 
     #[test]
@@ -235,5 +238,114 @@ mod tests {
         let mirrored = circle.map(|v| DVec3::new(-v.x, v.y, v.z));
         let at = circle.at(0.3);
         assert!(mirrored.at(0.3).distance(DVec3::new(-at.x, at.y, at.z)) < 1e-12);
+    }
+
+    #[test]
+    fn goals_follow_the_events_of_a_hand() {
+        let event = |from: f64, to: f64, act: Act| Event {
+            from,
+            to,
+            pace: Pace::Linear,
+            act,
+        };
+        let turn = |degrees: f64| DQuat::from_rotation_y(degrees.to_radians());
+        let start = HandState {
+            point: DVec3::Y,
+            rotation: turn(10.0),
+            offset: DVec3::Z * 0.1,
+            shape: 0,
+            handshape: Default::default(),
+            direction: DVec3::Z,
+            palm: 0.0,
+            axes: [DVec3::ONE; 2],
+            follows: false,
+            heading: None,
+            used: true,
+        };
+        let events = [
+            event(1.0, 2.0, Act::Move(Path::Line(DVec3::X))),
+            event(1.5, 2.0, Act::Move(Path::Line(DVec3::Z * 2.0))),
+            event(0.0, 1.0, Act::Turn(turn(90.0))),
+            // The next turn begins before this one ends.
+            event(2.0, 3.0, Act::Turn(turn(90.0))),
+            event(
+                2.5,
+                3.5,
+                Act::Follow {
+                    path: Path::Line(DVec3::X),
+                    corner: turn(-80.0),
+                    to: turn(10.0),
+                },
+            ),
+            event(0.5, 1.5, Act::Point(DVec3::Z * 0.2)),
+            event(
+                0.0,
+                2.0,
+                Act::Wrist {
+                    axes: [DVec3::X * 0.2, DVec3::Z * 0.1],
+                    cycles: 2.0,
+                },
+            ),
+        ];
+        let goals = goals(&start, &events, 100.0, 401, |_, share| share);
+        for (seconds, point) in [
+            (0.9, DVec3::Y),
+            (1.25, DVec3::new(0.25, 1.0, 0.0)),
+            (1.75, DVec3::new(0.75, 1.0, 1.0)),
+            (4.0, DVec3::new(1.0, 1.0, 2.0)),
+        ] {
+            let is = goals.points[(seconds * 100.0) as usize];
+            assert!(is.distance(point) < 1e-9, "{is} after {seconds} s");
+        }
+        for (seconds, degrees) in [
+            (0.0, 10.0),
+            (0.25, 30.0),
+            (0.5, 50.0),
+            (1.5, 90.0),
+            (2.5, 90.0),
+            // Round the corner within the first quarter.
+            (2.55, 74.0),
+            (2.65, 42.0),
+            (2.75, 10.0),
+            (3.25, 10.0),
+            (4.0, 10.0),
+        ] {
+            let is = goals.turns[(seconds * 100.0_f64).round() as usize];
+            let off = is.angle_between(turn(degrees)).to_degrees();
+            assert!(off < 1e-6, "{off} degrees off after {seconds} s");
+        }
+        for (seconds, offset) in [(0.5, 0.1), (1.0, 0.15), (1.5, 0.2), (4.0, 0.2)] {
+            let is = goals.offsets[(seconds * 100.0) as usize];
+            assert!(
+                is.distance(DVec3::Z * offset) < 1e-9,
+                "{is} after {seconds} s"
+            );
+        }
+        // Two cycles in two seconds, with soft ends: an eighth of the time in, they are at full size.
+        for (frame, about) in [
+            (0, DVec3::ZERO),
+            (25, DVec3::X * 0.2),
+            (50, DVec3::Z * -0.1),
+            (75, DVec3::X * -0.2),
+            (100, DVec3::Z * 0.1),
+            (175, DVec3::X * -0.2),
+        ] {
+            let is = goals.wrist[frame].expect("a movement about the wrist");
+            assert!(
+                is.to_scaled_axis().distance(about) < 1e-9,
+                "{is} at {frame}"
+            );
+        }
+        assert_eq!(goals.wrist[201], None);
+        let rising = goals.wrist[12].expect("there").to_scaled_axis();
+        let usual = DVec3::X * 0.2 * (0.12 * TAU).sin() + DVec3::Z * 0.1 * (0.12 * TAU).cos();
+        let share: f64 = 0.48;
+        let soft = share * share * (3.0 - 2.0 * share);
+        assert!(rising.distance(usual * soft) < 1e-9, "{rising}");
+        let wrists: Vec<DVec3> = goals.wrists().collect();
+        assert!(wrists[0].distance(DVec3::Y - turn(10.0) * DVec3::Z * 0.1) < 1e-9);
+        let (frames, shares) = &goals.transitions[0];
+        assert_eq!((frames.clone(), shares.len()), (0..100, 100));
+        assert!((shares[25] - 0.25).abs() < 1e-9);
     }
 }

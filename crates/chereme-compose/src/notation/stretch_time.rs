@@ -312,4 +312,59 @@ mod tests {
         let both = warp.clone().then(&warp);
         assert!((both.at(0.3) - warp.at(warp.at(0.3))).abs() < 0.02);
     }
+
+    #[test]
+    fn steps_beside_a_stretched_one_are_stretched_less_and_less() {
+        // At 100 frames a second the neighbours within 25 ms, rounded up to three frames, last longer, too.
+        let mut least = vec![1.0; 11];
+        least[5] = 2.0;
+        let still = [along(&[0.0; 12])];
+        let warp = Warp::of(&still, 100.0, &FASTEST, (least, &[]), |_, _| [0.0; 2]);
+        let lasts = [1.0, 1.0, 1.25, 1.5, 1.75, 2.0, 1.75, 1.5, 1.25, 1.0, 1.0];
+        let mut now = 0.0;
+        for (n, last) in lasts.into_iter().enumerate() {
+            assert!((warp.at(0.01 * n as f64) - now).abs() < 1e-9, "step {n}");
+            assert!((warp.at(0.01 * (n as f64 + 0.5)) - now - 0.005 * last).abs() < 1e-9);
+            now += 0.01 * last;
+        }
+        assert!((warp.at(0.11) - now).abs() < 1e-9 && (warp.at(0.21) - now - 0.1).abs() < 1e-9);
+        assert!(!warp.is_none() && warp.rate() == 100.0);
+        // A step of 20 ms allows 0.8 rad at 40 rad/s and 0.1 m at 5 m/s.
+        for (hasty, allowed) in [
+            ([0.8, 0.0], true),
+            ([0.82, 0.0], false),
+            ([0.0, 0.1], true),
+            ([0.0, 0.102], false),
+        ] {
+            assert_eq!(warp.allows(5, hasty), allowed, "{hasty:?}");
+        }
+        let frames = warp.frames();
+        assert_eq!(frames.len(), 16, "0.15 s");
+        for (frame, (n, share)) in frames.into_iter().enumerate().take(15) {
+            let planned = 0.01 * (n as f64 + share);
+            assert!(
+                (warp.at(planned) - 0.01 * frame as f64).abs() < 1e-9,
+                "{frame}"
+            );
+        }
+    }
+
+    #[test]
+    fn sudden_stops_are_stretched_by_their_acceleration() {
+        // 3 m/s, and a stop within one frame: 300 m/s² at 100 frames a second, four times the most.
+        let mut places: Vec<f64> = (0..10).map(|n| 0.03 * f64::from(n)).collect();
+        places.extend([0.27; 10]);
+        let mut lasts = vec![1.0; 19];
+        slow(&along(&places), 100.0, &mut lasts);
+        let step = 2;
+        for (n, last) in lasts.into_iter().enumerate() {
+            let near = (9 - 2 * step + 1..9 + 2 * step - 1).contains(&n);
+            assert!(near || last == 1.0, "{n}: {last}");
+            if n == 8 || n == 9 {
+                // Over two frames to either side: 0.06 m in 20 ms twice.
+                let hard = 0.06 / (0.02 * 0.02) / HARDEST;
+                assert!((last - hard).abs() < 1e-9, "{n}: {last}, not {hard}");
+            }
+        }
+    }
 }

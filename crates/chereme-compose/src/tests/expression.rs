@@ -190,6 +190,27 @@ fn milestones_follow_from_the_signs_that_are_spanned() {
 }
 
 #[test]
+fn an_expression_that_reaches_beyond_the_movement_is_reported() {
+    let shelf = shelf();
+    let said = |recipe: &str| {
+        let made = made(recipe, &shelf);
+        let step = made.report.steps.last().expect("a step");
+        let said = step.did.iter().filter(|did| did.contains("not seen"));
+        said.cloned().collect::<Vec<_>>()
+    };
+    let first = "the first 0.50 s lie before the movement and are not seen";
+    let last = "the last 0.50 s lie after the movement and are not seen";
+    assert_eq!(
+        said("ESCARGOT | nonmanual from BOL by phases"),
+        [first, last]
+    );
+    let within = "ESCARGOT | nonmanual from BOL over 0.1s, 0.2s, 0.6s, 0.8s, 1s by phases";
+    assert_eq!(said(within), [""; 0]);
+    let late = "ESCARGOT | nonmanual from BOL over 0s, 0.2s, 0.6s, 0.8s, 1.5s by phases";
+    assert_eq!(said(late), [last]);
+}
+
+#[test]
 fn an_expression_composes_with_other_operators() {
     let shelf = shelf();
     for recipe in [
