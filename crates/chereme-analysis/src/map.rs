@@ -376,4 +376,72 @@ mod tests {
         let near = neighbours(&grid(3), 4, |_| true).expect("not stopped");
         assert_eq!(lay_out(&near, |_| false), None);
     }
+
+    #[test]
+    fn positions_are_fitted_into_the_square_without_a_change_of_proportions() {
+        for by in [[0.0, 0.0], [-3.0, 7.0]] {
+            let places = [[2.0, 1.0], [6.0, 2.0], [4.0, 3.0]];
+            let moved = places.map(|[x, y]: [f32; 2]| [x + by[0], y + by[1]]);
+            let found = fitted(moved.to_vec());
+            for (is, want) in found.iter().zip([[0.0, 0.25], [1.0, 0.5], [0.5, 0.75]]) {
+                assert!(between(*is, want).1 < 1e-9, "{found:?}");
+            }
+        }
+        assert_eq!(fitted(vec![[5.0, 5.0]]), [[0.5, 0.5]]);
+    }
+
+    #[test]
+    fn edges_combine_both_directions_like_independent_chances() {
+        let near: Vec<Neighbours> = vec![
+            vec![(1, 0.8), (2, 0.4)],
+            vec![(0, 0.8), (2, 0.6)],
+            vec![(1, 0.6)],
+            vec![],
+        ];
+        let found: Vec<(usize, usize, f32)> = edges(&near)
+            .iter()
+            .map(|edge| (edge.a, edge.b, edge.weight))
+            .collect();
+        let (half, three_quarters) = (0.5_f32.powi(4), 0.75_f32.powi(4));
+        for (is, want) in found.iter().zip([(0, 1, 1.0), (0, 2, half), (1, 2, 1.0)]) {
+            assert_eq!((is.0, is.1), (want.0, want.1));
+            assert!((is.2 - want.2).abs() < 1e-6, "{found:?}");
+        }
+        // The chance that neither direction connects is the product of the two.
+        let near = vec![vec![(1, 1.0), (2, 0.75)], vec![], vec![(1, 1.0), (0, 0.5)]];
+        let combined = 1.0 - (1.0 - half) * (1.0 - three_quarters);
+        let found = edges(&near);
+        let both = found.iter().find(|edge| (edge.a, edge.b) == (0, 2));
+        assert!((both.expect("an edge").weight - combined).abs() < 1e-6);
+    }
+
+    #[test]
+    fn steps_follow_the_gradient_of_the_curve_of_closeness() {
+        // The closeness 1 / (1 + a d^2b): neighbours climb its logarithm, others descend that of its complement.
+        let closeness =
+            |d: f64| 1.0 / (1.0 + f64::from(CURVE.0) * d.powf(2.0 * f64::from(CURVE.1)));
+        let slope = |f: &dyn Fn(f64) -> f64, d: f64| (f(d + 1e-5) - f(d - 1e-5)) / 2e-5;
+        for d in [0.3_f32, 1.0, 2.5] {
+            let rate = 0.1;
+            let mut places = vec![[d * 0.6, d * 0.8], [0.0, 0.0]];
+            attract(&mut places, 0, 1, rate);
+            let pull = slope(&|d| closeness(d).ln(), f64::from(d));
+            let step = f64::from(rate) * pull;
+            let far = f64::from(between(places[0], places[1]).1).sqrt();
+            assert!(
+                (far - f64::from(d) - 2.0 * step).abs() < 1e-3 * far,
+                "{d}: {far} {step}"
+            );
+            let mut places = vec![[d * 0.6, d * 0.8], [0.0, 0.0]];
+            repel(&mut places, 0, 1, rate);
+            let push = slope(&|d| (1.0 - closeness(d)).ln(), f64::from(d));
+            let far = f64::from(between(places[0], [0.0, 0.0]).1).sqrt();
+            let step = f64::from(rate) * push;
+            assert!(
+                (far - f64::from(d) - step).abs() < 0.01 * far,
+                "{d}: {far} {step}"
+            );
+            assert_eq!(places[1], [0.0, 0.0]);
+        }
+    }
 }

@@ -664,3 +664,6 @@ fn wrapped(angle: f64) -> f64 {
     use std::f64::consts::{FRAC_PI_2, TAU};
     (angle + FRAC_PI_2).rem_euclid(TAU) - FRAC_PI_2
 }
+
+#[cfg(test)]
+mod tests;

@@ -245,6 +245,35 @@ fn the_weights_of_the_throat_are_recovered() {
     assert!(FaceModel::learn(&frames[..RIGID.len()]).is_err());
 }
 
+#[test]
+fn the_predicted_error_of_a_face_agrees_with_the_error() {
+    let learnt = generate::sentence(&clean(), 0, 12).face;
+    let frames: Vec<Frame> = learnt.into_iter().step_by(3).collect();
+    let model = FaceModel::learn(&frames).expect("a model");
+    let take = generate::sentence(&clean(), 99, 6);
+    let (mut square, mut count) = (0.0, 0.0);
+    for frame in take.face.iter().step_by(5) {
+        let (_, _, known) = model.restore(frame).expect("a head");
+        let mut hidden = frame.clone();
+        hidden[super::labels::LIPS].fill(None);
+        let (_, points, sd) = model.restore(&hidden).expect("a head");
+        for marker in super::labels::LIPS {
+            assert!(
+                sd[marker] > known[marker],
+                "a hidden marker is less certain"
+            );
+            let Some(at) = frame[marker] else { continue };
+            square += at.distance_squared(points[marker]) / (3.0 * sd[marker].powi(2));
+            count += 1.0;
+        }
+        for marker in RIGID {
+            assert!((0.01..2.0).contains(&known[marker]), "{}", known[marker]);
+        }
+    }
+    let ratio: f64 = square / count;
+    assert!((0.2..5.0).contains(&ratio), "{ratio}");
+}
+
 type Examples = Vec<(u8, Vec<f64>)>;
 
 /// Returns the seven distances and the tip at the true targets of takes.

@@ -257,7 +257,7 @@ impl<'a> Mover<'a> {
 }
 
 /// Converts positions of a frame to the hand's own space.
-fn own(track: &HandTrajectory, at: &[DVec3], frame: usize) -> Vec<DVec3> {
+pub(super) fn own(track: &HandTrajectory, at: &[DVec3], frame: usize) -> Vec<DVec3> {
     let back = track.turned[frame].inverse();
     let from = track.wrist[frame];
     at.iter().map(|at| back * (*at - from)).collect()

@@ -138,6 +138,20 @@ mod tests {
     }
 
     #[test]
+    fn a_rotation_and_its_negative_quaternion_count_as_one() {
+        let plain = turning(120, 0.03);
+        let each = plain.iter().enumerate();
+        let mixed: Vec<DQuat> = each
+            .map(|(n, turn)| if n % 3 == 1 { -*turn } else { *turn })
+            .collect();
+        assert!((noise(&plain) - noise(&mixed)).abs() < 1e-12);
+        let [one, two] = [&plain, &mixed].map(|turns| smoothed(turns, 4.0));
+        for (a, b) in one.iter().zip(&two) {
+            assert!(a.angle_between(*b) < 1e-6);
+        }
+    }
+
+    #[test]
     fn smoothed_rotations_are_nearer_to_the_clean_movement_than_noisy_ones() {
         let clean = turning(200, 0.0);
         let shaken = turning(200, 0.035);

@@ -39,6 +39,8 @@ mod tuned;
 mod words;
 
 #[cfg(test)]
+mod table_tests;
+#[cfg(test)]
 mod tests;
 
 use chereme_motion::{Anatomy, Clip, HandCorrection, Side};

@@ -427,4 +427,79 @@ mod tests {
             assert!(fit(&points, tuned().path.exact).residual.is_finite());
         }
     }
+
+    #[test]
+    fn points_are_spaced_evenly_along_a_corner() {
+        let corner = [
+            DVec3::ZERO,
+            DVec3::X * 3.0,
+            DVec3::X * 3.0,
+            DVec3::new(3.0, 1.0, 0.0),
+        ];
+        let even = evenly(&corner, 5);
+        for (n, at) in even.into_iter().enumerate() {
+            let want = match n {
+                0..=3 => DVec3::X * n as f64,
+                _ => DVec3::new(3.0, 1.0, 0.0),
+            };
+            assert!(at.distance(want) < 1e-12, "{n}: {at}");
+        }
+    }
+
+    #[test]
+    fn circles_in_any_plane_give_axis_start_and_end_and_their_distance() {
+        for (axis, lift) in [
+            (DVec3::X, 0.0),
+            (DVec3::new(1.0, 2.0, -2.0) / 3.0, 0.0),
+            (DVec3::NEG_Z, 0.01),
+        ] {
+            let x = axis.any_orthonormal_vector();
+            let y = axis.cross(x);
+            let points = along(120, |s| {
+                let (sin, cos) = (TAU * 1.125 * s).sin_cos();
+                // The radius oscillates, and so does the height above the plane.
+                let up = axis * (lift * (TAU * 9.0 * s).sin());
+                DVec3::new(0.1, 0.2, 0.3) + (x * cos + y * sin) * 0.1 + up
+            });
+            let found = fit(&points, tuned().path.exact);
+            let PathForm::Circle {
+                axis: is,
+                turns,
+                start,
+                end,
+                narrow,
+                long,
+            } = found.path
+            else {
+                panic!("{found:?}");
+            };
+            assert!(is.distance(axis) < 0.02, "{is}");
+            assert!((turns - 1.125).abs() < 0.02, "{turns}");
+            assert!(start.distance(x) < 0.1, "{start}");
+            let half = std::f64::consts::FRAC_1_SQRT_2;
+            assert!(end.distance((x + y) * half) < 0.1, "{end}");
+            assert!((narrow - 1.0).abs() < 0.03 && (long.length() - 0.1).abs() < 3e-3);
+            // The root of the mean square of a sine is 1/√2 of its height.
+            assert!(
+                (found.residual - lift * half).abs() < 2e-3,
+                "{}",
+                found.residual
+            );
+            let Some((PathForm::Straight { chord }, off)) = found.runner_up else {
+                panic!("{found:?}");
+            };
+            assert!(chord.distance(points[119] - points[0]) < 1e-9 && off > 0.05);
+        }
+    }
+
+    #[test]
+    fn the_distance_from_a_path_is_the_root_of_the_mean_square() {
+        let points = [
+            DVec3::ZERO,
+            DVec3::new(1.0, 0.3, 0.0),
+            DVec3::new(2.0, 0.0, 0.4),
+        ];
+        let is = off(&points, |s| DVec3::X * (2.0 * s));
+        assert!((is - (0.25_f64 / 3.0).sqrt()).abs() < 1e-12, "{is}");
+    }
 }

@@ -15,15 +15,15 @@ use super::*;
 
 /// A hand's place in the signer's space, the directions of its axis and palm, and its shape.
 #[derive(Clone)]
-struct Held {
-    at: DVec3,
-    along: DVec3,
-    palm: DVec3,
-    shape: Handshape,
+pub(super) struct Held {
+    pub(super) at: DVec3,
+    pub(super) along: DVec3,
+    pub(super) palm: DVec3,
+    pub(super) shape: Handshape,
 }
 
 impl Held {
-    fn new(at: [f64; 3], along: &str, palm: &str, class: HandClass) -> Self {
+    pub(super) fn new(at: [f64; 3], along: &str, palm: &str, class: HandClass) -> Self {
         let along: Direction = along.parse().expect("a direction");
         let palm: Compass = palm.parse().expect("a palm");
         let mut shape = Handshape::default();
@@ -36,14 +36,14 @@ impl Held {
         }
     }
 
-    fn moved(&self, by: DVec3) -> Self {
+    pub(super) fn moved(&self, by: DVec3) -> Self {
         Self {
             at: self.at + by,
             ..self.clone()
         }
     }
 
-    fn turned(&self, turn: DQuat) -> Self {
+    pub(super) fn turned(&self, turn: DQuat) -> Self {
         Self {
             along: turn * self.along,
             palm: turn * self.palm,
@@ -51,7 +51,7 @@ impl Held {
         }
     }
 
-    fn mirrored(&self) -> Self {
+    pub(super) fn mirrored(&self) -> Self {
         let flip = |v: DVec3| DVec3::new(-v.x, v.y, v.z);
         Self {
             at: flip(self.at),
@@ -108,7 +108,7 @@ fn body() -> Skeleton {
 
 /// Builds a clip: a hold of half a second, `seconds` of movement, and a hold. A hand that `at` leaves out
 /// hangs at rest.
-fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, Anatomy) {
+pub(super) fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, Anatomy) {
     let skeleton = Arc::new(body());
     let anatomy = Anatomy::detect(&skeleton);
     let rate = Rate::new(60, 1).expect("a rate");
@@ -141,19 +141,19 @@ fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, Anatomy) 
     (clip, anatomy)
 }
 
-fn read(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> Manual {
+pub(super) fn read(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> Manual {
     let (clip, anatomy) = clip(seconds, at);
     let written = transcribe(&clip, &anatomy, &Options::made()).expect("a sign");
     written.sign.parts.into_iter().next().expect("one part")
 }
 
-fn ease(time: f64) -> f64 {
+pub(super) fn ease(time: f64) -> f64 {
     time * time * (3.0 - 2.0 * time)
 }
 
-const ARM: f64 = 0.52;
+pub(super) const ARM: f64 = 0.52;
 
-fn before_chest(class: HandClass) -> Held {
+pub(super) fn before_chest(class: HandClass) -> Held {
     Held::new([-0.15, -0.12, 0.30], "u", "l", class)
 }
 

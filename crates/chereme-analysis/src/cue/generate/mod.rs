@@ -6,7 +6,7 @@
 //! file.
 
 mod face;
-mod hand;
+pub(super) mod hand;
 mod noise;
 
 use chereme_motion::Interpolation;

@@ -142,3 +142,72 @@ fn rounds(acts: &[Act]) -> usize {
         .take_while(|act| axis(act).is_some_and(|axis| axis.dot(first) > 0.7))
         .count()
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::super::super::path::fit;
+    use super::super::super::tests::{ARM, before_chest, clip};
+    use super::*;
+    use crate::transcribe::Options;
+
+    #[test]
+    fn the_change_of_an_act_counts_in_units_of_usual_movements() {
+        let usual = chereme_sign::hamnosys::BodyLanguage::usual();
+        let own = before_chest(chereme_sign::hamnosys::HandClass::Flat);
+        let far = DVec3::X * (usual.move_normal * ARM);
+        let (clip, anatomy) = clip(0.4, |time| {
+            let turned = own.turned(DQuat::from_rotation_z(0.8 * time));
+            [Some(turned.moved(far * time)), None]
+        });
+        let options = Options::made();
+        let scene = Scene::of(&clip, &anatomy, &options).expect("a scene");
+        let mut tracks = scene.hands.iter().flatten();
+        let track = tracks.find(|track| track.side == chereme_motion::Side::Right);
+        let track = track.expect("a hand");
+        let last = track.palm.len() - 1;
+        let act = |turned: bool| Act {
+            frames: 0..=last,
+            kind: ActKind::Path(Box::new(fit(&track.palm, 1e-3))),
+            with: None,
+            turned,
+            reshaped: false,
+            repeat: None,
+            times: 1,
+            grows: None,
+            until: last,
+        };
+        let straight = change(&scene, track, &act(false));
+        // Lengths of arms are measured on the body, to a few hundredths.
+        let chord = DVec3::from_slice(&straight[..3]);
+        assert!((chord.length() - 1.0).abs() < 0.05, "{chord}");
+        assert!(straight[3..].iter().all(|it| *it == 0.0));
+        let turned = change(&scene, track, &act(true));
+        let turn = DVec3::from_slice(&turned[3..6]);
+        assert!((turn.length() - 1.0).abs() < 0.01, "{turn}");
+        assert_eq!(apart(&turned, &turned, 1.0), 0.0);
+        assert!((apart(&turned, &turned, -1.0) - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn executions_grow_only_if_each_is_larger_than_the_one_before() {
+        let by = tuned().fold.grows * 1.01;
+        let sized = |sizes: &[f64]| {
+            sizes
+                .iter()
+                .map(|size| vec![0.0, *size])
+                .collect::<Vec<_>>()
+        };
+        for (sizes, step, grows) in [
+            (&[1.0, by, by * by][..], 1, Some(true)),
+            (&[by * by, by, 1.0], 1, Some(false)),
+            (&[1.0, by, by], 1, None),
+            (&[1.0, by], 1, None),
+            (&[1.0, 9.0, by, 9.0, by * by], 2, Some(true)),
+            (&[1.0, by, 1.0], 1, None),
+        ] {
+            assert_eq!(growth(&sized(sizes), step), grows, "{sizes:?}");
+        }
+    }
+}

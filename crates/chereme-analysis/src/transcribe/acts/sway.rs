@@ -201,3 +201,44 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
     });
     ab / (aa * bb).sqrt().max(1e-12)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reversals_are_counted_and_small_ones_ignored() {
+        for (values, range, turning, start, net) in [
+            (&[0.0, 1.0, 2.0][..], 2.0, 0, 0.0, 2.0),
+            (&[0.0, 2.0, 0.0], 2.0, 1, 0.0, 0.0),
+            (&[1.0, 2.0, 0.0, 2.0, 1.0], 2.0, 3, 0.5, 0.0),
+            (&[2.0, 0.0, 1.0], 2.0, 1, 1.0, 1.0),
+            (&[3.0, 3.0, 3.0], 0.0, 0, 0.0, 0.0),
+            // Half a unit is less than three tenths of the range.
+            (&[0.0, 1.0, 0.5, 2.0, 1.5, 2.0], 2.0, 0, 0.0, 2.0),
+            (&[0.0, 2.0, 1.3, 2.0, 0.0], 2.0, 3, 0.0, 0.0),
+            (&[-1.0, -3.0, -1.0, -3.0], 2.0, 2, 1.0, 2.0),
+        ] {
+            let is = Swing::of(values);
+            assert_eq!((is.range, is.turning), (range, turning), "{values:?}");
+            assert!((is.start - start).abs() < 1e-9, "{values:?}: {}", is.start);
+            assert!((is.net - net).abs() < 1e-9, "{values:?}: {}", is.net);
+        }
+    }
+
+    #[test]
+    fn correlation_is_that_of_its_definition() {
+        let one = [1.0, 2.0, 3.0, 4.0];
+        for (other, is) in [
+            ([2.0, 4.0, 6.0, 8.0], 1.0),
+            ([7.0, 5.0, 3.0, 1.0], -1.0),
+            ([1.0, -1.0, -1.0, 1.0], 0.0),
+            // Deviations (-3, -1, 1, 3) / 2 and (-1, 1, -1, 1): 2 / √(5 · 4).
+            ([0.0, 2.0, 0.0, 2.0], 2.0 / 20f64.sqrt()),
+            ([5.0; 4], 0.0),
+        ] {
+            let found = correlation(&one, &other);
+            assert!((found - is).abs() < 1e-9, "{other:?}: {found}");
+        }
+    }
+}

@@ -257,3 +257,80 @@ pub(super) fn middle(a: &Spot, b: &Spot) -> Spot {
         ..*a
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns the candidates of a body that has only these places, along a line up the trunk.
+    fn candidates(body: &[(BodyLocation, f64)]) -> Vec<Choice> {
+        all(|site| {
+            let known = body.iter().find(|(at, _)| *at == site.at)?;
+            site.side.is_none().then_some(Spot {
+                site: *site,
+                at: DVec3::Y * known.1,
+                out: DVec3::Z,
+                region: Region::Trunk,
+                lateral: 0.0,
+                beside: false,
+            })
+        })
+    }
+
+    /// Returns the penalty of the place half-way between two.
+    fn between(choices: &[Choice], first: BodyLocation, second: BodyLocation) -> Option<f64> {
+        let mut both = choices.iter().filter(|choice| {
+            let own = (choice.spot.site.at, choice.second.map(|site| site.at));
+            own == (first, Some(second))
+        });
+        both.next().map(|choice| choice.cost)
+    }
+
+    #[test]
+    fn the_middle_of_two_places_costs_more_if_a_common_place_lies_there() {
+        use BodyLocation::{Chest, EarLobe, ShoulderTop, Stomach};
+        let step = 0.4 * tuned().choice.apart;
+        let ends = [(Chest, 2.0 * step), (Stomach, 0.0)];
+        let cost = |more: &[(BodyLocation, f64)]| {
+            let body = [&ends, more].concat();
+            between(&candidates(&body), Chest, Stomach).expect("a candidate")
+        };
+        let free = cost(&[]);
+        let skipped = cost(&[(BodyLocation::Neck, step)]);
+        assert!(
+            (skipped - free - tuned().choice.skips).abs() < 1e-12,
+            "{skipped} {free}"
+        );
+        assert_eq!(cost(&[(EarLobe, step)]), free, "rare places do not count");
+        assert_eq!(
+            cost(&[(ShoulderTop, step)]),
+            free,
+            "nor does the top of the shoulder"
+        );
+        let far = [(BodyLocation::Neck, 5.0 * step)];
+        assert_eq!(cost(&far), free, "nor does a place beyond them");
+    }
+
+    #[test]
+    fn each_place_is_a_candidate_and_lies_where_it_is() {
+        use BodyLocation::{Chest, EarLobe, Stomach};
+        let step = 0.4 * tuned().choice.apart;
+        let found = candidates(&[(Chest, step), (Stomach, 0.0), (EarLobe, 9.0 * step)]);
+        let single: Vec<_> = found.iter().filter(|it| it.second.is_none()).collect();
+        assert_eq!(single.len(), 3);
+        for choice in single {
+            let rare = choice.spot.site.at == EarLobe;
+            assert_eq!(choice.cost, if rare { tuned().choice.rare } else { 0.0 });
+            assert_eq!(choice.near, rare);
+        }
+        let joined: Vec<_> = found.iter().filter(|it| it.second.is_some()).collect();
+        assert_eq!(
+            joined.len(),
+            1,
+            "places that are too far apart have no middle"
+        );
+        assert!(joined[0].spot.at.distance(DVec3::Y * step / 2.0) < 1e-12);
+        let cost = tuned().choice.between + tuned().choice.wide * 0.4;
+        assert!((joined[0].cost - cost).abs() < 1e-12, "{}", joined[0].cost);
+    }
+}

@@ -1,0 +1,63 @@
+//! Tests of angles from markers, on hands that are generated from angles.
+
+use super::*;
+use crate::cue::generate::hand::{place_hand, shape_angles};
+
+#[test]
+fn an_angle_is_wrapped_to_the_range_of_a_finger_s_bend() {
+    for (degrees, wrapped_to) in [
+        (0.0, 0.0),
+        (-89.0, -89.0),
+        (-91.0, 269.0),
+        (100.0, 100.0),
+        (269.0, 269.0),
+        (271.0, -89.0),
+        (-260.0, 100.0),
+    ] {
+        let is = wrapped(f64::to_radians(degrees)).to_degrees();
+        assert!((is - wrapped_to).abs() < 1e-9, "{degrees}: {is}");
+    }
+}
+
+#[test]
+fn angles_of_a_generated_hand_are_computed_from_its_markers() {
+    // The skin does not slide, so that the markers of a phalange lie along its bone.
+    let placed = |joints| -> Frame { place_hand(&joints, 0.0).into_iter().map(Some).collect() };
+    let rest = place_hand(&[0.0; 22], 0.0);
+    let straight = angles(&placed([0.0; 22]), &rest[BACK]);
+    for shape in 0..=8 {
+        let mut joints = shape_angles(shape);
+        let turn = [0.2, -0.3];
+        joints[20..].copy_from_slice(&turn);
+        let found = angles(&placed(joints), &rest[BACK]);
+        let hand = DQuat::from_rotation_y(turn[0]) * DQuat::from_rotation_z(turn[1]);
+        let about = DVec3::from_slice(&found[..3]);
+        assert!(about.distance(hand.to_scaled_axis()) < 1e-6, "{about}");
+        for n in 0..4 {
+            let [flex, spread, middle, last] = [0, 1, 2, 3].map(|k| joints[4 * n + k]);
+            let own: Vec<f64> = (3 + 4 * n..7 + 4 * n)
+                .map(|at| found[at] - straight[at])
+                .collect();
+            // The axes of the palm are not quite those of the bones.
+            let off = [own[0] - flex, own[2] - middle, own[3] - last].map(f64::to_degrees);
+            let most = off.into_iter().map(f64::abs).fold(0.0, f64::max);
+            assert!(most < 4.0, "{shape} {n}: {off:?}");
+            if flex < 0.1 {
+                let aside = (own[1] - spread).to_degrees();
+                assert!(aside.abs() < 1.0, "{shape} {n}: {aside}");
+            }
+        }
+    }
+}
+
+#[test]
+fn markers_of_a_generated_thumb_lie_along_its_bones() {
+    for shape in 0..=8 {
+        let at = place_hand(&shape_angles(shape), 1.0);
+        let apart = |a: usize, b: usize| at[THUMB + a].distance(at[THUMB + b]);
+        for (part, length) in [42.0, 32.0, 26.0].into_iter().enumerate() {
+            let is = apart(2 * part, 2 * part + 1);
+            assert!((is - 0.7 * length).abs() < 1e-9, "{shape} {part}: {is}");
+        }
+    }
+}
