@@ -409,6 +409,23 @@ fn a_divided_annotation_shares_slots_with_its_neighbour_and_its_parent() {
 }
 
 #[test]
+fn only_pieces_of_a_division_share_the_slots_of_their_parent() {
+    let included = NEW.replacen("Time_Subdivision", "Included_In", 1);
+    for (text, slot) in [(NEW, "ts6"), (&included, "ts7")] {
+        let after = changed(text, |it| {
+            tier(it, "Phases").annotations.remove(0);
+            move_to(annotation(it, "a6"), 1000, 2000);
+        });
+        let mut lines = after.lines().skip_while(|line| !line.contains("\"a6\""));
+        let slots = lines.nth(1).unwrap_or_default();
+        let wanted = format!("TIME_SLOT_REF1=\"{slot}\" TIME_SLOT_REF2=\"ts8\"");
+        assert!(slots.contains(&wanted), "{after}");
+        let moved = after.contains("TIME_SLOT_ID=\"ts7\" TIME_VALUE=\"1000\"");
+        assert_eq!(moved, slot == "ts7", "{after}");
+    }
+}
+
+#[test]
 fn a_chain_is_relinked_around_a_removed_annotation() {
     let after = changed(OLD, |it| {
         let all = &mut tier(it, "Parts").annotations;

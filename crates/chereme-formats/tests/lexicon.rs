@@ -404,6 +404,22 @@ fn misspelled_values_get_a_suggestion() {
 }
 
 #[test]
+fn a_misspelled_value_is_located_in_its_own_column() {
+    // "S-spreid" is also a place, in the first line; and in the third line it is another feature of the hand.
+    let mut text = "gloss\tLocation\tHandshape change\tHandshape weak\n".to_owned();
+    text += "P\tC-spreid\t\t\nQ\t\tC-spreid\t\n";
+    for n in 0..30 {
+        text += &format!("G{n}\t\t\tC-spread\n");
+    }
+    text += "X\t\t\tC-spreid\n";
+    let (_, findings) = lexicon::read(text.as_bytes(), &Mapping::default()).expect("a table");
+    let slip = findings
+        .iter()
+        .find(|it| it.message.contains("kept as two"));
+    assert_eq!(slip.expect("a finding").line, Some(34));
+}
+
+#[test]
 fn a_table_of_2145_signs_reads_back_unchanged() {
     let Some(data) = std::env::var_os("CHEREME_SHARED_DATA").map(std::path::PathBuf::from) else {
         eprintln!("CHEREME_SHARED_DATA is not set: the table of others was not tried");

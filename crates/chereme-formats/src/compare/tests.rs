@@ -244,6 +244,36 @@ fn added_removed_and_renamed_tiers_are_merged() {
 }
 
 #[test]
+fn properties_that_one_side_changed_are_taken_and_mine_win() {
+    let with = |properties: &[(&str, &str)]| {
+        let mut it = document("G: a1 0-100 A");
+        let own = |(name, value): &(&str, &str)| ((*name).to_owned(), (*value).to_owned());
+        it.properties = properties.iter().map(own).collect();
+        it
+    };
+    for (base, mine, theirs, want) in [
+        (&[][..], &[][..], &[("a", "1")][..], &[("a", "1")][..]),
+        (&[], &[("a", "1")], &[], &[("a", "1")]),
+        (&[], &[("a", "1")], &[("a", "2")], &[("a", "1")]),
+        (&[("a", "1")], &[("a", "1")], &[("a", "2")], &[("a", "2")]),
+        (&[("a", "1")], &[("a", "3")], &[("a", "2")], &[("a", "3")]),
+        (&[("a", "1")], &[("a", "1")], &[], &[]),
+        (&[("a", "1")], &[], &[("a", "1")], &[]),
+        (&[("a", "1")], &[], &[("a", "2")], &[]),
+        (
+            &[("a", "1")],
+            &[("a", "1"), ("b", "m")],
+            &[("a", "1"), ("c", "t")],
+            &[("a", "1"), ("b", "m"), ("c", "t")],
+        ),
+    ] {
+        let merged = merge(&with(base), &with(mine), &with(theirs));
+        let got = &merged.document.properties;
+        assert_eq!(*got, with(want).properties, "{base:?} {mine:?} {theirs:?}");
+    }
+}
+
+#[test]
 fn annotations_that_exchanged_their_ids_have_not_moved() {
     let a = document("G: a1 0-100 x, a2 500-600 x, a3 700-800 y");
     let b = document("G: a2 0-100 x, a1 500-600 x, a3 700-800 y");

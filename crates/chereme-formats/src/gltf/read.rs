@@ -163,7 +163,7 @@ fn unescaped(uri: &str) -> String {
 }
 
 /// Decodes base64 (RFC 4648, section 4); blanks are skipped.
-fn base64(text: &str) -> Option<Vec<u8>> {
+pub(super) fn base64(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
     let (mut word, mut bits) = (0u32, 0);
     for letter in text

@@ -281,6 +281,30 @@ fn the_text_form_reads_embedded_and_neighbouring_buffers() {
 }
 
 #[test]
+fn base64_is_decoded_as_in_its_standard() {
+    // RFC 4648, section 10, and every digit of both alphabets.
+    for (text, bytes) in [
+        ("", &b""[..]),
+        ("Zg==", b"f"),
+        ("Zm8=", b"fo"),
+        ("Zm9v", b"foo"),
+        ("Zm9vYg==", b"foob"),
+        ("Zm9v YmE=", b"fooba"),
+        ("Zm9vYmFy", b"foobar"),
+    ] {
+        assert_eq!(read::base64(text).as_deref(), Some(bytes), "{text}");
+    }
+    let letters: String = ('A'..='Z').chain('a'..='z').chain('0'..='9').collect();
+    for (last, letters) in [("+/", &letters), ("-_", &letters)] {
+        let bytes = read::base64(&format!("{letters}{last}")).expect("digits");
+        let bits: String = bytes.iter().map(|byte| format!("{byte:08b}")).collect();
+        let digits: String = (0..64).map(|digit| format!("{digit:06b}")).collect();
+        assert_eq!(bits, digits);
+    }
+    assert_eq!(read::base64("Zm9v!"), None);
+}
+
+#[test]
 fn files_of_others_are_read_or_refused_with_the_reason() {
     let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
         eprintln!("skipped: CHEREME_SHARED_DATA names no folder");

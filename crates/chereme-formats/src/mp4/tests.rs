@@ -6,23 +6,32 @@ use proptest::prelude::*;
 
 use super::{Colours, Container, Error, Muxer, Picture, Turn, h264, read};
 
-/// A sequence of 32 by 32 pixels in the profile "High" whose colours are BT.709 over the full range, written by hand.
-fn sequence() -> Vec<u8> {
-    let code = |value: u32| {
+/// Returns Exp-Golomb codes as binary digits.
+fn codes(values: &[u32]) -> String {
+    let code = |value: &u32| {
         let bits = format!("{:b}", value + 1);
         format!("{}{bits}", "0".repeat(bits.len() - 1))
     };
-    let mut all = format!("{:08b}{:08b}{:08b}", 100, 0, 30);
-    // seq_parameter_set_id 0; 4:2:0 in eight bits; no scaling lists; 16 frame numbers, picture order type 2, one
-    // reference frame; no gaps in frame numbers.
-    let codes = |values: &[u32]| -> String { values.iter().map(|value| code(*value)).collect() };
-    all += &codes(&[0, 1, 0, 0]);
-    all += "00";
-    all += &codes(&[0, 2, 1]);
+    values.iter().map(code).collect()
+}
+
+/// A sequence of 32 by 32 pixels in the profile "High" whose colours are BT.709 over the full range, written by hand.
+fn sequence() -> Vec<u8> {
+    // 4:2:0 in eight bits, no scaling lists; picture order type 2.
+    let format = codes(&[1, 0, 0]) + "00";
+    sequence_of(100, &format, &codes(&[2]), "11")
+}
+
+/// Returns such a sequence of a profile, with its colour format, its order of pictures, and whether it has frames only
+/// (with the flag that follows).
+fn sequence_of(profile: u8, format: &str, order: &str, frames: &str) -> Vec<u8> {
+    let mut all = format!("{profile:08b}{:08b}{:08b}", 0, 30);
+    // seq_parameter_set_id 0; 16 frame numbers, one reference frame; no gaps in frame numbers.
+    all += &(codes(&[0]) + format + &codes(&[0]) + order + &codes(&[1]));
     all += "0";
     // Two by two macroblocks; frames only, direct_8x8, no cropping; video usability information follows.
     all += &codes(&[1, 1]);
-    all += "1101";
+    all += &format!("{frames}01");
     // No aspect ratio and no overscan; a video format, the full range and a description of the colours; nothing else.
     all += "00110111";
     all += &format!("{:08b}{:08b}{:08b}", 1, 1, 1);
@@ -159,6 +168,55 @@ fn a_film_that_is_written_is_read_back() {
     assert_eq!(pieces.len(), 3);
     assert!(h264::is_sequence(pieces[0]) && h264::is_parameters(pieces[1]));
     assert!(!h264::is_refresh(pieces[2]));
+}
+
+#[test]
+fn sequences_of_every_kind_are_read_up_to_their_colours() {
+    let plain = codes(&[1, 0, 0]) + "00";
+    // Lists of 4 by 4 numbers: the first is flat (16 differences of 0), the second ends at once (a difference of -8),
+    // the third grows by one each time; and one of 8 by 8.
+    let lists = codes(&[1, 0, 0])
+        + "01"
+        + &("1".to_owned() + &codes(&[0; 16]))
+        + &("1".to_owned() + &codes(&[16]))
+        + &("1".to_owned() + &codes(&[1; 16]))
+        + "000"
+        + &("1".to_owned() + &codes(&[0; 64]))
+        + "0";
+    // Full colours have a flag more, and twelve lists.
+    let full = codes(&[3]) + "0" + &codes(&[0, 0]) + "01" + &"0".repeat(12);
+    let orders = [
+        codes(&[2]),
+        codes(&[0, 4]),
+        codes(&[1]) + "0" + &codes(&[5, 2, 0]),
+        codes(&[1]) + "1" + &codes(&[0, 0, 3, 7, 8, 9]),
+    ];
+    for (profile, format) in [
+        (100, &plain),
+        (100, &lists),
+        (244, &full),
+        (66, &String::new()),
+    ] {
+        for order in &orders {
+            for (frames, interlaced) in [("11", false), ("001", true)] {
+                let read = h264::sequence(&sequence_of(profile, format, order, frames));
+                let read = read.unwrap_or_else(|error| panic!("{profile} {order}: {error}"));
+                assert_eq!((read.profile, read.interlaced), (profile, interlaced));
+                let colours = Colours {
+                    matrix: 1,
+                    full_range: true,
+                };
+                assert_eq!(
+                    read.colours,
+                    Some(colours),
+                    "{profile} {format} {order} {frames}"
+                );
+            }
+        }
+    }
+    let endless = codes(&[1]) + "0" + &codes(&[0, 0, 256]);
+    let refused = h264::sequence(&sequence_of(66, "", &endless, "11"));
+    assert!(matches!(refused, Err(Error::Parameters(_))), "{refused:?}");
 }
 
 #[test]

@@ -357,3 +357,28 @@ fn split(name: &str) -> (Option<Side>, String) {
         meant.map_or(rest.clone(), |(_, name)| (*name).to_owned()),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::{PLAIN, body};
+    use super::*;
+
+    #[test]
+    fn a_rest_pose_along_one_axis_gives_the_same_face_in_a_usual_posture() {
+        let whole = body(PLAIN);
+        let model = whole.rest_model_pose();
+        let usual = Anatomy::detect(&whole);
+        let mut joints = whole.joints().to_vec();
+        for joint in &mut joints {
+            joint.offset = DVec3::Y * joint.offset.length();
+        }
+        let straight = Skeleton::new(joints).expect("a tree");
+        let odd = Anatomy::detect(&straight);
+        assert!(usual.is_posed() && !odd.is_posed());
+        for name in ["chin", "nose", "forehead", "left-eye", "head-top"] {
+            let [one, two] = [(&usual, &whole), (&odd, &straight)]
+                .map(|(anatomy, skeleton)| anatomy.landmark(skeleton, &model, name).expect(name));
+            assert!(one.distance(two) < 0.03, "{name}: {one} {two}");
+        }
+    }
+}

@@ -271,3 +271,31 @@ pub(super) fn trunk_axes(anatomy: &Anatomy, model: &ModelPose) -> Option<[DVec3;
     let up = up.reject_from_normalized(left).try_normalize()?;
     Some([left, up, left.cross(up)])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::{PLAIN, body};
+    use super::*;
+
+    #[test]
+    fn a_head_whose_top_is_measured_gives_its_own_height() {
+        for (top, measured) in [(0.16, false), (0.19, false), (0.26, true), (0.32, true)] {
+            let mut joints = body(PLAIN).joints().to_vec();
+
+            let head = joints
+                .iter()
+                .position(|joint| joint.name == Part::Head.to_string());
+            joints[head.expect("a head")].tip = Some(DVec3::Y * top);
+            let skeleton = Skeleton::new(joints).expect("a tree");
+            let anatomy = Anatomy::detect(&skeleton);
+            let m = anatomy.measures().expect("measures");
+            assert!((m.head_top - top).abs() < 1e-12, "{top}: {}", m.head_top);
+            // The joint lies as far below the top as the middle of the ear, 0.115 of the stature; the chin is at 0.130.
+            let head = match measured {
+                true => top * 0.130 / 0.115,
+                false => 0.130 * m.stature,
+            };
+            assert!((m.head - head).abs() < 1e-12, "{top}: {} {head}", m.head);
+        }
+    }
+}

@@ -391,6 +391,28 @@ mod tests {
     }
 
     #[test]
+    fn prefixes_of_rigs_are_removed_with_the_number_of_the_copy() {
+        for (name, bare) in [
+            ("mixamorig:Hips", "Hips"),
+            ("mixamorig12Hips", "Hips"),
+            ("mixamorig3_Hips", "Hips"),
+            ("Character1_Hips", "Hips"),
+            ("Bip01 Pelvis", "Pelvis"),
+            ("Bip001-Pelvis", "Pelvis"),
+            ("bip001_L_Hand", "L_Hand"),
+            ("J_Bip_C_Hips", "Hips"),
+            // Only copies of a Mixamo rig are numbered: elsewhere digits belong to the name.
+            ("J_Adj_2nd", "2nd"),
+            ("Bip01 3", "3"),
+            ("scene|Hips", "Hips"),
+            ("Hips", "Hips"),
+            ("mixamorig", "mixamorig"),
+        ] {
+            assert_eq!(without_rig(name), bare, "{name}");
+        }
+    }
+
+    #[test]
     fn joint_names_of_many_conventions_are_understood() {
         let index = "left Digit(Finger(Index), ";
         for (name, want) in [

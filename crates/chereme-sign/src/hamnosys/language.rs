@@ -462,4 +462,27 @@ mod tests {
             0.5
         );
     }
+
+    #[test]
+    fn each_unit_has_its_own_range() {
+        let usual = BodyLanguage::usual();
+        let mut units = BTreeMap::new();
+        for (name, unit) in BodyLanguage::NAMES {
+            let most = match *unit {
+                "deg" => 180.0,
+                "arm" | "shoulder" => 3.0,
+                "arm/s" | "rad/s" | "count" => 100.0,
+                _ => 10.0,
+            };
+            units.insert(*unit, most);
+            let with = |value: f64| usual.with_measured([(*name, value)]);
+            assert_eq!(with(most).expect(name).value(name), Some(most));
+            assert_eq!(with(0.0).expect(name).value(name), Some(0.0));
+            for value in [most + 0.01, -0.01] {
+                let said = with(value).expect_err(name).to_string();
+                assert!(said.contains(&format!("from 0 to {most}")), "{said}");
+            }
+        }
+        assert!(units.len() > 6, "{units:?}");
+    }
 }

@@ -223,6 +223,7 @@ const WRONG: &[(&str, &str)] = &[
         "18..18 `within` needs a comparison on its right",
     ),
     ("tier()=x", "5..5 the tier's name is missing"),
+    (r#"tier("")=x"#, "5..7 the tier's name is missing"),
     (r#"tier("Mouthing""#, "4..5 this parenthesis is not closed"),
     (
         r#"tier("Mouthing")"#,
