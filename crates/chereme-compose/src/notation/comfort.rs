@@ -360,4 +360,33 @@ mod tests {
         let (share, strain) = shifted(0.3, "l", "d");
         assert!(strain[0] < STRAINED && share == 0.0, "{share} {strain:?}");
     }
+
+    #[test]
+    fn each_of_two_places_eases_its_hand_unless_one_hand_is_at_the_other() {
+        use chereme_sign::hamnosys::{HandLocation, HandSite};
+        let material = stage(Axes::Plain);
+        let body = Stage::of(&material).expect("a body");
+        let paces = Paces::of(BodyLanguage::usual());
+        let language = (BodyLanguage::usual(), &paces);
+        let at_hand = Place::Hand(HandSite {
+            at: Some(HandLocation::Palm),
+            ..HandSite::default()
+        });
+        let chest = || Some(Box::new(at(BodyLocation::Chest, None)));
+        for (other, moves) in [
+            (chest(), true),
+            (Some(Box::new(at_hand)), false),
+            (None, true),
+        ] {
+            let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
+            let who = [Some(planner.own_frame()), None];
+            let place = at(BodyLocation::Chest, None);
+            let begun = posture(HandClass::Flat, "d", "l", Some(place));
+            planner.assume(&begun, who, false);
+            let before = planner.stance(0);
+            planner.ease(&Place::Split(chest(), other.clone()), who, None);
+            let shifted = planner.stance(0).point.distance(before.point);
+            assert_eq!(shifted > 1e-3, moves, "{other:?}: {shifted}");
+        }
+    }
 }
