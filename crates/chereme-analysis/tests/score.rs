@@ -248,6 +248,9 @@ fn two_bodies_are_compared_by_the_parts_that_both_have() {
     assert!(found.normalized < Some(1e-6) && found.max_joint_error_m < Some(1e-9));
     assert_eq!(found.only_in_first.len(), 30, "{:?}", found.only_in_first);
     assert!(found.only_in_second.is_empty());
+    let other = scored(&mittens, &clip);
+    assert_eq!(other.only_in_second, found.only_in_first);
+    assert!(other.only_in_first.is_empty());
 }
 
 #[test]

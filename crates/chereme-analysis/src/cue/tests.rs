@@ -423,6 +423,28 @@ fn the_start_and_end_of_a_minimum_jerk_movement_are_recovered() {
 }
 
 #[test]
+fn a_generated_hand_rests_in_its_shape_between_its_movements() {
+    let take = generate::sentence(&clean(), 7, 6);
+    let mut held = 0;
+    for pair in take.keys.windows(2) {
+        let [from, to] = [pair[0].times[3], pair[1].times[2]].map(|time| time * RATE);
+        let (from, to) = (from.ceil() as usize, to.floor() as usize);
+        let shape = generate::shape_angles(pair[0].shape);
+        for frame in from..to.max(from) {
+            held += 1;
+            let now = take.true_angles[frame];
+            assert!(
+                frame == from || now == take.true_angles[frame - 1],
+                "{frame}"
+            );
+            let off = (0..20).map(|k| (now[k] - shape[k]).abs().to_degrees());
+            assert!(off.fold(0.0, f64::max) < 60.0, "{frame}: {now:?}");
+        }
+    }
+    assert!(held > 10, "{held} frames");
+}
+
+#[test]
 fn a_session_is_the_same_for_the_same_seed() {
     let one = generate::sentence(&Settings::default(), 7, 5);
     let two = generate::sentence(&Settings::default(), 7, 5);

@@ -171,4 +171,45 @@ mod tests {
             off(&shaken)
         );
     }
+
+    #[test]
+    fn half_of_the_noise_that_counts_as_trembling_is_left() {
+        let skeleton =
+            chereme_motion::Skeleton::new(vec![chereme_motion::Joint::new("Hips", None, DVec3::Y)]);
+        let skeleton = Arc::new(skeleton.expect("a joint"));
+        let rate = chereme_motion::Rate::new(1000, 1).expect("a rate");
+        let mut seed = 3;
+        for times in [1.5, 3.0] {
+            let sd = times * tuned().denoise.trembles;
+            let shaken = |seed: &mut u64| {
+                DQuat::from_scaled_axis(DVec3::new(noisy(seed), noisy(seed), noisy(seed)) * sd)
+            };
+            let channel = Channel {
+                rotations: (0..6000).map(|_| shaken(&mut seed)).collect(),
+                translations: None,
+            };
+            let clip = Clip::new(Arc::clone(&skeleton), rate, vec![channel]).expect("a clip");
+            let steady = steadied(&clip).expect("it trembles");
+            assert_eq!(steady.joints, 1);
+            assert!(
+                (steady.most.to_radians() / sd - 1.0).abs() < 0.1,
+                "{}",
+                steady.most
+            );
+            let turns = &steady.clip.channel(0).rotations;
+            let squares: f64 = turns
+                .iter()
+                .map(|turn| turn.to_scaled_axis().length_squared())
+                .sum();
+            let left = (squares / (3.0 * turns.len() as f64)).sqrt();
+            let share = left / tuned().denoise.trembles;
+            assert!((share - 0.5).abs() < 0.06, "{times}: {share}");
+        }
+        let still = Channel {
+            rotations: vec![DQuat::IDENTITY; 100],
+            translations: None,
+        };
+        let clip = Clip::new(skeleton, rate, vec![still]).expect("a clip");
+        assert!(steadied(&clip).is_none());
+    }
 }

@@ -267,3 +267,27 @@ fn a_point_of_the_hand_keeps_its_place_in_the_hand_s_own_space() {
     }
     assert!(turn.to_axis_angle().1 > 0.7, "the hand turned");
 }
+
+#[test]
+fn handshapes_are_named_with_every_part_that_is_written() {
+    for (names, said) in [
+        ("hamfist", "fist"),
+        ("hamflathand hamthumboutmod", "flat thumb out"),
+        ("hamfinger2 hamfingerbendmod", "finger2 round"),
+        ("hamfinger2 hamfingerhookmod", "finger2 hooked"),
+        (
+            "hamfinger23spread hamdoublebent",
+            "finger23spread double-bent",
+        ),
+        ("hamfinger2345 hamdoublehooked", "finger2345 double-hooked"),
+        ("hamflathand hamfingerstraightmod", "flat bent"),
+        ("hamfist hambetween hamflathand", "fist | flat"),
+    ] {
+        let text = chereme_sign::hamnosys::from_names(names.split(' ')).expect("symbols");
+        let posture = parse(&text).expect("a shape").sign.parts[0].posture.clone();
+        let shape = posture.shape.dominant().expect("a shape");
+        let named = words::shape(shape);
+        assert_eq!(named.words, said, "{names}");
+        assert_eq!(to_names(&named.text).expect("symbols").join(" "), names);
+    }
+}

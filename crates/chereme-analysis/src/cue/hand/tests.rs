@@ -61,3 +61,27 @@ fn markers_of_a_generated_thumb_lie_along_its_bones() {
         }
     }
 }
+
+#[test]
+fn skin_slides_and_lifts_by_millimetres() {
+    for shape in 0..=8 {
+        let joints = shape_angles(shape);
+        let (bare, skin) = (place_hand(&joints, 0.0), place_hand(&joints, 1.0));
+        for (marker, (a, b)) in bare.iter().zip(&skin).enumerate() {
+            // At most 3 mm and 2.4 mm along the bone, and 1 mm off it.
+            let off = a.distance(*b);
+            assert!(off < 5.5, "{shape} {marker}: {off}");
+            let on_a_finger = (finger(0)..THUMB).contains(&marker);
+            assert!(on_a_finger || off == 0.0, "{shape} {marker}: {off}");
+        }
+        // The tip, at the end of its bone, slides only by the bend of its joint.
+        for n in 0..4 {
+            let (tip, last) = (finger(n) + 7, joints[4 * n + 3]);
+            let off = bare[tip].distance(skin[tip]);
+            assert!(
+                (off - 1.2 * (1.0 - last.cos())).abs() < 1e-9,
+                "{shape} {n}: {off}"
+            );
+        }
+    }
+}
