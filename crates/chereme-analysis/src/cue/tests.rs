@@ -445,6 +445,21 @@ fn a_generated_hand_rests_in_its_shape_between_its_movements() {
 }
 
 #[test]
+fn generated_hands_and_faces_move_without_jumps() {
+    for number in 0..4 {
+        let take = generate::sentence(&clean(), number, 6);
+        for (all, most) in [(&take.true_hand, 150.0), (&take.true_face, 8.0)] {
+            for (n, pair) in all.windows(2).enumerate() {
+                for (a, b) in pair[0].iter().zip(&pair[1]) {
+                    let far = a.distance(*b);
+                    assert!(far < most, "{number}: {far} mm after frame {n}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn a_session_is_the_same_for_the_same_seed() {
     let one = generate::sentence(&Settings::default(), 7, 5);
     let two = generate::sentence(&Settings::default(), 7, 5);

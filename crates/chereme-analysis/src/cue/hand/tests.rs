@@ -85,3 +85,37 @@ fn skin_slides_and_lifts_by_millimetres() {
         }
     }
 }
+
+#[test]
+fn markers_of_a_straight_finger_lie_above_its_bones_at_their_shares() {
+    let at = place_hand(&[0.0; 22], 1.0);
+    for (n, bones) in [(0, [45.0, 26.0, 22.0]), (3, [36.0, 20.0, 20.0])] {
+        let own = &at[finger(n)..finger(n) + 8];
+        let base = own[0].x - 0.2 * bones[0];
+        for (k, (bone, share)) in [
+            (0, 0.2),
+            (0, 0.5),
+            (0, 0.85),
+            (1, 0.2),
+            (1, 0.5),
+            (1, 0.85),
+            (2, 0.35),
+            (2, 1.0),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let along = bones[..bone].iter().sum::<f64>() + share * bones[bone];
+            assert!(
+                (own[k].x - base - along).abs() < 1e-9,
+                "{n} {k}: {}",
+                own[k]
+            );
+            assert!(
+                (own[k].z - [7.0, 5.0, 3.0][bone]).abs() < 1e-9,
+                "{n} {k}: {}",
+                own[k]
+            );
+        }
+    }
+}
