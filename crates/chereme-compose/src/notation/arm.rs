@@ -63,7 +63,8 @@ struct Clavicle {
 pub(crate) struct Limits {
     /// Of the wrist and of the forearm's turn.
     pub(crate) wrist: WristLimits,
-    elbow: f64,
+    /// Cosine of the largest bend of an elbow.
+    folded: f64,
     own: f64,
     across: f64,
     help: (f64, f64),
@@ -82,7 +83,7 @@ impl Limits {
         let angle = f64::to_radians;
         Self {
             wrist: language.wrist_limits(),
-            elbow: angle(language.limit_elbow),
+            folded: angle(language.limit_elbow).cos(),
             own: angle(language.elbow_own_side),
             across: angle(language.elbow_across),
             help: (language.clavicle_from, angle(language.clavicle_most)),
@@ -141,6 +142,43 @@ pub(crate) struct Posed {
     across: DVec3,
     /// The collar bone's rotation from rest, in model space.
     help: DQuat,
+}
+
+/// An arm whose wrist is fixed and whose plane is open.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Line {
+    shoulder: DVec3,
+    /// The collar bone's rotation from rest, in model space.
+    help: DQuat,
+    /// Unit vector from the shoulder to the wrist.
+    along: DVec3,
+    /// Distance from the shoulder to the wrist, in metres.
+    reach: f64,
+    /// Distance from the shoulder to the middle of the circle on which the elbow can be, in metres.
+    to_middle: f64,
+    /// Radius of that circle, in metres.
+    off: f64,
+    /// Angle (rad) of the rule's plane, from the second pole to the first.
+    rule: f64,
+    /// Two directions at right angles to `along` and to each other: outwards, and down.
+    poles: [DVec3; 2],
+    outside: DVec3,
+}
+
+impl Line {
+    /// Returns the posture in the plane that is turned by `turn` (rad) from the rule's.
+    pub(crate) fn bent(&self, turn: f64) -> Posed {
+        let (sin, cos) = (self.rule + turn).sin_cos();
+        let pole = self.poles[0] * sin + self.poles[1] * cos;
+        let pole = pole.reject_from_normalized(self.along).normalize_or(pole);
+        Posed {
+            shoulder: self.shoulder,
+            elbow: self.shoulder + self.along * self.to_middle + pole * self.off,
+            wrist: self.shoulder + self.along * self.reach,
+            across: self.along.cross(pole).normalize_or(self.outside),
+            help: self.help,
+        }
+    }
 }
 
 /// Directions of the hand that the wrist should hold.
@@ -244,45 +282,39 @@ impl Rig {
 
     /// Solves the arm for a position of the wrist.
     pub(crate) fn reach(&self, wrist: DVec3, bearing: Bearing, limits: &Limits) -> Posed {
-        let (shoulder, help) = self.shoulder_for(wrist, limits);
-        let posed = self.bent(wrist, shoulder, help, bearing.plane, limits);
+        let posed = self.line(wrist, limits).bent(bearing.plane);
         if bearing.shrug == 0.0 {
             return posed;
         }
-        let (shrugged, help) = self.shrugged(&posed, bearing.shrug, limits);
-        self.bent(wrist, shrugged, help, bearing.plane, limits)
+        let shrugged = self.shrugged(&posed, bearing.shrug, limits);
+        self.line_from(wrist, shrugged, limits).bent(bearing.plane)
     }
 
-    /// Solves the arm from a given shoulder, with the plane turned by `turn` (rad) from the rule's.
-    fn bent(
-        &self,
-        wrist: DVec3,
-        shoulder: DVec3,
-        help: DQuat,
-        turn: f64,
-        limits: &Limits,
-    ) -> Posed {
+    /// Computes everything about the arm that a position of the wrist decides whatever the arm's plane.
+    pub(crate) fn line(&self, wrist: DVec3, limits: &Limits) -> Line {
+        self.line_from(wrist, self.shoulder_for(wrist, limits), limits)
+    }
+
+    /// Computes the same from a given position of the shoulder and turn of the collar bone.
+    fn line_from(&self, wrist: DVec3, (shoulder, help): (DVec3, DQuat), limits: &Limits) -> Line {
         let to_wrist = self.not_too_near(wrist - shoulder, limits);
-        let length = self.length();
-        let line = to_wrist.normalize_or(self.forward);
+        let along = to_wrist.normalize_or(self.forward);
         let reach = self.soften(to_wrist.length());
         let [first, second] = self.lengths;
-        let x = ((first * first - second * second + reach * reach) / (2.0 * reach))
+        let to_middle = ((first * first - second * second + reach * reach) / (2.0 * reach))
             .clamp(-first, first);
-        let off = (first * first - x * x).max(0.0).sqrt();
-        let crossed = -(wrist - self.shoulder).dot(self.outside) / (0.6 * length);
-        let crossed = smooth(crossed);
-        let angle = limits.own + (limits.across - limits.own) * crossed + turn;
-        let (sin, cos) = angle.sin_cos();
-        let pole = self.outside * sin - DVec3::Y * cos;
-        let pole = DQuat::from_rotation_arc(self.forward, line) * pole;
-        let pole = pole.reject_from_normalized(line).normalize_or(pole);
-        Posed {
+        let crossed = -(wrist - self.shoulder).dot(self.outside) / (0.6 * self.length());
+        let arc = arc(self.forward, along);
+        Line {
             shoulder,
-            elbow: shoulder + line * x + pole * off,
-            wrist: shoulder + line * reach,
-            across: line.cross(pole).normalize_or(self.outside),
             help,
+            along,
+            reach,
+            to_middle,
+            off: (first * first - to_middle * to_middle).max(0.0).sqrt(),
+            rule: limits.own + (limits.across - limits.own) * smooth(crossed),
+            poles: [arc * self.outside, arc * DVec3::NEG_Y],
+            outside: self.outside,
         }
     }
 
@@ -370,7 +402,7 @@ impl Rig {
     /// Returns the square of the least distance from shoulder to wrist.
     fn nearest(&self, limits: &Limits) -> f64 {
         let [a, b] = self.lengths;
-        a * a + b * b + 2.0 * a * b * limits.elbow.cos()
+        a * a + b * b + 2.0 * a * b * limits.folded
     }
 
     /// Limits a distance softly to the arm's length.

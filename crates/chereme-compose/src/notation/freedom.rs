@@ -108,6 +108,7 @@ impl Arm<'_> {
 
     /// Returns the cost of the best posture for a position of the wrist and a rotation of the hand.
     pub(crate) fn strain(&self, wrist: DVec3, turned: DQuat) -> f64 {
+        let line = self.rig().line(wrist, self.limits);
         // Start with the rule's plane: planes whose deviation alone costs more than the best need no
         // evaluation.
         let least = |shrug: f64, known: f64| {
@@ -116,9 +117,15 @@ impl Arm<'_> {
                 if 0.3 * off + shrugged >= least {
                     return least;
                 }
-                let bearing = Bearing { plane, shrug };
-                let most = least - shrugged;
-                least.min(self.strained(wrist, turned, bearing, most) + shrugged)
+                let posed = match shrug == 0.0 {
+                    true => line.bent(plane),
+                    false => {
+                        let bearing = Bearing { plane, shrug };
+                        self.rig().reach(wrist, bearing, self.limits)
+                    }
+                };
+                let strained = self.strained((wrist, turned), &posed, off, least - shrugged);
+                least.min(strained + shrugged)
             })
         };
         let still = least(0.0, f64::INFINITY);
@@ -130,26 +137,32 @@ impl Arm<'_> {
             .fold(still, |known, shrug| least(shrug, known))
     }
 
-    /// Returns the same as `strain`, for one posture; infinite if the cost surely exceeds `most`.
-    fn strained(&self, wrist: DVec3, turned: DQuat, bearing: Bearing, most: f64) -> f64 {
+    /// Returns the same as `strain`, for one posture whose plane costs `plane`; infinite if the cost surely exceeds
+    /// `most`.
+    fn strained(
+        &self,
+        (wrist, turned): (DVec3, DQuat),
+        posed: &Posed,
+        plane: f64,
+        most: f64,
+    ) -> f64 {
         let rig = self.rig();
-        let posed = rig.reach(wrist, bearing, self.limits);
         let missed = posed.wrist.distance(wrist) / rig.length();
-        let held = 0.3 * off_rule(bearing.plane.to_degrees())
-            + RAISED * self.height(&posed).max(0.0).powi(2)
-            + self.flared(&posed)
-            + self.within(&posed)
+        let held = 0.3 * plane
+            + RAISED * self.height(posed).max(0.0).powi(2)
+            + self.flared(posed)
+            + self.within(posed)
             + MISSED * missed * missed;
         if held > most {
             return f64::INFINITY;
         }
-        let asked = rig.wrist(&posed, turned, &self.held);
+        let asked = rig.wrist(posed, turned, &self.held);
         let off = |high: bool| {
             let angles = asked.allowed(&self.limits.wrist, high);
             if angles == asked {
                 return 0.0;
             }
-            rig.hung(&posed, &angles, &self.held).angle_between(turned)
+            rig.hung(posed, &angles, &self.held).angle_between(turned)
         };
         let over = asked.turned(&self.limits.wrist) > 1.0;
         let apart = if over {
@@ -167,9 +180,9 @@ impl Arm<'_> {
         TURNED * apart.min(1.0).powi(3) + 36.0 * over + 75.0 * over * over
     }
 
-    /// Returns the usual height of the elbow above its shoulder (arm lengths) for a position of the wrist.
-    fn usual(&self, wrist: DVec3) -> f64 {
-        let posed = self.rig().reach(wrist, Bearing::default(), self.limits);
+    /// Returns the usual height of the elbow above its shoulder (arm lengths) for a position of the wrist with the arm
+    /// in the rule's plane.
+    fn usual(&self, wrist: DVec3, posed: &Posed) -> f64 {
         let length = self.rig().length();
         let [elbow, hand] = [posed.elbow, wrist].map(|at| (at.y - posed.shoulder.y) / length);
         let usual = -self.limits.below(hand);
@@ -268,8 +281,13 @@ impl Arm<'_> {
     fn choices(&self, want: &Want<'_>, free: bool) -> Vec<Choice> {
         let mut choices: Vec<Choice> = Vec::with_capacity(2 * planes().count());
         let wrist = want.wrist();
-        let usual = self.usual(wrist);
-        let rule = self.choice(want, Bearing::default(), (false, free), usual);
+        let line = self.rig().line(wrist, self.limits);
+        let usual = self.usual(wrist, &line.bent(0.0));
+        let choice = |bearing: Bearing, high: bool| {
+            let posed = line.bent(bearing.plane);
+            self.choice(want, (bearing, posed), (high, free), usual)
+        };
+        let rule = choice(Bearing::default(), false);
         for high in [false, true] {
             for (n, plane) in planes().enumerate() {
                 if high && !choices[n].over {
@@ -280,7 +298,7 @@ impl Arm<'_> {
                     choices.push(rule);
                     continue;
                 }
-                let posed = self.rig().reach(wrist, bearing, self.limits);
+                let posed = line.bent(plane);
                 let held = self.held(&posed, bearing, usual);
                 choices.push(match held > rule.cost + UNTRIED {
                     true => Choice {
@@ -292,7 +310,7 @@ impl Arm<'_> {
                         cost: held,
                         ..rule
                     },
-                    false => self.choice(want, bearing, (high, free), usual),
+                    false => self.choice(want, (bearing, posed), (high, free), usual),
                 });
             }
         }
@@ -312,7 +330,9 @@ impl Arm<'_> {
     /// Adds shrugged postures for the planes in which the hand suffers.
     fn shrug(&self, choices: &mut Vec<Choice>, want: &Want<'_>, free: bool) {
         let still = choices.clone();
-        let usual = self.usual(want.wrist());
+        let wrist = want.wrist();
+        let reach = |bearing: Bearing| self.rig().reach(wrist, bearing, self.limits);
+        let usual = self.usual(wrist, &reach(Bearing::default()));
         let least = choices[best(choices)].cost;
         // A shrug turns a forearm by about 20°, which cannot save a far worse candidate.
         let hopeful = |choice: &&Choice| {
@@ -322,7 +342,8 @@ impl Arm<'_> {
             for choice in still.iter().filter(hopeful) {
                 let plane = choice.bearing.plane;
                 let bearing = Bearing { plane, shrug };
-                choices.push(self.choice(want, bearing, (choice.high, free), usual));
+                let posed = reach(bearing);
+                choices.push(self.choice(want, (bearing, posed), (choice.high, free), usual));
             }
         }
     }
@@ -334,7 +355,7 @@ impl Arm<'_> {
     fn choice(
         &self,
         want: &Want<'_>,
-        bearing: Bearing,
+        (bearing, posed): (Bearing, Posed),
         (high, free): (bool, bool),
         usual: f64,
     ) -> Choice {
@@ -346,7 +367,7 @@ impl Arm<'_> {
             (2, [HandOutline::NONE; 2])
         };
         let coarse = Want { outlines, ..*want };
-        let hung = self.hang(&coarse, bearing, high, tries);
+        let hung = self.hang_from(posed, &coarse, (bearing, high), tries);
         let bend = (hung.angles.bend(&self.limits.wrist) - BENT.0).max(0.0);
         let twist = (hung.angles.turned(&self.limits.wrist) - TWISTED.0).max(0.0);
         let apart = hung.rotation.angle_between(want.turned);

@@ -237,6 +237,18 @@ impl<'a> Arm<'a> {
     /// Finds the nearest possible pose of a hand: the orientation is adapted to the wrist's limits, and the hand
     /// rotates about its reference point or moves to leave the trunk.
     pub(crate) fn hang(&self, want: &Want<'_>, bearing: Bearing, high: bool, tries: usize) -> Hung {
+        let posed = self.rig().reach(want.wrist(), bearing, self.limits);
+        self.hang_from(posed, want, (bearing, high), tries)
+    }
+
+    /// Does the same from the arm's posture for the wrist that the goal asks for.
+    pub(crate) fn hang_from(
+        &self,
+        mut posed: Posed,
+        want: &Want<'_>,
+        (bearing, high): (Bearing, bool),
+        tries: usize,
+    ) -> Hung {
         let rig = self.rig();
         // A hand placed by a fingertip turns about it; one placed by its palm moves.
         let pivot = smooth((want.offset.length() / self.hand.length() - 0.55) / 0.25);
@@ -250,7 +262,6 @@ impl<'a> Arm<'a> {
         // converge.
         let mut best: Option<(f64, Hung)> = None;
         loop {
-            let posed = rig.reach(wrist, bearing, self.limits);
             let asked = rig.wrist(&posed, turned, &self.held);
             let angles = asked.allowed(&self.limits.wrist, high);
             let rotation = if angles == asked {
@@ -307,6 +318,7 @@ impl<'a> Arm<'a> {
                 return if lost { best.1 } else { hung };
             }
             wrist += pushed + (step - pushed) * 0.8;
+            posed = rig.reach(wrist, bearing, self.limits);
         }
     }
 
