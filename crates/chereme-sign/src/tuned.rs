@@ -14,7 +14,10 @@
 //! # Ok::<(), serde_json::Error>(())
 //! ```
 
+use std::collections::BTreeMap;
+
 use serde::de::{Deserialize, DeserializeOwned, Deserializer};
+use serde_json::Value;
 
 /// Reads a document of tuned numbers.
 ///
@@ -31,4 +34,87 @@ pub fn read<T: DeserializeOwned>(text: &str) -> Result<T, serde_json::Error> {
 pub fn number<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<T, D::Error> {
     let (value, _unit, _meaning): (T, String, String) = Deserialize::deserialize(from)?;
     Ok(value)
+}
+
+/// Declares structs for groups of tuned numbers, and `Tuned`, which holds every group; the data file documents each
+/// number.
+#[macro_export]
+macro_rules! tuned_numbers {
+    ($($(#[$doc:meta])* $group:ident: $numbers:ident { $($name:ident: $kind:ty,)* })*) => {
+        $(
+            $(#[$doc])*
+            #[derive(Debug, ::serde::Deserialize)]
+            #[serde(deny_unknown_fields)]
+            pub(crate) struct $numbers {
+                $(#[serde(deserialize_with = "chereme_sign::tuned::number")] pub(crate) $name: $kind,)*
+            }
+        )*
+        /// The tuned numbers, by group.
+        #[derive(Debug, ::serde::Deserialize)]
+        pub(crate) struct Tuned {
+            $($(#[$doc])* pub(crate) $group: $numbers,)*
+        }
+    };
+}
+
+pub use tuned_numbers;
+
+/// Lists the numbers of a document that lack a meaning, or whose unit the document's description does not explain.
+#[must_use]
+pub fn faults(text: &str) -> Vec<String> {
+    let mut groups: BTreeMap<String, Value> = match read(text) {
+        Ok(groups) => groups,
+        Err(error) => return vec![error.to_string()],
+    };
+    let mut found = Vec::new();
+    if groups.remove("version").is_none() {
+        found.push("no version".to_owned());
+    }
+    let description = groups.remove("description").unwrap_or_default().to_string();
+    for (group, numbers) in groups {
+        let numbers: BTreeMap<String, (Value, String, String)> =
+            match serde_json::from_value(numbers) {
+                Ok(numbers) => numbers,
+                Err(error) => {
+                    found.push(format!("{group}: {error}"));
+                    continue;
+                }
+            };
+        for (name, (_, units, meaning)) in numbers {
+            for unit in units.split(", ") {
+                if !description.contains(&format!(" {unit} ")) {
+                    found.push(format!("{group}.{name}: the unit {unit}"));
+                }
+            }
+            if meaning.len() < 14 {
+                found.push(format!("{group}.{name}: the meaning {meaning}"));
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_without_a_known_unit_or_a_meaning_are_listed() {
+        let document = |unit: &str, meaning: &str| {
+            format!(
+                r#"{{"version": 1, "description": "Units: m metres.", "a": {{"b": [1, "{unit}", "{meaning}"]}}}}"#
+            )
+        };
+        assert!(faults(&document("m", "Length of a usual step")).is_empty());
+        assert_eq!(
+            faults(&document("km", "Length of a usual step")),
+            ["a.b: the unit km"]
+        );
+        assert_eq!(
+            faults(&document("m", "Length")),
+            ["a.b: the meaning Length"]
+        );
+        assert_eq!(faults(r#"{"description": ""}"#), ["no version"]);
+        assert_eq!(faults("{").len(), 1);
+    }
 }

@@ -3,48 +3,33 @@
 //! The file `schema/notation/reading.json` holds each number with its unit and its meaning, grouped by the modules that
 //! use them.
 
-use std::sync::OnceLock;
+use std::sync::LazyLock;
 
-use chereme_sign::tuned::{number, read};
-use serde::Deserialize;
+use chereme_sign::tuned::{read, tuned_numbers};
 
-/// Declares a group of numbers; the data file documents each of them.
-macro_rules! numbers {
-    ($($(#[$doc:meta])* $group:ident { $($name:ident: $kind:ty,)* })*) => {
-        $(
-            $(#[$doc])*
-            #[derive(Debug, Deserialize)]
-            #[serde(deny_unknown_fields)]
-            pub(crate) struct $group {
-                $(#[serde(deserialize_with = "number")] pub(crate) $name: $kind,)*
-            }
-        )*
-    };
-}
-
-numbers! {
+tuned_numbers! {
     /// Numbers for transcription as a whole.
-    ReadingNumbers {
+    reading: ReadingNumbers {
         made: f64,
     }
     /// Numbers for a whole clip.
-    SceneNumbers {
+    scene: SceneNumbers {
         looked_at: usize,
     }
     /// Numbers for smoothing.
-    DenoiseNumbers {
+    denoise: DenoiseNumbers {
         trembles: f64,
         widest: f64,
     }
     /// Numbers for the detection of synthesised movement.
-    PrecisionNumbers {
+    precision: PrecisionNumbers {
         turned: [f64; 2],
         shaped: f64,
         many: f64,
         looked_at: usize,
     }
     /// Numbers for handshapes.
-    ShapeNumbers {
+    shape: ShapeNumbers {
         thumb: [f64; 5],
         finger: [f64; 4],
         same: f64,
@@ -54,7 +39,7 @@ numbers! {
         costs: [f64; 3],
     }
     /// Numbers for orientations.
-    AimNumbers {
+    aim: AimNumbers {
         plain: f64,
         half: [f64; 3],
         half_palm: f64,
@@ -66,7 +51,7 @@ numbers! {
         apart: f64,
     }
     /// Numbers for the place of one hand.
-    PlaceNumbers {
+    place: PlaceNumbers {
         touch: [f64; 3],
         nearness: [[f64; 4]; 2],
         said: [f64; 3],
@@ -76,7 +61,7 @@ numbers! {
         rather_not: f64,
     }
     /// Numbers for the candidate places.
-    ChoiceNumbers {
+    choice: ChoiceNumbers {
         between: f64,
         oblique: f64,
         rare: f64,
@@ -93,7 +78,7 @@ numbers! {
         above: f64,
     }
     /// Numbers for the distribution of hands about their places.
-    SpreadNumbers {
+    spread: SpreadNumbers {
         shares: [f64; 3],
         of_trunk: [f64; 3],
         short: f64,
@@ -104,14 +89,14 @@ numbers! {
         missed: f64,
     }
     /// Numbers for the parts of a hand.
-    PartNumbers {
+    part: PartNumbers {
         rank: f64,
         before: f64,
         two: f64,
         pinched: f64,
     }
     /// Numbers for constellations of the two hands.
-    TogetherNumbers {
+    together: TogetherNumbers {
         together: f64,
         pairs: usize,
         rather: [f64; 2],
@@ -122,7 +107,7 @@ numbers! {
         touches: f64,
     }
     /// Numbers for the symmetry of the hands.
-    HandsNumbers {
+    hands: HandsNumbers {
         stays: f64,
         alike: f64,
         points: f64,
@@ -131,7 +116,7 @@ numbers! {
         placed: f64,
     }
     /// Numbers for cuts of movement into paths.
-    CutsNumbers {
+    cuts: CutsNumbers {
         least: (f64, f64),
         short: f64,
         brief: f64,
@@ -150,7 +135,7 @@ numbers! {
         near: f64,
     }
     /// Numbers for fits of paths.
-    PathNumbers {
+    path: PathNumbers {
         exact: f64,
         points: usize,
         curved: f64,
@@ -162,7 +147,7 @@ numbers! {
         wide: f64,
     }
     /// Numbers for acts.
-    ActsNumbers {
+    acts: ActsNumbers {
         turned: f64,
         reshaped: f64,
         again: f64,
@@ -175,23 +160,23 @@ numbers! {
         aside: f64,
     }
     /// Numbers for repetitions.
-    FoldNumbers {
+    fold: FoldNumbers {
         alike: f64,
         grows: f64,
     }
     /// Numbers for movements to and fro.
-    SwayNumbers {
+    sway: SwayNumbers {
         sway: f64,
         besides: f64,
     }
     /// Numbers for the notation as a whole.
-    TreeNumbers {
+    tree: TreeNumbers {
         most_apart: f64,
         sure: f64,
         most: usize,
     }
     /// Numbers for the manner of a movement.
-    MannerNumbers {
+    manner: MannerNumbers {
         rests: f64,
         late: f64,
         even: f64,
@@ -203,7 +188,7 @@ numbers! {
         round: [f64; 3],
     }
     /// Numbers for the check by re-synthesis.
-    ResynthesisNumbers {
+    resynthesis: ResynthesisNumbers {
         shared: usize,
         pairs: usize,
         turns: usize,
@@ -217,84 +202,30 @@ numbers! {
     }
 }
 
-/// The tuned numbers of transcription.
-#[derive(Debug, Deserialize)]
-pub(crate) struct Tuned {
-    pub(crate) reading: ReadingNumbers,
-    pub(crate) scene: SceneNumbers,
-    pub(crate) denoise: DenoiseNumbers,
-    pub(crate) precision: PrecisionNumbers,
-    pub(crate) shape: ShapeNumbers,
-    pub(crate) aim: AimNumbers,
-    pub(crate) place: PlaceNumbers,
-    pub(crate) choice: ChoiceNumbers,
-    pub(crate) spread: SpreadNumbers,
-    pub(crate) part: PartNumbers,
-    pub(crate) together: TogetherNumbers,
-    pub(crate) hands: HandsNumbers,
-    pub(crate) cuts: CutsNumbers,
-    pub(crate) path: PathNumbers,
-    pub(crate) acts: ActsNumbers,
-    pub(crate) fold: FoldNumbers,
-    pub(crate) sway: SwayNumbers,
-    pub(crate) tree: TreeNumbers,
-    pub(crate) manner: MannerNumbers,
-    pub(crate) resynthesis: ResynthesisNumbers,
-}
+const DOCUMENT: &str = include_str!("../../../../schema/notation/reading.json");
+
+static TUNED: LazyLock<Tuned> =
+    LazyLock::new(|| read(DOCUMENT).expect("the program's own file has every number"));
 
 /// Returns the tuned numbers.
 pub(crate) fn tuned() -> &'static Tuned {
-    static TUNED: OnceLock<Tuned> = OnceLock::new();
-    TUNED.get_or_init(|| {
-        let text = include_str!("../../../../schema/notation/reading.json");
-        read(text).expect("the program's own file has every number")
-    })
+    &TUNED
 }
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
-
-    use serde_json::Value;
-
     use super::*;
 
     #[test]
     fn every_number_has_a_unit_and_a_meaning_of_its_own() {
-        const UNITS: [&str; 12] = [
-            "arm", "m", "rad", "deg", "s", "turns", "nepers", "share", "factor", "count", "arm/s",
-            "rad/s",
-        ];
-        let text = include_str!("../../../../schema/notation/reading.json");
-        let mut groups: BTreeMap<String, Value> = serde_json::from_str(text).expect("JSON");
-        let [version, description] = ["version", "description"].map(|name| groups.remove(name));
-        assert_eq!(version, Some(1.into()));
-        let description = description.unwrap_or_default().to_string();
-        let mut count = 0;
-        for (group, numbers) in groups {
-            let numbers: BTreeMap<String, (Value, String, String)> =
-                serde_json::from_value(numbers).expect("numbers");
-            for (name, (_, units, meaning)) in numbers {
-                for unit in units.split(", ") {
-                    assert!(
-                        UNITS.contains(&unit) || unit == "m/rad",
-                        "{group}.{name}: {unit}"
-                    );
-                    assert!(description.contains(&format!(" {unit} ")), "{unit}");
-                }
-                assert!(meaning.len() > 20, "{group}.{name}: {meaning}");
-                count += 1;
-            }
-        }
-        assert_eq!(count, 132);
+        assert_eq!(chereme_sign::tuned::faults(DOCUMENT), Vec::<String>::new());
         assert!(tuned().place.touch.iter().all(|it| *it > 0.0));
     }
 
     #[test]
     fn a_number_of_another_name_is_refused() {
-        let text = include_str!("../../../../schema/notation/reading.json");
-        let other = text.replace("\"looked_at\": [48,", "\"looked_to\": [48,");
-        assert_ne!(text, other);
+        let other = DOCUMENT.replace("\"looked_at\": [48,", "\"looked_to\": [48,");
+        assert_ne!(DOCUMENT, other);
         let refused = read::<Tuned>(&other).expect_err("refused").to_string();
         assert!(refused.contains("looked_to"), "{refused}");
     }

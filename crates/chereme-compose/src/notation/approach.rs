@@ -9,21 +9,12 @@ use super::pace::Pace;
 use super::plan::{Event, HandState, PhaseKind, Planner, SignPlan, Who, acting};
 use super::stretch_time::Moved;
 use super::track::{Goals, goals};
+use super::tuned::tuned;
 
 /// The number of steps in which the path of an approach is measured.
 const STEPS: usize = 40;
 /// Frames per second at which the movements after an approach are measured.
 const RATE: f64 = 100.0;
-/// Length of path (m) that counts like a rotation of the hand by one radian, so that hands rotate evenly, too.
-const LEVER: f64 = 0.04;
-/// Top speed of an approach as a share of that of the movements after it: the arm adds a little to what is planned.
-const SLOWER: f64 = 0.94;
-/// The same in solved frames, and the time (s) by which an approach may be longer than the body language allows, if the arm
-/// had to make way for something.
-const SOLVED: (f64, f64) = (0.98, 0.15);
-/// Top speed (m/s) of a movement below which it does not limit the approach to it: the hand rotates or plays with its
-/// fingers.
-const SLOWEST: f64 = 0.12;
 
 /// The course of an approach: with it, the wrist's speed changes at the ends only.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +43,10 @@ impl Course {
         let steps = wrists.windows(2).zip(path.turns.windows(2));
         let steps = steps.map(|(at, turned)| {
             let far = at[0].distance(at[1]);
-            (far, far + LEVER * turned[0].angle_between(turned[1]))
+            (
+                far,
+                far + tuned().approach.lever * turned[0].angle_between(turned[1]),
+            )
         });
         let steps: Vec<(f64, f64)> = steps.collect();
         let whole: f64 = steps.iter().map(|(_, step)| step).sum();
@@ -122,8 +116,8 @@ pub(super) fn unhurried(
                 phase.hand == n && phase.kind == PhaseKind::Stroke && follows
             });
             let top = strokes.flat_map(|phase| speeds(phase.from, phase.to));
-            let top = top.map(|(_, speed)| speed).fold(0.0, f64::max) * SOLVED.0;
-            if top < SLOWEST {
+            let top = top.map(|(_, speed)| speed).fold(0.0, f64::max) * tuned().approach.solved.0;
+            if top < tuned().approach.slowest {
                 continue;
             }
             let longer = |top: f64| {
@@ -133,7 +127,7 @@ pub(super) fn unhurried(
                     .sum::<f64>()
                     / rate
             };
-            let allowed = (most - (course.to - course.from)).max(SOLVED.1);
+            let allowed = (most - (course.to - course.from)).max(tuned().approach.solved.1);
             let mut top = top;
             while longer(top) > allowed {
                 top *= 1.03;
@@ -180,9 +174,13 @@ impl Planner<'_> {
                 continue;
             };
             approach.tables[n] = Some(table);
-            let own = if tops[n] > SLOWEST { tops[n] } else { top };
-            if own > SLOWEST {
-                let least = Pace::Calm.peak() * longest / (SLOWER * own);
+            let own = if tops[n] > tuned().approach.slowest {
+                tops[n]
+            } else {
+                top
+            };
+            if own > tuned().approach.slowest {
+                let least = Pace::Calm.peak() * longest / (tuned().approach.slower * own);
                 approach.least = approach.least.max(least);
             }
         }

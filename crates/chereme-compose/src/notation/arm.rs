@@ -4,20 +4,12 @@
 //! own shoulder, larger across the body; `freedom` selects the deviation from that rule. Near full reach the collar bone
 //! helps, and it draws back if the wrist is too near. The hand stays within the limits of its wrist.
 
+use super::tuned::tuned;
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{
     Anatomy, ArmChain, ModelPose, Pose, Side, Skeleton, WristAngles, WristLimits,
 };
 use chereme_sign::hamnosys::BodyLanguage;
-
-/// Share of the arm's length before full extension over which the elbow straightens softly.
-const SOFT: f64 = 0.012;
-/// The heights between which the collar bone rises with the wrist, in arm lengths: the first below the shoulder, the
-/// second above it.
-const RISES: [f64; 2] = [0.0, 0.45];
-/// A collar bone helps an arm to reach far in full if the arm points down by at most the first share of its
-/// length, and not at all from the second share on: a hanging arm pulls no shoulder down.
-const HANGS: [f64; 2] = [0.7, 0.93];
 
 /// The heights of a wrist above its shoulder (arm lengths) for which the body language has a usual elbow.
 const HEIGHTS: [f64; 3] = [-0.3, 0.0, 0.3];
@@ -408,7 +400,7 @@ impl Rig {
     /// Limits a distance softly to the arm's length.
     fn soften(&self, wanted: f64) -> f64 {
         let length = self.length();
-        let from = length * (1.0 - SOFT);
+        let from = length * (1.0 - tuned().arm.soft);
         if wanted > from {
             let left = length - from;
             length - left * (-(wanted - from) / left).exp()
@@ -428,7 +420,10 @@ impl Rig {
             return still;
         }
         let above = (wrist.y - self.shoulder.y) / self.length();
-        let rise = limits.rise * smooth((above + RISES[0]) / (RISES[0] + RISES[1]));
+        let rise = limits.rise
+            * smooth(
+                (above + tuned().arm.rises[0]) / (tuned().arm.rises[0] + tuned().arm.rises[1]),
+            );
         let rise = match bone.cross(DVec3::Y).try_normalize().filter(|_| rise > 0.0) {
             Some(axis) => DQuat::from_axis_angle(axis, rise),
             None => DQuat::IDENTITY,
@@ -436,7 +431,8 @@ impl Rig {
         // Reaches towards a far wrist, and draws back from one nearer than the elbow folds.
         let near = 1.06 * self.nearest(limits).sqrt();
         let down = (self.shoulder.y - wrist.y) / far.max(1e-9);
-        let helps = 1.0 - smooth((down - HANGS[0]) / (HANGS[1] - HANGS[0]));
+        let helps = 1.0
+            - smooth((down - tuned().arm.hangs[0]) / (tuned().arm.hangs[1] - tuned().arm.hangs[0]));
         let far_off = helps * (far - limits.help.0 * self.length()).max(0.0);
         let missing = far_off - (near - far).max(0.0);
         let reach = bone

@@ -6,25 +6,14 @@ use super::hands_apart::Parted;
 use super::solve::eased;
 use super::stage::{FINGER_FLESH, Hand, Stage};
 use super::track::Wanted;
+use super::tuned::tuned;
 
 /// Half the thickness of a finger, of the thumb's root, and of a palm, in hand lengths.
 const FLESH: [f64; 3] = [FINGER_FLESH, 0.055, 0.07];
-/// Depth (m) by which the flesh of two hands can be compressed.
-const SOFT: f64 = 0.0075;
-/// Hands whose palms are farther apart than this (hand lengths) cannot meet.
-const FAR: f64 = 1.9;
-/// Seconds before and after over which a displacement is spread.
-const AROUND: f64 = 0.12;
-/// The largest displacement (m) that separates two hands that touch each other.
-const TOUCHING: f64 = 0.012;
-/// Seconds before and after a contact in which hands count as touching.
-const BESIDE: f64 = 0.08;
 /// The number of rounds in which hands are moved apart.
 const ROUNDS: usize = 4;
 /// Displacement (m) of each hand above which it is reported.
 pub(super) const ASIDE: f64 = 0.005;
-/// Depth (m) that remains after hands were moved apart.
-const GIVES: f64 = 0.9 * SOFT;
 /// Further depth (m) above which a warning is issued.
 const LEFT: f64 = 0.001;
 
@@ -57,7 +46,7 @@ pub(crate) fn clear(
     rate: f64,
 ) -> Option<Cleared> {
     let length = hands[0].length();
-    let near = ((AROUND * rate).ceil() as usize).max(1);
+    let near = ((tuned().bulk.around * rate).ceil() as usize).max(1);
     let total = first.points.len();
     let mut most: Option<Parted> = None;
     let mut sums = vec![DVec3::ZERO; total];
@@ -79,13 +68,13 @@ pub(crate) fn clear(
             *out = displacement;
             same = Some((frame, displacement));
         }
-        if left <= SOFT || round == ROUNDS {
+        if left <= tuned().bulk.soft || round == ROUNDS {
             break;
         }
         for (frame, displacement) in eased(&displacements, near).into_iter().enumerate() {
             let displacement = match touch(contacts, frame as f64 / rate) {
                 true => {
-                    (sums[frame] * 2.0 + displacement).clamp_length_max(TOUCHING)
+                    (sums[frame] * 2.0 + displacement).clamp_length_max(tuned().bulk.touching)
                         - sums[frame] * 2.0
                 }
                 false => displacement,
@@ -102,7 +91,7 @@ pub(crate) fn clear(
             most = Some(Parted { time, by });
         }
     }
-    let left = (left > LEFT).then_some(left + GIVES);
+    let left = (left > LEFT).then_some(left + (tuned().bulk.gives * tuned().bulk.soft));
     (most.is_some() || left.is_some()).then_some(Cleared { most, left })
 }
 
@@ -110,7 +99,9 @@ pub(crate) fn clear(
 fn touch(contacts: &[Vec<(f64, f64)>; 2], time: f64) -> bool {
     contacts.iter().all(|spans| {
         let mut spans = spans.iter();
-        spans.any(|(from, to)| (from - BESIDE..=to + BESIDE).contains(&time))
+        spans.any(|(from, to)| {
+            (from - tuned().bulk.beside..=to + tuned().bulk.beside).contains(&time)
+        })
     })
 }
 
@@ -136,7 +127,7 @@ fn separation(
         return DVec3::ZERO;
     };
     let palms = a.at(MIDDLE_KNUCKLE) - b.at(MIDDLE_KNUCKLE);
-    if palms.length() > FAR * length {
+    if palms.length() > tuned().bulk.far * length {
         return DVec3::ZERO;
     }
     let [a, b] = [a, b].map(|hand| tubes(&hand, length));
@@ -152,18 +143,18 @@ fn separation(
             }
             let gap = between(one.ends, other.ends);
             let deep = one.radius + other.radius - gap.length();
-            if deep > SOFT {
+            if deep > tuned().bulk.soft {
                 sum += gap.normalize_or(DVec3::ZERO) * deep;
                 deepest = deepest.max(deep);
             }
         }
     }
-    if deepest <= SOFT {
+    if deepest <= tuned().bulk.soft {
         return DVec3::ZERO;
     }
     let usual = stage.forward * 0.8 + DVec3::Y * 0.6;
     let direction = sum.try_normalize().or(palms.try_normalize());
-    direction.unwrap_or(usual) * (deepest - GIVES)
+    direction.unwrap_or(usual) * (deepest - (tuned().bulk.gives * tuned().bulk.soft))
 }
 
 /// A hand in its intended pose.

@@ -12,19 +12,10 @@ use super::motion::Env;
 use super::place::is_at_hand;
 use super::plan::{Planner, Who, acting};
 use super::solve::Arm;
+use super::tuned::tuned;
 
-/// Cost of a shift to the end of the room; a hand turned by half the angle between two directions costs
-/// six.
-const SHIFTED: f64 = 3.0;
-/// Usable share of the room: at its end the next place would be read as often.
-const TAKEN: f64 = 0.7;
-/// Strain above which the hand looks for a better position: that of a deviation of about 10° from the
-/// notated orientation.
-const STRAINED: f64 = 10.0;
 /// The number of postures to evaluate: those that strain the arm most.
 const WEIGHED: usize = 6;
-/// Distance (m) that a hand keeps from the trunk if it does not touch it.
-const NEAR: f64 = 0.03;
 
 /// Position and orientation of a hand at one moment of a sign.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -157,7 +148,9 @@ impl Planner<'_> {
         named: Who,
         follows: Option<(&[Motion], Who)>,
     ) {
-        let Some(room) = room.map(|ends| ends.map(|ends| ends * (TAKEN * self.stage.arm))) else {
+        let Some(room) =
+            room.map(|ends| ends.map(|ends| ends * (tuned().comfort.taken * self.stage.arm)))
+        else {
             return;
         };
         let mut trail = Trail::default();
@@ -181,7 +174,10 @@ impl Planner<'_> {
             .map(|(n, stance)| (self.strain(n, &stance, DVec3::ZERO), (n, stance)))
             .collect();
         strained.sort_by(|a, b| b.0.total_cmp(&a.0));
-        if strained.first().is_none_or(|(most, _)| *most < STRAINED) {
+        if strained
+            .first()
+            .is_none_or(|(most, _)| *most < tuned().comfort.strained)
+        {
             return;
         }
         strained.truncate(WEIGHED);
@@ -191,7 +187,7 @@ impl Planner<'_> {
         };
         // Sums above `most` need not be exact.
         let cost = |local: DVec3, most: f64| {
-            let shifted = SHIFTED * share(local, room).powi(2);
+            let shifted = tuned().comfort.shifted * share(local, room).powi(2);
             let mut sum = 0.0;
             for (_, (n, stance)) in &strained {
                 sum += self.strain(*n, stance, by(local, *n));
@@ -219,7 +215,12 @@ impl Planner<'_> {
             return 0.0;
         };
         let point = stance.point + by;
-        let deep = self.stage.torso.offset_out(point, NEAR).length() / self.stage.arm;
+        let deep = self
+            .stage
+            .torso
+            .offset_out(point, tuned().comfort.near)
+            .length()
+            / self.stage.arm;
         let wrist = point - stance.rotation * stance.offset;
         let arm = Arm::of(self.stage, hand, &self.limits);
         arm.strain(wrist, stance.rotation) + 1.2e4 * deep * deep
@@ -344,21 +345,27 @@ mod tests {
             planner.shift(Some([DVec3::splat(room); 2]), axes, who, None);
             let after = planner.stance(0);
             let strain = |stance| planner.strain(0, stance, DVec3::ZERO);
-            let ends = [DVec3::splat(room * TAKEN * body.arm); 2];
+            let ends = [DVec3::splat(room * tuned().comfort.taken * body.arm); 2];
             let by = after.point - before.point;
             (share(by, ends), [strain(&before), strain(&after)])
         };
         let (share, strain) = shifted(0.3, "d", "l");
-        assert!(strain[0] > STRAINED && share > 0.0, "{share} {strain:?}");
         assert!(
-            strain[1] + SHIFTED * share * share < strain[0],
+            strain[0] > tuned().comfort.strained && share > 0.0,
+            "{share} {strain:?}"
+        );
+        assert!(
+            strain[1] + tuned().comfort.shifted * share * share < strain[0],
             "{strain:?}"
         );
         let (share, strain) = shifted(1e-3, "d", "l");
-        assert!(strain[0] > STRAINED, "{strain:?}");
+        assert!(strain[0] > tuned().comfort.strained, "{strain:?}");
         assert_eq!(share, 0.0, "no place so near relieves the arm");
         let (share, strain) = shifted(0.3, "l", "d");
-        assert!(strain[0] < STRAINED && share == 0.0, "{share} {strain:?}");
+        assert!(
+            strain[0] < tuned().comfort.strained && share == 0.0,
+            "{share} {strain:?}"
+        );
     }
 
     #[test]

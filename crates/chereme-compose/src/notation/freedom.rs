@@ -11,66 +11,14 @@ use chereme_motion::WristAngles;
 use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::{Bearing, Posed};
-use super::solve::{Arm, BENDING, Want};
+use super::solve::{Arm, Want};
 use super::stage::HandOutline;
+use super::tuned::tuned;
 
 /// Candidate planes relative to the rule's: the first, the last and the step, in degrees.
 const PLANES: (f64, f64, f64) = (-50.0, 120.0, 10.0);
-/// Factor on the cost of planes with the elbow inwards.
-const INWARDS: f64 = 4.0;
-/// Fastest turn of the arm's plane, in radians per second.
-const SWIVEL: f64 = 7.0;
-/// Fastest speed of an elbow without cost, in arm lengths per second: 2.5 m/s at 55 cm.
-const ELBOW: f64 = 4.5;
-/// Cost of a hand whose orientation deviates by the whole tolerance. Grows with the cube: half of that costs an eighth,
-/// so that a few degrees do not move the elbow far out.
-const TURNED: f64 = 40.0;
-/// Cost of an elbow one arm's length above the shoulder, or above its usual height if that is higher; grows with the square.
-const RAISED: f64 = 1600.0;
-/// Cost of an elbow one arm's length higher than usual with the hand at its height; grows with the square.
-const LIFTED: f64 = 900.0;
-/// Height of a wrist above its shoulder (arm lengths) at which the rule's elbow is low enough: lower, it could only go
-/// inwards.
-const ABOVE: f64 = 0.2;
-/// Angle (rad) between upper arm and vertical beside a low hand that costs nothing, and the cost per square radian
-/// beyond it.
-const FLARED: (f64, f64) = (0.8, 60.0);
-/// Distance (arm lengths) of an elbow inwards from its shoulder that costs nothing, and the cost of an arm's length beyond
-/// it; grows with the square.
-const CROSSED: (f64, f64) = (0.15, 400.0);
-/// A hand is low if it is this far below its shoulder, in arm lengths.
-const LOW: f64 = 0.2;
-/// Speed (arm lengths per second) by which an elbow exceeds its wrist at the cost [`PUMPED`].
-const PUMPING: f64 = 0.5;
-/// Cost of such an elbow; grows with the square.
-const PUMPED: f64 = 20.0;
-/// Cost of a wrist one arm's length off its goal; grows with the square.
-const MISSED: f64 = 1.2e4;
-/// Cost of an upper arm one arm's length inside the trunk; grows with the square.
-const WITHIN: f64 = 9e4;
-/// Distance (arm lengths) of an elbow behind its shoulder that costs nothing, and the cost of an arm's length beyond it;
-/// grows with the square.
-const BEHIND: (f64, f64) = (0.12, 300.0);
-/// Bend of a wrist (share of its limit) that costs nothing, and the cost of a whole limit beyond it; grows with the square.
-const BENT: (f64, f64) = (0.6, 20.0);
-/// Turn of a forearm (share of its limit) that costs nothing, and the cost of a whole limit beyond it; grows with the
-/// square.
-const TWISTED: (f64, f64) = (0.75, 3.0);
-/// A plane whose cost without the hand exceeds that of the rule's plane, with the hand, by this much is not tried with the
-/// hand.
-const UNTRIED: f64 = 100.0;
 /// Candidate shrugs if the hand's orientation would suffer, as shares of the largest.
 const SHRUGS: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
-/// Cost of the largest shrug.
-const SHRUGGED: f64 = 10.0;
-/// Fastest change of a shrug, in shares of the largest per second.
-const SHRUGGING: f64 = 8.0;
-/// A choice whose cost exceeds this multiple of the best plus this constant is not tried with a shrug.
-const HOPELESS: (f64, f64) = (3.0, 60.0);
-/// Cost of orientation and place above which a hand is tried with a shrug.
-const SHRUGS_ABOVE: f64 = 1.0;
-/// Seconds around such a moment in which shrugs are tried, too.
-const AROUND: f64 = 0.2;
 
 /// A candidate posture of the arm at one moment.
 #[derive(Clone, Copy)]
@@ -100,7 +48,7 @@ impl Arm<'_> {
             touch: 0.0,
         };
         let mut choices = self.choices(&want, false);
-        if choices[best(&choices)].amiss > SHRUGS_ABOVE {
+        if choices[best(&choices)].amiss > tuned().freedom.shrugs_above {
             self.shrug(&mut choices, &want, false);
         }
         refined(&choices, best(&choices))
@@ -112,7 +60,7 @@ impl Arm<'_> {
         // Start with the rule's plane: planes whose deviation alone costs more than the best need no
         // evaluation.
         let least = |shrug: f64, known: f64| {
-            let shrugged = SHRUGGED * shrug * shrug;
+            let shrugged = tuned().freedom.shrugged * shrug * shrug;
             EASIEST.iter().fold(known, |least, &(plane, off)| {
                 if 0.3 * off + shrugged >= least {
                     return least;
@@ -129,7 +77,7 @@ impl Arm<'_> {
             })
         };
         let still = least(0.0, f64::INFINITY);
-        if still < SHRUGS_ABOVE {
+        if still < tuned().freedom.shrugs_above {
             return still;
         }
         SHRUGS
@@ -149,10 +97,10 @@ impl Arm<'_> {
         let rig = self.rig();
         let missed = posed.wrist.distance(wrist) / rig.length();
         let held = 0.3 * plane
-            + RAISED * self.height(posed).max(0.0).powi(2)
+            + tuned().freedom.raised * self.height(posed).max(0.0).powi(2)
             + self.flared(posed)
             + self.within(posed)
-            + MISSED * missed * missed;
+            + tuned().freedom.missed * missed * missed;
         if held > most {
             return f64::INFINITY;
         }
@@ -177,7 +125,7 @@ impl Arm<'_> {
     fn off(&self, apart: f64) -> f64 {
         let apart = apart / self.limits.tolerance;
         let over = (apart - 1.0).max(0.0);
-        TURNED * apart.min(1.0).powi(3) + 36.0 * over + 75.0 * over * over
+        tuned().freedom.turned * apart.min(1.0).powi(3) + 36.0 * over + 75.0 * over * over
     }
 
     /// Returns the usual height of the elbow above its shoulder (arm lengths) for a position of the wrist with the arm
@@ -186,7 +134,7 @@ impl Arm<'_> {
         let length = self.rig().length();
         let [elbow, hand] = [posed.elbow, wrist].map(|at| (at.y - posed.shoulder.y) / length);
         let usual = -self.limits.below(hand);
-        usual + (elbow - usual).max(0.0) * (hand / ABOVE).clamp(0.0, 1.0)
+        usual + (elbow - usual).max(0.0) * (hand / tuned().freedom.above).clamp(0.0, 1.0)
     }
 
     /// Returns the height of an elbow above its shoulder, in arm lengths.
@@ -198,37 +146,37 @@ impl Arm<'_> {
     fn raised(&self, posed: &Posed, usual: f64) -> f64 {
         let height = self.height(posed);
         let over = [height - usual.max(0.0), height - usual].map(|over| over.max(0.0).powi(2));
-        RAISED * over[0] + LIFTED * over[1]
+        tuned().freedom.raised * over[0] + tuned().freedom.lifted * over[1]
     }
 
     /// Returns the cost of an elbow that stands out beside a low hand.
     fn flared(&self, posed: &Posed) -> f64 {
-        let low = (posed.shoulder.y - posed.wrist.y) / self.rig().length() - LOW;
+        let low = (posed.shoulder.y - posed.wrist.y) / self.rig().length() - tuned().freedom.low;
         if low <= 0.0 {
             return 0.0;
         }
         let upper = posed.elbow - posed.shoulder;
         let outside = self.stage.left * self.rig().side.sign();
-        let out = upper.dot(outside).atan2(-upper.y) - FLARED.0;
+        let out = upper.dot(outside).atan2(-upper.y) - tuned().freedom.flared.0;
         if out <= 0.0 {
             return 0.0;
         }
-        FLARED.1 * out * out * (low / LOW).min(1.0)
+        tuned().freedom.flared.1 * out * out * (low / tuned().freedom.low).min(1.0)
     }
 
     /// Returns the cost of an elbow before the middle of the trunk.
     fn crossed(&self, posed: &Posed) -> f64 {
         let outside = self.stage.left * self.rig().side.sign();
         let inwards = -(posed.elbow - posed.shoulder).dot(outside) / self.rig().length();
-        let over = (inwards - CROSSED.0).max(0.0);
-        CROSSED.1 * over * over
+        let over = (inwards - tuned().freedom.crossed.0).max(0.0);
+        tuned().freedom.crossed.1 * over * over
     }
 
     /// Returns the cost of an elbow behind its shoulder.
     fn behind(&self, posed: &Posed) -> f64 {
         let back = -(posed.elbow - posed.shoulder).dot(self.stage.forward) / self.rig().length();
-        let over = (back - BEHIND.0).max(0.0);
-        BEHIND.1 * over * over
+        let over = (back - tuned().freedom.behind.0).max(0.0);
+        tuned().freedom.behind.1 * over * over
     }
 
     /// Returns the cost of an upper arm inside the trunk.
@@ -237,7 +185,7 @@ impl Arm<'_> {
             .map(|share| {
                 let at = posed.shoulder.lerp(posed.elbow, share);
                 let deep = self.stage.torso.offset_out(at, 0.035).length() / self.rig().length();
-                WITHIN * deep * deep
+                tuned().freedom.within * deep * deep
             })
             .iter()
             .sum()
@@ -259,10 +207,10 @@ impl Arm<'_> {
             of.push(lists.len() - 1);
         }
         let chosen = cheapest(&lists, &of, dt);
-        let near = (AROUND / dt) as usize;
+        let near = (tuned().freedom.around / dt) as usize;
         let mut shrugs = vec![false; lists.len()];
         for (n, choice) in chosen.iter().enumerate() {
-            if choice.amiss > SHRUGS_ABOVE {
+            if choice.amiss > tuned().freedom.shrugs_above {
                 let around = n.saturating_sub(near)..(n + near + 1).min(of.len());
                 of[around].iter().for_each(|&list| shrugs[list] = true);
             }
@@ -300,7 +248,7 @@ impl Arm<'_> {
                 }
                 let posed = line.bent(plane);
                 let held = self.held(&posed, bearing, usual);
-                choices.push(match held > rule.cost + UNTRIED {
+                choices.push(match held > rule.cost + tuned().freedom.untried {
                     true => Choice {
                         bearing,
                         high,
@@ -336,7 +284,8 @@ impl Arm<'_> {
         let least = choices[best(choices)].cost;
         // A shrug turns a forearm by about 20°, which cannot save a far worse candidate.
         let hopeful = |choice: &&Choice| {
-            choice.amiss > 0.2 * SHRUGS_ABOVE && choice.cost < HOPELESS.0 * least + HOPELESS.1
+            choice.amiss > 0.2 * tuned().freedom.shrugs_above
+                && choice.cost < tuned().freedom.hopeless.0 * least + tuned().freedom.hopeless.1
         };
         for shrug in SHRUGS {
             for choice in still.iter().filter(hopeful) {
@@ -368,15 +317,15 @@ impl Arm<'_> {
         };
         let coarse = Want { outlines, ..*want };
         let hung = self.hang_from(posed, &coarse, (bearing, high), tries);
-        let bend = (hung.angles.bend(&self.limits.wrist) - BENT.0).max(0.0);
-        let twist = (hung.angles.turned(&self.limits.wrist) - TWISTED.0).max(0.0);
+        let bend = (hung.angles.bend(&self.limits.wrist) - tuned().freedom.bent.0).max(0.0);
+        let twist = (hung.angles.turned(&self.limits.wrist) - tuned().freedom.twisted.0).max(0.0);
         let apart = hung.rotation.angle_between(want.turned);
         let missed = hung.residual / self.rig().length();
-        let off = given * self.off(apart) + MISSED * missed * missed;
+        let off = given * self.off(apart) + tuned().freedom.missed * missed * missed;
         let cost = self.held(&hung.posed, bearing, usual)
-            + SHRUGGED * bearing.shrug * bearing.shrug
-            + BENT.1 * bend * bend
-            + TWISTED.1 * twist * twist
+            + tuned().freedom.shrugged * bearing.shrug * bearing.shrug
+            + tuned().freedom.bent.1 * bend * bend
+            + tuned().freedom.twisted.1 * twist * twist
             + off;
         let amiss = off + self.within(&hung.posed);
         Choice {
@@ -465,7 +414,7 @@ fn off_rule(degrees: f64) -> f64 {
     let near = degrees.abs().min(60.0);
     let outwards = 0.7 * (near / 36.0).powi(2) + 0.05 * (degrees.abs() - near);
     if degrees < 0.0 {
-        INWARDS * outwards
+        tuned().freedom.inwards * outwards
     } else {
         outwards
     }
@@ -475,17 +424,22 @@ fn off_rule(degrees: f64) -> f64 {
 /// exceeds `most`.
 fn change(from: &Choice, to: &Choice, dt: f64, most: f64) -> Option<f64> {
     let over = |speed: f64| (speed - 1.0).max(0.0).powi(2);
-    let swivel = (to.bearing.plane - from.bearing.plane).abs() / (SWIVEL * dt);
-    let shrug = (to.bearing.shrug - from.bearing.shrug).abs() / (SHRUGGING * dt);
+    let swivel = (to.bearing.plane - from.bearing.plane).abs() / (tuned().freedom.swivel * dt);
+    let shrug = (to.bearing.shrug - from.bearing.shrug).abs() / (tuned().freedom.shrugging * dt);
     let own = 0.6 * (swivel * swivel + shrug * shrug) + 60.0 * over(swivel);
     if own > most * (1.0 + 1e-9) + 1e-9 {
         return None;
     }
-    let bend = to.angles.apart(&from.angles) / (0.6 * BENDING * dt);
+    let bend = to.angles.apart(&from.angles) / (0.6 * tuned().solve.bending * dt);
     let far = to.elbow.distance(from.elbow);
-    let elbow = far / (ELBOW * dt);
-    let pumps = (far - to.wrist.distance(from.wrist)).max(0.0) / (PUMPING * dt);
-    Some(own + PUMPED * pumps * pumps + 150.0 * over(elbow) + 20.0 * over(shrug) + 6.0 * over(bend))
+    let elbow = far / (tuned().freedom.elbow * dt);
+    let pumps = (far - to.wrist.distance(from.wrist)).max(0.0) / (tuned().freedom.pumping * dt);
+    Some(
+        own + tuned().freedom.pumped * pumps * pumps
+            + 150.0 * over(elbow)
+            + 20.0 * over(shrug)
+            + 6.0 * over(bend),
+    )
 }
 
 fn best(choices: &[Choice]) -> usize {

@@ -6,15 +6,8 @@ use chereme_motion::glam::DVec3;
 
 use super::stage::{Hand, Stage};
 use super::track::Wanted;
+use super::tuned::tuned;
 
-/// Smallest distance between the bones of two hands, in hand lengths: the thickness of a palm.
-const NEAR: f64 = 0.19;
-/// Hands farther apart than this (hand lengths) cannot collide.
-const FAR: f64 = 2.2;
-/// Seconds before and after a collision in which the hands move aside.
-const AROUND: f64 = 0.14;
-/// Longest time (s) for which passing hands are near to each other.
-const LONGEST: f64 = 0.6;
 /// The number of rounds of this correction.
 const TRIES: usize = 3;
 /// Outline points that stand for a hand: palm, and joints and tips of index and middle finger.
@@ -46,11 +39,11 @@ pub(crate) fn part(
     rate: f64,
 ) -> Option<Parted> {
     let length = hands[0].length();
-    let around = ((AROUND * rate).ceil() as usize).max(1);
+    let around = ((tuned().hands_apart.around * rate).ceil() as usize).max(1);
     let mut parted: Option<Parted> = None;
     for _ in 0..TRIES {
         let mut meetings = meetings(length, first, second);
-        let long = (LONGEST * rate) as usize;
+        let long = (tuned().hands_apart.longest * rate) as usize;
         meetings.retain(|meeting| meeting.frames.len() < long && passes(meeting, first, second));
         if meetings.is_empty() {
             break;
@@ -59,7 +52,7 @@ pub(crate) fn part(
             let (n, total) = (meeting.nearest, first.points.len());
             let aside = aside(stage, &meeting, first, second);
             let along = meeting.offset.dot(aside);
-            let by = 0.5 * (NEAR * length * 1.1 - along).max(0.0);
+            let by = 0.5 * (tuned().hands_apart.near * length * 1.1 - along).max(0.0);
             let frames = meeting.frames.start.saturating_sub(around)
                 ..(meeting.frames.end + around).min(total);
             for frame in frames {
@@ -115,14 +108,14 @@ fn meetings(length: f64, first: &Wanted<'_>, second: &Wanted<'_>) -> Vec<Meeting
     let mut all: Vec<Meeting> = Vec::new();
     let mut least = f64::INFINITY;
     for frame in 0..first.points.len() {
-        if first.points[frame].distance(second.points[frame]) > FAR * length
+        if first.points[frame].distance(second.points[frame]) > tuned().hands_apart.far * length
             || first.touch[frame].max(second.touch[frame]) > 0.0
         {
             continue;
         }
         let offset = nearest(bones(first, frame), bones(second, frame));
         let apart = offset.length();
-        if apart >= NEAR * length {
+        if apart >= tuned().hands_apart.near * length {
             continue;
         }
         match all.last_mut().filter(|last| last.frames.end == frame) {

@@ -14,30 +14,8 @@ use super::nonmanual::{self, Bent};
 use super::plan::{SignPlan, SignSpan};
 use super::stage::Stage;
 use super::track::Wanted;
+use super::tuned::tuned;
 use crate::outcome::Curve;
-
-/// Shares of the sway about the axes to the left, up and forward: mostly a rotation about the vertical.
-const SWAY: DVec3 = DVec3::new(0.1, 1.0, 0.12);
-/// The head's own sway, as a share of the trunk's.
-const NOD: f64 = 0.7;
-/// Largest rotation of the head towards the hands, in radians.
-const AFTER: f64 = 0.12;
-/// Seconds in which the sway begins and ends: movement begins and ends in the standing posture.
-const STARTS: f64 = 0.4;
-/// Seconds over which head and eyes average the direction of the hands.
-const SLOWLY: f64 = 0.3;
-/// Distances of a hand from the middle of the head, in head heights: up to the first it moves with the head, from the
-/// second on it does not.
-const AT_HEAD: [f64; 2] = [0.62, 0.8];
-/// Distances of a hand from the middle of the head, in head heights: up to the first the head does not follow it, from
-/// the second on fully. People who touch their own face keep it still.
-const AWAY: [f64; 2] = [1.1, 1.7];
-/// Seconds in which lids close and open.
-const BLINK: [f64; 2] = [0.08, 0.14];
-/// Least number of seconds from a blink to the next.
-const APART: f64 = 0.8;
-/// Angle (rad) of the eyes at an amount of 1 of a gaze.
-const EYES: f64 = 0.6;
 
 /// The rotations of the body in each planned frame: written acts, and natural movement in between.
 pub(crate) struct Alive {
@@ -68,17 +46,20 @@ impl Alive {
         for (frame, bent) in bents.iter_mut().enumerate() {
             let time = frame as f64 / rate;
             let busy = busy[frame];
-            let moves = smooth(time / STARTS) * smooth((end - time) / STARTS);
+            let moves =
+                smooth(time / tuned().life.starts) * smooth((end - time) / tuned().life.starts);
             let wave = |n: f64| wave(time / period, language.life_seed + n);
             let waves = |n: f64| DVec3::new(wave(n), wave(n + 1.0), wave(n + 2.0)) * mirror;
-            let trunk = waves(1.0) * SWAY * (sway * moves);
-            let head = waves(4.0) * (NOD * sway * moves);
+            let trunk = waves(1.0) * DVec3::from(tuned().life.sway) * (sway * moves);
+            let head = waves(4.0) * (tuned().life.nod * sway * moves);
             bent.trunk += trunk * (1.0 - busy.trunk);
-            let turned = (after[frame] * language.life_head).clamp_length_max(AFTER) * moves;
+            let turned =
+                (after[frame] * language.life_head).clamp_length_max(tuned().life.after) * moves;
             bent.head += (head + turned - trunk * 0.5) * (1.0 - busy.head);
         }
         let gaze = after.iter().map(|after| {
-            let amount = |angle: f64| (angle * language.life_gaze / EYES).clamp(-1.0, 1.0);
+            let amount =
+                |angle: f64| (angle * language.life_gaze / tuned().life.eyes).clamp(-1.0, 1.0);
             [amount(after.y), amount(-after.x)]
         });
         let gaze = gaze.collect();
@@ -92,7 +73,8 @@ impl Alive {
         };
         for (point, bent) in wanted.points.iter_mut().zip(&self.bents) {
             let far = point.distance(middle) / height;
-            let share = (AT_HEAD[1] - far) / (AT_HEAD[1] - AT_HEAD[0]);
+            let share = (tuned().life.at_head[1] - far)
+                / (tuned().life.at_head[1] - tuned().life.at_head[0]);
             if share <= 0.0 || !bent.turns_head() {
                 continue;
             }
@@ -162,7 +144,9 @@ fn after(body: &Stage, hands: [&Wanted<'_>; 2], rate: f64) -> Vec<DVec3> {
         for hand in hands {
             let at = hand.points[frame];
             let far = at.distance(middle) / height;
-            away = away.min(smooth((far - AWAY[0]) / (AWAY[1] - AWAY[0])));
+            away = away.min(smooth(
+                (far - tuned().life.away[0]) / (tuned().life.away[1] - tuned().life.away[0]),
+            ));
             let share = smooth((at.y - low) / (0.2 * body.arm));
             sum += (at - middle) * share;
             weight += share;
@@ -177,7 +161,7 @@ fn after(body: &Stage, hands: [&Wanted<'_>; 2], rate: f64) -> Vec<DVec3> {
         DVec3::new(down, aside, 0.0) * (weight.min(1.0) * away)
     });
     let own: Vec<DVec3> = own.collect();
-    let near = ((0.5 * SLOWLY * rate) as usize).max(1);
+    let near = ((0.5 * tuned().life.slowly * rate) as usize).max(1);
     averaged(&averaged(&own, near), near)
 }
 
@@ -207,11 +191,11 @@ fn blinks(spans: &[SignSpan], language: &BodyLanguage, rate: f64, total: usize) 
     let mut values = vec![0.0_f64; total];
     let mut last = f64::NEG_INFINITY;
     let mut blink = |at: f64| {
-        if at - last < APART {
+        if at - last < tuned().life.apart {
             return;
         }
         last = at;
-        let [close, open] = BLINK;
+        let [close, open] = tuned().life.blink;
         let frames = ((at - close) * rate).max(0.0) as usize..((at + open) * rate) as usize + 1;
         let near = values.iter_mut().enumerate();
         for (frame, value) in near.take(frames.end).skip(frames.start) {

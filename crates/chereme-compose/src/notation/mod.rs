@@ -29,6 +29,7 @@
 //! | `life` | sway, head and eyes that follow the hands, blinks |
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | annotations of the synthesised movement |
+//! | `tuned` | the tuned numbers, which are data: `schema/notation/animating.json` |
 
 #[cfg(test)]
 mod apart_tests;
@@ -66,6 +67,7 @@ mod thumb;
 mod touch;
 mod track;
 mod transit;
+mod tuned;
 
 use std::sync::Arc;
 
@@ -85,12 +87,11 @@ use plan::{Planner, SignPlan};
 use stage::Stage;
 use stretch_time::{Fastest, Warp};
 use track::{ArmTrack, Fit, Timing, Wanted};
+use tuned::tuned;
 
 /// The most frames of one animation: ten minutes at 120 Hz.
 const MOST_FRAMES: usize = 72_000;
 
-/// Planned top speed of arms, as a share of the allowed one.
-const EASY: f64 = 0.9;
 /// The number of times that finished movement may be stretched again.
 const AGAIN: usize = 4;
 
@@ -196,8 +197,8 @@ pub fn animate(
     });
     let mut tracks = made.map(|made| made.map(|made| made.track(&warp)));
     let most = Fastest {
-        joint: fastest.joint / EASY,
-        wrist: fastest.wrist / EASY,
+        joint: fastest.joint / tuned().tempo.easy,
+        wrist: fastest.wrist / tuned().tempo.easy,
     };
     let mut warp = warp;
     for _ in 0..AGAIN {
@@ -333,8 +334,8 @@ fn frames(seconds: f64, rate: f64) -> Result<usize, NotationError> {
 /// frames stay within them.
 fn fastest(language: &BodyLanguage, body: &Stage) -> Fastest {
     Fastest {
-        joint: EASY * language.speed_joint,
-        wrist: EASY * language.speed_wrist * body.arm,
+        joint: tuned().tempo.easy * language.speed_joint,
+        wrist: tuned().tempo.easy * language.speed_wrist * body.arm,
     }
 }
 

@@ -22,13 +22,7 @@ use super::path::Path;
 use super::plan::{
     Act, Event, Frame, HandState, PhaseKind, Planner, Who, about, acting, mean, shortest,
 };
-
-/// Seconds in which a hand that leaves a contact changes its pivot from the contact point to the palm.
-const LET_GO: f64 = 0.15;
-/// Share of the usual angle by which the fingers of a pinch play: they rub each other and stay closed.
-const RUBS: f64 = 0.25;
-/// A hand that rotates farther than this (rad) while it moves rotates about its palm.
-const FAR_TURN: f64 = 1.0;
+use super::tuned::tuned;
 
 /// Modifiers that a motion inherits from the motions around it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -418,9 +412,9 @@ impl Planner<'_> {
         for (n, _) in acting(who) {
             let (usual, share) = match self.state[n].handshape.form.class {
                 HandClass::Pinch12 | HandClass::Pinch12Open => {
-                    ([true, true, false, false, false], RUBS)
+                    ([true, true, false, false, false], tuned().motion.rubs)
                 }
-                HandClass::PinchAll => ([true; 5], RUBS),
+                HandClass::PinchAll => ([true; 5], tuned().motion.rubs),
                 _ => ([false, true, true, true, true], 1.0),
             };
             let playing = match digits.is_empty() {
@@ -506,7 +500,7 @@ impl Planner<'_> {
             None => self.turned_by(motions.iter().filter(|motion| turns(motion)), who),
         };
         for (n, frame) in acting(who) {
-            if turned[n] < FAR_TURN || self.skin(n, frame).is_some() {
+            if turned[n] < tuned().motion.far_turn || self.skin(n, frame).is_some() {
                 continue;
             }
             let palm = self.offset(n, &[HandPoint::Palm]);
@@ -516,7 +510,7 @@ impl Planner<'_> {
             }
             goal.point = goal.wrist() + goal.rotation * palm;
             goal.offset = palm;
-            self.go(n, &goal, time, time + LET_GO, Pace::Linear);
+            self.go(n, &goal, time, time + tuned().motion.let_go, Pace::Linear);
         }
     }
 

@@ -14,10 +14,8 @@ use chereme_sign::hamnosys::{
 
 use super::plan::SignSpan;
 use super::stage::Stage;
+use super::tuned::tuned;
 use crate::outcome::Curve;
-
-/// Offset (s) of a tier that begins or ends slightly before or after the hands.
-const SLIGHTLY: f64 = 0.12;
 
 /// One act with its times, in seconds.
 struct Timed<'a> {
@@ -179,14 +177,14 @@ fn timed<'a>(
 ) {
     let from = span.from
         + match tier.start {
-            Some(TierStart::SlightDelay) => SLIGHTLY,
-            Some(TierStart::StartSlightlyAhead) => -SLIGHTLY,
+            Some(TierStart::SlightDelay) => tuned().tempo.slightly,
+            Some(TierStart::StartSlightlyAhead) => -tuned().tempo.slightly,
             None => 0.0,
         };
     let to = span.to
         + match tier.end {
-            Some(TierEnd::LastsLonger) => SLIGHTLY,
-            Some(TierEnd::EndsBefore) => -SLIGHTLY,
+            Some(TierEnd::LastsLonger) => tuned().tempo.slightly,
+            Some(TierEnd::EndsBefore) => -tuned().tempo.slightly,
             None => 0.0,
         };
     let each = (to - from).max(0.05) / tier.groups.len().max(1) as f64;

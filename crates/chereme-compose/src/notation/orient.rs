@@ -4,11 +4,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::orientation;
 
 use super::plan::{HandState, Planner};
-
-/// Largest change of a hand's direction (rad) for which the hand leans instead of pointing elsewhere.
-const LEANS: f64 = 1.1;
-/// Rotation (rad) above which a leaning hand would turn over.
-const TURNED_OVER: f64 = 1.7;
+use super::tuned::tuned;
 
 impl Planner<'_> {
     /// Rotates a hand to its notated direction and palm.
@@ -34,7 +30,9 @@ impl Planner<'_> {
         };
         let [from, to] = [before.rotation, state.rotation].map(|turned| turned * hand.along);
         let led = (DQuat::from_rotation_arc(from, to) * before.rotation).normalize();
-        if from.angle_between(to) < LEANS && led.angle_between(state.rotation) > TURNED_OVER {
+        if from.angle_between(to) < tuned().orient.leans
+            && led.angle_between(state.rotation) > tuned().orient.turned_over
+        {
             self.state[n].rotation = led;
         }
     }

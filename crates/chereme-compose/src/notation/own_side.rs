@@ -11,15 +11,7 @@ use super::plan::SignPlan;
 use super::solve::eased;
 use super::stage::{FINGER_FLESH, Hand, Stage};
 use super::track::Wanted;
-
-/// A hand that reaches farther than this beyond the middle (hand lengths) crosses it on purpose.
-const CROSSES: f64 = 0.65;
-/// Depth (m) beyond the middle that is left to the flesh of the hands.
-const SOFT: f64 = 0.004;
-/// Distance (m) of one hand from the mirror image of the other below which they count as mirrored.
-const LIKE: f64 = 0.03;
-/// Seconds before and after over which a displacement is spread.
-const AROUND: f64 = 0.3;
+use super::tuned::tuned;
 
 /// Moves the goals of mirrored hands outwards, wherever a hand reaches beyond the middle and neither touches anything;
 /// returns the farthest move of each, if it is large enough to report.
@@ -45,8 +37,8 @@ pub(crate) fn keep(
         };
         let deep = |frame: usize| {
             let [a, b] = [0, 1].map(|n| wanted[n].points[frame] - middle);
-            if (a - b).reject_from_normalized(stage.left).length() > LIKE
-                || (a + b).dot(stage.left).abs() > LIKE
+            if (a - b).reject_from_normalized(stage.left).length() > tuned().own_side.like
+                || (a + b).dot(stage.left).abs() > tuned().own_side.like
             {
                 return 0.0;
             }
@@ -62,8 +54,10 @@ pub(crate) fn keep(
         // Hands that touch each other may stay as deep as they are then.
         let held = own.clone().zip(&depths);
         let held = held.filter(|(frame, _)| touch(*frame) > 0.5);
-        let left = held.map(|(_, depth)| *depth).fold(SOFT, f64::max);
-        if !(left..CROSSES * length).contains(&most) {
+        let left = held
+            .map(|(_, depth)| *depth)
+            .fold(tuned().own_side.soft, f64::max);
+        if !(left..tuned().own_side.crosses * length).contains(&most) {
             continue;
         }
         for (frame, depth) in own.zip(depths) {
@@ -73,7 +67,7 @@ pub(crate) fn keep(
     if moves.iter().all(|by| *by == DVec3::ZERO) {
         return None;
     }
-    let near = ((AROUND * rate).ceil() as usize).max(1);
+    let near = ((tuned().own_side.around * rate).ceil() as usize).max(1);
     let mut most: Option<Parted> = None;
     let [first, second] = wanted;
     for (frame, by) in eased(&moves, near).into_iter().enumerate() {

@@ -1,12 +1,10 @@
 //! Paces: the progress of a movement over time. The two-level controller of Kennaway, section 4.5, as tables.
 
+use super::tuned::tuned;
 use chereme_sign::hamnosys::{BodyLanguage, Manner};
 
 /// The number of steps in a table.
 const STEPS: usize = 256;
-
-/// The share of an approach's time in which it accelerates, and in which it brakes.
-const CALM: f64 = 0.22;
 
 /// The kinds of pace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +48,7 @@ impl Pace {
             Self::Halt => 3.7,
             Self::Tense => 1.43,
             Self::Linear => 1.18,
-            Self::Calm => 1.0 / (1.0 - CALM),
+            Self::Calm => 1.0 / (1.0 - tuned().tempo.calm),
         }
     }
 }
@@ -85,7 +83,7 @@ impl Paces {
                 grown(l.halt_gain, l.halt_power, l.halt_ratio),
                 grown(l.tense_gain, l.tense_power, l.tense_ratio),
                 ramp,
-                linear(CALM),
+                linear(tuned().tempo.calm),
             ],
         }
     }

@@ -16,9 +16,7 @@ use super::lift::inside;
 use super::plan::{Frame, Planner, Who, acting};
 use super::solve::Arm;
 use super::stage::FINGER_FLESH;
-
-/// Farthest move of a hand, in hand lengths, that makes room for the other hand on the skin.
-const BESIDE: f64 = 0.4;
+use super::tuned::tuned;
 
 /// Returns whether a place is at the other hand.
 pub(super) fn is_at_hand(place: &Place) -> bool {
@@ -187,7 +185,7 @@ impl Planner<'_> {
         let outline = &self.plan.shapes[n][state.shape].outline.points;
         let reach = outline.iter().map(|part| (*part - offset).dot(own));
         let reach = reach.fold(0.0, f64::max) + FINGER_FLESH * hand.length();
-        at + outwards * reach.min(BESIDE * hand.length())
+        at + outwards * reach.min(tuned().contact.beside * hand.length())
     }
 
     /// Moves a place in the middle to the front of the hand's own shoulder.

@@ -20,9 +20,7 @@ use super::path::Path;
 use super::stage::{Shape, Stage};
 use super::stretch_time::Warp;
 use super::thumb;
-
-/// Seconds of rest before the first sign and after the last.
-const STILL: f64 = 0.1;
+use super::tuned::tuned;
 
 /// One act of a hand with its time span, in seconds.
 #[derive(Debug, Clone, PartialEq)]
@@ -280,7 +278,7 @@ impl<'a> Planner<'a> {
 
     /// Plans signs one after the other, from rest and back to rest.
     pub(crate) fn signs(mut self, signs: &[&Notated]) -> SignPlan {
-        let mut time = STILL;
+        let mut time = tuned().tempo.still;
         let parts = signs.iter().flat_map(|notated| &notated.sign.parts);
         let mut next = parts.skip(1);
         for notated in signs {
@@ -300,7 +298,7 @@ impl<'a> Planner<'a> {
                 to: time,
             });
         }
-        self.plan.end = self.relax([true, true], time, None) + STILL;
+        self.plan.end = self.relax([true, true], time, None) + tuned().tempo.still;
         self.plan
     }
 

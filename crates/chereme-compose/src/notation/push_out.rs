@@ -10,16 +10,15 @@ use std::sync::LazyLock;
 use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::Bearing;
-use super::solve::{AROUND, Arm, ArmFrame, Got, eased};
+use super::solve::{Arm, ArmFrame, Got, eased};
 use super::stage::HandOutline;
 use super::track::{Outlines, Wanted};
+use super::tuned::tuned;
 
 /// The number of rounds of this correction.
 const ROUNDS: usize = 6;
 /// Smallest depth in the trunk that is corrected, in metres.
 const DEEP: f64 = 1e-3;
-/// Distance that a corrected elbow keeps from the trunk, in metres.
-const NEAR: f64 = 0.008;
 /// Step by which a hand is pushed out in one direction, in metres.
 const STEP: f64 = 0.005;
 /// The largest number of such steps.
@@ -40,7 +39,7 @@ impl Arm<'_> {
         let mut bearings = self.bearings(wanted, rate);
         let mut rows = self.laid(wanted, &bearings, rate);
         let mut got = self.settled(&rows, &wanted.outlines);
-        let near = ((AROUND * rate).ceil() as usize).max(1);
+        let near = ((tuned().solve.around * rate).ceil() as usize).max(1);
         let mut more = vec![DVec3::ZERO; rows.len()];
         for _ in 0..ROUNDS {
             let turns = got.iter().zip(&rows);
@@ -101,7 +100,7 @@ impl Arm<'_> {
     ) {
         let rig = self.rig();
         let torso = &self.stage.torso;
-        let near = ((AROUND * rate).ceil() as usize).max(1);
+        let near = ((tuned().solve.around * rate).ceil() as usize).max(1);
         for _ in 0..ROUNDS {
             let amiss = frames.iter().enumerate().map(|(frame, turned)| {
                 let (posed, hand) = rig.posed(*turned);
@@ -166,13 +165,15 @@ impl Arm<'_> {
         if own < DEEP {
             return 0.0;
         }
-        let mut best = (own + 0.1 * NEAR, 0.0);
+        let mut best = (own + 0.1 * tuned().push_out.near, 0.0);
         for (by, cost) in TURNS.iter() {
             let plane = bearing.plane + by.to_radians();
             let tried = Bearing { plane, ..bearing };
             let posed = self.rig().reach(got.posed.wrist, tried, self.limits);
             let upper = posed.shoulder.lerp(posed.elbow, 0.6);
-            let deep = torso.offset_aside(posed.elbow, NEAR).length()
+            let deep = torso
+                .offset_aside(posed.elbow, tuned().push_out.near)
+                .length()
                 + torso.offset_out(upper, 0.0).length();
             if deep == 0.0 {
                 return by.to_radians();

@@ -12,24 +12,8 @@ use super::arm::{Bearing, HeldDirections, Limits, Posed, Rig};
 use super::freedom::Choice;
 use super::stage::{Hand, HandOutline, Stage};
 use super::track::Wanted;
+use super::tuned::tuned;
 
-/// Seconds between two choices of the arm's plane; it is interpolated smoothly in between.
-const CHOSEN: f64 = 1.0 / 20.0;
-/// Seconds before and after a notated orientation in which the arm already, or still, suits it.
-const LEAD: f64 = 0.07;
-/// Fastest bend of a wrist and turn of a forearm, in radians per second.
-pub(crate) const BENDING: f64 = 28.0;
-/// Fastest push of a hand out of the trunk, in arm lengths per second.
-const PUSHING: f64 = 5.0;
-/// Seconds before and after a sudden change over which it is spread.
-pub(super) const AROUND: f64 = 0.09;
-/// Distance that a hand's points keep from the trunk's surface, in metres.
-pub(super) const MARGIN: f64 = 0.008;
-/// Largest turn (rad) of a touching hand about its reference point to leave the trunk or to come within
-/// reach.
-const MOST_TURNED: f64 = 0.7;
-/// The same for a hand that touches nothing.
-const NEAR_TURNED: f64 = 0.22;
 /// Largest number of iterations for a hand that is adapted to its limits.
 const TRIES: usize = 14;
 /// If the last iterate misses the target by this much (m) more than the best one, use the best.
@@ -141,8 +125,8 @@ impl<'a> Arm<'a> {
     /// Returns the bearing of the arm in each frame, and the limit at which its forearm stops.
     pub(super) fn bearings(&self, wanted: &Wanted<'_>, rate: f64) -> Vec<(Bearing, bool)> {
         let total = wanted.points.len();
-        let step = ((CHOSEN * rate) as usize).max(1);
-        let free = settled(&wanted.free(), (LEAD * rate).round() as usize);
+        let step = ((tuned().solve.chosen * rate) as usize).max(1);
+        let free = settled(&wanted.free(), (tuned().solve.lead * rate).round() as usize);
         // A moment with a notated orientation counts even between two keys.
         let near = |frame: usize| {
             let around = frame.saturating_sub(step / 2)..(frame + step.div_ceil(2)).min(total);
@@ -253,7 +237,8 @@ impl<'a> Arm<'a> {
         // A hand placed by a fingertip turns about it; one placed by its palm moves.
         let pivot = smooth((want.offset.length() / self.hand.length() - 0.55) / 0.25);
         let turns = pivot.max(want.touch);
-        let most = NEAR_TURNED + (MOST_TURNED - NEAR_TURNED) * want.touch;
+        let most = tuned().solve.near_turned
+            + (tuned().solve.most_turned - tuned().solve.near_turned) * want.touch;
         let mut turned = want.turned;
         let mut push = DVec3::ZERO;
         let mut wrist = want.point - turned * want.offset;
@@ -353,13 +338,13 @@ impl<'a> Arm<'a> {
         let outlines = [a, b].into_iter().take(count);
         let near = |outline: &&HandOutline| {
             let middle = wrist + turned * outline.middle;
-            !torso.is_clear(middle, outline.radius + MARGIN)
+            !torso.is_clear(middle, outline.radius + tuned().solve.margin)
         };
         let points = outlines.filter(near).flat_map(|outline| &outline.points);
-        let own = (torso.offset_out(wrist, MARGIN), wrist);
+        let own = (torso.offset_out(wrist, tuned().solve.margin), wrist);
         points.fold(own, |most, &point| {
             let at = wrist + turned * point;
-            let out = torso.offset_out(at, MARGIN);
+            let out = torso.offset_out(at, tuned().solve.margin);
             if out.length_squared() > most.0.length_squared() {
                 (out, at)
             } else {
@@ -370,8 +355,8 @@ impl<'a> Arm<'a> {
 
     /// Spreads sudden pushes over the time before and after, except in contact.
     fn spread(&self, rows: &mut [ArmFrame], touch: &[f64], rate: f64) {
-        let near = ((AROUND * rate).ceil() as usize).max(1);
-        let most = PUSHING * self.rig().length() / rate;
+        let near = ((tuned().solve.around * rate).ceil() as usize).max(1);
+        let most = tuned().solve.pushing * self.rig().length() / rate;
         let mut start = 0;
         while let Some(first) = (start..rows.len()).find(|&n| rows[n].push != DVec3::ZERO) {
             let last = first
@@ -426,8 +411,8 @@ pub(super) fn eased(own: &[DVec3], near: usize) -> Vec<DVec3> {
 /// Spreads wrist movements that are too fast over the time before and after; if possible, over frames in
 /// which the hand is `free` to turn.
 fn calm(rows: &mut [ArmFrame], free: &[bool], rate: f64) {
-    let most = BENDING / rate;
-    let near = ((AROUND * rate).ceil() as usize).max(1);
+    let most = tuned().solve.bending / rate;
+    let near = ((tuned().solve.around * rate).ceil() as usize).max(1);
     for _ in 0..4 {
         let jumps = |n: &usize| rows[*n].angles.apart(&rows[*n - 1].angles) > most;
         let found: Vec<usize> = (1..rows.len()).filter(jumps).collect();

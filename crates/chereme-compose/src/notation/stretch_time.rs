@@ -1,13 +1,7 @@
 //! Stretches time if an arm would move faster than people do.
 
+use super::tuned::tuned;
 use chereme_motion::glam::{DQuat, DVec3};
-
-/// Largest acceleration of a wrist or an elbow, in m/s²: that of a person.
-const HARDEST: f64 = 75.0;
-
-/// Upper bound on stretching a step for motion between its two frames, as a multiple of the duration that
-/// the frames themselves require.
-const LONGER: f64 = 4.0;
 
 /// Top speeds of arms.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +64,7 @@ impl Warp {
                         .max(1.6 * travel)
                         .max(sum * rate / fastest.joint);
                     let needed = needed(hasty(which, n), rate, fastest);
-                    if needed < LONGER * last {
+                    if needed < tuned().tempo.longer * last {
                         last = last.max(needed);
                     }
                 }
@@ -216,7 +210,7 @@ fn slow(arm: &[Moved], rate: f64, lasts: &mut [f64]) {
             let [a, b, c] = [n - step, n, n + step].map(|n| at(&arm[n]));
             (a - b * 2.0 + c).length() / (seconds * seconds)
         };
-        let hard = pull(|moved| moved.wrist).max(pull(|moved| moved.elbow)) / HARDEST;
+        let hard = pull(|moved| moved.wrist).max(pull(|moved| moved.elbow)) / tuned().tempo.hardest;
         if hard > 1.0 {
             for last in &mut lasts[n - step..n + step] {
                 *last = last.max(hard.min(2.5));
@@ -362,7 +356,7 @@ mod tests {
             assert!(near || last == 1.0, "{n}: {last}");
             if n == 8 || n == 9 {
                 // Over two frames to either side: 0.06 m in 20 ms twice.
-                let hard = 0.06 / (0.02 * 0.02) / HARDEST;
+                let hard = 0.06 / (0.02 * 0.02) / tuned().tempo.hardest;
                 assert!((last - hard).abs() < 1e-9, "{n}: {last}, not {hard}");
             }
         }

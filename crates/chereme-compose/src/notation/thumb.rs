@@ -8,14 +8,8 @@ use chereme_sign::hamnosys::sites::{Face, HandPoint};
 use chereme_sign::hamnosys::{Digit, HandClass, Handshape, ThumbPosition};
 
 use super::stage::{FINGER_FLESH, Hand, Shape, Stage};
+use super::tuned::tuned;
 
-/// Distance between the middles of two tips that meet, in hand lengths.
-const APART: f64 = 0.045;
-/// Largest change of an angle from the table's, in radians.
-const MOST: f64 = 0.45;
-
-/// Height of the palm's skin over the bones, in hand lengths.
-const SKIN: f64 = 0.07;
 /// Ranges of a thumb's angles in degrees: radial, palmar, opposition, and both flexions.
 const RANGE: [[f64; 2]; 5] = [
     [-20.0, 65.0],
@@ -40,8 +34,6 @@ const ON_FINGER: [(f64, f64); 6] = [
 ];
 /// Distance in metres within which a goal counts as reached.
 const REACHED: f64 = 1e-3;
-/// Weight of the slope of the thumb's last bone against the distance of its pad from its goal.
-const LEVEL: f64 = 0.2;
 
 /// Returns the shape of the fingers of a handshape on this hand, with the thumb at the fingers that it touches.
 pub(crate) fn posed(
@@ -77,7 +69,7 @@ fn across(stage: &Stage, side: Side, handshape: &Handshape, angles: &HandAngles)
             let (middle, ring) = (base(Digit::Middle), base(Digit::Ring));
             let at = middle.lerp(ring, 0.4) - hand.along * (0.11 * length);
             let level = at - hand.palm * at.dot(hand.palm);
-            vec![level + hand.palm * ((SKIN + FINGER_FLESH) * length)]
+            vec![level + hand.palm * ((tuned().thumb.skin + FINGER_FLESH) * length)]
         }
         HandClass::Fist | HandClass::Finger2 | HandClass::Finger23 | HandClass::Finger23Spread => {
             let on = rests_on(handshape)?;
@@ -128,7 +120,11 @@ fn brought(
     let mut posed = stage.shape(side, &with(angles, now));
     let mut damping = 0.05 * length;
     for round in 0..ROUNDS {
-        let level = if round < ROUNDS / 2 { LEVEL } else { 0.0 };
+        let level = if round < ROUNDS / 2 {
+            tuned().thumb.level
+        } else {
+            0.0
+        };
         let off = miss(&posed, level);
         let mut columns = [[0.0; 4]; 5];
         for (n, column) in columns.iter_mut().enumerate() {
@@ -151,8 +147,9 @@ fn brought(
             }
             damping *= 5.0;
         }
-        let off = miss(&posed, LEVEL);
-        if off[..3].iter().all(|off| off.abs() < 4e-4) && off[3].abs() < LEVEL * 2e-3 {
+        let off = miss(&posed, tuned().thumb.level);
+        if off[..3].iter().all(|off| off.abs() < 4e-4) && off[3].abs() < tuned().thumb.level * 2e-3
+        {
             break;
         }
     }
@@ -239,7 +236,7 @@ fn met(stage: &Stage, side: Side, handshape: &Handshape, angles: &HandAngles) ->
         .map(|&digit| stage.outward(hand, &shape, HandPoint::Tip(digit, Face::Palmar)))
         .sum::<DVec3>()
         .normalize_or(hand.palm);
-    let goal = goal + pads * (APART * hand.length());
+    let goal = goal + pads * (tuned().thumb.apart * hand.length());
     let start = values(angles);
     let mut now = start;
     let mut posed = shape;
@@ -257,7 +254,8 @@ fn met(stage: &Stage, side: Side, handshape: &Handshape, angles: &HandAngles) ->
         }
         let step = damped(&columns, miss, 0.1 * hand.length());
         for n in 0..5 {
-            now[n] = (now[n] + step[n]).clamp(start[n] - MOST, start[n] + MOST);
+            now[n] = (now[n] + step[n])
+                .clamp(start[n] - tuned().thumb.most, start[n] + tuned().thumb.most);
         }
         posed = stage.shape(side, &with(angles, now));
     }

@@ -4,17 +4,9 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 
 use super::plan::Planner;
-use super::solve::MARGIN;
 use super::stage::FINGER_FLESH;
+use super::tuned::tuned;
 
-/// Largest turn (rad) of a hand off its notated orientation to lie flat on the skin; it still reads as
-/// notated.
-const LAID: f64 = 0.17;
-/// Largest distance between the named part and the part in front of it that touches, in hand lengths.
-const BEHIND: f64 = 0.5;
-/// If the cosine between the hand part's outward normal and the skin's exceeds this, the part faces away
-/// from the skin: its normal is more than 60 degrees off the direction into the skin.
-const AWAY: f64 = -0.5;
 /// Offset (m) above which the substitution is reported.
 const REPORTED: f64 = 2e-3;
 /// Step of the search for that offset, in metres.
@@ -77,7 +69,7 @@ impl Planner<'_> {
         if !(1e-6..1.2).contains(&angle) {
             return;
         }
-        let share = (LAID / angle).min(1.0);
+        let share = (tuned().contact.laid / angle).min(1.0);
         let turn = DQuat::IDENTITY.slerp(turn, share);
         self.state[n].rotation = (turn * self.state[n].rotation).normalize();
     }
@@ -87,7 +79,7 @@ impl Planner<'_> {
     /// orientation.
     pub(super) fn lie(&mut self, n: usize, skin: DVec3, points: &[HandPoint]) {
         let (_, out) = self.at_hand(n, points);
-        if out.dot(skin) < AWAY {
+        if out.dot(skin) < tuned().contact.away {
             return;
         }
         let by = self.stands_in(n, skin);
@@ -126,9 +118,11 @@ impl Planner<'_> {
         let inside = |by: f64| {
             let wrist = state.wrist() + skin * by;
             let mut points = shape.outline.points.iter();
-            points.any(|&at| torso.offset_out(wrist + state.rotation * at, MARGIN) != DVec3::ZERO)
+            points.any(|&at| {
+                torso.offset_out(wrist + state.rotation * at, tuned().solve.margin) != DVec3::ZERO
+            })
         };
-        let most = (BEHIND * hand.length() / STEP) as u32;
+        let most = (tuned().contact.behind * hand.length() / STEP) as u32;
         let mut tried = (0..=most).map(|n| STEP * f64::from(n));
         tried.find(|by| !inside(*by)).unwrap_or(0.0)
     }

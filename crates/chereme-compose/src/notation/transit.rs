@@ -8,11 +8,8 @@ use super::arm::{Bearing, Rig};
 use super::pace::Pace;
 use super::path::Path;
 use super::plan::{Act, Event, HandState, PhaseKind, Planner};
+use super::tuned::tuned;
 
-/// Smallest distance (arm lengths) between a wrist in transition and its shoulder.
-const ROUND: f64 = 0.42;
-/// Largest distance (arm lengths) of an elbow behind its shoulder on the path from one posture to another.
-const BEHIND: f64 = 0.1;
 /// Bends of the path (arm lengths) that are tried in turn until the elbow keeps to [`BEHIND`].
 const BENT: [f64; 6] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3];
 /// Shares of the path at which the elbow is compared with [`BEHIND`].
@@ -61,7 +58,7 @@ impl Planner<'_> {
         let nearest = start.lerp(end, share.clamp(0.0, 1.0));
         let far = nearest.distance(shoulder);
         let ends = start.distance(shoulder).min(end.distance(shoulder));
-        let missing = (ROUND * self.stage.arm).min(ends) - far;
+        let missing = (tuned().transit.round * self.stage.arm).min(ends) - far;
         if missing <= 0.0 || !(0.0..1.0).contains(&share) {
             if let Some(out) = self.ahead(&hand.rig, [start, end], along) {
                 self.plan.events[n].push(Event {
@@ -97,7 +94,7 @@ impl Planner<'_> {
             let posed = rig.reach(wrist, Bearing::default(), &self.limits);
             -(posed.elbow - rig.shoulder).dot(forward) / self.stage.arm
         };
-        let most = BEHIND.max(back(start)).max(back(end));
+        let most = tuned().transit.behind.max(back(start)).max(back(end));
         let behind = |by: DVec3| {
             LOOKED_AT
                 .map(|share| back(start.lerp(end, share) + by * (PI * share).sin()))

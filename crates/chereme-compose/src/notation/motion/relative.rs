@@ -2,11 +2,8 @@
 
 use chereme_motion::glam::DQuat;
 
+use super::super::tuned::tuned;
 use super::*;
-
-/// Angle (rad) between two successive paths above which the second one leads back, so that the hand does not turn
-/// around with it.
-const BACK: f64 = 2.1;
 
 impl Planner<'_> {
     /// Turns a hand with relative direction or palm along with its path.
@@ -18,7 +15,8 @@ impl Planner<'_> {
             return;
         };
         let before = self.state[n].heading.replace(last);
-        let corner = before.filter(|before| before.angle_between(first) < BACK);
+        let corner =
+            before.filter(|before| before.angle_between(first) < tuned().motion.leads_back);
         let corner = corner.map_or(DQuat::IDENTITY, |before| {
             DQuat::from_rotation_arc(before, first)
         });

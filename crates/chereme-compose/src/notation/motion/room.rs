@@ -1,18 +1,14 @@
 //! Moves circles that would lead into the trunk out of it, as a whole.
 
-use super::super::solve::MARGIN;
+use super::super::tuned::tuned;
 use super::*;
 
-/// Depth (m) of a circle in the trunk that is left to the solver, which moves the hand out frame by frame.
-const SHALLOW: f64 = 0.02;
 /// The number of points of a circle that are tried.
 const POINTS: usize = 16;
 /// Step by which a circle is moved, in metres.
 const STEP: f64 = 0.01;
 /// The largest number of such steps.
 const STEPS: usize = 30;
-/// The share of a circle after which it is clear of the trunk.
-const SOON: f64 = 0.25;
 
 impl Planner<'_> {
     /// Moves the circle that acting hands have just been given forward or to their own side, until it is clear of the
@@ -36,19 +32,23 @@ impl Planner<'_> {
                     let wrist = start + own.at(at as f64 / POINTS as f64) + by;
                     let parts = outline.iter().map(|part| wrist + state.rotation * *part);
                     let parts = parts.chain([wrist]);
-                    let out = parts.map(|part| stage.torso.offset_out(part, MARGIN).length());
+                    let out = parts
+                        .map(|part| stage.torso.offset_out(part, tuned().solve.margin).length());
                     out.fold(0.0, f64::max)
                 });
                 points.fold(0.0, f64::max)
             };
-            if deep(DVec3::ZERO) < SHALLOW {
+            if deep(DVec3::ZERO) < tuned().motion.shallow {
                 continue;
             }
             let outside = stage.left * hand.side.sign();
             let directions = [stage.forward, (stage.forward + outside).normalize()];
             let steps = (1..=STEPS)
                 .flat_map(|step| directions.map(|direction| direction * (STEP * step as f64)));
-            let Some(by) = steps.into_iter().find(|by| deep(*by) < SHALLOW) else {
+            let Some(by) = steps
+                .into_iter()
+                .find(|by| deep(*by) < tuned().motion.shallow)
+            else {
                 continue;
             };
             self.remark(&format!(
@@ -59,7 +59,7 @@ impl Planner<'_> {
             self.state[n].point += by;
             self.plan.events[n].push(Event {
                 from,
-                to: from + SOON * (to - from),
+                to: from + tuned().motion.soon * (to - from),
                 pace: Pace::Linear,
                 act: Act::Move(Path::Line(by)),
             });

@@ -1,14 +1,7 @@
 //! Postures as the goals of motions: reached during the motion, reached at its end, or brushed in passing.
 
+use super::super::tuned::tuned;
 use super::*;
-
-/// Angle (rad) between the written direction and the way to the goal above which the path bends from the
-/// one to the other.
-const BENDS: f64 = 0.45;
-/// Least time (s) for each radian by which a hand turns during a movement.
-const TURNING: f64 = 0.16;
-/// The factor on that time if the hand hits something: its speed peaks late.
-const HIT: f64 = 1.6;
 
 impl Planner<'_> {
     pub(super) fn target(
@@ -61,8 +54,8 @@ impl Planner<'_> {
         };
         let turned = acting(named).map(|(n, _)| before[n].rotation.angle_between(goal[n].rotation));
         let turned = turned.fold(0.0, f64::max);
-        let steep = if contact { HIT } else { 1.0 };
-        let end = end.max(time + TURNING * steep * turned * env.slower);
+        let steep = if contact { tuned().motion.hit } else { 1.0 };
+        let end = end.max(time + tuned().motion.turning * steep * turned * env.slower);
         let pace = Pace::of(
             manner,
             if contact {
@@ -135,7 +128,7 @@ impl Planner<'_> {
                 let whole = goal[n].point - before[n].point;
                 whole.length() > least
                     && written.length() > 1e-6
-                    && written.angle_between(whole) > BENDS
+                    && written.angle_between(whole) > tuned().motion.bends
             })
     }
 

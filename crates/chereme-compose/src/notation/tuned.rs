@@ -1,0 +1,181 @@
+//! The tuned numbers of the animator.
+//!
+//! The file `schema/notation/animating.json` holds each number with its unit and its meaning, grouped by the modules that
+//! use them. Numbers that differ between people and languages stand in `body_language.json` instead.
+
+use std::sync::LazyLock;
+
+use chereme_sign::tuned::{read, tuned_numbers};
+
+tuned_numbers! {
+    /// Numbers for approaches.
+    approach: ApproachNumbers {
+        lever: f64,
+        slower: f64,
+        solved: (f64, f64),
+        slowest: f64,
+    }
+    /// Numbers for the bones of an arm.
+    arm: ArmNumbers {
+        soft: f64,
+        rises: [f64; 2],
+        hangs: [f64; 2],
+    }
+    /// Numbers for the flesh of hands.
+    bulk: BulkNumbers {
+        soft: f64,
+        gives: f64,
+        far: f64,
+        around: f64,
+        touching: f64,
+        beside: f64,
+    }
+    /// Numbers for shifts of hands within their place.
+    comfort: ComfortNumbers {
+        shifted: f64,
+        taken: f64,
+        strained: f64,
+        near: f64,
+    }
+    /// Numbers for contacts.
+    contact: ContactNumbers {
+        beside: f64,
+        laid: f64,
+        behind: f64,
+        away: f64,
+    }
+    /// Numbers for the choice of an arm's plane and shoulder.
+    freedom: FreedomNumbers {
+        inwards: f64,
+        swivel: f64,
+        elbow: f64,
+        turned: f64,
+        raised: f64,
+        lifted: f64,
+        above: f64,
+        flared: (f64, f64),
+        crossed: (f64, f64),
+        low: f64,
+        pumping: f64,
+        pumped: f64,
+        missed: f64,
+        within: f64,
+        behind: (f64, f64),
+        bent: (f64, f64),
+        twisted: (f64, f64),
+        untried: f64,
+        shrugged: f64,
+        shrugging: f64,
+        hopeless: (f64, f64),
+        shrugs_above: f64,
+        around: f64,
+    }
+    /// Numbers for hands that pass each other.
+    hands_apart: HandsApartNumbers {
+        near: f64,
+        far: f64,
+        around: f64,
+        longest: f64,
+    }
+    /// Numbers for sway, head and eyes.
+    life: LifeNumbers {
+        sway: [f64; 3],
+        nod: f64,
+        after: f64,
+        starts: f64,
+        slowly: f64,
+        at_head: [f64; 2],
+        away: [f64; 2],
+        blink: [f64; 2],
+        apart: f64,
+        eyes: f64,
+    }
+    /// Numbers for movements.
+    motion: MotionNumbers {
+        let_go: f64,
+        rubs: f64,
+        far_turn: f64,
+        leads_back: f64,
+        shallow: f64,
+        soon: f64,
+        bends: f64,
+        turning: f64,
+        hit: f64,
+    }
+    /// Numbers for leaning hands.
+    orient: OrientNumbers {
+        leans: f64,
+        turned_over: f64,
+    }
+    /// Numbers for mirrored hands.
+    own_side: OwnSideNumbers {
+        crosses: f64,
+        soft: f64,
+        like: f64,
+        around: f64,
+    }
+    /// Numbers for corrections at the trunk.
+    push_out: PushOutNumbers {
+        near: f64,
+    }
+    /// Numbers for an arm over time.
+    solve: SolveNumbers {
+        chosen: f64,
+        lead: f64,
+        bending: f64,
+        pushing: f64,
+        around: f64,
+        margin: f64,
+        most_turned: f64,
+        near_turned: f64,
+    }
+    /// Numbers for time.
+    tempo: TempoNumbers {
+        easy: f64,
+        slightly: f64,
+        calm: f64,
+        still: f64,
+        hardest: f64,
+        longer: f64,
+    }
+    /// Numbers for thumbs.
+    thumb: ThumbNumbers {
+        apart: f64,
+        most: f64,
+        skin: f64,
+        level: f64,
+    }
+    /// Numbers for the path from one posture to another.
+    transit: TransitNumbers {
+        round: f64,
+        behind: f64,
+    }
+}
+
+const DOCUMENT: &str = include_str!("../../../../schema/notation/animating.json");
+
+static TUNED: LazyLock<Tuned> =
+    LazyLock::new(|| read(DOCUMENT).expect("the program's own file has every number"));
+
+/// Returns the tuned numbers.
+pub(crate) fn tuned() -> &'static Tuned {
+    &TUNED
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_number_has_a_unit_and_a_meaning_of_its_own() {
+        assert_eq!(chereme_sign::tuned::faults(DOCUMENT), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_number_of_another_name_is_refused() {
+        let other = DOCUMENT.replace("\"lever\": [0.04,", "\"levers\": [0.04,");
+        assert_ne!(DOCUMENT, other);
+        let refused = read::<Tuned>(&other).expect_err("refused").to_string();
+        assert!(refused.contains("levers"), "{refused}");
+    }
+}
