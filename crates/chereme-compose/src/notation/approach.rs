@@ -184,7 +184,7 @@ impl Planner<'_> {
                 approach.least = approach.least.max(least);
             }
         }
-        approach.least = approach.least.min(self.language.time_approach_most);
+        approach.least = approach.least.min(self.signer.language.time_approach_most);
         approach
     }
 
@@ -209,7 +209,7 @@ impl Planner<'_> {
         self.trail = None;
         let total = (end * RATE).ceil() as usize + 1;
         [0, 1].map(|n| {
-            let course = |event: &Event, share: f64| self.paces.share(event.pace, share);
+            let course = |event: &Event, share: f64| self.signer.paces.share(event.pace, share);
             let made = goals(&start[n], &events[n], RATE, total, course);
             let wrists: Vec<DVec3> = made.wrists().collect();
             let lax = events[n].iter().filter(|event| event.pace == Pace::Lax);

@@ -10,7 +10,7 @@ use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Motion, Place};
 
 use super::motion::Env;
 use super::place::is_at_hand;
-use super::plan::{Planner, Who, acting};
+use super::plan::{Hands, Planner, Signer, Who, acting};
 use super::solve::Arm;
 use super::tuned::tuned;
 
@@ -51,7 +51,7 @@ impl Planner<'_> {
         trail.within -= usize::from(entered);
         if trail.within == 0 && !trail.over {
             for (n, _) in acting(who) {
-                trail.note(n, self.stance(n));
+                trail.note(n, self.hands().stance(n));
             }
         }
         self.trail = Some(trail);
@@ -61,15 +61,6 @@ impl Planner<'_> {
     pub(crate) fn placed(&mut self) {
         if let Some(trail) = &mut self.trail {
             trail.over = true;
-        }
-    }
-
-    fn stance(&self, n: usize) -> Stance {
-        let state = &self.state[n];
-        Stance {
-            point: state.point,
-            rotation: state.rotation,
-            offset: state.offset,
         }
     }
 
@@ -83,8 +74,8 @@ impl Planner<'_> {
             Place::Body(body) => {
                 let axes = named.map(|frame| frame.map(|frame| frame.axes));
                 let room = match (body.site, body.contact, follows) {
-                    (None, None, Some(_)) => Some(self.anywhere()),
-                    _ => self.within(self.room(body)),
+                    (None, None, Some(_)) => Some(self.signer.anywhere()),
+                    _ => self.signer.within(self.signer.room(body)),
                 };
                 self.shift(room, axes, named, follows);
             }
@@ -93,7 +84,7 @@ impl Planner<'_> {
             Place::Split(a, b) => {
                 for (n, place) in [a, b].into_iter().enumerate() {
                     let mut only: Who = [None, None];
-                    only[n] = named[n].or(Some(self.own_frame()));
+                    only[n] = named[n].or(Some(self.signer.own_frame()));
                     if let Some(place) = place {
                         self.ease(place, only, follows);
                     }
@@ -101,8 +92,10 @@ impl Planner<'_> {
             }
             Place::Hands(hands) => {
                 let room = match (&hands.at, follows) {
-                    (None, Some(_)) => Some(self.anywhere()),
-                    (at, _) => self.within(at.as_ref().map_or(1.0, |at| self.room(at))),
+                    (None, Some(_)) => Some(self.signer.anywhere()),
+                    (at, _) => self
+                        .signer
+                        .within(at.as_ref().map_or(1.0, |at| self.signer.room(at))),
                 };
                 // Hands that are placed relative to each other shift together.
                 let one = Some(DVec3::ONE);
@@ -112,13 +105,84 @@ impl Planner<'_> {
                 let [Some(a), Some(b)] = named else { return };
                 if a.mirrors(&b) {
                     let one = Some(DVec3::ONE);
-                    self.shift(Some(self.anywhere()), [one; 2], named, follows);
+                    self.shift(Some(self.signer.anywhere()), [one; 2], named, follows);
                 }
             }
             Place::Hand(_) | Place::Named(_) => {}
         }
     }
 
+    /// Shifts hands within a room (arm lengths) to reduce the strain of their arms.
+    fn shift(
+        &mut self,
+        room: Option<[DVec3; 2]>,
+        axes: [Option<DVec3>; 2],
+        named: Who,
+        follows: Option<(&[Motion], Who)>,
+    ) {
+        let Some(room) = room
+            .map(|ends| ends.map(|ends| ends * (tuned().comfort.taken * self.signer.stage.arm)))
+        else {
+            return;
+        };
+        let mut trail = Trail::default();
+        for (n, _) in acting(named) {
+            trail.note(n, self.hands().stance(n));
+        }
+        if let Some((motions, who)) = follows {
+            self.trail = Some(trail);
+            self.aside(|planner| {
+                let mut now = 0.0;
+                for motion in motions {
+                    now = planner.motion(motion, who, now, &Env::default());
+                }
+            });
+            trail = self.trail.take().unwrap_or_default();
+        }
+        let mut seen = trail.seen;
+        seen.retain(|(n, _)| axes[*n].is_some());
+        let mut strained: Vec<(f64, (usize, Stance))> = seen
+            .into_iter()
+            .map(|(n, stance)| (self.signer.strain(n, &stance, DVec3::ZERO), (n, stance)))
+            .collect();
+        strained.sort_by(|a, b| b.0.total_cmp(&a.0));
+        if strained
+            .first()
+            .is_none_or(|(most, _)| *most < tuned().comfort.strained)
+        {
+            return;
+        }
+        strained.truncate(WEIGHED);
+        let by = |local: DVec3, n: usize| {
+            let axes = axes[n].unwrap_or(DVec3::ONE);
+            self.signer.stage.direction(local * axes)
+        };
+        // Sums above `most` need not be exact.
+        let cost = |local: DVec3, most: f64| {
+            let shifted = tuned().comfort.shifted * share(local, room).powi(2);
+            let mut sum = 0.0;
+            for (_, (n, stance)) in &strained {
+                sum += self.signer.strain(*n, stance, by(local, *n));
+                if sum + shifted > most {
+                    return f64::INFINITY;
+                }
+            }
+            sum + shifted
+        };
+        let best = lowest(cost, room);
+        let shifts = [0, 1].map(|n| by(best, n));
+        for (n, _) in acting(named) {
+            let was = self.state[n].point;
+            self.state[n].point += shifts[n];
+            let now = self.state[n].point;
+            for at in self.named.values_mut() {
+                at[n] = at[n].map(|at| if at == was { now } else { at });
+            }
+        }
+    }
+}
+
+impl Signer<'_> {
     /// Returns a share of the room at a place, as its lower and upper ends (left, up, forward) in arm
     /// lengths.
     fn within(&self, share: f64) -> Option<[DVec3; 2]> {
@@ -140,75 +204,6 @@ impl Planner<'_> {
         .map(|ends| ends.max(DVec3::splat(1e-4)))
     }
 
-    /// Shifts hands within a room (arm lengths) to reduce the strain of their arms.
-    fn shift(
-        &mut self,
-        room: Option<[DVec3; 2]>,
-        axes: [Option<DVec3>; 2],
-        named: Who,
-        follows: Option<(&[Motion], Who)>,
-    ) {
-        let Some(room) =
-            room.map(|ends| ends.map(|ends| ends * (tuned().comfort.taken * self.stage.arm)))
-        else {
-            return;
-        };
-        let mut trail = Trail::default();
-        for (n, _) in acting(named) {
-            trail.note(n, self.stance(n));
-        }
-        if let Some((motions, who)) = follows {
-            self.trail = Some(trail);
-            self.aside(|planner| {
-                let mut now = 0.0;
-                for motion in motions {
-                    now = planner.motion(motion, who, now, &Env::default());
-                }
-            });
-            trail = self.trail.take().unwrap_or_default();
-        }
-        let mut seen = trail.seen;
-        seen.retain(|(n, _)| axes[*n].is_some());
-        let mut strained: Vec<(f64, (usize, Stance))> = seen
-            .into_iter()
-            .map(|(n, stance)| (self.strain(n, &stance, DVec3::ZERO), (n, stance)))
-            .collect();
-        strained.sort_by(|a, b| b.0.total_cmp(&a.0));
-        if strained
-            .first()
-            .is_none_or(|(most, _)| *most < tuned().comfort.strained)
-        {
-            return;
-        }
-        strained.truncate(WEIGHED);
-        let by = |local: DVec3, n: usize| {
-            let axes = axes[n].unwrap_or(DVec3::ONE);
-            self.stage.direction(local * axes)
-        };
-        // Sums above `most` need not be exact.
-        let cost = |local: DVec3, most: f64| {
-            let shifted = tuned().comfort.shifted * share(local, room).powi(2);
-            let mut sum = 0.0;
-            for (_, (n, stance)) in &strained {
-                sum += self.strain(*n, stance, by(local, *n));
-                if sum + shifted > most {
-                    return f64::INFINITY;
-                }
-            }
-            sum + shifted
-        };
-        let best = lowest(cost, room);
-        let shifts = [0, 1].map(|n| by(best, n));
-        for (n, _) in acting(named) {
-            let was = self.state[n].point;
-            self.state[n].point += shifts[n];
-            let now = self.state[n].point;
-            for at in self.named.values_mut() {
-                at[n] = at[n].map(|at| if at == was { now } else { at });
-            }
-        }
-    }
-
     /// Returns the strain of an arm whose hand is shifted by an offset (m).
     fn strain(&self, n: usize, stance: &Stance, by: DVec3) -> f64 {
         let Some(hand) = self.stage.hand(self.sides[n]) else {
@@ -227,7 +222,18 @@ impl Planner<'_> {
     }
 }
 
-impl Planner<'_> {
+impl Hands<'_> {
+    fn stance(&self, n: usize) -> Stance {
+        let state = &self.state[n];
+        Stance {
+            point: state.point,
+            rotation: state.rotation,
+            offset: state.offset,
+        }
+    }
+}
+
+impl Signer<'_> {
     /// Returns the share of the room that a hand has at a place: zero in contact.
     fn room(&self, place: &BodyPlace) -> f64 {
         let l = self.language;
@@ -336,15 +342,15 @@ mod tests {
         let language = (BodyLanguage::usual(), &paces);
         let shifted = |room: f64, along: &str, palm: &str| {
             let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
-            let who = [Some(planner.own_frame()), None];
+            let who = [Some(planner.signer.own_frame()), None];
             let place = at(BodyLocation::Chest, None);
             let begun = posture(HandClass::Flat, along, palm, Some(place));
             planner.assume(&begun, who, false);
-            let before = planner.stance(0);
+            let before = planner.hands().stance(0);
             let axes = [Some(DVec3::ONE), None];
             planner.shift(Some([DVec3::splat(room); 2]), axes, who, None);
-            let after = planner.stance(0);
-            let strain = |stance| planner.strain(0, stance, DVec3::ZERO);
+            let after = planner.hands().stance(0);
+            let strain = |stance| planner.signer.strain(0, stance, DVec3::ZERO);
             let ends = [DVec3::splat(room * tuned().comfort.taken * body.arm); 2];
             let by = after.point - before.point;
             (share(by, ends), [strain(&before), strain(&after)])
@@ -386,13 +392,13 @@ mod tests {
             (None, true),
         ] {
             let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
-            let who = [Some(planner.own_frame()), None];
+            let who = [Some(planner.signer.own_frame()), None];
             let place = at(BodyLocation::Chest, None);
             let begun = posture(HandClass::Flat, "d", "l", Some(place));
             planner.assume(&begun, who, false);
-            let before = planner.stance(0);
+            let before = planner.hands().stance(0);
             planner.ease(&Place::Split(chest(), other.clone()), who, None);
-            let shifted = planner.stance(0).point.distance(before.point);
+            let shifted = planner.hands().stance(0).point.distance(before.point);
             assert_eq!(shifted > 1e-3, moves, "{other:?}: {shifted}");
         }
     }

@@ -5,16 +5,16 @@ use chereme_sign::hamnosys::sites::{HandPoint, Region, body_site};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Place, Posture, Side as At, Site};
 
 use super::pace::Pace;
-use super::plan::{Frame, HandState, PhaseKind, Planner, Who, acting};
+use super::plan::{Frame, HandState, PhaseKind, Planner, Signer, Who, acting};
 
 impl Planner<'_> {
     /// Raises a hand from rest to its default place before the body.
     pub(crate) fn raise(&mut self, n: usize) {
         let frame = self.own_side(n);
-        let forward = self.language.medium_trunk * self.stage.arm;
+        let forward = self.signer.language.medium_trunk * self.signer.stage.arm;
         let at = DVec3::new(
-            -0.45 * frame.axes.x * self.stage.shoulders,
-            -0.85 * self.stage.shoulders,
+            -0.45 * frame.axes.x * self.signer.stage.shoulders,
+            -0.85 * self.signer.stage.shoulders,
             forward,
         );
         self.hold(n, frame, at, DVec3::new(0.5, 0.0, 0.87), 0.0);
@@ -28,7 +28,7 @@ impl Planner<'_> {
         };
         for (n, frame) in acting(named) {
             let other = 1 - n;
-            let Some(part) = self.touched(n, place, frame) else {
+            let Some(part) = self.signer.touched(n, place, frame) else {
                 continue;
             };
             if named[other].is_some() {
@@ -39,7 +39,7 @@ impl Planner<'_> {
                 continue;
             }
             let own = self.own_side(other);
-            let (sh, arm) = (self.stage.shoulders, self.stage.arm);
+            let (sh, arm) = (self.signer.stage.shoulders, self.signer.stage.arm);
             match part {
                 Touched::Inside => {
                     let at = DVec3::new(-0.30 * own.axes.x * sh, -0.46 * arm, 0.66 * arm);
@@ -70,6 +70,29 @@ impl Planner<'_> {
         }
     }
 
+    /// Returns the frame of a hand on its own side.
+    fn own_side(&self, n: usize) -> Frame {
+        let mut frame = self.signer.own_frame();
+        if n == 1 {
+            frame.axes.x = -frame.axes.x;
+        }
+        frame
+    }
+
+    /// Puts a hand with its palm at a position relative to the middle of the shoulders (left, up, forward;
+    /// m); `direction` and `palm` are in its frame.
+    fn hold(&mut self, n: usize, frame: Frame, at: DVec3, direction: DVec3, palm: f64) {
+        self.state[n].used = true;
+        self.state[n].direction = direction.normalize();
+        self.state[n].palm = palm;
+        self.state[n].axes = [frame.axes; 2];
+        self.turn(n);
+        self.state[n].offset = self.hands().offset(n, &[HandPoint::Palm]);
+        self.state[n].point = self.signer.stage.middle() + self.signer.stage.direction(at);
+    }
+}
+
+impl Signer<'_> {
     /// Returns the part of the other arm that a hand touches at a place, if any.
     fn touched(&self, n: usize, place: &BodyPlace, frame: Frame) -> Option<Touched> {
         let near = matches!(
@@ -90,27 +113,6 @@ impl Planner<'_> {
         } else {
             Touched::Along
         })
-    }
-
-    /// Returns the frame of a hand on its own side.
-    fn own_side(&self, n: usize) -> Frame {
-        let mut frame = self.own_frame();
-        if n == 1 {
-            frame.axes.x = -frame.axes.x;
-        }
-        frame
-    }
-
-    /// Puts a hand with its palm at a position relative to the middle of the shoulders (left, up, forward;
-    /// m); `direction` and `palm` are in its frame.
-    fn hold(&mut self, n: usize, frame: Frame, at: DVec3, direction: DVec3, palm: f64) {
-        self.state[n].used = true;
-        self.state[n].direction = direction.normalize();
-        self.state[n].palm = palm;
-        self.state[n].axes = [frame.axes; 2];
-        self.turn(n);
-        self.state[n].offset = self.offset(n, &[HandPoint::Palm]);
-        self.state[n].point = self.stage.middle() + self.stage.direction(at);
     }
 }
 

@@ -162,8 +162,8 @@ pub fn animate(
     let paces = Paces::of(&settings.language);
     let language = (&settings.language, &paces);
     let planner = Planner::new(&body, language, stage.handedness, rate);
-    let limits = planner.limits;
-    let sides = planner.sides;
+    let limits = planner.signer.limits;
+    let sides = planner.signer.sides;
     let mut plan = planner.signs(signs);
     let total = frames(plan.end, rate)?;
     let timing = track::Timing {

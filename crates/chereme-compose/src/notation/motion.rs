@@ -20,7 +20,7 @@ use size::{across, amount, grown, is_round, sized, turns, wrist_name};
 use super::pace::Pace;
 use super::path::Path;
 use super::plan::{
-    Act, Event, Frame, HandState, PhaseKind, Planner, Who, about, acting, mean, shortest,
+    Act, Event, Frame, HandState, PhaseKind, Planner, Signer, Who, about, acting, mean, shortest,
 };
 use super::tuned::tuned;
 
@@ -53,13 +53,13 @@ impl Planner<'_> {
     pub(crate) fn motion(&mut self, motion: &Motion, who: Who, time: f64, env: &Env) -> f64 {
         let manner = &motion.manner;
         let time = if manner.rest {
-            time + self.language.time_rest
+            time + self.signer.language.time_rest
         } else {
             time
         };
         let who = alternated(manner, who);
         let env = Env {
-            slower: env.slower * self.slower(manner),
+            slower: env.slower * self.signer.slower(manner),
             ..*env
         };
         let at_once = matches!(
@@ -77,28 +77,6 @@ impl Planner<'_> {
         end
     }
 
-    /// Returns a manner's factor on the duration.
-    fn slower(&self, manner: &Manner) -> f64 {
-        let l = self.language;
-        let mut slower = 1.0;
-        if manner.fast {
-            slower *= l.manner_fast;
-        }
-        if manner.slow {
-            slower *= l.manner_slow;
-        }
-        if manner.tense {
-            slower *= l.manner_tense;
-        }
-        if manner.halt {
-            slower *= l.manner_halt;
-        }
-        let speed = manner
-            .speed
-            .filter(|speed| speed.is_finite() && *speed > 0.0);
-        slower / speed.unwrap_or(1.0).clamp(0.1, 10.0)
-    }
-
     fn kind(&mut self, kind: &MotionKind, manner: &Manner, who: Who, time: f64, env: &Env) -> f64 {
         match kind {
             MotionKind::Directed(directed) => self.directed(directed, manner, who, time, env),
@@ -109,13 +87,13 @@ impl Planner<'_> {
             MotionKind::Cross { diagonal } => self.crossing(*diagonal, manner, who, time, env),
             MotionKind::FingerPlay(digits) => self.play(digits, who, time, env),
             MotionKind::Still => {
-                let end = time + self.language.time_still * env.slower;
+                let end = time + self.signer.language.time_still * env.slower;
                 self.add_phase(who, PhaseKind::Hold, time, end, "still");
                 end
             }
             MotionKind::Body(action) => self.body(action, time),
             MotionKind::Split(a, b) => {
-                let own = self.own_frame();
+                let own = self.signer.own_frame();
                 let mut end = time;
                 for (n, motion) in [a, b].into_iter().enumerate() {
                     let mut only: Who = [None, None];
@@ -146,7 +124,7 @@ impl Planner<'_> {
     fn along(&mut self, path: &Path, who: Who, [from, to]: [f64; 2], pace: Pace) {
         for (n, frame) in acting(who) {
             let sign = if frame.behind { -1.0 } else { 1.0 };
-            let stage = self.stage;
+            let stage = self.signer.stage;
             let own = path.map(|v| stage.direction(v * frame.axes * sign));
             self.state[n].point += own.end();
             self.state[n].used = true;
@@ -166,13 +144,6 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns the duration (s) of a path: the usual one, or longer if the hand would be too fast.
-    fn timed(&self, usual: f64, length: f64, env: &Env) -> f64 {
-        // A targetted movement is at its fastest 2.6 times as fast as on average.
-        let least = 2.6 * length / (self.language.speed_most * self.stage.arm);
-        (usual * env.slower).max(least)
-    }
-
     fn directed(
         &mut self,
         directed: &Directed,
@@ -181,11 +152,11 @@ impl Planner<'_> {
         time: f64,
         env: &Env,
     ) -> f64 {
-        let l = self.language;
+        let l = self.signer.language;
         let size = amount(&directed.size, [l.move_small, l.move_normal, l.move_big]);
         let direction = mean(directed.direction, directed.second);
         let sign = if env.back { -1.0 } else { 1.0 };
-        let chord = direction * (size * env.size * self.stage.arm * sign);
+        let chord = direction * (size * env.size * self.signer.stage.arm * sign);
         let usual = if directed.curve.is_some() || directed.zigzag.is_some() {
             l.time_arc
         } else {
@@ -194,11 +165,11 @@ impl Planner<'_> {
         let path = match &directed.curve {
             Some(curve) => Path::Arc {
                 chord,
-                bow: self.bow(direction, curve) * chord.length(),
+                bow: self.signer.bow(direction, curve) * chord.length(),
             },
             None => Path::Line(chord),
         };
-        let mut end = time + self.timed(usual, path.length(), env);
+        let mut end = time + self.signer.timed(usual, path.length(), env);
         let mut pace = Pace::of(manner, Pace::Targetted);
         if directed.zigzag.is_some() {
             // The path takes as long as its waves need.
@@ -210,7 +181,7 @@ impl Planner<'_> {
         if let Some(zigzag) = &directed.zigzag {
             let wide = sized(zigzag.size, [l.zigzag_small, l.zigzag_normal, l.zigzag_big]);
             let wave = Path::Wave {
-                side: across(direction) * (wide * env.size * self.stage.arm),
+                side: across(direction) * (wide * env.size * self.signer.stage.arm),
                 waves: l.zigzag_waves,
                 wavy: zigzag.wavy,
                 grown: grown(zigzag.growth, 2.0 * l.growth),
@@ -226,13 +197,6 @@ impl Planner<'_> {
         end
     }
 
-    /// Returns the bulge of an arc: its direction, with its depth as a share of the chord as length.
-    fn bow(&self, direction: DVec3, curve: &Curve) -> DVec3 {
-        let l = self.language;
-        let deep = sized(curve.size, [l.arc_small, l.arc_normal, l.arc_big]);
-        shortest(direction) * about(curve.to.angle()) * deep
-    }
-
     fn circular(
         &mut self,
         circular: &Circular,
@@ -241,14 +205,14 @@ impl Planner<'_> {
         time: f64,
         env: &Env,
     ) -> f64 {
-        let l = self.language;
+        let l = self.signer.language;
         let radius = amount(
             &circular.size,
             [l.circle_small, l.circle_normal, l.circle_big],
         );
         let turns = turns(circular) + env.rounds;
         let skin = self.outwards(who);
-        let (start, quarter) = self.rim(circular, radius * env.size, skin);
+        let (start, quarter) = self.signer.rim(circular, radius * env.size, skin);
         let path = Path::Circle {
             start,
             quarter: if env.back { -quarter } else { quarter },
@@ -256,7 +220,7 @@ impl Planner<'_> {
             grown: grown(circular.growth, l.growth * turns),
         };
         let usual = l.time_circle * turns.max(0.4);
-        let end = time + self.timed(usual, path.length(), env);
+        let end = time + self.signer.timed(usual, path.length(), env);
         self.along(&path, who, [time, end], Pace::of(manner, Pace::Linear));
         self.make_room(&path, who, [time, end]);
         let says = format!("circle {}", circular.axis);
@@ -270,49 +234,11 @@ impl Planner<'_> {
         let skin = acting(who).find_map(|(n, frame)| self.skin(n, frame));
         let beside = || match who {
             [Some(own), Some(other)] if self.together.is_some() && own.mirrors(&other) => {
-                Some(DVec3::X * (self.sides[0].sign() * own.axes.x))
+                Some(DVec3::X * (self.signer.sides[0].sign() * own.axes.x))
             }
             _ => None,
         };
         skin.or_else(beside)
-    }
-
-    /// Returns the vectors from a circle's centre to its start and to the point a quarter turn on. The
-    /// default start is above; a hand that touches the body or the other hand starts there: `skin` is the direction
-    /// away from it.
-    fn rim(&self, circular: &Circular, radius: f64, skin: Option<DVec3>) -> (DVec3, DVec3) {
-        let l = self.language;
-        let axis = mean(circular.axis, circular.second);
-        let turned = shortest(axis);
-        let upright = skin.filter(|out| out.dot(axis).abs() < 0.8);
-        let usual = upright.map_or(std::f64::consts::PI, |out| {
-            let inwards = turned.inverse() * -out;
-            (-inwards.x).atan2(-inwards.y)
-        });
-        let start = circular.clock.start.map_or(usual, |at| at.angle());
-        let mut spokes = [start, start + std::f64::consts::FRAC_PI_2].map(about);
-        // A quarter turn on by the right-hand rule about forward.
-        spokes[1] = DVec3::Z.cross(spokes[0]);
-        if let Some(ellipse) = circular.ellipse {
-            use chereme_sign::hamnosys::Ellipse;
-            let long = match ellipse {
-                Ellipse::Horizontal => DVec3::X,
-                Ellipse::Vertical => DVec3::Y,
-                Ellipse::UpRight => DVec3::new(-1.0, 1.0, 0.0).normalize(),
-                Ellipse::UpLeft => DVec3::new(1.0, 1.0, 0.0).normalize(),
-            };
-            let narrow = sized(
-                circular.ellipse_size,
-                [l.ellipse_small, l.ellipse_normal, l.ellipse_big],
-            );
-            let squeeze = |v: DVec3| {
-                let along = long * v.dot(long);
-                along + (v - along) * narrow
-            };
-            spokes = spokes.map(squeeze);
-        }
-        let size = radius * self.stage.arm;
-        (turned * spokes[0] * size, turned * spokes[1] * size)
     }
 
     /// Starts a second hand that is half a period behind on the other side of its circle.
@@ -335,13 +261,13 @@ impl Planner<'_> {
         let Some(circular) = part.actions.first().and_then(circle) else {
             return;
         };
-        let l = self.language;
+        let l = self.signer.language;
         let radius = amount(
             &circular.size,
             [l.circle_small, l.circle_normal, l.circle_big],
         );
-        let (start, _) = self.rim(circular, radius, skin);
-        let by = self.stage.direction(start * frame.axes * -2.0);
+        let (start, _) = self.signer.rim(circular, radius, skin);
+        let by = self.signer.stage.direction(start * frame.axes * -2.0);
         self.state[1].point += by;
     }
 
@@ -354,7 +280,7 @@ impl Planner<'_> {
         time: f64,
         env: &Env,
     ) -> f64 {
-        let l = self.language;
+        let l = self.signer.language;
         let scale = sized(size, [l.wrist_small, 1.0, l.wrist_big]) * env.size;
         let cycles = if env.rounds > 0.0 {
             env.rounds + 1.0
@@ -363,7 +289,7 @@ impl Planner<'_> {
         };
         let end = time + l.time_wrist * cycles * env.slower;
         for (n, frame) in acting(who) {
-            let Some(hand) = self.stage.hand(self.sides[n]) else {
+            let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
                 continue;
             };
             let own = -hand.side.sign() * if frame.behind { -1.0 } else { 1.0 };
@@ -391,22 +317,22 @@ impl Planner<'_> {
     }
 
     fn crossing(&mut self, diagonal: bool, manner: &Manner, who: Who, time: f64, env: &Env) -> f64 {
-        let l = self.language;
-        let size = l.cross_size * env.size * self.stage.arm;
+        let l = self.signer.language;
+        let size = l.cross_size * env.size * self.signer.stage.arm;
         let points = if diagonal {
             [[1.0, -1.0], [1.0, 0.0], [0.0, -1.0]]
         } else {
             [[0.0, -1.0], [0.5, -0.5], [-0.5, -0.5]]
         };
         let path = Path::Through(points.map(|[x, y]| DVec3::new(x, y, 0.0) * size).to_vec());
-        let end = time + self.timed(2.2 * l.time_straight, path.length(), env);
+        let end = time + self.signer.timed(2.2 * l.time_straight, path.length(), env);
         self.along(&path, who, [time, end], Pace::of(manner, Pace::Linear));
         self.add_phase(who, PhaseKind::Stroke, time, end, "cross");
         end
     }
 
     fn play(&mut self, digits: &Digits, who: Who, time: f64, env: &Env) -> f64 {
-        let l = self.language;
+        let l = self.signer.language;
         let cycles = l.play_cycles + env.rounds;
         let end = time + l.time_play * cycles * env.slower;
         for (n, _) in acting(who) {
@@ -439,7 +365,7 @@ impl Planner<'_> {
     /// Reports an action of the body in place of a hand; the animator does not move the body for it.
     pub(crate) fn body(&mut self, action: &BodyAction, time: f64) -> f64 {
         self.remark("movements of the body in place of a hand are annotated, not animated");
-        let end = time + self.language.time_body;
+        let end = time + self.signer.language.time_body;
         self.phase(
             0,
             PhaseKind::Stroke,
@@ -461,7 +387,7 @@ impl Planner<'_> {
         for (n, motion) in order.into_iter().enumerate() {
             let end = self.motion(motion, who, now, env);
             now = if fused && n < last {
-                end - (end - now) * self.language.fused
+                end - (end - now) * self.signer.language.fused
             } else {
                 end
             };
@@ -503,7 +429,7 @@ impl Planner<'_> {
             if turned[n] < tuned().motion.far_turn || self.skin(n, frame).is_some() {
                 continue;
             }
-            let palm = self.offset(n, &[HandPoint::Palm]);
+            let palm = self.hands().offset(n, &[HandPoint::Palm]);
             let mut goal = self.state[n].clone();
             if goal.offset.distance(palm) < 1e-9 {
                 continue;
@@ -532,7 +458,7 @@ impl Planner<'_> {
 
     fn parallel(&mut self, motions: &[Motion], who: Who, time: f64, env: &Env) -> f64 {
         self.let_go(motions, who, time);
-        let shared = self.shared_tempo(motions);
+        let shared = self.signer.shared_tempo(motions);
         let at_tempo = |motion: &Motion| Env {
             slower: match has_tempo(motion) {
                 true => env.slower,
@@ -560,14 +486,6 @@ impl Planner<'_> {
             self.motion(motion, who, time, &env);
         }
         time + longest
-    }
-
-    /// Returns the factor on the duration of simultaneous motions for which the notation gives no tempo: the fastest
-    /// that it gives one of them. Without it a change of handshape beside a fast path would slow the path down.
-    fn shared_tempo(&self, motions: &[Motion]) -> f64 {
-        let written = motions.iter().filter(|motion| has_tempo(motion));
-        let factors = written.filter_map(tempo_manner).map(|it| self.slower(it));
-        factors.fold(1.0, f64::min)
     }
 
     /// Returns the duration of a motion (s), by a trial plan.
@@ -602,6 +520,90 @@ impl Planner<'_> {
         self.plan.phases.truncate(phases);
         self.plan.remarks.truncate(remarks);
         end
+    }
+}
+
+impl Signer<'_> {
+    /// Returns a manner's factor on the duration.
+    fn slower(&self, manner: &Manner) -> f64 {
+        let l = self.language;
+        let mut slower = 1.0;
+        if manner.fast {
+            slower *= l.manner_fast;
+        }
+        if manner.slow {
+            slower *= l.manner_slow;
+        }
+        if manner.tense {
+            slower *= l.manner_tense;
+        }
+        if manner.halt {
+            slower *= l.manner_halt;
+        }
+        let speed = manner
+            .speed
+            .filter(|speed| speed.is_finite() && *speed > 0.0);
+        slower / speed.unwrap_or(1.0).clamp(0.1, 10.0)
+    }
+
+    /// Returns the duration (s) of a path: the usual one, or longer if the hand would be too fast.
+    fn timed(&self, usual: f64, length: f64, env: &Env) -> f64 {
+        // A targetted movement is at its fastest 2.6 times as fast as on average.
+        let least = 2.6 * length / (self.language.speed_most * self.stage.arm);
+        (usual * env.slower).max(least)
+    }
+
+    /// Returns the bulge of an arc: its direction, with its depth as a share of the chord as length.
+    fn bow(&self, direction: DVec3, curve: &Curve) -> DVec3 {
+        let l = self.language;
+        let deep = sized(curve.size, [l.arc_small, l.arc_normal, l.arc_big]);
+        shortest(direction) * about(curve.to.angle()) * deep
+    }
+
+    /// Returns the vectors from a circle's centre to its start and to the point a quarter turn on. The
+    /// default start is above; a hand that touches the body or the other hand starts there: `skin` is the direction
+    /// away from it.
+    fn rim(&self, circular: &Circular, radius: f64, skin: Option<DVec3>) -> (DVec3, DVec3) {
+        let l = self.language;
+        let axis = mean(circular.axis, circular.second);
+        let turned = shortest(axis);
+        let upright = skin.filter(|out| out.dot(axis).abs() < 0.8);
+        let usual = upright.map_or(std::f64::consts::PI, |out| {
+            let inwards = turned.inverse() * -out;
+            (-inwards.x).atan2(-inwards.y)
+        });
+        let start = circular.clock.start.map_or(usual, |at| at.angle());
+        let mut spokes = [start, start + std::f64::consts::FRAC_PI_2].map(about);
+        // A quarter turn on by the right-hand rule about forward.
+        spokes[1] = DVec3::Z.cross(spokes[0]);
+        if let Some(ellipse) = circular.ellipse {
+            use chereme_sign::hamnosys::Ellipse;
+            let long = match ellipse {
+                Ellipse::Horizontal => DVec3::X,
+                Ellipse::Vertical => DVec3::Y,
+                Ellipse::UpRight => DVec3::new(-1.0, 1.0, 0.0).normalize(),
+                Ellipse::UpLeft => DVec3::new(1.0, 1.0, 0.0).normalize(),
+            };
+            let narrow = sized(
+                circular.ellipse_size,
+                [l.ellipse_small, l.ellipse_normal, l.ellipse_big],
+            );
+            let squeeze = |v: DVec3| {
+                let along = long * v.dot(long);
+                along + (v - along) * narrow
+            };
+            spokes = spokes.map(squeeze);
+        }
+        let size = radius * self.stage.arm;
+        (turned * spokes[0] * size, turned * spokes[1] * size)
+    }
+
+    /// Returns the factor on the duration of simultaneous motions for which the notation gives no tempo: the fastest
+    /// that it gives one of them. Without it a change of handshape beside a fast path would slow the path down.
+    fn shared_tempo(&self, motions: &[Motion]) -> f64 {
+        let written = motions.iter().filter(|motion| has_tempo(motion));
+        let factors = written.filter_map(tempo_manner).map(|it| self.slower(it));
+        factors.fold(1.0, f64::min)
     }
 }
 

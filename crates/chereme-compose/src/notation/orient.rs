@@ -14,8 +14,12 @@ impl Planner<'_> {
         // The palm's letter applies to a hand that points in this direction in its own frame.
         let direction = state.direction * pointing * facing;
         let [direction, palm] =
-            oriented(direction, state.palm).map(|v| self.stage.direction(v * facing));
-        if let Some(rotation) = self.stage.turned(self.sides[n], direction, palm) {
+            oriented(direction, state.palm).map(|v| self.signer.stage.direction(v * facing));
+        if let Some(rotation) = self
+            .signer
+            .stage
+            .turned(self.signer.sides[n], direction, palm)
+        {
             self.state[n].rotation = rotation;
         }
     }
@@ -25,7 +29,12 @@ impl Planner<'_> {
     pub(crate) fn keep_side(&mut self, n: usize, before: &HandState) {
         let state = &self.state[n];
         let same = state.palm == before.palm && state.axes[1] == before.axes[1];
-        let Some(hand) = self.stage.hand(self.sides[n]).filter(|_| same) else {
+        let Some(hand) = self
+            .signer
+            .stage
+            .hand(self.signer.sides[n])
+            .filter(|_| same)
+        else {
             return;
         };
         let [from, to] = [before.rotation, state.rotation].map(|turned| turned * hand.along);

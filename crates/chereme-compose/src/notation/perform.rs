@@ -76,7 +76,7 @@ impl Performer {
         let (body, rate) = (&self.body, self.settings.rate.per_second());
         let language = (&self.settings.language, &self.paces);
         let planner = Planner::new(body, language, self.stage.handedness, rate);
-        let (limits, sides) = (planner.limits, planner.sides);
+        let (limits, sides) = (planner.signer.limits, planner.signer.sides);
         let plan = planner.signs(&[&notated(sign)]);
         let total = frames(plan.end, rate)?;
         let reached = plan.signs.first().map_or(0.0, |sign| sign.from);

@@ -13,7 +13,7 @@ use chereme_sign::hamnosys::{
 };
 
 use super::lift::inside;
-use super::plan::{Frame, Planner, Who, acting};
+use super::plan::{Frame, Hands, Planner, Signer, Who, acting};
 use super::solve::Arm;
 use super::stage::FINGER_FLESH;
 use super::tuned::tuned;
@@ -62,9 +62,9 @@ impl Planner<'_> {
                 for (n, place) in each {
                     let Some(place) = place else { continue };
                     let mut only: Who = [None, None];
-                    let mut frame = named[n].unwrap_or_else(|| self.own_frame());
+                    let mut frame = named[n].unwrap_or_else(|| self.signer.own_frame());
                     // Sides in words of its own are the signer's.
-                    frame.mirrored = self.own_frame().mirrored;
+                    frame.mirrored = self.signer.own_frame().mirrored;
                     only[n] = Some(frame);
                     self.place(place, only);
                 }
@@ -88,9 +88,9 @@ impl Planner<'_> {
 
     /// Puts the mean of a hand's points at its goal.
     fn settle(&mut self, n: usize, goal: &Goal) {
-        self.state[n].offset = self.offset(n, &goal.points);
+        self.state[n].offset = self.hands().offset(n, &goal.points);
         if goal.flat {
-            self.state[n].offset += self.stands_out(n, &goal.points);
+            self.state[n].offset += self.hands().stands_out(n, &goal.points);
         }
         self.state[n].point = goal.at;
         if let Some(skin) = goal.skin {
@@ -100,8 +100,8 @@ impl Planner<'_> {
 
     /// Returns the goal of a hand for a place on the body or in space.
     fn on_body(&mut self, n: usize, place: &BodyPlace, frame: Frame, apart: bool) -> Goal {
-        let side = self.sides[n];
-        let site = self.sites(n, place, frame);
+        let side = self.signer.sides[n];
+        let site = self.hands().sites(n, place, frame);
         let contact = place.contact;
         let touching = matches!(
             contact,
@@ -113,24 +113,24 @@ impl Planner<'_> {
         let points = match &place.by {
             Some(by) => hand_points(by, side, frame.mirrored),
             None if touching || (near && site.site.region != Region::Trunk) => {
-                vec![self.facing(n, -facing, site.site.region)]
+                vec![self.hands().facing(n, -facing, site.site.region)]
             }
             None => vec![HandPoint::Palm],
         };
-        let at = self.before(&site, contact, touching, place.behind);
+        let at = self.signer.before(&site, contact, touching, place.behind);
         let skin = match site.site.region {
             _ if !touching || place.behind => None,
-            Region::Trunk => self.stage.torso.normal(at),
+            Region::Trunk => self.signer.stage.torso.normal(at),
             // A contact below the chin or at the neck faces forward.
-            Region::Face => Some(self.stage.forward),
+            Region::Face => Some(self.signer.stage.forward),
             Region::Arm(_) => None,
         };
         if site.site.region == Region::Trunk && skin.is_some() {
             self.lay(n, &points, at);
         }
         let at = match apart && self.symmetric && site.site.lateral == 0.0 {
-            true if !touching => self.apart(n, at),
-            true if site.site.region == Region::Trunk => self.beside(n, &points, at),
+            true if !touching => self.signer.apart(n, at),
+            true if site.site.region == Region::Trunk => self.hands().beside(n, &points, at),
             _ => at,
         };
         Goal {
@@ -141,30 +141,16 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns the position of a place on the body, or half-way between two.
-    fn sites(&self, n: usize, place: &BodyPlace, frame: Frame) -> Placed {
-        let neutral = Site {
-            at: BodyLocation::NeutralSpace,
-            side: None,
-            approx: false,
-        };
-        let site = self.site(n, &place.site.unwrap_or(neutral), frame);
-        match &place.second {
-            Some(second) => middle(&site, &self.site(n, second, frame)),
-            None => site,
-        }
-    }
-
     /// Returns the outward unit normal of the body at a hand's current contact (left, up, forward in the
     /// hand's frame).
     pub(crate) fn skin(&self, n: usize, frame: Frame) -> Option<DVec3> {
         let touching = |place: &&BodyPlace| place.contact == Some(Contact::Touch) && !place.behind;
         let place = self.at_body[n].as_ref().filter(touching)?;
-        let placed = self.sites(n, place, frame);
+        let placed = self.hands().sites(n, place, frame);
         if placed.site.beside || placed.at.distance(self.state[n].point) > 2e-3 {
             return None;
         }
-        let stage = self.stage;
+        let stage = self.signer.stage;
         let out = match placed.site.region {
             Region::Trunk => stage.torso.normal(placed.at).unwrap_or(placed.out),
             _ => placed.out,
@@ -173,21 +159,154 @@ impl Planner<'_> {
         Some(local * frame.axes)
     }
 
-    /// Moves a place on the skin in the middle to the hand's own side, so that the other hand touches the skin beside it.
-    fn beside(&self, n: usize, points: &[HandPoint], at: DVec3) -> DVec3 {
-        let Some(hand) = self.stage.hand(self.sides[n]) else {
-            return at;
+    /// Moves an acting hand to a site of the other hand.
+    fn on_hand(&mut self, site: &HandSite, named: Who) {
+        let acting = usize::from(named[0].is_none());
+        let other = 1 - acting;
+        let frame = named[acting].unwrap_or_else(|| self.signer.own_frame());
+        if !self.state[other].used {
+            self.raise(other);
+        }
+        let touched = self.signer.site_points(other, site, frame);
+        let (at, out) = self.hands().at_hand(other, &touched);
+        let points = match &site.by {
+            Some(by) => self.signer.site_points(acting, by, frame),
+            None => vec![
+                self.hands()
+                    .facing(acting, -out, Region::Arm(self.signer.sides[other])),
+            ],
         };
-        let state = &self.state[n];
-        let outwards = self.stage.left * hand.side.sign();
-        let own = state.rotation.inverse() * -outwards;
-        let offset = self.offset(n, points);
-        let outline = &self.plan.shapes[n][state.shape].outline.points;
-        let reach = outline.iter().map(|part| (*part - offset).dot(own));
-        let reach = reach.fold(0.0, f64::max) + FINGER_FLESH * hand.length();
-        at + outwards * reach.min(tuned().contact.beside * hand.length())
+        if matches!(site.contact, Some(Contact::Interlock | Contact::Cross)) {
+            self.plan.laced = true;
+        }
+        let far = match site.contact {
+            Some(Contact::Close) => self.signer.language.hands_near * self.signer.stage.arm,
+            _ => 0.0,
+        };
+        let goal = Goal {
+            at: at + out * far,
+            points,
+            flat: false,
+            skin: None,
+        };
+        self.settle(acting, &goal);
+        self.define(site.define, acting);
     }
 
+    /// Moves a hand that signs alone to its last place at the body, or to the named place.
+    fn alone(&mut self, hands: &Constellation, named: Who) {
+        for (n, frame) in acting(named) {
+            let known = self.at_body[n].clone();
+            let Some(mut place) = hands.at.clone().or_else(|| known.clone()) else {
+                continue;
+            };
+            place.contact = hands.contact.or(place.contact);
+            let by = known.and_then(|known| known.by);
+            place.by = hands.dominant.clone().or(place.by).or(by);
+            let goal = self.on_body(n, &place, frame, true);
+            self.settle(n, &goal);
+            self.define(hands.define, n);
+            self.at_body[n] = Some(place);
+        }
+    }
+
+    /// Moves the hands together, and both to a place.
+    fn by_each_other(&mut self, hands: &Constellation, named: Who) {
+        let hands = &self.remembered(hands);
+        if matches!(hands.contact, Some(Contact::Interlock | Contact::Cross)) {
+            self.plan.laced = true;
+        }
+        for n in 0..2 {
+            if !self.state[n].used {
+                self.raise(n);
+            }
+        }
+        let frames = named.map(|frame| frame.unwrap_or_else(|| self.signer.own_frame()));
+        let centre = self.centre(hands, frames[0]);
+        let across = self.signer.stage.left * self.signer.sides[0].sign();
+        let mirrored = frames[0].mirrors(&frames[1]);
+        let far = self.signer.language.hands_near * self.signer.stage.arm;
+        let apart = match hands.contact {
+            Some(Contact::Touch | Contact::Interlock | Contact::Cross) => 0.0,
+            Some(Contact::Brushing) => 0.0,
+            Some(Contact::Close) => far,
+            _ => 2.0 * far,
+        };
+        let unlike = hands.other.is_some() && hands.other != hands.dominant;
+        let (points, direction) = if mirrored && !unlike {
+            let point = |n: usize, site: &Option<HandSite>, direction: DVec3| match site {
+                Some(site) => self.signer.site_points(n, site, frames[n]),
+                None if hands.contact == Some(Contact::Cross) => {
+                    vec![HandPoint::Wrist(Face::Palmar)]
+                }
+                // Interlocked fingers: their first bones meet.
+                None if hands.contact == Some(Contact::Interlock) => vec![
+                    HandPoint::Base(Digit::Middle, Face::Palmar),
+                    HandPoint::Middle(Digit::Middle, Face::Palmar),
+                ],
+                None => vec![self.hands().facing(n, direction, Region::Trunk)],
+            };
+            let other = hands.other.as_ref().or(hands.dominant.as_ref()).cloned();
+            (
+                [point(0, &hands.dominant, -across), point(1, &other, across)],
+                across,
+            )
+        } else {
+            self.hands().unlike(hands, frames, across)
+        };
+        let goals = points.map(|points| Goal {
+            at: centre,
+            points,
+            flat: false,
+            skin: None,
+        });
+        let [mut first, mut second] = goals;
+        first.at += direction * (apart / 2.0);
+        second.at -= direction * (apart / 2.0);
+        if let (Some(fixed), None) = (self.fixed.filter(|_| self.begun), &hands.at) {
+            let points = [&first.points, &second.points][fixed].clone();
+            let by = self.hands().at_hand(fixed, &points).0 - [first.at, second.at][fixed];
+            first.at += by;
+            second.at += by;
+        }
+        self.settle(0, &first);
+        self.settle(1, &second);
+        if hands.at.as_ref().is_some_and(|at| !at.behind) {
+            self.both_out();
+        }
+        for n in 0..2 {
+            self.define(hands.define, n);
+        }
+    }
+
+    /// Returns a constellation; sites that it leaves out are those of the last one in this sign.
+    fn remembered(&mut self, hands: &Constellation) -> Constellation {
+        let mut known = hands.clone();
+        if known.dominant.is_none() && known.other.is_none() {
+            if let Some(before) = &self.together {
+                known.dominant.clone_from(&before.dominant);
+                known.other.clone_from(&before.other);
+            }
+        } else {
+            self.together = Some(known.clone());
+        }
+        known
+    }
+
+    /// Returns the position of two hands in a constellation: at their place if named, else at their
+    /// current position, else before the chest.
+    fn centre(&mut self, hands: &Constellation, frame: Frame) -> DVec3 {
+        if let Some(place) = &hands.at {
+            return self.on_body(0, place, frame, false).at;
+        }
+        if self.begun {
+            return (self.state[0].point + self.state[1].point) / 2.0;
+        }
+        self.on_body(0, &BodyPlace::default(), frame, false).at
+    }
+}
+
+impl Signer<'_> {
     /// Moves a place in the middle to the front of the hand's own shoulder.
     fn apart(&self, n: usize, at: DVec3) -> DVec3 {
         let stage = self.stage;
@@ -223,9 +342,49 @@ impl Planner<'_> {
         }
     }
 
+    fn site_points(&self, n: usize, site: &HandSite, frame: Frame) -> Vec<HandPoint> {
+        let side = self.sides[n];
+        let mut points = hand_points(site, side, frame.mirrored);
+        if let Some(second) = &site.second {
+            points.extend(hand_points(second, side, frame.mirrored));
+        }
+        points
+    }
+}
+
+impl Hands<'_> {
+    /// Returns the position of a place on the body, or half-way between two.
+    fn sites(&self, n: usize, place: &BodyPlace, frame: Frame) -> Placed {
+        let neutral = Site {
+            at: BodyLocation::NeutralSpace,
+            side: None,
+            approx: false,
+        };
+        let site = self.site(n, &place.site.unwrap_or(neutral), frame);
+        match &place.second {
+            Some(second) => middle(&site, &self.site(n, second, frame)),
+            None => site,
+        }
+    }
+
+    /// Moves a place on the skin in the middle to the hand's own side, so that the other hand touches the skin beside it.
+    fn beside(&self, n: usize, points: &[HandPoint], at: DVec3) -> DVec3 {
+        let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
+            return at;
+        };
+        let state = &self.state[n];
+        let outwards = self.signer.stage.left * hand.side.sign();
+        let own = state.rotation.inverse() * -outwards;
+        let offset = self.offset(n, points);
+        let outline = &self.shapes[n][state.shape].outline.points;
+        let reach = outline.iter().map(|part| (*part - offset).dot(own));
+        let reach = reach.fold(0.0, f64::max) + FINGER_FLESH * hand.length();
+        at + outwards * reach.min(tuned().contact.beside * hand.length())
+    }
+
     fn site(&self, n: usize, site: &Site<BodyLocation>, frame: Frame) -> Placed {
-        let stage = self.stage;
-        let found = body_site(site, self.sides[n], frame.mirrored);
+        let stage = self.signer.stage;
+        let found = body_site(site, self.signer.sides[n], frame.mirrored);
         let own = match found.region {
             Region::Arm(side) => self.arm_part(side, &found.landmark),
             _ => None,
@@ -246,7 +405,7 @@ impl Planner<'_> {
             Region::Arm(_) => out * (FLESH * stage.arm),
             _ => DVec3::ZERO,
         };
-        let moved = self.language.places.get(&found.landmark);
+        let moved = self.signer.language.places.get(&found.landmark);
         let offset = DVec3::from(found.offset) + moved.map_or(DVec3::ZERO, |by| DVec3::from(*by));
         let offset = stage.direction(offset * stage.shoulders);
         Placed {
@@ -259,12 +418,12 @@ impl Planner<'_> {
     /// Returns the position of a landmark on the planned arm and, if the arm is bent, the outward unit
     /// normal of the inside of its elbow.
     fn arm_part(&self, side: Side, landmark: &str) -> Option<(DVec3, Option<DVec3>)> {
-        let hand = self.stage.hand(side)?;
-        let n = usize::from(self.sides[1] == side);
+        let hand = self.signer.stage.hand(side)?;
+        let n = usize::from(self.signer.sides[1] == side);
         let state = &self.state[n];
-        let arm = Arm::of(self.stage, hand, &self.limits);
+        let arm = Arm::of(self.signer.stage, hand, &self.signer.limits);
         let bearing = arm.bearing(state.wrist(), state.rotation);
-        let posed = hand.rig.reach(state.wrist(), bearing, &self.limits);
+        let posed = hand.rig.reach(state.wrist(), bearing, &self.signer.limits);
         let at = match landmark.rsplit_once('-')?.1 {
             "elbow" => posed.elbow,
             "forearm" => posed.elbow.lerp(posed.wrist, 0.5),
@@ -272,13 +431,13 @@ impl Planner<'_> {
         };
         let chord = (posed.wrist - posed.shoulder).normalize_or(DVec3::NEG_Y);
         let inner = -(posed.elbow - posed.shoulder).reject_from_normalized(chord);
-        let bent = inner.length() > 0.05 * self.stage.arm;
+        let bent = inner.length() > 0.05 * self.signer.stage.arm;
         Some((at, inner.try_normalize().filter(|_| bent)))
     }
 
     /// Returns the point of a hand that comes first when the hand moves along `direction` (model space).
     fn facing(&self, n: usize, direction: DVec3, region: Region) -> HandPoint {
-        let Some(hand) = self.stage.hand(self.sides[n]) else {
+        let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
             return HandPoint::Palm;
         };
         let state = &self.state[n];
@@ -292,155 +451,15 @@ impl Planner<'_> {
         let state = &self.state[n];
         let offset = self.offset(n, points);
         let at = state.wrist() + state.rotation * offset;
-        let Some(hand) = self.stage.hand(self.sides[n]) else {
+        let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
             return (at, DVec3::Y);
         };
-        let shape = &self.plan.shapes[n][state.shape];
+        let shape = &self.shapes[n][state.shape];
         let out: DVec3 = points
             .iter()
-            .map(|&point| self.stage.outward(hand, shape, point))
+            .map(|&point| self.signer.stage.outward(hand, shape, point))
             .sum();
         (at, (state.rotation * out).normalize_or(DVec3::Y))
-    }
-
-    /// Moves an acting hand to a site of the other hand.
-    fn on_hand(&mut self, site: &HandSite, named: Who) {
-        let acting = usize::from(named[0].is_none());
-        let other = 1 - acting;
-        let frame = named[acting].unwrap_or_else(|| self.own_frame());
-        if !self.state[other].used {
-            self.raise(other);
-        }
-        let touched = self.site_points(other, site, frame);
-        let (at, out) = self.at_hand(other, &touched);
-        let points = match &site.by {
-            Some(by) => self.site_points(acting, by, frame),
-            None => vec![self.facing(acting, -out, Region::Arm(self.sides[other]))],
-        };
-        if matches!(site.contact, Some(Contact::Interlock | Contact::Cross)) {
-            self.plan.laced = true;
-        }
-        let far = match site.contact {
-            Some(Contact::Close) => self.language.hands_near * self.stage.arm,
-            _ => 0.0,
-        };
-        let goal = Goal {
-            at: at + out * far,
-            points,
-            flat: false,
-            skin: None,
-        };
-        self.settle(acting, &goal);
-        self.define(site.define, acting);
-    }
-
-    fn site_points(&self, n: usize, site: &HandSite, frame: Frame) -> Vec<HandPoint> {
-        let side = self.sides[n];
-        let mut points = hand_points(site, side, frame.mirrored);
-        if let Some(second) = &site.second {
-            points.extend(hand_points(second, side, frame.mirrored));
-        }
-        points
-    }
-
-    /// Moves a hand that signs alone to its last place at the body, or to the named place.
-    fn alone(&mut self, hands: &Constellation, named: Who) {
-        for (n, frame) in acting(named) {
-            let known = self.at_body[n].clone();
-            let Some(mut place) = hands.at.clone().or_else(|| known.clone()) else {
-                continue;
-            };
-            place.contact = hands.contact.or(place.contact);
-            let by = known.and_then(|known| known.by);
-            place.by = hands.dominant.clone().or(place.by).or(by);
-            let goal = self.on_body(n, &place, frame, true);
-            self.settle(n, &goal);
-            self.define(hands.define, n);
-            self.at_body[n] = Some(place);
-        }
-    }
-
-    /// Moves the hands together, and both to a place.
-    fn by_each_other(&mut self, hands: &Constellation, named: Who) {
-        let hands = &self.remembered(hands);
-        if matches!(hands.contact, Some(Contact::Interlock | Contact::Cross)) {
-            self.plan.laced = true;
-        }
-        for n in 0..2 {
-            if !self.state[n].used {
-                self.raise(n);
-            }
-        }
-        let frames = named.map(|frame| frame.unwrap_or_else(|| self.own_frame()));
-        let centre = self.centre(hands, frames[0]);
-        let across = self.stage.left * self.sides[0].sign();
-        let mirrored = frames[0].mirrors(&frames[1]);
-        let far = self.language.hands_near * self.stage.arm;
-        let apart = match hands.contact {
-            Some(Contact::Touch | Contact::Interlock | Contact::Cross) => 0.0,
-            Some(Contact::Brushing) => 0.0,
-            Some(Contact::Close) => far,
-            _ => 2.0 * far,
-        };
-        let unlike = hands.other.is_some() && hands.other != hands.dominant;
-        let (points, direction) = if mirrored && !unlike {
-            let point = |n: usize, site: &Option<HandSite>, direction: DVec3| match site {
-                Some(site) => self.site_points(n, site, frames[n]),
-                None if hands.contact == Some(Contact::Cross) => {
-                    vec![HandPoint::Wrist(Face::Palmar)]
-                }
-                // Interlocked fingers: their first bones meet.
-                None if hands.contact == Some(Contact::Interlock) => vec![
-                    HandPoint::Base(Digit::Middle, Face::Palmar),
-                    HandPoint::Middle(Digit::Middle, Face::Palmar),
-                ],
-                None => vec![self.facing(n, direction, Region::Trunk)],
-            };
-            let other = hands.other.as_ref().or(hands.dominant.as_ref()).cloned();
-            (
-                [point(0, &hands.dominant, -across), point(1, &other, across)],
-                across,
-            )
-        } else {
-            self.unlike(hands, frames, across)
-        };
-        let goals = points.map(|points| Goal {
-            at: centre,
-            points,
-            flat: false,
-            skin: None,
-        });
-        let [mut first, mut second] = goals;
-        first.at += direction * (apart / 2.0);
-        second.at -= direction * (apart / 2.0);
-        if let (Some(fixed), None) = (self.fixed.filter(|_| self.begun), &hands.at) {
-            let points = [&first.points, &second.points][fixed].clone();
-            let by = self.at_hand(fixed, &points).0 - [first.at, second.at][fixed];
-            first.at += by;
-            second.at += by;
-        }
-        self.settle(0, &first);
-        self.settle(1, &second);
-        if hands.at.as_ref().is_some_and(|at| !at.behind) {
-            self.both_out();
-        }
-        for n in 0..2 {
-            self.define(hands.define, n);
-        }
-    }
-
-    /// Returns a constellation; sites that it leaves out are those of the last one in this sign.
-    fn remembered(&mut self, hands: &Constellation) -> Constellation {
-        let mut known = hands.clone();
-        if known.dominant.is_none() && known.other.is_none() {
-            if let Some(before) = &self.together {
-                known.dominant.clone_from(&before.dominant);
-                known.other.clone_from(&before.other);
-            }
-        } else {
-            self.together = Some(known.clone());
-        }
-        known
     }
 
     /// Returns the points of hands that do not mirror each other, and the direction from the other hand's
@@ -451,17 +470,17 @@ impl Planner<'_> {
         frames: [Frame; 2],
         across: DVec3,
     ) -> ([Vec<HandPoint>; 2], DVec3) {
-        let region = Region::Arm(self.sides[1]);
+        let region = Region::Arm(self.signer.sides[1]);
         let own = hands
             .dominant
             .as_ref()
-            .map(|site| self.site_points(0, site, frames[0]));
+            .map(|site| self.signer.site_points(0, site, frames[0]));
         let other = match &hands.other {
-            Some(site) => self.site_points(1, site, frames[1]),
+            Some(site) => self.signer.site_points(1, site, frames[1]),
             None => {
                 let direction = match &own {
                     Some(points) => -self.at_hand(0, points).1,
-                    None => (DVec3::Y + across * 0.6 + self.stage.forward * 0.3).normalize(),
+                    None => (DVec3::Y + across * 0.6 + self.signer.stage.forward * 0.3).normalize(),
                 };
                 vec![self.facing(1, direction, Region::Trunk)]
             }
@@ -471,18 +490,6 @@ impl Planner<'_> {
         let facing = self.at_hand(0, &own).1;
         let direction = (out - facing).try_normalize().unwrap_or(across);
         ([own, other], direction)
-    }
-
-    /// Returns the position of two hands in a constellation: at their place if named, else at their
-    /// current position, else before the chest.
-    fn centre(&mut self, hands: &Constellation, frame: Frame) -> DVec3 {
-        if let Some(place) = &hands.at {
-            return self.on_body(0, place, frame, false).at;
-        }
-        if self.begun {
-            return (self.state[0].point + self.state[1].point) / 2.0;
-        }
-        self.on_body(0, &BodyPlace::default(), frame, false).at
     }
 }
 

@@ -189,13 +189,30 @@ impl Frame {
 /// The acting hands, the dominant one first, each with its frame.
 pub(crate) type Who = [Option<Frame>; 2];
 
-pub(crate) struct Planner<'a> {
+/// The body that signs, with the rules by which notation becomes positions and times on it.
+#[derive(Clone, Copy)]
+pub(crate) struct Signer<'a> {
     pub(crate) stage: &'a Stage,
     pub(crate) language: &'a BodyLanguage,
     pub(crate) paces: &'a Paces,
     pub(crate) limits: Limits,
     /// The dominant side, then the other.
     pub(crate) sides: [Side; 2],
+    /// Frames per second.
+    rate: f64,
+}
+
+/// Both hands at the current end of a plan.
+pub(crate) struct Hands<'p> {
+    pub(crate) signer: Signer<'p>,
+    pub(crate) state: &'p [HandState; 2],
+    /// The shapes of each hand, to which states refer.
+    pub(crate) shapes: &'p [Vec<Shape>; 2],
+}
+
+/// Turns signs into the events of a plan, one posture and one motion after the other.
+pub(crate) struct Planner<'a> {
+    pub(crate) signer: Signer<'a>,
     pub(crate) state: [HandState; 2],
     pub(crate) rest: [HandState; 2],
     pub(crate) named: BTreeMap<u8, [Option<DVec3>; 2]>,
@@ -213,8 +230,6 @@ pub(crate) struct Planner<'a> {
     /// Indexes of shapes by handshape, for each hand.
     shaped: [Vec<(Handshape, usize)>; 2],
     speed: f64,
-    /// Frames per second.
-    rate: f64,
     pub(crate) plan: SignPlan,
 }
 
@@ -241,11 +256,14 @@ impl<'a> Planner<'a> {
         }
         let start: [HandState; 2] = [start[0].clone(), start[1].clone()];
         Self {
-            stage,
-            language,
-            paces,
-            limits: Limits::of(language),
-            sides,
+            signer: Signer {
+                stage,
+                language,
+                paces,
+                limits: Limits::of(language),
+                sides,
+                rate,
+            },
             state: start.clone(),
             rest: start.clone(),
             named: BTreeMap::new(),
@@ -257,7 +275,6 @@ impl<'a> Planner<'a> {
             at_body: [None, None],
             shaped: [Vec::new(), Vec::new()],
             speed: 1.0,
-            rate,
             plan: SignPlan {
                 sides,
                 start,
@@ -273,6 +290,15 @@ impl<'a> Planner<'a> {
                 laced: false,
                 remarks: Vec::new(),
             },
+        }
+    }
+
+    /// Returns the hands as planned so far.
+    pub(crate) fn hands(&self) -> Hands<'_> {
+        Hands {
+            signer: self.signer,
+            state: &self.state,
+            shapes: &self.plan.shapes,
         }
     }
 
@@ -338,11 +364,11 @@ impl<'a> Planner<'a> {
             [0, 1].map(|n| drops && named[n].is_none() && before[n].used && !self.waits(n, next));
         let dropped = [0, 1].map(|n| dropped[n] && !lifted[n]);
         let length = (0..2)
-            .map(|n| self.length_between(&before[n], &goal[n], n))
+            .map(|n| self.signer.length_between(&before[n], &goal[n], n))
             .fold(0.0, f64::max);
         let approach = self.approach(part, [who, named], [&before, &goal]);
         self.state = before;
-        let reached = self.on_frame(time + length.max(approach.least));
+        let reached = self.signer.on_frame(time + length.max(approach.least));
         let courses = approach.courses(time, reached);
         for (known, course) in self.plan.courses.iter_mut().zip(courses) {
             known.extend(course);
@@ -361,7 +387,11 @@ impl<'a> Planner<'a> {
                 self.plan.arrivals[n].push((time, reached));
             }
             if touching {
-                let most = if moves { 0.0 } else { self.language.time_hold };
+                let most = if moves {
+                    0.0
+                } else {
+                    self.signer.language.time_hold
+                };
                 self.plan.contacts[n].push((reached, reached + most));
             }
         }
@@ -381,9 +411,9 @@ impl<'a> Planner<'a> {
             now = self.motion(action, who, now, &env);
         }
         let hold = if moves {
-            self.language.time_end
+            self.signer.language.time_end
         } else {
-            self.language.time_hold
+            self.signer.language.time_hold
         };
         for n in 0..2 {
             if named[n].is_some() || who[n].is_some() {
@@ -403,14 +433,9 @@ impl<'a> Planner<'a> {
         self.speed
     }
 
-    /// Rounds a time up to the next frame.
-    fn on_frame(&self, time: f64) -> f64 {
-        (time * self.rate - 1e-6).ceil() / self.rate
-    }
-
     /// Returns whether an idle hand stays in place: it is low, and the next part uses it.
     fn waits(&self, n: usize, next: Option<&Manual>) -> bool {
-        let below = self.state[n].point.y < self.stage.middle().y;
+        let below = self.state[n].point.y < self.signer.stage.middle().y;
         below
             && next.is_some_and(|next| {
                 self.addressed(&next.posture, self.who(next.hands))[n].is_some()
@@ -433,7 +458,7 @@ impl<'a> Planner<'a> {
 
     /// Returns the acting hands of a part with their frames.
     fn who(&self, hands: HandsUsed) -> Who {
-        let own = self.own_frame();
+        let own = self.signer.own_frame();
         match hands {
             HandsUsed::Dominant => [Some(own), None],
             HandsUsed::Nondominant => [None, Some(own)],
@@ -441,19 +466,9 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Returns the frame for notation without a symmetry: mirrored for left-handed signers.
-    pub(crate) fn own_frame(&self) -> Frame {
-        let mirrored = self.sides[0] == Side::Left;
-        Frame {
-            axes: DVec3::new(if mirrored { -1.0 } else { 1.0 }, 1.0, 1.0),
-            mirrored,
-            behind: false,
-        }
-    }
-
     /// Returns the hands that a posture addresses: the acting ones, or both if it has a value for each.
     pub(crate) fn addressed(&self, posture: &Posture, who: Who) -> Who {
-        let own = self.own_frame();
+        let own = self.signer.own_frame();
         let mut named = who;
         let [shape, extended, palm] = [
             split(&posture.shape),
@@ -486,19 +501,6 @@ impl<'a> Planner<'a> {
             && (self.at_body[own].is_some() || hands.at.is_some())
     }
 
-    /// Returns the mean of points of a hand, in the hand's space.
-    pub(crate) fn offset(&self, n: usize, points: &[HandPoint]) -> DVec3 {
-        let Some(hand) = self.stage.hand(self.sides[n]) else {
-            return DVec3::ZERO;
-        };
-        let shape = &self.plan.shapes[n][self.state[n].shape];
-        let sum: DVec3 = points
-            .iter()
-            .map(|&point| self.stage.point(hand, shape, point))
-            .sum();
-        sum / points.len().max(1) as f64
-    }
-
     /// Sets the posture of hands at the current end of the plan: shape, orientation, place. In a change of posture a hand
     /// whose palm has the same letter before and after does not turn over between.
     pub(crate) fn assume(&mut self, posture: &Posture, named: Who, changes: bool) {
@@ -512,11 +514,11 @@ impl<'a> Planner<'a> {
             let palm = pick(&posture.palm, n);
             if let Some(aim) = extended {
                 self.state[n].direction = towards(aim);
-                self.state[n].axes[0] = self.axes(&posture.extended, n, frame);
+                self.state[n].axes[0] = self.signer.axes(&posture.extended, n, frame);
             }
             if let Some(aim) = palm {
                 self.state[n].palm = aim.angle();
-                self.state[n].axes[1] = self.axes(&posture.palm, n, frame);
+                self.state[n].axes[1] = self.signer.axes(&posture.palm, n, frame);
             }
             if extended.is_some() || palm.is_some() {
                 let relative = [extended.map(|aim| aim.frame), palm.map(|aim| aim.frame)];
@@ -542,9 +544,9 @@ impl<'a> Planner<'a> {
             (self.state[n].shape, self.state[n].handshape) = (*index, shape.clone());
             return;
         }
-        let side = self.sides[n];
-        let angles = hand_angles(shape, self.language);
-        let posed = thumb::posed(self.stage, side, shape, &angles);
+        let side = self.signer.sides[n];
+        let angles = hand_angles(shape, self.signer.language);
+        let posed = thumb::posed(self.signer.stage, side, shape, &angles);
         let known = self.plan.shapes[n].iter().position(|known| *known == posed);
         let index = known.unwrap_or_else(|| {
             self.plan.shapes[n].push(posed);
@@ -553,6 +555,33 @@ impl<'a> Planner<'a> {
         self.shaped[n].push((shape.clone(), index));
         self.state[n].shape = index;
         self.state[n].handshape = shape.clone();
+    }
+
+    pub(crate) fn phase(&mut self, hand: usize, kind: PhaseKind, from: f64, to: f64, says: &str) {
+        self.plan.phases.push(Phase {
+            hand,
+            kind,
+            from,
+            to,
+            says: says.to_owned(),
+        });
+    }
+}
+
+impl Signer<'_> {
+    /// Returns the frame for notation without a symmetry: mirrored for left-handed signers.
+    pub(crate) fn own_frame(&self) -> Frame {
+        let mirrored = self.sides[0] == Side::Left;
+        Frame {
+            axes: DVec3::new(if mirrored { -1.0 } else { 1.0 }, 1.0, 1.0),
+            mirrored,
+            behind: false,
+        }
+    }
+
+    /// Rounds a time up to the next frame.
+    fn on_frame(&self, time: f64) -> f64 {
+        (time * self.rate - 1e-6).ceil() / self.rate
     }
 
     /// Returns the axes for a notated value of a hand: those of its frame, or the signer's if the value is
@@ -564,15 +593,20 @@ impl<'a> Planner<'a> {
             frame.axes
         }
     }
+}
 
-    pub(crate) fn phase(&mut self, hand: usize, kind: PhaseKind, from: f64, to: f64, says: &str) {
-        self.plan.phases.push(Phase {
-            hand,
-            kind,
-            from,
-            to,
-            says: says.to_owned(),
-        });
+impl Hands<'_> {
+    /// Returns the mean of points of a hand, in the hand's space.
+    pub(crate) fn offset(&self, n: usize, points: &[HandPoint]) -> DVec3 {
+        let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
+            return DVec3::ZERO;
+        };
+        let shape = &self.shapes[n][self.state[n].shape];
+        let sum: DVec3 = points
+            .iter()
+            .map(|&point| self.signer.stage.point(hand, shape, point))
+            .sum();
+        sum / points.len().max(1) as f64
     }
 }
 

@@ -3,7 +3,7 @@
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 
-use super::plan::Planner;
+use super::plan::{Hands, Planner};
 use super::stage::FINGER_FLESH;
 use super::tuned::tuned;
 
@@ -13,33 +13,6 @@ const REPORTED: f64 = 2e-3;
 const STEP: f64 = 1e-3;
 
 impl Planner<'_> {
-    /// Returns the offset from a face of a hand to the plane of its outermost point, in the hand's space:
-    /// the fingers of a fist stand out farther than the palm.
-    pub(super) fn stands_out(&self, n: usize, points: &[HandPoint]) -> DVec3 {
-        let (Some(hand), [point]) = (self.stage.hand(self.sides[n]), points) else {
-            return DVec3::ZERO;
-        };
-        let face = matches!(
-            point,
-            HandPoint::Palm | HandPoint::Back | HandPoint::Radial | HandPoint::Ulnar
-        );
-        if !face {
-            return DVec3::ZERO;
-        }
-        let shape = &self.plan.shapes[n][self.state[n].shape];
-        let out = self.stage.outward(hand, shape, *point);
-        let own = self.stage.point(hand, shape, *point).dot(out);
-        let flesh = FINGER_FLESH * hand.length();
-        let far = shape
-            .outline
-            .points
-            .iter()
-            .skip(2)
-            .map(|at| at.dot(out) + flesh);
-        let far = far.fold(own, f64::max);
-        out * (far - own)
-    }
-
     /// Rotates a hand that touches the trunk with a flat face so that the face lies on the skin, within the tolerance
     /// of its notated orientation.
     pub(super) fn lay(&mut self, n: usize, points: &[HandPoint], at: DVec3) {
@@ -56,6 +29,7 @@ impl Planner<'_> {
             )
         };
         let Some(normal) = self
+            .signer
             .stage
             .torso
             .normal(at)
@@ -63,7 +37,7 @@ impl Planner<'_> {
         else {
             return;
         };
-        let (_, out) = self.at_hand(n, points);
+        let (_, out) = self.hands().at_hand(n, points);
         let turn = DQuat::from_rotation_arc(out, -normal);
         let angle = turn.angle_between(DQuat::IDENTITY);
         if !(1e-6..1.2).contains(&angle) {
@@ -78,15 +52,15 @@ impl Planner<'_> {
     /// the skin or along it and would be inside the trunk. The hand keeps its place and its notated
     /// orientation.
     pub(super) fn lie(&mut self, n: usize, skin: DVec3, points: &[HandPoint]) {
-        let (_, out) = self.at_hand(n, points);
+        let (_, out) = self.hands().at_hand(n, points);
         if out.dot(skin) < tuned().contact.away {
             return;
         }
-        let by = self.stands_in(n, skin);
+        let by = self.hands().stands_in(n, skin);
         let turned = self.state[n].rotation;
         self.state[n].offset -= turned.inverse() * (skin * by);
         if by > REPORTED {
-            let side = self.sides[n].name();
+            let side = self.signer.sides[n].name();
             self.remark(&format!(
                 "the {side} hand touches with the part in front of the named one"
             ));
@@ -96,25 +70,54 @@ impl Planner<'_> {
     /// Pushes both hands of a constellation out of the trunk by the same offset.
     pub(super) fn both_out(&mut self) {
         let middle = (self.state[0].point + self.state[1].point) / 2.0;
-        let Some(skin) = self.stage.torso.normal(middle) else {
+        let Some(skin) = self.signer.stage.torso.normal(middle) else {
             return;
         };
-        let by = [0, 1].map(|n| self.stands_in(n, skin));
+        let by = [0, 1].map(|n| self.hands().stands_in(n, skin));
         let by = by[0].max(by[1]);
         for state in &mut self.state {
             state.point += skin * by;
         }
     }
+}
+
+impl Hands<'_> {
+    /// Returns the offset from a face of a hand to the plane of its outermost point, in the hand's space:
+    /// the fingers of a fist stand out farther than the palm.
+    pub(super) fn stands_out(&self, n: usize, points: &[HandPoint]) -> DVec3 {
+        let (Some(hand), [point]) = (self.signer.stage.hand(self.signer.sides[n]), points) else {
+            return DVec3::ZERO;
+        };
+        let face = matches!(
+            point,
+            HandPoint::Palm | HandPoint::Back | HandPoint::Radial | HandPoint::Ulnar
+        );
+        if !face {
+            return DVec3::ZERO;
+        }
+        let shape = &self.shapes[n][self.state[n].shape];
+        let out = self.signer.stage.outward(hand, shape, *point);
+        let own = self.signer.stage.point(hand, shape, *point).dot(out);
+        let flesh = FINGER_FLESH * hand.length();
+        let far = shape
+            .outline
+            .points
+            .iter()
+            .skip(2)
+            .map(|at| at.dot(out) + flesh);
+        let far = far.fold(own, f64::max);
+        out * (far - own)
+    }
 
     /// Returns the distance (m) along the outward normal `skin` that takes the whole hand out of the
     /// trunk; 0 if that is too far.
     fn stands_in(&self, n: usize, skin: DVec3) -> f64 {
-        let Some(hand) = self.stage.hand(self.sides[n]) else {
+        let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
             return 0.0;
         };
         let state = &self.state[n];
-        let shape = &self.plan.shapes[n][state.shape];
-        let torso = &self.stage.torso;
+        let shape = &self.shapes[n][state.shape];
+        let torso = &self.signer.stage.torso;
         let inside = |by: f64| {
             let wrist = state.wrist() + skin * by;
             let mut points = shape.outline.points.iter();

@@ -7,7 +7,7 @@ use chereme_motion::glam::DVec3;
 use super::arm::{Bearing, Rig};
 use super::pace::Pace;
 use super::path::Path;
-use super::plan::{Act, Event, HandState, PhaseKind, Planner};
+use super::plan::{Act, Event, HandState, PhaseKind, Planner, Signer};
 use super::tuned::tuned;
 
 /// Bends of the path (arm lengths) that are tried in turn until the elbow keeps to [`BEHIND`].
@@ -46,7 +46,7 @@ impl Planner<'_> {
     /// Leads a transition round the own shoulder if the forearm would have to fold up, and bends its path forward if the
     /// elbow would go behind the trunk.
     pub(super) fn swing(&mut self, n: usize, goal: &HandState, from: f64, to: f64, pace: Pace) {
-        let Some(hand) = self.stage.hand(self.sides[n]) else {
+        let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
             return;
         };
         let (start, end) = (self.state[n].wrist(), goal.wrist());
@@ -58,9 +58,9 @@ impl Planner<'_> {
         let nearest = start.lerp(end, share.clamp(0.0, 1.0));
         let far = nearest.distance(shoulder);
         let ends = start.distance(shoulder).min(end.distance(shoulder));
-        let missing = (tuned().transit.round * self.stage.arm).min(ends) - far;
+        let missing = (tuned().transit.round * self.signer.stage.arm).min(ends) - far;
         if missing <= 0.0 || !(0.0..1.0).contains(&share) {
-            if let Some(out) = self.ahead(&hand.rig, [start, end], along) {
+            if let Some(out) = self.signer.ahead(&hand.rig, [start, end], along) {
                 self.plan.events[n].push(Event {
                     from,
                     to,
@@ -70,8 +70,10 @@ impl Planner<'_> {
             }
             return;
         }
-        let outside = self.stage.left * self.sides[n].sign();
-        let out = (nearest - shoulder) / self.stage.arm + self.stage.forward * 0.3 + outside * 0.1;
+        let outside = self.signer.stage.left * self.signer.sides[n].sign();
+        let out = (nearest - shoulder) / self.signer.stage.arm
+            + self.signer.stage.forward * 0.3
+            + outside * 0.1;
         let Some(out) = out.reject_from_normalized(along).try_normalize() else {
             return;
         };
@@ -85,6 +87,26 @@ impl Planner<'_> {
         });
     }
 
+    /// Plans the return of hands to rest; returns its end.
+    pub(super) fn relax(&mut self, hands: [bool; 2], from: f64, to: Option<f64>) -> f64 {
+        let mut end = from;
+        for (n, drops) in hands.into_iter().enumerate() {
+            if !drops || !self.state[n].used {
+                continue;
+            }
+            let rest = self.rest[n].clone();
+            let length = 1.25 * self.signer.length_between(&self.state[n], &rest, n);
+            let to = to.map_or(from + length, |to| to.max(from + length));
+            self.swing(n, &rest, from, to, Pace::Lax);
+            self.go(n, &rest, from, to, Pace::Lax);
+            self.phase(n, PhaseKind::Transition, from, to, "");
+            end = end.max(to);
+        }
+        end
+    }
+}
+
+impl Signer<'_> {
     /// Returns by how much the middle of a straight path between two wrists must lie farther ahead so that the elbow does
     /// not go behind the trunk; `None` if it does not.
     fn ahead(&self, rig: &Rig, [start, end]: [DVec3; 2], along: DVec3) -> Option<DVec3> {
@@ -118,23 +140,5 @@ impl Planner<'_> {
         let far = a.wrist().distance(b.wrist()) / self.stage.arm;
         let turn = a.rotation.angle_between(b.rotation) / std::f64::consts::FRAC_PI_2;
         l.time_transition + l.time_transition_arm * far + l.time_turn * turn
-    }
-
-    /// Plans the return of hands to rest; returns its end.
-    pub(super) fn relax(&mut self, hands: [bool; 2], from: f64, to: Option<f64>) -> f64 {
-        let mut end = from;
-        for (n, drops) in hands.into_iter().enumerate() {
-            if !drops || !self.state[n].used {
-                continue;
-            }
-            let rest = self.rest[n].clone();
-            let length = 1.25 * self.length_between(&self.state[n], &rest, n);
-            let to = to.map_or(from + length, |to| to.max(from + length));
-            self.swing(n, &rest, from, to, Pace::Lax);
-            self.go(n, &rest, from, to, Pace::Lax);
-            self.phase(n, PhaseKind::Transition, from, to, "");
-            end = end.max(to);
-        }
-        end
     }
 }

@@ -11,7 +11,7 @@ impl Planner<'_> {
         time: f64,
         env: &Env,
     ) -> f64 {
-        let l = self.language;
+        let l = self.signer.language;
         let count = |repeat: Repeat| match repeat {
             Repeat::FromStart
             | Repeat::Continue
@@ -60,12 +60,14 @@ impl Planner<'_> {
         origin: &mut [HandState; 2],
         round: usize,
     ) -> f64 {
-        let l = self.language;
+        let l = self.signer.language;
         if let Some(shift) = repetition.shift {
             let by = DVec3::from(shift.vector())
-                * (l.repeat_shift * sized(repetition.shift_size, [0.6, 1.0, 1.6]) * self.stage.arm);
+                * (l.repeat_shift
+                    * sized(repetition.shift_size, [0.6, 1.0, 1.6])
+                    * self.signer.stage.arm);
             for (n, frame) in acting(who) {
-                origin[n].point += self.stage.direction(by * frame.axes);
+                origin[n].point += self.signer.stage.direction(by * frame.axes);
             }
         }
         match repetition.repeat {
@@ -117,11 +119,14 @@ impl Planner<'_> {
             .map(|n| self.state[n].wrist().distance(origin[n].wrist()))
             .fold(0.0, f64::max);
         let usual = if pace == Pace::Lax {
-            self.language.time_return
+            self.signer.language.time_return
         } else {
-            self.language.time_straight
+            self.signer.language.time_straight
         };
-        let end = time + self.timed(usual * self.slower(&motion.manner), far, env);
+        let end = time
+            + self
+                .signer
+                .timed(usual * self.signer.slower(&motion.manner), far, env);
         for n in 0..2 {
             if both[n] {
                 let used = self.state[n].used;
@@ -139,7 +144,7 @@ impl Planner<'_> {
     }
 
     pub(super) fn bounce(&mut self, who: Who, from: f64, end: f64) -> f64 {
-        let l = self.language;
+        let l = self.signer.language;
         let mut to = end;
         for (n, _) in acting(who) {
             let events = self.plan.events[n]

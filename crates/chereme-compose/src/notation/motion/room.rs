@@ -15,13 +15,13 @@ impl Planner<'_> {
     /// trunk. A circle on the skin stays there.
     pub(super) fn make_room(&mut self, path: &Path, who: Who, [from, to]: [f64; 2]) {
         for (n, frame) in acting(who) {
-            let Some(hand) = self.stage.hand(self.sides[n]) else {
+            let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
                 continue;
             };
             if self.skin(n, frame).is_some() {
                 continue;
             }
-            let stage = self.stage;
+            let stage = self.signer.stage;
             let sign = if frame.behind { -1.0 } else { 1.0 };
             let own = path.map(|v| stage.direction(v * frame.axes * sign));
             let state = &self.state[n];

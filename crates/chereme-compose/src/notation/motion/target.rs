@@ -43,14 +43,15 @@ impl Planner<'_> {
         let usual = if posture.place.is_some() {
             let far = (0..2).map(|n| before[n].wrist().distance(goal[n].wrist()));
             let far = far.fold(0.0, f64::max);
-            self.timed(self.language.time_straight, far, env)
+            self.signer
+                .timed(self.signer.language.time_straight, far, env)
         } else {
-            self.language.time_replace * env.slower
+            self.signer.language.time_replace * env.slower
         };
         let end = planned.unwrap_or(time + usual).max(time + 1e-3);
         let end = match planned {
             Some(_) => end,
-            None => end.max(time + 0.6 * self.longest(&before, &goal) * env.slower.min(1.0)),
+            None => end.max(time + 0.6 * self.signer.longest(&before, &goal) * env.slower.min(1.0)),
         };
         let turned = acting(named).map(|(n, _)| before[n].rotation.angle_between(goal[n].rotation));
         let turned = turned.fold(0.0, f64::max);
@@ -67,11 +68,12 @@ impl Planner<'_> {
         if contact {
             self.hasten(time, pace, who);
         }
-        let bent = posture.place.is_some() && self.bends([&before, &now, &goal], motion, who);
+        let bent =
+            posture.place.is_some() && self.signer.bends([&before, &now, &goal], motion, who);
         let end = match bent {
             true => {
                 let far = (0..2).map(|n| before[n].wrist().distance(goal[n].wrist()));
-                end.max(time + self.timed(0.0, far.fold(0.0, f64::max), env))
+                end.max(time + self.signer.timed(0.0, far.fold(0.0, f64::max), env))
             }
             false => end,
         };
@@ -98,38 +100,15 @@ impl Planner<'_> {
                 self.phase(n, PhaseKind::Stroke, time, end, "to a posture");
             }
             if contact {
-                let dwell = end + self.language.time_contact;
+                let dwell = end + self.signer.language.time_contact;
                 self.plan.contacts[n].push((end, dwell));
             }
         }
         if contact {
-            end + self.language.time_contact
+            end + self.signer.language.time_contact
         } else {
             end
         }
-    }
-
-    /// Returns whether the rest of the path to the goal differs from the written direction, so that the hand starts in
-    /// that direction and then turns to its goal.
-    fn bends(
-        &self,
-        [before, planned, goal]: [&[HandState; 2]; 3],
-        motion: Option<&Motion>,
-        who: Who,
-    ) -> bool {
-        let straight = |motion: &Motion| match &motion.kind {
-            MotionKind::Directed(path) => path.curve.is_none() && path.zigzag.is_none(),
-            _ => false,
-        };
-        let least = 0.5 * self.language.move_small * self.stage.arm;
-        motion.is_some_and(straight)
-            && acting(who).any(|(n, _)| {
-                let written = planned[n].point - before[n].point;
-                let whole = goal[n].point - before[n].point;
-                whole.length() > least
-                    && written.length() > 1e-6
-                    && written.angle_between(whole) > tuned().motion.bends
-            })
     }
 
     /// Makes the last straight path of a hand, from `time` on, accelerate: the hand leaves in the direction of the
@@ -156,7 +135,7 @@ impl Planner<'_> {
             self.go(n, &over, time, middle, Pace::Lax);
             middle
         } else {
-            let most = self.language.move_small * self.stage.arm;
+            let most = self.signer.language.move_small * self.signer.stage.arm;
             let onward = come.clamp_length_max(most);
             over.point = met.point + onward;
             self.go(n, &over, time, end, Pace::Linear);
@@ -166,12 +145,6 @@ impl Planner<'_> {
         self.phase(n, PhaseKind::Stroke, time, end, "brushing");
         self.plan.arrivals[n].push((time, touched));
         self.plan.contacts[n].push((touched, touched));
-    }
-
-    fn longest(&self, a: &[HandState; 2], b: &[HandState; 2]) -> f64 {
-        (0..2)
-            .map(|n| self.length_between(&a[n], &b[n], n))
-            .fold(0.0, f64::max)
     }
 
     /// Extends straight paths that began at `time` until `end`: together with the rest of the distance to
@@ -202,6 +175,37 @@ impl Planner<'_> {
                 }
             }
         }
+    }
+}
+
+impl Signer<'_> {
+    /// Returns whether the rest of the path to the goal differs from the written direction, so that the hand starts in
+    /// that direction and then turns to its goal.
+    fn bends(
+        &self,
+        [before, planned, goal]: [&[HandState; 2]; 3],
+        motion: Option<&Motion>,
+        who: Who,
+    ) -> bool {
+        let straight = |motion: &Motion| match &motion.kind {
+            MotionKind::Directed(path) => path.curve.is_none() && path.zigzag.is_none(),
+            _ => false,
+        };
+        let least = 0.5 * self.language.move_small * self.stage.arm;
+        motion.is_some_and(straight)
+            && acting(who).any(|(n, _)| {
+                let written = planned[n].point - before[n].point;
+                let whole = goal[n].point - before[n].point;
+                whole.length() > least
+                    && written.length() > 1e-6
+                    && written.angle_between(whole) > tuned().motion.bends
+            })
+    }
+
+    fn longest(&self, a: &[HandState; 2], b: &[HandState; 2]) -> f64 {
+        (0..2)
+            .map(|n| self.length_between(&a[n], &b[n], n))
+            .fold(0.0, f64::max)
     }
 }
 

@@ -160,7 +160,7 @@ fn the_skin_limits_hands_in_front_of_it_and_not_hands_behind_the_body() {
     let paces = pace::Paces::of(BodyLanguage::usual());
     let language = (BodyLanguage::usual(), &paces);
     let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
-    let who = planner.own_frame();
+    let who = planner.signer.own_frame();
     let touch = at(BodyLocation::Chest, Some(Contact::Touch));
     planner.assume(&flat(Some(touch)), [Some(who), None], false);
     let place = planner.at_body[0].clone().expect("a place at the body");
