@@ -176,7 +176,7 @@ fn understood(text: &str) -> Result<(String, Vec<NotationFinding>)> {
     let converted = |finding: &hamnosys::Finding| NotationFinding {
         file: None,
         line: None,
-        symbol: Some(finding.index),
+        symbol: Some(finding.number()),
         message: finding.message.clone(),
         remedy: Some(finding.remedy.into()),
     };
@@ -278,7 +278,7 @@ mod tests {
             understood("hamfist hamextfingeru hampalml hamparend hamchest").expect("some of it");
         assert!(hamnosys::parse(&known).is_ok());
         assert!(
-            findings.iter().any(|it| it.symbol == Some(3)),
+            findings.iter().any(|it| it.symbol == Some(4)),
             "{findings:?}"
         );
         let last = findings.last().expect("what was made");
@@ -298,7 +298,7 @@ mod tests {
         let done = corpus
             .animate(&[odd], &Staging::default(), Some("ODD"))
             .expect("made");
-        assert!(done.report.warnings[0].contains("symbol 3"));
+        assert!(done.report.warnings[0].contains("symbol 4"));
         assert!(done.explanation.contains("made of what was understood"));
         assert!(corpus.preview(&done.recipe).is_ok(), "{}", done.recipe);
         let file = folder.path().join("odd.sigml");

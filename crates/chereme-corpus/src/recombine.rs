@@ -116,7 +116,7 @@ pub struct NotationFinding {
     pub file: Option<String>,
     /// The line of the file, from 1.
     pub line: Option<u64>,
-    /// The index of the symbol in HamNoSys text, from 0.
+    /// The number of the symbol in HamNoSys text, from 1.
     pub symbol: Option<usize>,
     /// The oddity.
     pub message: String,

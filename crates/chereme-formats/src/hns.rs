@@ -143,7 +143,7 @@ fn entry(line: u64, (gloss, text): (&str, &str), findings: &mut Findings) -> Hns
     let read = parse_lenient(text);
     for found in read.findings {
         findings.add("odd symbols", || {
-            let message = format!("symbol {}: {}", found.index, found.message);
+            let message = format!("symbol {}: {}", found.number(), found.message);
             let finding = if found.dropped {
                 Finding::warning(line, message)
             } else {
@@ -241,7 +241,7 @@ mod tests {
             (Some(1), "the line holds no HamNoSys; it was left out")
         );
         assert!(
-            reported[1].0 == Some(2) && reported[1].1.starts_with("symbol 3"),
+            reported[1].0 == Some(2) && reported[1].1.starts_with("symbol 4"),
             "{reported:?}"
         );
         assert_eq!(reported[2].0, Some(3));

@@ -39,8 +39,8 @@ impl Text<'_> {
         }
         let read = parse_lenient(self.text);
         for found in &read.findings {
-            let (gloss, index) = (self.gloss, found.index);
-            let message = format!("{gloss}, symbol {index}: {}", found.message);
+            let (gloss, number) = (self.gloss, found.number());
+            let message = format!("{gloss}, symbol {number}: {}", found.message);
             let finding = if found.dropped {
                 Finding::warning(self.line, message)
             } else {

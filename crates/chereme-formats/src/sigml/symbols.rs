@@ -57,7 +57,7 @@ pub(super) fn read_sign(
             "odd symbols"
         };
         findings.add(kind, || {
-            let message = format!("symbol {}: {}", found.index, found.message);
+            let message = format!("symbol {}: {}", found.number(), found.message);
             let finding = if found.dropped {
                 Finding::warning(line, message)
             } else {

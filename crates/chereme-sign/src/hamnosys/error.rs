@@ -5,7 +5,8 @@ use std::fmt;
 use super::symbol::Symbol;
 use crate::text::{did_you_mean, nearest};
 
-/// The reason why a text is not a transcription. Indexes count symbols from 0.
+/// The reason why a text is not a transcription. Indexes count symbols from 0, messages
+/// from 1.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum HamnosysError {
     /// There is no symbol.
@@ -13,7 +14,8 @@ pub enum HamnosysError {
     Empty,
     /// A character or a name is not a symbol.
     #[error(
-        "symbol {index} is {written:?}, which HamNoSys 4 does not have; write one of its 209 symbols or their names{}",
+        "symbol {} is {written:?}, which HamNoSys 4 does not have; write one of its 209 symbols or their names{}",
+        index + 1,
         meant(written)
     )]
     Unknown {
@@ -23,7 +25,7 @@ pub enum HamnosysError {
         written: String,
     },
     /// A symbol is at an impossible place.
-    #[error("symbol {index} is {symbol}, but expected {expected}")]
+    #[error("symbol {} is {symbol}, but expected {expected}", index + 1)]
     Unexpected {
         /// The index of the symbol.
         index: usize,
@@ -33,7 +35,7 @@ pub enum HamnosysError {
         expected: &'static str,
     },
     /// The text ends too early.
-    #[error("after the last symbol, {}, expected {expected}", index.saturating_sub(1))]
+    #[error("after the last symbol, {index}, expected {expected}")]
     Ended {
         /// The number of symbols.
         index: usize,
@@ -41,7 +43,7 @@ pub enum HamnosysError {
         expected: &'static str,
     },
     /// A bracket is not closed where it should be.
-    #[error("symbol {index}, {symbol}, is not closed; expected {expected} at symbol {at}")]
+    #[error("symbol {}, {symbol}, is not closed; expected {expected} at symbol {}", index + 1, at + 1)]
     Unclosed {
         /// The opening bracket.
         index: usize,
@@ -53,7 +55,7 @@ pub enum HamnosysError {
         expected: &'static str,
     },
     /// Brackets or groups are nested too deep.
-    #[error("symbol {index} nests deeper than {limit} levels; split the sign into parts")]
+    #[error("symbol {} nests deeper than {limit} levels; split the sign into parts", index + 1)]
     TooDeep {
         /// The index of the symbol.
         index: usize,
@@ -104,12 +106,22 @@ pub struct Finding {
     pub dropped: bool,
 }
 
+impl Finding {
+    /// Returns the number of the symbol concerned, from 1, for messages.
+    #[must_use]
+    pub fn number(&self) -> usize {
+        self.index + 1
+    }
+}
+
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
             "symbol {}: {}; {}",
-            self.index, self.message, self.remedy
+            self.number(),
+            self.message,
+            self.remedy
         )
     }
 }

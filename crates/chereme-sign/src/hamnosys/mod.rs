@@ -12,7 +12,7 @@
 //! assert_eq!(print(&read.sign).text, "\u{e0e9}\u{e001}\u{e029}\u{e03c}\u{e052}\u{e086}\u{e0c8}");
 //!
 //! let error = parse("hamfist hamsmallmod").expect_err("a size of nothing");
-//! assert!(error.to_string().starts_with("symbol 1 is hamsmallmod, but expected a movement"));
+//! assert!(error.to_string().starts_with("symbol 2 is hamsmallmod, but expected a movement"));
 //! assert_eq!(parse_lenient("hamfist hamsmallmod").sign.parts.len(), 1);
 //! # Ok::<(), chereme_sign::hamnosys::HamnosysError>(())
 //! ```

@@ -421,12 +421,12 @@ fn refusals_name_the_symbol_and_what_was_expected() {
         (
             "fist parbegin moveo",
             1,
-            "hamparbegin, is not closed; expected hamparend at symbol 3",
+            "hamparbegin, is not closed; expected hamparend at symbol 4",
         ),
         (
             "fist parbegin moveo seqend",
             1,
-            "expected hamparend at symbol 3",
+            "expected hamparend at symbol 4",
         ),
         ("fist moveo parend", 2, "hamparend"),
         ("fist parbegin parend", 2, "a movement in the bracket"),
@@ -481,7 +481,7 @@ fn refusals_name_the_symbol_and_what_was_expected() {
     }
     let unknown = parse("hamfist hamflathat").expect_err("no symbol");
     assert!(
-        unknown.to_string().contains("symbol 1 is \"hamflathat\""),
+        unknown.to_string().contains("symbol 2 is \"hamflathat\""),
         "{unknown}"
     );
     assert_eq!(parse(""), Err(HamnosysError::Empty));
