@@ -37,11 +37,7 @@ pub(crate) fn accept(annotations: Vec<i64>) -> Job {
 
 /// Writes the inferred facial movements of a recording onto tiers of proposals.
 pub(crate) fn propose_nonmanuals(recording: Address) -> Job {
-    let about = About {
-        may_stop: false,
-        ..PROPOSE
-    };
-    Job::new(about, move |corpus, progress| {
+    Job::new(PROPOSE, move |corpus, progress| {
         corpus.propose_nonmanuals(&recording, true, progress)?;
         Ok(Outcome::Changed)
     })
