@@ -9,6 +9,7 @@
 //! | `app` | the window: one frame after the other |
 //! | `action` | the table of everything that keys, menus and the palette can request |
 //! | `command`, `dispatch` | every possible request, and the one place that carries requests out |
+//! | `opening` | opens and closes corpora, takes newer snapshots |
 //! | `context` | the input of a pane, its requests, and the selection |
 //! | `model` | the corpus at one moment; movement in pieces around the playhead |
 //! | `work` | use cases of the corpus on threads, with progress and stopping |
@@ -43,6 +44,7 @@ mod layout;
 mod menu_and_status;
 mod miniatures;
 mod model;
+mod opening;
 mod overlay;
 mod panes;
 mod pickers;
