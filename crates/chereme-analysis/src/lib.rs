@@ -28,6 +28,9 @@ pub mod score;
 pub mod strokes;
 pub mod transcribe;
 
+#[cfg(test)]
+mod tests;
+
 pub use kinematics::{Kinematics, kinematics};
 pub use measure::measure;
 pub use score::{Score, ScoreError, ScoreOptions, score};

@@ -41,7 +41,7 @@ mod words;
 #[cfg(test)]
 mod table_tests;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use chereme_motion::{Anatomy, Clip, HandCorrection, Side};
 use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, Sign};

@@ -13,6 +13,9 @@ use glam::{DQuat, DVec3};
 
 use super::*;
 
+mod goldens;
+pub(crate) mod movements;
+
 /// A hand's place in the signer's space, the directions of its axis and palm, and its shape.
 #[derive(Clone)]
 pub(super) struct Held {

@@ -1,0 +1,257 @@
+//! Golden cases: all that is found in 67 generated movements, with every number.
+
+use std::fmt::Write as _;
+
+use chereme_sign::hamnosys::text_of;
+
+use super::super::acts::{ActKind, signing};
+use super::super::hands::relation;
+use super::super::place::{Placed, Together};
+use super::super::scene::{HandTrajectory, Scene};
+use super::super::tree::Sight;
+use super::super::words;
+use super::movements::{Case, captured, one_hand, places, two_hands};
+use super::*;
+use crate::tests::compare;
+
+#[test]
+fn golden_transcriptions_of_one_hand_hold_every_number_that_is_found() {
+    check("one_hand", &one_hand());
+}
+
+#[test]
+fn golden_transcriptions_of_places_hold_every_number_that_is_found() {
+    check("places", &places());
+}
+
+#[test]
+fn golden_transcriptions_of_two_hands_hold_every_number_that_is_found() {
+    check("two_hands", &two_hands());
+}
+
+#[test]
+fn golden_transcriptions_of_captured_hands_hold_every_number_that_is_found() {
+    check("captured", &captured());
+}
+
+fn check(table: &str, cases: &[Case]) {
+    let mut text = String::new();
+    for case in cases {
+        writeln!(text, "## {}", case.name).expect("a text grows");
+        let found = features(&mut text, case);
+        scores(&mut text, case, &found);
+        text.push('\n');
+    }
+    compare(&format!("transcribed_{table}"), &text);
+}
+
+fn names(text: &str) -> String {
+    to_names(text).expect("symbols").join(" ")
+}
+
+/// Writes what everyone sees: the notation, its stages, and its features with their residuals and runners-up.
+fn features(out: &mut String, case: &Case) -> Transcription {
+    let found = transcribe(&case.clip, &case.anatomy, &case.options).expect("a sign");
+    let mut line = |text: String| writeln!(out, "{text}").expect("a text grows");
+    line(format!("notation: {}", names(&text_of(&found.sign))));
+    line(format!(
+        "signs: {:?} of {}",
+        found.frames,
+        case.clip.frames()
+    ));
+    for finding in &found.findings {
+        line(format!("finding: {finding}"));
+    }
+    for stage in &found.stages {
+        let Stage {
+            action,
+            hand,
+            frames,
+            text,
+        } = stage;
+        line(format!(
+            "stage {action:?} {hand:?} {frames:?}: {}",
+            names(text)
+        ));
+    }
+    for it in &found.features {
+        let next = it.runner_up.as_ref().map_or(String::new(), |next| {
+            format!(
+                "; then {} ({}) {}",
+                next.value,
+                names(&next.text),
+                next.residual
+            )
+        });
+        line(format!(
+            "{} {:?} {:?} at {} in {:?}: {} ({}) {:?}{}{next}",
+            it.kind.name(),
+            it.action,
+            it.hand,
+            it.frame,
+            it.frames,
+            it.value,
+            names(&it.text),
+            it.residual,
+            it.unit.sign(),
+        ));
+    }
+    found
+}
+
+/// Writes what the readings were chosen from: trajectories, acts, and the first three candidates with their scores.
+fn scores(out: &mut String, case: &Case, found: &Transcription) {
+    let steadied = denoise::steadied(&case.clip);
+    let clip = steadied.as_ref().map_or(&case.clip, |it| &it.clip);
+    let scene = Scene::of(clip, &case.anatomy, &case.options).expect("a scene");
+    let sight = Sight::new(&scene, &case.options);
+    let mut line = |text: String| writeln!(out, "{text}").expect("a text grows");
+    line(format!(
+        "scene: arm {:?} shoulders {:?} hand {:?} loose {:?} alone {:?} lead {} exact {}",
+        scene.arm,
+        scene.shoulders,
+        scene.hand,
+        scene.loose,
+        scene.alone,
+        sight.lead,
+        precision::is_exact(&scene, &sight)
+    ));
+    let Some(track) = scene.hands[sight.lead].as_ref() else {
+        return;
+    };
+    let frames = signing(&scene, track);
+    line(format!("relation: {:?}", relation(&scene, &frames)));
+    for (n, track) in scene.hands.iter().enumerate() {
+        let Some(track) = track else { continue };
+        trajectory(&mut line, track);
+        let (acts, left) = sight.acts(n, track, &frames);
+        line(format!("  leaves its first posture at {left:?}"));
+        for act in acts {
+            let what = match &act.kind {
+                ActKind::Path(fitted) => format!("{fitted:?}"),
+                other => format!("{other:?}"),
+            };
+            line(format!(
+                "  act {:?} until {} times {} {:?} grows {:?} turned {} reshaped {} with {:?}: {what}",
+                act.frames,
+                act.until,
+                act.times,
+                act.repeat,
+                act.grows,
+                act.turned,
+                act.reshaped,
+                act.with
+            ));
+        }
+    }
+    let start = found
+        .features
+        .first()
+        .map_or(*frames.start(), |it| it.frame);
+    let symmetric = matches!(found.sign.parts[0].hands, HandsUsed::Both(_));
+    for frame in [start, *frames.end()] {
+        candidates(&mut line, &sight, frame, symmetric);
+    }
+}
+
+fn trajectory(line: &mut impl FnMut(String), track: &HandTrajectory) {
+    let last = track.palm.len() - 1;
+    line(format!(
+        "{:?} hand: rests in {} of {} frames, turns by {:?}, reshapes by {:?}",
+        track.side,
+        track.rests.iter().filter(|rests| **rests).count(),
+        last + 1,
+        track.turn(0, last),
+        track.reshaped(0, last)
+    ));
+    let middle = last / 2;
+    line(format!(
+        "  middle: palm {:?} along {:?} normal {:?}",
+        track.palm[middle], track.along[middle], track.normal[middle]
+    ));
+}
+
+/// Writes the first three candidates of each choice in a frame.
+fn candidates(line: &mut impl FnMut(String), sight: &Sight<'_>, frame: usize, symmetric: bool) {
+    let Some(body) = sight.body(frame) else {
+        return;
+    };
+    for (n, track) in sight.scene.hands.iter().enumerate() {
+        let Some(track) = track.as_ref().filter(|it| !it.rests[frame]) else {
+            continue;
+        };
+        line(format!("frame {frame}, {:?} hand", track.side));
+        if let Some(it) = sight.see(track, frame).shape {
+            let next = it
+                .runner_up
+                .map(|(shape, off)| (words::shape(&shape).words, off));
+            line(format!(
+                "  shape {} {:?}, then {next:?}",
+                words::shape(&it.best).words,
+                it.residual
+            ));
+        }
+        if track.faces {
+            for it in sight.turned(track, frame, 3) {
+                line(format!(
+                    "  turned {} {:?}, palm {} {:?}, beyond {:?} less {:?}",
+                    words::direction(&it.extended.best).words,
+                    it.extended.residual,
+                    words::palm(&it.palm.best).words,
+                    it.palm.residual,
+                    it.beyond,
+                    it.less
+                ));
+            }
+        }
+        let likely = body.likeliest(n, symmetric, 3);
+        for it in body.place(n, symmetric).into_iter().chain(likely) {
+            line(format!("  place {}", placed(&it)));
+        }
+        for (parts, less) in body.other_parts(n).into_iter().take(3) {
+            line(format!("  or by {parts:?}: less {less:?}"));
+        }
+    }
+    if let Some(it) = body.together() {
+        line(format!("  together {}", together(&it)));
+    }
+    for it in body.likeliest_pairs().into_iter().take(3) {
+        line(format!("  pair {}", together(&it)));
+    }
+    if let Some((it, at)) = body.constellation(0.0) {
+        line(format!(
+            "  constellation {} at {}",
+            together(&it),
+            placed(&at)
+        ));
+    }
+}
+
+fn placed(it: &Placed) -> String {
+    let found = [
+        words::place(&it.place).words,
+        words::nearness(&it.place).words,
+    ];
+    let next = it.runner_up.as_ref();
+    let next = next.map(|(place, off)| (words::place(place).words, off));
+    format!(
+        "{}: score {:?} unlikely {:?} residual {:?} distance {:?} small {}, then {next:?}",
+        found.join(", "),
+        it.score,
+        it.unlikely,
+        it.residual,
+        it.distance,
+        it.small
+    )
+}
+
+fn together(it: &Together) -> String {
+    format!(
+        "{:?} {:?} distance {:?} cost {:?} named {}",
+        it.parts,
+        it.contact,
+        it.distance,
+        it.cost(),
+        it.named
+    )
+}
