@@ -3,6 +3,9 @@
 //! If a finding is meant to change, `UPDATE_GOLDENS=1 cargo test --workspace --lib golden` writes the tables again;
 //! their difference then shows all that has changed.
 
+mod cued;
+mod signals;
+
 use std::path::PathBuf;
 use std::{env, fs};
 

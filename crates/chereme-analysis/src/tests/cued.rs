@@ -1,0 +1,202 @@
+//! Golden tables of the models of cued speech.
+
+use std::fmt::Write as _;
+
+use glam::DVec3;
+
+use super::compare;
+use crate::cue::face::{FaceModel, share_of};
+use crate::cue::gauss::{Confusion, Recogniser};
+use crate::cue::generate::{self, RATE, Settings, Take};
+use crate::cue::hand::HandModel;
+use crate::cue::rigid::Rigid;
+use crate::cue::session::{
+    Followed, Key, KeyGestures, KeySounds, examples, find, find_known, phases,
+};
+
+fn put(out: &mut String, line: impl AsRef<str>) {
+    writeln!(out, "{}", line.as_ref()).expect("a text grows");
+}
+
+fn clean() -> Settings {
+    Settings {
+        hidden: 0.0,
+        ..Settings::default()
+    }
+}
+
+fn keys(take: &Take) -> Vec<Key> {
+    let key = |it: &generate::TrueKey| Key {
+        kind: KeySounds::ALL[it.kind],
+        placement: it.placement,
+        shape: it.shape,
+        a1: it.sound[0],
+        a2: it.sound[1],
+        a3: it.sound[2],
+    };
+    take.keys.iter().map(key).collect()
+}
+
+fn gestures(out: &mut String, all: &[KeyGestures]) {
+    for (n, it) in all.iter().enumerate() {
+        put(out, format!("key {n} hand {:?}", it.hand));
+        put(out, format!("  fingers {:?}", it.fingers));
+    }
+}
+
+#[test]
+fn golden_gestures_and_phases_of_cued_keys() {
+    let takes: Vec<Take> = (0..4).map(|n| generate::sentence(&clean(), n, 8)).collect();
+    let followed: Vec<Followed> = takes
+        .iter()
+        .map(|it| Followed::of_truth(&it.true_hand, &it.head, RATE))
+        .collect();
+    let keys: Vec<Vec<Key>> = takes.iter().map(keys).collect();
+    let pairs: Vec<(&Followed, &[Key])> = followed
+        .iter()
+        .zip(keys.iter().map(Vec::as_slice))
+        .collect();
+    let mut out = String::new();
+    let (recognisers, shown) = find(&pairs).expect("gestures");
+    put(&mut out, "## gestures");
+    gestures(&mut out, &shown[0]);
+    put(&mut out, "## phases");
+    let all = keys
+        .iter()
+        .map(Vec::as_slice)
+        .zip(shown.iter().map(Vec::as_slice));
+    for it in phases(all) {
+        put(&mut out, format!("{it:?}"));
+    }
+    put(&mut out, "## another take, its markers partly hidden");
+    let settings = Settings {
+        hidden: 0.3,
+        ..Settings::default()
+    };
+    let take = generate::sentence(&settings, 17, 5);
+    let seen = Followed::of_seen(&take.hand, &take.face, None, RATE);
+    let truth = Followed::of_truth(&take.true_hand, &take.head, RATE);
+    gestures(
+        &mut out,
+        &find_known(&truth, &self::keys(&take), &recognisers),
+    );
+    for frame in (0..seen.frames()).step_by(45) {
+        put(
+            &mut out,
+            format!(
+                "frame {frame}: {:?} read {:?}",
+                seen.parameters(frame),
+                recognisers.read(&truth, frame)
+            ),
+        );
+    }
+    put(&mut out, "## recognisers");
+    let (shapes, placements) = examples(&pairs, &shown);
+    for (name, examples) in [("shapes", shapes), ("placements", placements)] {
+        let learnt = Recogniser::learn(&examples, 0.25).expect("a recogniser");
+        let found = Confusion::of(&learnt, &examples);
+        put(
+            &mut out,
+            format!("{name}: rate {:?} counts {:?}", found.rate(), found.counts),
+        );
+        for (class, row) in examples.iter().step_by(5) {
+            put(
+                &mut out,
+                format!(
+                    "  {class}: log {:?} of {:?}",
+                    learnt.log_of(row, *class),
+                    learnt.best(row)
+                ),
+            );
+        }
+    }
+    compare("cued_keys", &out);
+}
+
+/// Returns one of nine markers of a frame.
+fn few(points: &[DVec3]) -> Vec<DVec3> {
+    points.iter().copied().step_by(9).collect()
+}
+
+#[test]
+fn golden_hands_and_faces_of_cuers() {
+    let mut out = String::new();
+    let settings = Settings::default();
+    let take = generate::sentence(&settings, 3, 4);
+    put(&mut out, "## generated");
+    put(&mut out, format!("{} frames", take.hand.len()));
+    for key in &take.keys {
+        put(&mut out, format!("{key:?}"));
+    }
+    for frame in (0..take.true_hand.len()).step_by(60) {
+        put(
+            &mut out,
+            format!("frame {frame}: angles {:?}", take.true_angles[frame]),
+        );
+        put(
+            &mut out,
+            format!("  hand {:?}", few(&take.true_hand[frame])),
+        );
+        put(
+            &mut out,
+            format!(
+                "  face {:?} {:?}",
+                take.true_parameters[frame],
+                few(&take.true_face[frame])
+            ),
+        );
+    }
+    let hands = HandModel::learn(&generate::transitions(&clean(), 1).hand, 8).expect("a hand");
+    put(&mut out, "## the hand");
+    put(&mut out, format!("explained {:?}", hands.explained()));
+    let mut before = None;
+    for frame in (0..take.hand.len()).step_by(40) {
+        let Some(it) = hands.restore(&take.hand[frame], before.as_ref()) else {
+            continue;
+        };
+        put(
+            &mut out,
+            format!(
+                "frame {frame}: {:?} sd {:?}",
+                few(&it.points),
+                it.sd.iter().step_by(11).collect::<Vec<_>>()
+            ),
+        );
+        put(
+            &mut out,
+            format!(
+                "  seven {:?} tips {:?} {:?}",
+                HandModel::distances(&it.points),
+                HandModel::tip(&it.points, 1),
+                HandModel::tip(&it.points, 4)
+            ),
+        );
+        before = Some(it);
+    }
+    put(&mut out, "## the face");
+    let learnt: Vec<_> = generate::sentence(&clean(), 0, 10)
+        .face
+        .into_iter()
+        .step_by(4)
+        .collect();
+    let faces = FaceModel::learn(&learnt).expect("a face");
+    put(&mut out, format!("weights {:?}", faces.weights));
+    for frame in (0..take.face.len()).step_by(60) {
+        if let Some((motion, points, sd)) = faces.restore(&take.face[frame]) {
+            put(
+                &mut out,
+                format!("frame {frame}: {:?} {:?}", motion.translation, few(&points)),
+            );
+            put(
+                &mut out,
+                format!("  sd {:?}", sd.iter().step_by(11).collect::<Vec<_>>()),
+            );
+        }
+    }
+    let motion = Rigid {
+        translation: DVec3::new(10.0, -4.0, 2.5),
+        ..take.head[0]
+    };
+    put(&mut out, format!("share {:?}", share_of(&motion, 0.37)));
+    compare("cued_models", &out);
+}
