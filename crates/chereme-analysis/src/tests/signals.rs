@@ -146,6 +146,15 @@ fn golden_shifts_maps_and_phases() {
             );
         }
     }
+    // The end of the first signal, under a clock that began much later.
+    let mut end = signal(9.0, 70, 0.04, 30..31);
+    for point in &mut end.points {
+        point.0 -= 11.4;
+    }
+    put(
+        &mut out,
+        format!("the end by itself: {:?}", shift(&first, &end, 40.0)),
+    );
     put(&mut out, "\n## neighbours on the map");
     let things: Vec<Features> = (0..12_u32)
         .map(|n| {
@@ -219,18 +228,24 @@ fn golden_proposals_of_nonmanuals() {
     let swing = |at: f64, from: f64, to: f64, times: f64| {
         bump(at, from, to) * (at * times * std::f64::consts::TAU).sin()
     };
+    // Too short for any value.
+    let spike = |at: f64, from: f64| f64::from(u8::from((from..from + 0.03).contains(&at)));
     let right = curve(&|at| 0.2 + hum(at) + 0.7 * bump(at, 1.0, 2.2) + 0.3 * bump(at, 4.0, 4.6));
     let left = curve(&|at| 0.25 + hum(at + 1.0) + 0.6 * bump(at, 1.1, 2.0));
-    let squeeze = curve(&|at| 0.1 + hum(at) + 0.8 * bump(at, 3.0, 3.6));
+    let squeeze = curve(&|at| 0.1 + spike(at, 6.5) + hum(at) + 0.8 * bump(at, 3.0, 3.6));
     let lids = curve(&|at| {
-        0.1 + hum(at)
+        0.1 + spike(at, 3.0)
+            + hum(at)
             + 0.9 * bump(at, 0.5, 0.8)
             + 0.85 * bump(at, 5.0, 6.2)
             + 0.4 * bump(at, 7.0, 7.5)
     });
-    let gaze = curve(&|at| hum(at) + 0.6 * bump(at, 2.0, 2.9) - 0.7 * bump(at, 6.0, 6.6));
+    let gaze =
+        curve(&|at| spike(at, 5.0) + hum(at) + 0.6 * bump(at, 2.0, 2.9) - 0.7 * bump(at, 6.0, 6.6));
     let up = curve(&|at| hum(at + 2.0) + 0.5 * bump(at, 4.0, 4.9) - 0.4 * bump(at, 7.0, 7.6));
-    let jaw = curve(&|at| 0.05 + hum(at) + 0.5 * bump(at, 1.0, 1.5) + 0.2 * bump(at, 3.0, 3.4));
+    let jaw = curve(&|at| {
+        0.05 + spike(at, 7.0) + hum(at) + 0.5 * bump(at, 1.0, 1.5) + 0.2 * bump(at, 3.0, 3.4)
+    });
     let lips = curve(&|at| 0.05 + hum(at) + 0.6 * bump(at, 1.0, 1.6) + 0.5 * bump(at, 5.0, 5.5));
     let pitch =
         curve(&|at| 3.0 + 5.0 * swing(at, 1.0, 3.0, 2.0) + 9.0 * bump(at, 6.0, 7.4) + hum(at));
