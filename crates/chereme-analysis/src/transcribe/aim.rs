@@ -27,15 +27,6 @@ pub(super) fn wrapped(angle: f64) -> f64 {
     (angle + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI
 }
 
-/// Returns the shortest rotation from pointing forward to a direction; for the direction backward it turns
-/// over the top.
-pub(super) fn from_out(direction: DVec3) -> DQuat {
-    if direction.z < -1.0 + 1e-9 {
-        return DQuat::from_rotation_x(std::f64::consts::PI);
-    }
-    DQuat::from_rotation_arc(DVec3::Z, direction)
-}
-
 /// A direction that notation can write.
 struct Pointing {
     aim: Aim<Direction>,

@@ -452,11 +452,12 @@ fn circular(
     start: DVec3,
     l: &chereme_sign::hamnosys::BodyLanguage,
 ) -> Circular {
-    let back = aim::from_out(DVec3::from(axis.vector())).inverse();
-    let (from, flat) = (back * start, back * long);
-    let start = Compass::nearest((-from.x).atan2(-from.y));
+    let angle = |spoke: DVec3| orientation::angle_about(axis.vector(), spoke.into());
+    let start = Compass::nearest(angle(start));
     let ellipse = (narrow < (1.0 + l.ellipse_small) / 2.0).then(|| {
-        let lean = (flat.y.atan2(-flat.x).to_degrees().rem_euclid(180.0) / 45.0).round() as u8;
+        // From right over up to left.
+        let lean = (angle(long).to_degrees() - 90.0).rem_euclid(180.0) / 45.0;
+        let lean = lean.round() as u8;
         match lean % 4 {
             0 => Ellipse::Horizontal,
             1 => Ellipse::UpRight,

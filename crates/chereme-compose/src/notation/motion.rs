@@ -11,17 +11,15 @@ use std::f64::consts::TAU;
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::sites::HandPoint;
 use chereme_sign::hamnosys::{
-    BodyAction, Circular, Curve, Digit, Digits, Directed, HandClass, Manner, Motion, MotionKind,
-    Place, Posture, Repeat, Repetition, Size, WristMotion,
+    BodyAction, Circular, Compass, Curve, Digit, Digits, Directed, HandClass, Manner, Motion,
+    MotionKind, Place, Posture, Repeat, Repetition, Size, WristMotion, orientation,
 };
 
 use size::{across, amount, grown, is_round, sized, turns, wrist_name};
 
 use super::pace::Pace;
 use super::path::Path;
-use super::plan::{
-    Act, Event, Frame, HandState, PhaseKind, Planner, Signer, Who, about, acting, mean, shortest,
-};
+use super::plan::{Act, Event, Frame, HandState, PhaseKind, Planner, Signer, Who, acting, mean};
 use super::tuned::tuned;
 
 /// Modifiers that a motion inherits from the motions around it.
@@ -557,7 +555,7 @@ impl Signer<'_> {
     fn bow(&self, direction: DVec3, curve: &Curve) -> DVec3 {
         let l = self.language;
         let deep = sized(curve.size, [l.arc_small, l.arc_normal, l.arc_big]);
-        shortest(direction) * about(curve.to.angle()) * deep
+        DVec3::from(orientation::about(direction.into(), curve.to.angle())) * deep
     }
 
     /// Returns the vectors from a circle's centre to its start and to the point a quarter turn on. The
@@ -566,23 +564,21 @@ impl Signer<'_> {
     fn rim(&self, circular: &Circular, radius: f64, skin: Option<DVec3>) -> (DVec3, DVec3) {
         let l = self.language;
         let axis = mean(circular.axis, circular.second);
-        let turned = shortest(axis);
+        let about = |angle: f64| DVec3::from(orientation::about(axis.into(), angle));
         let upright = skin.filter(|out| out.dot(axis).abs() < 0.8);
         let usual = upright.map_or(std::f64::consts::PI, |out| {
-            let inwards = turned.inverse() * -out;
-            (-inwards.x).atan2(-inwards.y)
+            orientation::angle_about(axis.into(), (-out).into())
         });
-        let start = circular.clock.start.map_or(usual, |at| at.angle());
-        let mut spokes = [start, start + std::f64::consts::FRAC_PI_2].map(about);
-        // A quarter turn on by the right-hand rule about forward.
-        spokes[1] = DVec3::Z.cross(spokes[0]);
+        let start = about(circular.clock.start.map_or(usual, |at| at.angle()));
+        // A quarter turn on by the right-hand rule about the axis.
+        let mut spokes = [start, axis.cross(start)];
         if let Some(ellipse) = circular.ellipse {
             use chereme_sign::hamnosys::Ellipse;
             let long = match ellipse {
-                Ellipse::Horizontal => DVec3::X,
-                Ellipse::Vertical => DVec3::Y,
-                Ellipse::UpRight => DVec3::new(-1.0, 1.0, 0.0).normalize(),
-                Ellipse::UpLeft => DVec3::new(1.0, 1.0, 0.0).normalize(),
+                Ellipse::Horizontal => about(Compass::R.angle()),
+                Ellipse::Vertical => about(Compass::U.angle()),
+                Ellipse::UpRight => about(Compass::Ur.angle()),
+                Ellipse::UpLeft => about(Compass::Ul.angle()),
             };
             let narrow = sized(
                 circular.ellipse_size,
@@ -595,7 +591,7 @@ impl Signer<'_> {
             spokes = spokes.map(squeeze);
         }
         let size = radius * self.stage.arm;
-        (turned * spokes[0] * size, turned * spokes[1] * size)
+        (spokes[0] * size, spokes[1] * size)
     }
 
     /// Returns the factor on the duration of simultaneous motions for which the notation gives no tempo: the fastest

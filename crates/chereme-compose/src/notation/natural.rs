@@ -299,6 +299,53 @@ fn rotations(made: &Generated) -> Vec<DQuat> {
         .collect()
 }
 
+/// Returns the positions of the right hand during the first stroke of a sign.
+fn stroked(names: &str) -> Vec<DVec3> {
+    let sign = symbols(names);
+    let made = alive(&sign);
+    let hand = made.anatomy.joint(Part::Hand(Side::Right)).expect("a hand");
+    let phases = phases(&sign);
+    let stroke = phases.iter().find(|phase| phase.kind == PhaseKind::Stroke);
+    let stroke = stroke.expect("a stroke");
+    let frames = (stroke.from * 60.0).round() as usize..=(stroke.to * 60.0).round() as usize;
+    frames
+        .map(|frame| made.clip.model_pose(frame).position(hand))
+        .collect()
+}
+
+#[test]
+fn an_arc_that_is_written_upwards_bends_upwards_whatever_its_direction() {
+    for direction in ["o", "uo", "do", "i", "ui", "di", "il", "ir"] {
+        for (arc, sign) in [("u", 1.0), ("d", -1.0)] {
+            let path = stroked(&format!(
+                "hamfist hamextfingerl hampalmd hamchest hammove{direction} hamarc{arc}"
+            ));
+            let chord = (path[path.len() - 1] - path[0]).normalize();
+            let off = path
+                .iter()
+                .map(|at| (at - path[0]).reject_from_normalized(chord));
+            let far = off.max_by(|a, b| a.length().total_cmp(&b.length()));
+            let bend = far.expect("a path").y * sign;
+            assert!(bend > 0.004, "{direction}, {arc}: {bend} m");
+        }
+    }
+}
+
+#[test]
+fn a_circle_starts_above_whatever_its_axis() {
+    for axis in ["o", "i", "il", "ol"] {
+        let path = stroked(&format!(
+            "hamfist hamextfingerl hampalmd hamchest hamcircle{axis}"
+        ));
+        let middle = path.iter().map(|at| at.y).sum::<f64>() / path.len() as f64;
+        assert!(
+            path[0].y > middle + 0.03,
+            "{axis}: {} and {middle}",
+            path[0].y
+        );
+    }
+}
+
 #[test]
 fn an_upright_hand_that_leans_back_does_not_turn_over() {
     // The letter of the palm reads "away" before the vertical and "towards the signer" behind it.

@@ -673,16 +673,3 @@ pub(crate) fn mean(first: Direction, second: Option<Direction>) -> DVec3 {
     let Some(second) = second else { return first };
     (first + DVec3::from(second.vector())).normalize_or(first)
 }
-
-/// Returns the shortest rotation from forward to a direction; for straight back it turns over the top.
-pub(crate) fn shortest(direction: DVec3) -> DQuat {
-    if direction.z < -1.0 + 1e-9 {
-        return DQuat::from_axis_angle(DVec3::X, std::f64::consts::PI);
-    }
-    DQuat::from_rotation_arc(DVec3::Z, direction)
-}
-
-/// Returns a compass direction about forward (left, up, forward): down at 0, right a quarter turn on.
-pub(crate) fn about(angle: f64) -> DVec3 {
-    DVec3::new(-angle.sin(), -angle.cos(), 0.0)
-}

@@ -1,4 +1,5 @@
-//! Directions of the palm: notation's letters for hands that point anywhere.
+//! Directions about an axis: notation's letters for palms of hands that point anywhere, for arcs of movements that go
+//! anywhere, and for the points of circles.
 //!
 //! For a hand that points away from the signer the eight letters are plain directions. For one that points
 //! to a side, up or down, it is turned there by the shortest rotation, and the letters with it: pointing
@@ -7,6 +8,9 @@
 //! signer's chest. Transcribers use the letters this way: in signs of the sign language of the Netherlands
 //! that touch the chest with the palm's side of such a hand, it is `r`. At the plane between the two
 //! halves the meaning changes abruptly, as it does in those signs.
+//!
+//! The letters of arcs and circles follow the same rule. An arc of a movement towards the signer is written `u` seven times as
+//! often as `d` in the same signs, as is one away from the signer: `u` bends upwards in both.
 
 /// A vector to the signer's left, up and away from the signer.
 type Vector = [f64; 3];
@@ -22,9 +26,15 @@ pub fn palm(direction: [f64; 3], angle: f64) -> [f64; 3] {
 /// For this angle, [`palm`] returns the part of `palm` at a right angle to the direction.
 #[must_use]
 pub fn palm_angle(direction: [f64; 3], palm: [f64; 3]) -> f64 {
+    angle_about(direction, palm)
+}
+
+/// Inverts [`about`]: returns the angle of the part of `vector` at a right angle to `direction`, a unit vector.
+#[must_use]
+pub fn angle_about(direction: [f64; 3], vector: [f64; 3]) -> f64 {
     let dot = |a: Vector, b: Vector| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let down = dot(palm, about(direction, 0.0));
-    let right = dot(palm, about(direction, std::f64::consts::FRAC_PI_2));
+    let down = dot(vector, about(direction, 0.0));
+    let right = dot(vector, about(direction, std::f64::consts::FRAC_PI_2));
     right.atan2(down)
 }
 

@@ -223,10 +223,9 @@ pub(super) fn written(scene: &Scene<'_>, path: &PathForm) -> MotionKind {
             let mut round = circular(direction, size, long, narrow, start, l);
             // An incomplete circle needs its end in notation, and therefore its start as well.
             if turns * TAU < TAU * tuned().path.round {
-                let back = aim::from_out(DVec3::from(direction.vector())).inverse();
                 let hour = |spoke: DVec3| {
-                    let flat = back * spoke;
-                    Compass::nearest((-flat.x).atan2(-flat.y))
+                    let angle = orientation::angle_about(direction.vector(), spoke.into());
+                    Compass::nearest(angle)
                 };
                 round.clock.start = Some(hour(start));
                 round.clock.end = Some(hour(end));
@@ -234,11 +233,10 @@ pub(super) fn written(scene: &Scene<'_>, path: &PathForm) -> MotionKind {
             return MotionKind::Circular(round);
         }
         PathForm::Arc { chord, bow } => {
-            let back = aim::from_out(DVec3::from(direction.vector())).inverse();
-            let flat = back * bow;
+            let angle = orientation::angle_about(direction.vector(), bow.into());
             let deep = bow.length() / chord.length().max(1e-9);
             directed.curve = Some(Curve {
-                to: Compass::nearest((-flat.x).atan2(-flat.y)),
+                to: Compass::nearest(angle),
                 size: sized(deep, [l.arc_small, l.arc_normal, l.arc_big]).best,
             });
         }
