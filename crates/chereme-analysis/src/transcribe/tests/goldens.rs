@@ -77,7 +77,7 @@ fn features(out: &mut String, case: &Case) -> Transcription {
     for it in &found.features {
         let next = it.runner_up.as_ref().map_or(String::new(), |next| {
             format!(
-                "; then {} ({}) {}",
+                "; then {} ({}) {:?}",
                 next.value,
                 names(&next.text),
                 next.residual

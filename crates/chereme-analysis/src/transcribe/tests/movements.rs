@@ -119,7 +119,7 @@ pub(crate) fn one_hand() -> Vec<Case> {
             arc(v(0.0, -0.15, 0.2), v(0.01, 0.13, 0.1), t)
         }),
         moved("circle about the axis away", 0.7, &index, |t| {
-            round(v(0.03, 0.05, 1.0), v(0.01, 0.14, 0.0), 1.0, t)
+            round(v(0.03, 0.05, 1.0), v(0.01, 0.14, 0.0), 1.03, t)
         }),
         moved("large circle about the axis to the left", 0.9, &fist, |t| {
             round(v(1.0, 0.05, 0.03), v(0.0, 0.22, 0.03), 1.1, t)
@@ -128,7 +128,7 @@ pub(crate) fn one_hand() -> Vec<Case> {
             round(v(0.02, 1.0, 0.05), v(0.01, 0.0, -0.1), 2.0, t)
         }),
         moved("ellipse", 0.8, &index, |t| {
-            let (sin, cos) = (TAU * ease(t)).sin_cos();
+            let (sin, cos) = (0.98 * TAU * ease(t)).sin_cos();
             v(0.16 * sin, 0.08 * (cos - 1.0), 0.02 * sin)
         }),
         moved("zigzag", 1.0, &index, |t| {
@@ -255,7 +255,11 @@ pub(crate) fn places() -> Vec<Case> {
         case("brushes the chin in passing", 0.4, |t| {
             let across = 2.0 * ease(t) - 1.0;
             [
-                Some(chin.moved(v(-0.14 * across, 0.0, 0.12 * across * across))),
+                Some(chin.moved(v(
+                    -0.14 * across,
+                    0.006 * across,
+                    0.12 * across * across + 0.003 * across,
+                ))),
                 None,
             ]
         }),
