@@ -220,6 +220,30 @@ pub(super) const LINES: &[(&str, &str)] = &[
         "acteur {name} : {role} (avant : {old})",
     ),
     (
+        "tier {name} at {time}: {old} became {new}, and moved",
+        "acteur {name} à {time} : {old} est devenu {new}, et s’est déplacé",
+    ),
+    (
+        "tier {name} at {time}: {old} became {new}",
+        "acteur {name} à {time} : {old} est devenu {new}",
+    ),
+    (
+        "tier {name} at {time}: {value} moved from {start}",
+        "acteur {name} à {time} : {value}, auparavant à {start}",
+    ),
+    (
+        "tier {name} at {time}: {value} hangs below another",
+        "acteur {name} à {time} : {value} dépend d’une autre annotation",
+    ),
+    (
+        "tier {name} at {time}: {value} added",
+        "acteur {name} à {time} : {value} ajouté",
+    ),
+    (
+        "tier {name} at {time}: {value} removed",
+        "acteur {name} à {time} : {value} supprimé",
+    ),
+    (
         "tier {name} at {time}: {what}",
         "acteur {name} à {time} : {what}",
     ),
