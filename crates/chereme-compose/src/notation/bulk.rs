@@ -91,7 +91,7 @@ pub(crate) fn clear(
             most = Some(Parted { time, by });
         }
     }
-    let left = (left > LEFT).then_some(left + (tuned().bulk.gives * tuned().bulk.soft));
+    let left = (left > LEFT).then_some(left + depth_left());
     (most.is_some() || left.is_some()).then_some(Cleared { most, left })
 }
 
@@ -154,7 +154,7 @@ fn separation(
     }
     let usual = stage.forward * 0.8 + DVec3::Y * 0.6;
     let direction = sum.try_normalize().or(palms.try_normalize());
-    direction.unwrap_or(usual) * (deepest - (tuned().bulk.gives * tuned().bulk.soft))
+    direction.unwrap_or(usual) * (deepest - depth_left())
 }
 
 /// A hand in its intended pose.
@@ -196,6 +196,11 @@ impl<'a> Placed<'a> {
     fn at(&self, n: usize) -> DVec3 {
         self.wrist + self.turned * self.points[n]
     }
+}
+
+/// Returns the depth (m) that remains after hands were moved apart.
+fn depth_left() -> f64 {
+    tuned().bulk.gives * tuned().bulk.soft
 }
 
 /// Returns the bones of a hand, the middle of the palm first.

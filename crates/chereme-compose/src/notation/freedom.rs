@@ -65,12 +65,11 @@ impl Arm<'_> {
                 if 0.3 * off + shrugged >= least {
                     return least;
                 }
-                let posed = match shrug == 0.0 {
-                    true => line.bent(plane),
-                    false => {
-                        let bearing = Bearing { plane, shrug };
-                        self.rig().reach(wrist, bearing, self.limits)
-                    }
+                let posed = if shrug == 0.0 {
+                    line.bent(plane)
+                } else {
+                    let bearing = Bearing { plane, shrug };
+                    self.rig().reach(wrist, bearing, self.limits)
                 };
                 let strained = self.strained((wrist, turned), &posed, off, least - shrugged);
                 least.min(strained + shrugged)
@@ -230,12 +229,10 @@ impl Arm<'_> {
         let mut choices: Vec<Choice> = Vec::with_capacity(2 * planes().count());
         let wrist = want.wrist();
         let line = self.rig().line(wrist, self.limits);
-        let usual = self.usual(wrist, &line.bent(0.0));
-        let choice = |bearing: Bearing, high: bool| {
-            let posed = line.bent(bearing.plane);
-            self.choice(want, (bearing, posed), (high, free), usual)
-        };
-        let rule = choice(Bearing::default(), false);
+        let rule = line.bent(0.0);
+        let usual = self.usual(wrist, &rule);
+        let rule = (Bearing::default(), rule);
+        let rule = self.choice(want, rule, (false, free), usual);
         for high in [false, true] {
             for (n, plane) in planes().enumerate() {
                 if high && !choices[n].over {

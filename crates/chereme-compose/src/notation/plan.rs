@@ -189,7 +189,7 @@ impl Frame {
 /// The acting hands, the dominant one first, each with its frame.
 pub(crate) type Who = [Option<Frame>; 2];
 
-/// The body that signs, with the rules by which notation becomes positions and times on it.
+/// The signing body, and the rules that turn notation into positions and times on it.
 #[derive(Clone, Copy)]
 pub(crate) struct Signer<'a> {
     pub(crate) stage: &'a Stage,

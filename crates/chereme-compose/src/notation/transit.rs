@@ -10,9 +10,9 @@ use super::path::Path;
 use super::plan::{Act, Event, HandState, PhaseKind, Planner, Signer};
 use super::tuned::tuned;
 
-/// Bends of the path (arm lengths) that are tried in turn until the elbow keeps to [`BEHIND`].
+/// Bends of the path (arm lengths) that are tried in turn until the elbow keeps to `transit.behind`.
 const BENT: [f64; 6] = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3];
-/// Shares of the path at which the elbow is compared with [`BEHIND`].
+/// Shares of the path at which the elbow is compared with `transit.behind`.
 const LOOKED_AT: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Planner<'_> {
