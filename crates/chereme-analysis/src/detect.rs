@@ -4,8 +4,8 @@
 //! value, a confidence and the evidence. It stores nothing. The caller chooses the tiers and writes the detections with
 //! the origin of a detector, so that the codings of people stay apart.
 //!
-//! To add one, write a module with a type that implements [`Detector`], and add it to [`DETECTORS`]. Its name is the
-//! word that people type.
+//! To add one, write a module with a type that implements [`Detector`], and add it to [`DETECTORS`]. No command runs
+//! that list yet: callers name the detector that they need.
 
 use chereme_motion::{Anatomy, Clip, Instant, Side, Span};
 use chereme_sign::{Component, Field};

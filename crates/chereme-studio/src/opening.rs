@@ -22,7 +22,7 @@ use crate::work::begin::Begin;
 use crate::work::desk::Desk;
 
 impl Studio {
-    /// Opens the starter corpus, a copy of which is generated first if it is missing.
+    /// Opens the user's own starter corpus; generates it first if it is missing.
     pub(crate) fn open_starter(&mut self) {
         let language = self.settings.language;
         match &self.folders.data {

@@ -5,8 +5,8 @@ use std::fmt;
 use super::symbol::Symbol;
 use crate::text::{did_you_mean, nearest};
 
-/// The reason why a text is not a transcription. Indexes count symbols from 0, messages
-/// from 1.
+/// The reason why a text is not a transcription. Indexes count symbols from 0,
+/// messages from 1.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum HamnosysError {
     /// There is no symbol.

@@ -9,8 +9,9 @@
 //! that touch the chest with the palm's side of such a hand, it is `r`. At the plane between the two
 //! halves the meaning changes abruptly, as it does in those signs.
 //!
-//! The letters of arcs and circles follow the same rule. An arc of a movement towards the signer is written `u` seven times as
-//! often as `d` in the same signs, as is one away from the signer: `u` bends upwards in both.
+//! The letters of arcs and circles follow the same rule. In the same signs transcribers write `u` 44 times and `d` 12 times
+//! for arcs of movements straight, up or down towards the signer, and 96 and 38 times for those away: `u` bends upwards in
+//! both.
 
 /// A vector to the signer's left, up and away from the signer.
 type Vector = [f64; 3];
