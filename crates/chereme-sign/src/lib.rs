@@ -40,6 +40,7 @@
 //! | [`remedy`] | remedies for errors and findings, typed by the programs in which they can be followed |
 //! | [`text`] | folding of case and accents, and suggestions for misspelt words |
 //! | [`tuned`] | documents of tuned numbers with their units and meanings |
+//! | [`words`] | words in English and French, and the language of an interface |
 
 pub mod component;
 pub mod cue;
@@ -53,6 +54,7 @@ pub mod text;
 pub mod tier;
 pub mod token;
 pub mod tuned;
+pub mod words;
 
 pub use component::{Component, Field, FieldError, HandRef, Handedness, Phase, Reading};
 pub use inventory::{Inventory, InventoryError, InventoryValue};

@@ -5,8 +5,7 @@
 
 use std::fmt::Display;
 
-use serde::{Deserialize, Serialize};
-
+pub use chereme_sign::words::{Language, Text};
 pub use count::{counted, counted_in, numbered};
 pub use guides::guide;
 pub use messages::message;
@@ -45,72 +44,6 @@ mod notes;
 mod queries;
 mod reading;
 pub mod trouble;
-
-/// A language of the user interfaces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Language {
-    /// English.
-    #[default]
-    English,
-    /// French.
-    French,
-}
-
-impl Language {
-    /// Every language with its own name for itself.
-    pub const ALL: [(Self, &'static str); 2] =
-        [(Self::English, "English"), (Self::French, "Français")];
-
-    /// Returns its language code, which inventories use for their names.
-    #[must_use]
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::English => "en",
-            Self::French => "fr",
-        }
-    }
-
-    /// Returns the language for a locale such as `fr_FR.UTF-8`.
-    #[must_use]
-    pub fn of_locale(locale: &str) -> Self {
-        if locale.to_lowercase().starts_with("fr") {
-            Self::French
-        } else {
-            Self::English
-        }
-    }
-
-    /// Returns the language of the system from the environment, which `variable` reads.
-    #[must_use]
-    pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
-        let mut locales = ["LC_ALL", "LC_MESSAGES", "LANG"]
-            .into_iter()
-            .filter_map(variable);
-        let locale = locales.find(|locale| !locale.is_empty());
-        Self::of_locale(&locale.unwrap_or_default())
-    }
-}
-
-/// Words in every language.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Text {
-    /// In English.
-    pub en: &'static str,
-    /// In French.
-    pub fr: &'static str,
-}
-
-impl Text {
-    /// Returns the words in `language`.
-    #[must_use]
-    pub const fn of(self, language: Language) -> &'static str {
-        match language {
-            Language::English => self.en,
-            Language::French => self.fr,
-        }
-    }
-}
 
 /// Returns `text` with each `{name}` replaced by its value in `values`.
 #[must_use]
@@ -158,15 +91,5 @@ mod tests {
     #[test]
     fn blanks_are_filled() {
         assert_eq!(fill("{n} of {all}", &[("n", &2), ("all", &"x")]), "2 of x");
-        assert_eq!(Language::of_locale("fr_CH"), Language::French);
-        assert_eq!(Language::of_locale("C"), Language::English);
-        let of = |name: &str| match name {
-            "LC_ALL" => Some(String::new()),
-            "LC_MESSAGES" => Some("fr_BE.UTF-8".to_owned()),
-            "LANG" => Some("C".to_owned()),
-            _ => None,
-        };
-        assert_eq!(Language::of_environment(of), Language::French);
-        assert_eq!(Language::of_environment(|_| None), Language::English);
     }
 }
