@@ -6,7 +6,7 @@ use crate::cue::PhaseRule;
 use crate::units::{Direction, Factor, Hands, Length, Seconds};
 
 pub use crate::ops::settings::*;
-pub use crate::ops::{Field, FieldSetting, Step};
+pub use crate::ops::{Description, Field, FieldSetting, Step};
 
 /// A description from which movement is generated, as text (`ESCARGOT | configure right U`) and as JSON.
 ///

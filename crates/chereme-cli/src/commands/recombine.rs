@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use chereme_corpus::recipe::Step;
+use chereme_corpus::words::Text;
 use chereme_corpus::{Address, PictureOptions, Progress, Recombination, draw_clip};
 use serde_json::json;
 
@@ -10,7 +12,7 @@ use crate::args::Cli;
 use crate::output::{Bar, Output};
 use crate::streams;
 
-const RECIPES: &str = "\
+const SOURCES: &str = "\
 Sources: what a recipe begins with
   ESCARGOT  token:41  sign:LIMACE         a sign of the corpus, with movement or as notation
   take-1  recording:3                     a whole recording, by its name if no sign has that name
@@ -18,22 +20,9 @@ Sources: what a recipe begins with
   point right at 30cm,140cm,50cm          reaching for a point: to the left, up from the floor, forward
   hamnosys \"...\"  sigml HUIS.sigml        notation
 
-Operators: the changes, one after another, each after |
-  configure right U   both from LION      another handshape; that of another sign
-  place both by left 25cm up 5cm          another place: moved
-  place right at chin with index          at a placement, or a point such as 0cm,120cm,40cm
-  place both near BOL by up 5cm           at the place of another sign
-  orient right palm up fingers forward    another direction of the hand; or: by 30deg about up
-  reverse   swap   mirror right           backwards; the arms exchanged; one arm like the other
-  repeat 3 scale 0.8 tempo 1.2 gap 0.1s   again, each smaller and faster
-  amplify both 1.5                        larger paths
-  travel right down 20cm then up 20cm     along a path
-  travel right through 10cm,8cm,0cm then 20cm,0cm,0cm in 1s   along a curve: left, up, forward
-  from me to left                         a directional verb between other places
-  retime 150%   retime to 2s              slower, faster
-  nonmanual from BOL                      head and face of another sign
-  span 0.4s..1.9s   trim                  a part of it; rest and odd first and last frames cut off
+Operators: the changes, one after another, each after |";
 
+const UTTERANCES: &str = "\
 One after the other, with transitions
   BOL then ESCARGOT then via sigmoid 0.3s CHAT
 
@@ -43,12 +32,29 @@ Examples:
   chereme recombine mine.chereme 'take-1 | trim' --as HELLO
   chereme recombine mine.chereme 'spell LSF | travel right down 20cm then up 20cm' --draw lsf.gif";
 
+/// The column in which the effects of examples begin.
+const EFFECTS: usize = 42;
+
+/// Returns the help of recipes: sources, every operator by its own examples, and utterances.
+fn recipes() -> String {
+    let examples = Step::DESCRIPTIONS.iter().flat_map(|it| it.examples);
+    let line = |(recipe, effect): &(&str, Text)| {
+        let before = match recipe.chars().count() + 4 > EFFECTS {
+            true => format!("\n  {recipe}\n{:EFFECTS$}", ""),
+            false => format!("\n  {recipe:<width$}", width = EFFECTS - 2),
+        };
+        format!("{before}{}", effect.en)
+    };
+    let operators: String = examples.map(line).collect();
+    format!("{SOURCES}{operators}\n\n{UTTERANCES}")
+}
+
 /// Compose a new sign from stored ones, and store it
 ///
 /// A recipe is a sign and the changes to it: ESCARGOT | configure right U. The new sign gets its own tiers and is
 /// found by search like a captured one; its recipe is stored with it. Quote the recipe for your shell.
 #[derive(Debug, clap::Args)]
-#[command(after_help = RECIPES)]
+#[command(after_help = recipes())]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,

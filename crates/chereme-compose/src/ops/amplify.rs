@@ -4,6 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
+use chereme_sign::words::Text;
 use chereme_sign::{Component, Handedness};
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +15,7 @@ use crate::contact::{Carry, Keep};
 use crate::error::{Cause, RecipeError};
 use crate::ops::place::{self, describe_reach};
 use crate::ops::travel::wrist_path;
-use crate::ops::{Done, Field, FieldSetting, Operator, Syntax, say};
+use crate::ops::{Description, Done, Field, FieldSetting, Operator, Syntax, say};
 use crate::recipe::Solver;
 use crate::text::{Parsed, Parser};
 use crate::units::{Factor, Hands};
@@ -33,6 +34,24 @@ pub struct Amplify {
 
 impl Syntax for Amplify {
     const NAME: &'static str = "amplify";
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Size", "Ampleur"),
+        hint: Text::new(
+            "larger or smaller movement",
+            "mouvement plus ample ou plus petit",
+        ),
+        examples: &[(
+            "amplify both 1.5",
+            Text::new("larger paths", "de plus grands trajets"),
+        )],
+        messages: &[
+            Text::new(
+                "the hands' paths are {share} as large",
+                "les trajets des mains font {share} de leur taille",
+            ),
+            Text::new("nothing to do", "rien à faire"),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         Ok(Self {
@@ -73,10 +92,10 @@ impl Operator for Amplify {
     }
 
     fn fields(&mut self) -> Vec<FieldSetting<'_>> {
-        let setting = |name, field| FieldSetting { name, field };
+        let size = Text::new("Size", "Ampleur");
         vec![
-            setting("hand", Field::Hands(&mut self.hand)),
-            setting("size", Field::Factor(&mut self.by, 0.0..=3.0)),
+            FieldSetting::hands(&mut self.hand),
+            FieldSetting::new(size, Field::Factor(&mut self.by, 0.0..=3.0)),
         ]
     }
 }

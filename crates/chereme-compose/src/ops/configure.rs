@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use chereme_motion::glam::DQuat;
 use chereme_motion::{Side, Span};
+use chereme_sign::words::Text;
 use chereme_sign::{Component, Reading};
 
 use crate::course::Course;
@@ -21,7 +22,7 @@ use crate::answers::{Ask, Given, Setting, Slot};
 use crate::check;
 use crate::contact::{Carry, Keep};
 use crate::error::RecipeError;
-use crate::ops::{Done, Operator, Syntax};
+use crate::ops::{Description, Done, Operator, Syntax};
 use crate::recipe::{Choice, Profile, Transition};
 use crate::sources::LearnedProfile;
 use crate::text::{Parsed, Parser, list};
@@ -48,6 +49,45 @@ const VIA: Slot<LearnedProfile> = Slot::new("configure/via");
 
 impl Syntax for Configure {
     const NAME: &'static str = "configure";
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Handshape", "Configuration"),
+        hint: Text::new("another shape of the hand", "une autre forme de la main"),
+        examples: &[
+            (
+                "configure right U",
+                Text::new("another handshape", "une autre configuration"),
+            ),
+            (
+                "configure both from LION",
+                Text::new(
+                    "the handshapes of another sign",
+                    "les configurations d’un autre signe",
+                ),
+            ),
+            (
+                "configure right U, _",
+                Text::new(
+                    "for each shape that the sign holds in turn; _ keeps one",
+                    "pour chaque forme que le signe tient tour à tour ; _ en garde une",
+                ),
+            ),
+            (
+                "configure right best(configuration=U signer=same)",
+                Text::new(
+                    "that of the best hit of a query",
+                    "celle du meilleur résultat d’une requête",
+                ),
+            ),
+        ],
+        messages: &[
+            Text::new(
+                "{value} becomes {other} over {span}, from {origin}",
+                "{value} devient {other} sur {span}, d’après {origin}",
+            ),
+            Text::new("(no value)", "(sans valeur)"),
+            Text::new("no value is given", "aucune valeur n’est donnée"),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         let hand = parser.hand().unwrap_or(Hands::Dominant);

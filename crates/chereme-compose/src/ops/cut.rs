@@ -10,13 +10,14 @@ use crate::work::{Group, Work};
 use std::fmt::{self, Display, Formatter};
 
 use chereme_sign::Handedness;
+use chereme_sign::words::Text;
 use serde::{Deserialize, Serialize};
 
 use crate::answers::Given;
 use crate::check;
 use crate::contact::{Carry, Keep};
 use crate::error::RecipeError;
-use crate::ops::{Done, Field, FieldSetting, Operator, Syntax};
+use crate::ops::{Description, Done, Field, FieldSetting, Operator, Syntax};
 use crate::text::{Parsed, Parser, list};
 use crate::units::Seconds;
 
@@ -34,6 +35,24 @@ pub struct Cut {
 
 impl Syntax for Cut {
     const NAME: &'static str = "span";
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Part", "Extrait"),
+        hint: Text::new("a part of the movement", "une partie du mouvement"),
+        examples: &[
+            ("span 0.4s..1.9s", Text::new("a part of it", "une partie")),
+            (
+                "span 0.4s..",
+                Text::new("all from a time on", "tout à partir d’un temps"),
+            ),
+        ],
+        messages: &[
+            Text::new("the movement ends at {time}", "le mouvement finit à {time}"),
+            Text::new(
+                "kept {from} to {to} of {all}: frames {first} to {last}",
+                "gardé de {from} à {to} sur {all} : images {first} à {last}",
+            ),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         parser.cut()
@@ -78,10 +97,10 @@ impl Operator for Cut {
     }
 
     fn fields(&mut self) -> Vec<FieldSetting<'_>> {
-        let setting = |name, field| FieldSetting { name, field };
+        let setting = |en, fr, field| FieldSetting::new(Text::new(en, fr), field);
         vec![
-            setting("from-time", Field::Time(&mut self.from, 0.2)),
-            setting("to-time", Field::Time(&mut self.to, 1.0)),
+            setting("from", "à partir de", Field::Time(&mut self.from, 0.2)),
+            setting("to", "jusqu’à", Field::Time(&mut self.to, 1.0)),
         ]
     }
 }
@@ -91,6 +110,27 @@ pub(crate) struct Trim;
 
 impl Syntax for Trim {
     const NAME: &'static str = "trim";
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Trim", "Rogner"),
+        hint: Text::new(
+            "without rest and odd first and last frames",
+            "sans repos ni images fausses au début et à la fin",
+        ),
+        examples: &[(
+            "trim",
+            Text::new(
+                "rest and odd first and last frames cut off",
+                "le repos et les images fausses des bouts coupés",
+            ),
+        )],
+        messages: &[
+            Text::new("left out {what}", "laissé de côté : {what}"),
+            Text::new(
+                "the movement has no rest before or after it",
+                "le mouvement n’a pas de repos avant ou après",
+            ),
+        ],
+    };
 
     fn parse(_parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         Ok(Self)

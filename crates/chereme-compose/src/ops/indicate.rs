@@ -4,6 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use chereme_motion::Side;
 use chereme_motion::glam::{DQuat, DVec3};
+use chereme_sign::words::Text;
 use chereme_sign::{Component, Handedness};
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +16,7 @@ use crate::contact::{Carry, Keep};
 use crate::error::{Cause, RecipeError};
 use crate::ops::place::{self, describe_reach};
 use crate::ops::travel::{STILL, moved, wrist_path};
-use crate::ops::{Done, Operator, Syntax, say};
+use crate::ops::{Description, Done, Field, FieldSetting, Operator, Syntax, say};
 use crate::recipe::{Solver, Spot};
 use crate::resolve::PlaceInput;
 use crate::text::{Parsed, Parser, list, option};
@@ -44,6 +45,34 @@ impl Syntax for Indicate {
     const NAME: &'static str = "indicate";
     const WORDS: &'static [&'static str] = &["from", "to"];
     const KEYWORDS: &'static [&'static str] = &["me", "you"];
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Direct", "Diriger"),
+        hint: Text::new(
+            "between other places, as a directional verb",
+            "entre d’autres lieux, comme un verbe directionnel",
+        ),
+        examples: &[(
+            "from me to left",
+            Text::new(
+                "a directional verb between other places",
+                "un verbe directionnel entre d’autres lieux",
+            ),
+        )],
+        messages: &[
+            Text::new(
+                "{spot} is {cm} cm nearer, as far as the arms reach",
+                "{spot} est plus près de {cm} cm, autant que les bras atteignent",
+            ),
+            Text::new(
+                "the path of {from} cm became {to} cm",
+                "le trajet de {from} cm est devenu {to} cm",
+            ),
+            Text::new(
+                "neither where it starts nor where it ends is given",
+                "ni son départ ni son arrivée ne sont donnés",
+            ),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, word: &str) -> Parsed<Self> {
         let from = (word == "from").then(|| parser.spot()).transpose()?;
@@ -106,6 +135,15 @@ impl Operator for Indicate {
 
     fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)> {
         Some((Carry::Same, Keep::between(self.hand.sides(handedness))))
+    }
+
+    fn fields(&mut self) -> Vec<FieldSetting<'_>> {
+        let setting = |en, fr, spot| FieldSetting::new(Text::new(en, fr), Field::Spot(spot));
+        vec![
+            FieldSetting::hands(&mut self.hand),
+            setting("from", "de", &mut self.from),
+            setting("to", "à", &mut self.to),
+        ]
     }
 }
 

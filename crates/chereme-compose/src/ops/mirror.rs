@@ -8,6 +8,7 @@
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Part, Side, Skeleton};
+use chereme_sign::words::Text;
 use chereme_sign::{Component, Reading};
 
 use crate::error::Cause;
@@ -21,7 +22,7 @@ use serde::{Deserialize, Serialize};
 use crate::answers::Given;
 use crate::contact::{Carry, Keep};
 use crate::error::RecipeError;
-use crate::ops::{Done, Field, FieldSetting, Neighbours, Operator, Step, Syntax};
+use crate::ops::{Description, Done, Field, FieldSetting, Neighbours, Operator, Step, Syntax};
 use crate::text::{Parsed, Parser};
 use crate::units::Hands;
 
@@ -30,6 +31,15 @@ pub(crate) struct Swap;
 
 impl Syntax for Swap {
     const NAME: &'static str = "swap";
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Swap hands", "Échanger les mains"),
+        hint: Text::new(
+            "the arms exchange their movement",
+            "les bras échangent leurs rôles",
+        ),
+        examples: &[("swap", Text::new("the arms exchanged", "les bras échangés"))],
+        messages: &[],
+    };
 
     fn parse(_parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         Ok(Self)
@@ -74,6 +84,31 @@ pub struct Mirror {
 
 impl Syntax for Mirror {
     const NAME: &'static str = "mirror";
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Mirror", "Miroir"),
+        hint: Text::new("one arm copies the other", "un bras copie l’autre"),
+        examples: &[(
+            "mirror right",
+            Text::new(
+                "the left arm like the right one",
+                "le bras gauche comme le droit",
+            ),
+        )],
+        messages: &[
+            Text::new(
+                "one arm is copied to the other; name right, left, dominant or weak",
+                "un bras est copié sur l’autre ; nommez right, left, dominant ou weak",
+            ),
+            Text::new(
+                "the hands go through each other in {n} frames, from {first} on; take one aside, as with: place left by left 5cm",
+                "les mains se traversent dans {n} images, à partir de {first} ; écartez-en une, comme avec : place left by left 5cm",
+            ),
+            Text::new(
+                "joints without a counterpart stay as they were: {names}",
+                "les articulations sans pendant restent comme elles étaient : {names}",
+            ),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         let from = parser.hand().unwrap_or(Hands::Dominant);
@@ -118,10 +153,8 @@ impl Operator for Mirror {
 
     fn fields(&mut self) -> Vec<FieldSetting<'_>> {
         let field = Field::Hand(&mut self.from);
-        vec![FieldSetting {
-            name: "copied",
-            field,
-        }]
+        let copied = Text::new("copied from the", "copié de la");
+        vec![FieldSetting::new(copied, field)]
     }
 }
 

@@ -1,9 +1,9 @@
 //! The operators, one module each, and the list of all.
 //!
-//! An operator is a struct of settings with its text ([`Syntax`]) and its effect ([`Operator`]), both in its module. To
-//! add one, write that module and a row of the list below; the tree, its JSON, the text's parser and printer, the
-//! reserved words, checks, the resolver, the evaluator, the handling of contacts and the window's card follow from the
-//! row.
+//! An operator is a struct of settings with its text and its words ([`Syntax`]) and its effect ([`Operator`]), all in
+//! its module. To add one, write that module and a row of the list below; the tree, its JSON, the text's parser and
+//! printer, the reserved words, checks, the resolver, the evaluator, the handling of contacts, the help, the French of
+//! its report and the window's card follow from the row.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -22,6 +22,7 @@ pub(crate) mod amplify;
 pub(crate) mod clear;
 pub(crate) mod configure;
 pub(crate) mod cut;
+mod description;
 pub(crate) mod expression;
 mod field;
 pub(crate) mod indicate;
@@ -41,6 +42,7 @@ pub(crate) mod spell;
 pub(crate) mod then;
 pub(crate) mod travel;
 
+pub use description::Description;
 pub use field::{Field, Setting as FieldSetting};
 
 /// The effect of an operator, and its part in checks, answers and contacts.
@@ -82,6 +84,8 @@ pub(crate) trait Operator: Display {
 pub(crate) trait Syntax: Operator + Sized {
     /// The name: the key in JSON, and in most cases the word that begins the text.
     const NAME: &'static str;
+    /// The words about the operator that people read.
+    const DESCRIPTION: Description;
     /// The words that begin the text.
     const WORDS: &'static [&'static str] = &[Self::NAME];
     /// Further words with a meaning; names that equal one of them are quoted.
@@ -176,6 +180,21 @@ macro_rules! operators {
                     $(Self::$name { .. } => <operators!(@type $module $name $($settings)?)>::NAME,)*
                 }
             }
+
+            /// Returns the words about the operator that people read.
+            #[must_use]
+            pub fn description(&self) -> &'static Description {
+                match self {
+                    $(Self::$name { .. } => {
+                        &<operators!(@type $module $name $($settings)?)>::DESCRIPTION
+                    })*
+                }
+            }
+
+            /// The words about every operator, in the order of the list.
+            pub const DESCRIPTIONS: &'static [Description] = &[
+                $(<operators!(@type $module $name $($settings)?)>::DESCRIPTION),*
+            ];
 
             /// Returns one of each operator, for a new form: with a visible effect or an empty name.
             #[must_use]

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use chereme_sign::Component;
+use chereme_sign::words::Text;
 
 use crate::error::Cause;
 use crate::ops::retarget;
@@ -20,7 +21,7 @@ use crate::check;
 use crate::contact::{Carry, Keep};
 use crate::error::RecipeError;
 use crate::ops::cut::CutEnds;
-use crate::ops::{Done, Field, FieldSetting, Operator, Syntax, expression};
+use crate::ops::{Description, Done, Field, FieldSetting, Operator, Syntax, expression};
 use crate::recipe::Cut;
 use crate::resolve::{ExpressionInput, MaterialInput};
 use crate::text::{Name, Parsed, Parser, list};
@@ -80,6 +81,67 @@ impl Nonmanual {
 impl Syntax for Nonmanual {
     const NAME: &'static str = "nonmanual";
     const KEYWORDS: &'static [&'static str] = &["over", "phases"];
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Face and head", "Visage et tête"),
+        hint: Text::new(
+            "head and face of another sign",
+            "tête et visage d’un autre signe",
+        ),
+        examples: &[
+            (
+                "nonmanual from BOL",
+                Text::new(
+                    "head and face of another sign",
+                    "tête et visage d’un autre signe",
+                ),
+            ),
+            (
+                "nonmanual wh from BOL over 0.4s..1.9s by phases",
+                Text::new(
+                    "an expression, fitted to a part by its milestones",
+                    "une expression, ajustée à une partie par ses jalons",
+                ),
+            ),
+        ],
+        messages: &[
+            Text::new(
+                "{n} joints of the head from {sign} ({own} s stretched to {time} s)",
+                "{n} articulations de la tête d’après {sign} ({own} s étirées à {time} s)",
+            ),
+            Text::new(
+                "{function} from {sign}: {own} onto {target}",
+                "{function} d’après {sign} : {own} sur {target}",
+            ),
+            Text::new(
+                "the name of the function is empty",
+                "le nom de la fonction est vide",
+            ),
+            Text::new(
+                "milestones decrease; write M1 to M5 in order of time",
+                "les jalons reculent ; écrivez M1 à M5 dans l’ordre du temps",
+            ),
+            Text::new(
+                "a part such as 0.4s..1.9s, or five times with commas between",
+                "une partie comme 0.4s..1.9s, ou cinq temps séparés par des virgules",
+            ),
+            Text::new(
+                "the mouth keeps its own movement",
+                "la bouche garde son propre mouvement",
+            ),
+            Text::new(
+                "the first {time} s lie before the movement and are not seen",
+                "les premières {time} s sont avant le mouvement et ne se voient pas",
+            ),
+            Text::new(
+                "the last {time} s lie after the movement and are not seen",
+                "les dernières {time} s sont après le mouvement et ne se voient pas",
+            ),
+            Text::new(
+                "{head} joints of the head and {trunk} of the trunk",
+                "{head} articulations de la tête et {trunk} du tronc",
+            ),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         let function = match parser.word() {
@@ -199,10 +261,7 @@ impl Operator for Nonmanual {
 
     fn fields(&mut self) -> Vec<FieldSetting<'_>> {
         let field = Field::Sign(&mut self.from);
-        vec![FieldSetting {
-            name: "from-sign",
-            field,
-        }]
+        vec![FieldSetting::new(Text::new("from sign", "du signe"), field)]
     }
 }
 

@@ -3,11 +3,12 @@
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{ModelPose, Side};
 use chereme_sign::Component;
+use chereme_sign::words::Text;
 
 use crate::arm::{self, Reach};
 use crate::body::Frame;
 use crate::error::Cause;
-use crate::ops::{place, say};
+use crate::ops::{Description, place, say};
 use crate::recipe::Solver;
 use crate::units::towards;
 use crate::work::{Columns, Group, Work};
@@ -55,6 +56,43 @@ pub struct Turn {
 impl Syntax for Orient {
     const NAME: &'static str = "orient";
     const KEYWORDS: &'static [&'static str] = &["palm", "fingers", "about"];
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Orientation", "Orientation"),
+        hint: Text::new("the hands turned", "les mains tournées"),
+        examples: &[
+            (
+                "orient right palm up fingers forward",
+                Text::new(
+                    "another direction of palm and fingers",
+                    "une autre direction de la paume et des doigts",
+                ),
+            ),
+            (
+                "orient right by 30deg about up",
+                Text::new("turned about a direction", "tournée autour d’un axe"),
+            ),
+        ],
+        messages: &[
+            Text::new(
+                "the {side} hand is turned by {angle}",
+                "la main {side} est tournée de {angle}",
+            ),
+            Text::new(
+                "the {limb} wrist bends by {angle}, more than wrists can",
+                "le poignet {limb} se plie de {angle}, plus qu’un poignet ne peut",
+            ),
+            Text::new(
+                "neither palm nor fingers nor a turn is given",
+                "ni la paume, ni les doigts, ni une rotation ne sont donnés",
+            ),
+            Text::new("\"about\" and a direction", "\"about\" et une direction"),
+            Text::new(
+                "\"palm\", \"fingers\" or \"by\"",
+                "\"palm\", \"fingers\" ou \"by\"",
+            ),
+            Text::new("an angle, such as {example}", "un angle, comme {example}"),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         let mut orient = Self {

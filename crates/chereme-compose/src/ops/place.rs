@@ -3,12 +3,13 @@
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
 use chereme_sign::Component;
+use chereme_sign::words::Text;
 
 use crate::arm::{self, HELP_FROM, Reach};
 use crate::body::{self, Frame};
 use crate::contact::{self, Touch};
 use crate::error::Cause;
-use crate::ops::{clear, say};
+use crate::ops::{Description, clear, say};
 use crate::outcome::About;
 use crate::recipe::{HandPoint, Solver};
 use crate::resolve::PlaceInput;
@@ -74,6 +75,111 @@ const TO: Slot<PlaceInput> = Slot::new("place/to");
 impl Syntax for Place {
     const NAME: &'static str = "place";
     const KEYWORDS: &'static [&'static str] = &["near", "using"];
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Place", "Emplacement"),
+        hint: Text::new("the hands elsewhere", "les mains ailleurs"),
+        examples: &[
+            (
+                "place both by left 25cm up 5cm",
+                Text::new("another place: moved", "un autre emplacement : déplacé"),
+            ),
+            (
+                "place right at chin with index",
+                Text::new(
+                    "at a placement, touched with the index finger",
+                    "à un emplacement, touché de l’index",
+                ),
+            ),
+            (
+                "place right at 0cm,120cm,40cm",
+                Text::new(
+                    "at a point: to the left, up from the floor, forward",
+                    "à un point : à gauche, au-dessus du sol, en avant",
+                ),
+            ),
+            (
+                "place both near BOL by up 5cm",
+                Text::new(
+                    "at the place of another sign",
+                    "à l’emplacement d’un autre signe",
+                ),
+            ),
+            (
+                "place both by up 10cm using fabrik",
+                Text::new(
+                    "with another solver of the arms",
+                    "avec une autre méthode pour les bras",
+                ),
+            ),
+        ],
+        messages: &[
+            Text::new(
+                "the place is from {origin}",
+                "l’emplacement vient de {origin}",
+            ),
+            Text::new(
+                "what counts is the contact at {time}, where the {part} was at the {place}",
+                "ce qui compte est le contact à {time}, où {part} était à : {place}",
+            ),
+            Text::new(
+                "out of reach: the wrist stays {cm} cm short at frame {n}",
+                "hors de portée : il manque {cm} cm au poignet à l’image {n}",
+            ),
+            Text::new(
+                "the collar bone helped in {n} frames, beyond {share} of the arm's length",
+                "la clavicule a aidé dans {n} images, au-delà de {share} de la longueur du bras",
+            ),
+            Text::new("moved {way}", "déplacé : {way}"),
+            Text::new(
+                "the right hand is kept out of head and trunk: moved by up to {rest}",
+                "la main droite est tenue hors de la tête et du tronc : déplacée de {rest}",
+            ),
+            Text::new(
+                "the left hand is kept out of head and trunk: moved by up to {rest}",
+                "la main gauche est tenue hors de la tête et du tronc : déplacée de {rest}",
+            ),
+            Text::new(
+                "the right hand is {cm} cm away from the place, so its placement is left open",
+                "la main droite est à {cm} cm du lieu, son emplacement reste donc ouvert",
+            ),
+            Text::new(
+                "the left hand is {cm} cm away from the place, so its placement is left open",
+                "la main gauche est à {cm} cm du lieu, son emplacement reste donc ouvert",
+            ),
+            Text::new(
+                "the place is that of the contact at {time}: the {part} at the mouth",
+                "l’emplacement est celui du contact à {time} : {part} à la bouche",
+            ),
+            Text::new(
+                "the place is that of the contact at {time}: the {part} at the chin",
+                "l’emplacement est celui du contact à {time} : {part} au menton",
+            ),
+            Text::new(
+                "the place is that of the contact at {time}: the {part} at the chest",
+                "l’emplacement est celui du contact à {time} : {part} à la poitrine",
+            ),
+            Text::new(
+                "the place is that of the contact at {time}: the {part} at the {place}",
+                "l’emplacement est celui du contact à {time} : {part} à {place}",
+            ),
+            Text::new(
+                "the name of the placement is empty",
+                "le nom de l’emplacement est vide",
+            ),
+            Text::new(
+                "a hand, \"by\", \"at\" or \"near\"",
+                "une main, \"by\", \"at\" ou \"near\"",
+            ),
+            Text::new(
+                "a placement or a point such as 0cm,120cm,30cm",
+                "un emplacement ou un point comme 0cm,120cm,30cm",
+            ),
+            Text::new(
+                "the wrist leaves the arm's reach fast: beyond {share}% of its length it lags behind, so that the elbow opens smoothly",
+                "le poignet quitte vite la portée du bras : au-delà de {share} % de sa longueur il prend du retard, pour que le coude s’ouvre sans à-coup",
+            ),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         let hand = parser.hand().unwrap_or(Hands::Both);

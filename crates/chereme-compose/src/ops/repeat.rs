@@ -2,12 +2,13 @@
 
 use chereme_motion::Side;
 use chereme_sign::Component;
+use chereme_sign::words::Text;
 
 use crate::contact::{self, Carry, Keep};
 use crate::course::Courses;
 use crate::error::Cause;
 use crate::ops::join::{self, Seam};
-use crate::ops::{amplify, retime, say};
+use crate::ops::{Description, amplify, retime, say};
 use crate::outcome::About;
 use crate::work::{Group, Work};
 use std::fmt::{self, Display, Formatter};
@@ -52,6 +53,38 @@ const VIA: Slot<LearnedProfile> = Slot::new("repeat/via");
 impl Syntax for Repeat {
     const NAME: &'static str = "repeat";
     const KEYWORDS: &'static [&'static str] = &["scale", "tempo", "gap"];
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Repeat", "Répéter"),
+        hint: Text::new("again and again", "encore et encore"),
+        examples: &[(
+            "repeat 3 scale 0.8 tempo 1.2 gap 0.1s",
+            Text::new(
+                "again, each smaller and faster",
+                "de nouveau, toujours plus petit et plus vite",
+            ),
+        )],
+        messages: &[
+            Text::new(
+                "out of reach: a wrist stays {cm} cm short",
+                "hors de portée : il manque {cm} cm à un poignet",
+            ),
+            Text::new(
+                "{times} times, {gap} frames between",
+                "{times} fois, {gap} images entre deux",
+            ),
+            Text::new(
+                "repetition {n} to {next}: {what}",
+                "répétition {n} à {next} : {what}",
+            ),
+            Text::new("repetition {n}: {what}", "répétition {n} : {what}"),
+            Text::new(
+                "repetition {one} to {next}",
+                "de la répétition {one} à {next}",
+            ),
+            Text::new("how often, such as 2", "combien de fois, comme 2"),
+            Text::new("the number of times", "le nombre de fois"),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         let mut repeat = Self {
@@ -129,13 +162,16 @@ impl Operator for Repeat {
     }
 
     fn fields(&mut self) -> Vec<FieldSetting<'_>> {
-        let setting = |name, field| FieldSetting { name, field };
+        let setting = |en, fr, field| FieldSetting::new(Text::new(en, fr), field);
+        let times = Field::Count(&mut self.times, 1..=20);
+        let scale = Field::OptionalFactor(&mut self.scale, 0.8);
+        let tempo = Field::OptionalFactor(&mut self.tempo, 1.2);
         vec![
-            setting("times", Field::Count(&mut self.times, 1..=20)),
-            setting("scale", Field::OptionalFactor(&mut self.scale, 0.8)),
-            setting("tempo", Field::OptionalFactor(&mut self.tempo, 1.2)),
-            setting("gap", Field::Time(&mut self.gap, 0.1)),
-            setting("via", Field::Via(&mut self.via)),
+            setting("How often", "Combien de fois", times),
+            setting("size", "taille", scale),
+            setting("tempo", "tempo", tempo),
+            setting("gap", "pause", Field::Time(&mut self.gap, 0.1)),
+            FieldSetting::via(&mut self.via),
         ]
     }
 }

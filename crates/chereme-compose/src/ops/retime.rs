@@ -2,9 +2,10 @@
 
 use chereme_motion::{Instant, Side, Span};
 use chereme_sign::Component;
+use chereme_sign::words::Text;
 
 use crate::error::Cause;
-use crate::ops::{join, say};
+use crate::ops::{Description, join, say};
 use crate::outcome::About;
 use crate::work::{Group, Work};
 use std::fmt::{self, Display, Formatter};
@@ -40,6 +41,38 @@ pub enum Pace {
 
 impl Syntax for Retime {
     const NAME: &'static str = "retime";
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Speed", "Vitesse"),
+        hint: Text::new("slower or faster", "plus lent ou plus vite"),
+        examples: &[
+            (
+                "retime 150%",
+                Text::new(
+                    "slower: half as long again",
+                    "plus lent : une fois et demie la durée",
+                ),
+            ),
+            (
+                "retime to 2s",
+                Text::new(
+                    "as slow or fast as the time demands",
+                    "aussi lent ou vite que la durée le veut",
+                ),
+            ),
+            (
+                "retime 1, 50%, to 0.3s",
+                Text::new("phase by phase", "phase par phase"),
+            ),
+        ],
+        messages: &[
+            Text::new("{from} s became {to} s", "{from} s sont devenus {to} s"),
+            Text::new("no pace is given", "aucune allure n’est donnée"),
+            Text::new(
+                "a factor, such as 150%, or \"to\" and a time",
+                "un facteur, comme 150%, ou \"to\" et un temps",
+            ),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         let mut paces = Vec::new();

@@ -2,6 +2,7 @@
 
 use chereme_motion::Span;
 use chereme_sign::Reading;
+use chereme_sign::words::Text;
 
 use crate::ops::say;
 use crate::outcome::About;
@@ -13,7 +14,7 @@ use chereme_sign::Handedness;
 use crate::answers::Given;
 use crate::contact::{Carry, Keep};
 use crate::error::Cause;
-use crate::ops::{Done, Neighbours, Operator, Step, Syntax};
+use crate::ops::{Description, Done, Neighbours, Operator, Step, Syntax};
 use crate::text::{Parsed, Parser};
 
 /// The operator; it has no settings.
@@ -21,6 +22,21 @@ pub(crate) struct Reverse;
 
 impl Syntax for Reverse {
     const NAME: &'static str = "reverse";
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Reverse", "Inverser"),
+        hint: Text::new("backwards", "à l’envers"),
+        examples: &[("reverse", Text::new("backwards", "à l’envers"))],
+        messages: &[
+            Text::new(
+                "{n} frames played backwards",
+                "{n} images jouées à l’envers",
+            ),
+            Text::new(
+                "{component} {value} is no longer written: it runs the other way",
+                "{component} {value} n’est plus dit : il va dans l’autre sens",
+            ),
+        ],
+    };
 
     fn parse(_parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         Ok(Self)

@@ -3,6 +3,7 @@
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
 use chereme_sign::Component;
+use chereme_sign::words::Text;
 
 use crate::body::Frame;
 use crate::course::Course;
@@ -22,7 +23,7 @@ use crate::answers::{Ask, Given, Setting, Slot};
 use crate::check;
 use crate::contact::{Carry, Keep};
 use crate::error::RecipeError;
-use crate::ops::{Done, Operator, Syntax};
+use crate::ops::{Description, Done, Operator, Syntax};
 use crate::recipe::{Profile, Transition};
 use crate::sources::LearnedProfile;
 use crate::text::{Parsed, Parser, list, option, point_text};
@@ -57,6 +58,46 @@ const VIA: Slot<LearnedProfile> = Slot::new("travel/via");
 
 impl Syntax for Travel {
     const NAME: &'static str = "travel";
+    const DESCRIPTION: Description = Description {
+        title: Text::new("Path", "Trajet"),
+        hint: Text::new(
+            "the hands moved along a path",
+            "les mains portées le long d’un chemin",
+        ),
+        examples: &[
+            (
+                "travel right down 20cm then up 20cm in 0.4s",
+                Text::new("along a path", "le long d’un trajet"),
+            ),
+            (
+                "travel right through 10cm,8cm,0cm then 20cm,0cm,0cm in 1s",
+                Text::new(
+                    "along a curve: left, up, forward",
+                    "le long d’une courbe : gauche, haut, avant",
+                ),
+            ),
+        ],
+        messages: &[
+            Text::new("1 leg, {cm} cm in all", "1 étape, {cm} cm en tout"),
+            Text::new("{n} legs, {cm} cm in all", "{n} étapes, {cm} cm en tout"),
+            Text::new(
+                "legs and a curve are given: keep one of them",
+                "des segments et une courbe sont donnés : gardez l’un des deux",
+            ),
+            Text::new(
+                "only a curve has a time; each leg has its own, such as left 5cm in 0.2s",
+                "seule une courbe a un temps ; chaque segment a le sien, comme left 5cm in 0.2s",
+            ),
+            Text::new(
+                "the curve has more than 64 points",
+                "la courbe a plus de 64 points",
+            ),
+            Text::new(
+                "a curve of {cm} cm ({what})",
+                "une courbe de {cm} cm ({what})",
+            ),
+        ],
+    };
 
     fn parse(parser: &mut Parser<'_>, _word: &str) -> Parsed<Self> {
         let hand = match parser.is_length_next() {

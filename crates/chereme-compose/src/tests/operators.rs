@@ -401,3 +401,35 @@ fn a_sign_named_like_a_recipe_keyword_is_quoted() {
         assert_eq!(*recipe.root(), sign);
     }
 }
+
+#[test]
+fn the_words_of_operators_are_in_both_languages_and_their_examples_are_recipes() {
+    let blanks = |text: &str| {
+        let parts = text.split('{').skip(1);
+        let names = parts.filter_map(|rest| Some(rest.split_once('}')?.0.to_owned()));
+        let mut names: Vec<String> = names.collect();
+        names.sort();
+        names
+    };
+    for mut step in crate::recipe::Step::usual() {
+        let words = step.description();
+        assert!(!words.examples.is_empty(), "{}", step.name());
+        for (recipe, _) in words.examples {
+            let read: Result<crate::Recipe, _> = format!("A | {recipe}").parse();
+            let read = read.unwrap_or_else(|error| panic!("{recipe}: {error}"));
+            assert!(!read.to_string().ends_with("A"), "{recipe} changes nothing");
+        }
+        let effects = words.examples.iter().map(|(_, effect)| *effect);
+        let mut texts = vec![words.title, words.hint];
+        texts.extend(effects);
+        texts.extend(words.messages);
+        texts.extend(step.fields().into_iter().map(|setting| setting.label));
+        for text in texts {
+            assert!(
+                !text.en.trim().is_empty() && !text.fr.trim().is_empty(),
+                "{text:?}"
+            );
+            assert_eq!(blanks(text.en), blanks(text.fr));
+        }
+    }
+}

@@ -16,14 +16,6 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "the name of the body language is empty",
         "le nom du langage corporel est vide",
     ),
-    (
-        "the name of the placement is empty",
-        "le nom de l’emplacement est vide",
-    ),
-    (
-        "the name of the function is empty",
-        "le nom de la fonction est vide",
-    ),
     ("the word is empty", "le mot est vide"),
     ("the value is empty", "la valeur est vide"),
     ("the query is empty", "la requête est vide"),
@@ -322,69 +314,7 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "{step}: a hand stays up to {cm} cm from its target",
         "{step} : une main reste jusqu’à {cm} cm de sa cible",
     ),
-    ("no value is given", "aucune valeur n’est donnée"),
-    (
-        "the mouth keeps its own movement",
-        "la bouche garde son propre mouvement",
-    ),
-    (
-        "the first {time} s lie before the movement and are not seen",
-        "les premières {time} s sont avant le mouvement et ne se voient pas",
-    ),
-    (
-        "the last {time} s lie after the movement and are not seen",
-        "les dernières {time} s sont après le mouvement et ne se voient pas",
-    ),
-    (
-        "neither where it starts nor where it ends is given",
-        "ni son départ ni son arrivée ne sont donnés",
-    ),
-    (
-        "one arm is copied to the other; name right, left, dominant or weak",
-        "un bras est copié sur l’autre ; nommez right, left, dominant ou weak",
-    ),
-    (
-        "the hands go through each other in {n} frames, from {first} on; take one aside, as with: place left by left 5cm",
-        "les mains se traversent dans {n} images, à partir de {first} ; écartez-en une, comme avec : place left by left 5cm",
-    ),
-    (
-        "joints without a counterpart stay as they were: {names}",
-        "les articulations sans pendant restent comme elles étaient : {names}",
-    ),
-    (
-        "milestones decrease; write M1 to M5 in order of time",
-        "les jalons reculent ; écrivez M1 à M5 dans l’ordre du temps",
-    ),
-    (
-        "neither palm nor fingers nor a turn is given",
-        "ni la paume, ni les doigts, ni une rotation ne sont donnés",
-    ),
     ("no path is given", "aucun trajet n’est donné"),
-    ("no pace is given", "aucune allure n’est donnée"),
-    (
-        "the place is that of the contact at {time}: the {part} at the {place}",
-        "l’emplacement est celui du contact à {time} : {part} à {place}",
-    ),
-    (
-        "the wrist leaves the arm's reach fast: beyond {share}% of its length it lags behind, so that the elbow opens smoothly",
-        "le poignet quitte vite la portée du bras : au-delà de {share} % de sa longueur il prend du retard, pour que le coude s’ouvre sans à-coup",
-    ),
-    (
-        "legs and a curve are given: keep one of them",
-        "des segments et une courbe sont donnés : gardez l’un des deux",
-    ),
-    (
-        "only a curve has a time; each leg has its own, such as left 5cm in 0.2s",
-        "seule une courbe a un temps ; chaque segment a le sien, comme left 5cm in 0.2s",
-    ),
-    (
-        "the curve has more than 64 points",
-        "la courbe a plus de 64 points",
-    ),
-    (
-        "a curve of {cm} cm ({what})",
-        "une courbe de {cm} cm ({what})",
-    ),
     ("it has no milestones", "il n’a pas de jalons"),
     (
         "{address} is not in the corpus",
@@ -522,40 +452,16 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "un point : gauche, haut et avant, comme 10cm,5cm,0cm",
     ),
     ("\"from\" and a sign", "\"from\" et un signe"),
-    (
-        "a part such as 0.4s..1.9s, or five times with commas between",
-        "une partie comme 0.4s..1.9s, ou cinq temps séparés par des virgules",
-    ),
-    ("\"about\" and a direction", "\"about\" et une direction"),
-    (
-        "\"palm\", \"fingers\" or \"by\"",
-        "\"palm\", \"fingers\" ou \"by\"",
-    ),
     ("a point of the hand", "un point de la main"),
-    (
-        "a hand, \"by\", \"at\" or \"near\"",
-        "une main, \"by\", \"at\" ou \"near\"",
-    ),
-    (
-        "a placement or a point such as 0cm,120cm,30cm",
-        "un emplacement ou un point comme 0cm,120cm,30cm",
-    ),
-    ("how often, such as 2", "combien de fois, comme 2"),
-    (
-        "a factor, such as 150%, or \"to\" and a time",
-        "un facteur, comme 150%, ou \"to\" et un temps",
-    ),
     ("a factor, such as {example}", "un facteur, comme {example}"),
     ("a time, such as {example}", "un temps, comme {example}"),
     (
         "a length, such as {example}",
         "une longueur, comme {example}",
     ),
-    ("an angle, such as {example}", "un angle, comme {example}"),
     ("the length in metres", "la longueur en mètres"),
     ("the share of the arm", "la part du bras"),
     ("the transition's time", "la durée de la transition"),
-    ("the number of times", "le nombre de fois"),
     ("did you mean {name}?", "vouliez-vous dire {name} ?"),
     ("the body moves: {what}", "le corps bouge : {what}"),
     (
@@ -574,10 +480,6 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
     (
         "from letter to letter it takes",
         "d’une lettre à l’autre il faut",
-    ),
-    (
-        "{head} joints of the head and {trunk} of the trunk",
-        "{head} articulations de la tête et {trunk} du tronc",
     ),
     (
         "measured on {pairs} pairs, {vowels} vowels and {consonants} consonants alone",

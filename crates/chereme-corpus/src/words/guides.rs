@@ -1,5 +1,7 @@
 //! Guides with examples in French, line by line: the help of queries, of recipes and of commands.
 
+use chereme_compose::recipe::Step;
+
 use super::Language;
 
 /// Lines, and notes behind examples, in English and French.
@@ -169,50 +171,6 @@ const GUIDES: &[(&str, &str)] = &[
         "Opérateurs : les changements, l’un après l’autre, chacun après |",
     ),
     (
-        "another handshape; that of another sign",
-        "une autre configuration ; celle d’un autre signe",
-    ),
-    ("another place: moved", "un autre emplacement : déplacé"),
-    (
-        "at a placement, or a point such as 0cm,120cm,40cm",
-        "à un emplacement, ou un point comme 0cm,120cm,40cm",
-    ),
-    (
-        "at the place of another sign",
-        "à l’emplacement d’un autre signe",
-    ),
-    (
-        "another direction of the hand; or: by 30deg about up",
-        "une autre direction de la main ; ou : by 30deg about up",
-    ),
-    (
-        "backwards; the arms exchanged; one arm like the other",
-        "à l’envers ; les bras échangés ; un bras comme l’autre",
-    ),
-    (
-        "again, each smaller and faster",
-        "de nouveau, toujours plus petit et plus vite",
-    ),
-    ("larger paths", "de plus grands trajets"),
-    ("along a path", "le long d’un trajet"),
-    (
-        "along a curve: left, up, forward",
-        "le long d’une courbe : gauche, haut, avant",
-    ),
-    (
-        "a directional verb between other places",
-        "un verbe directionnel entre d’autres lieux",
-    ),
-    ("slower, faster", "plus lent, plus vite"),
-    (
-        "head and face of another sign",
-        "tête et visage d’un autre signe",
-    ),
-    (
-        "a part of it; rest and odd first and last frames cut off",
-        "une partie ; le repos et les images fausses des bouts coupés",
-    ),
-    (
         "One after the other, with transitions",
         "L’un après l’autre, avec des transitions",
     ),
@@ -265,7 +223,12 @@ pub fn guide(text: &str, language: Language) -> String {
 fn in_french(line: &str) -> String {
     let words = line.trim_start();
     let note = words.rsplit("  ").next().unwrap_or(words);
-    let known = |text: &str| GUIDES.iter().find(|(english, _)| *english == text);
+    let examples = || Step::DESCRIPTIONS.iter().flat_map(|it| it.examples);
+    let known = |text: &str| {
+        let operators = examples().map(|(_, effect)| (effect.en, effect.fr));
+        let mut all = GUIDES.iter().copied().chain(operators);
+        all.find(|(english, _)| *english == text)
+    };
     match known(words).or_else(|| known(note)) {
         Some((english, french)) => format!("{}{french}", &line[..line.len() - english.len()]),
         None => line.to_owned(),

@@ -5,6 +5,8 @@
 //! in the files beside this one, by theme; the first form that fits counts, so that a form with more words of its own
 //! comes before one with fewer.
 
+use chereme_compose::recipe::Step;
+
 use super::Language;
 use super::asking::ASKING;
 use super::captures::CAPTURES;
@@ -485,9 +487,11 @@ pub fn message(text: &str, language: Language) -> Option<String> {
 }
 
 /// Returns all messages in English and French.
-fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
-    let first = MESSAGES.iter().chain(FINDINGS).chain(QUERIES).chain(NOTES);
-    first
+fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let first = MESSAGES.iter().chain(FINDINGS).chain(QUERIES).copied();
+    let operators = Step::DESCRIPTIONS.iter().flat_map(|it| it.messages);
+    let rest = NOTES
+        .iter()
         .chain(MOVING)
         .chain(IMPORTING)
         .chain(EDITING)
@@ -498,7 +502,10 @@ fn all() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
         .chain(CAPTURES)
         .chain(DOCUMENTS)
         .chain(ASKING)
-        .chain(LINES)
+        .chain(LINES);
+    first
+        .chain(operators.map(|it| (it.en, it.fr)))
+        .chain(rest.copied())
 }
 
 fn in_french(text: &str) -> Option<String> {
@@ -566,7 +573,7 @@ mod tests {
             names.sort();
             names
         };
-        for (english, french) in all().copied() {
+        for (english, french) in all() {
             assert_eq!(blanks(english), blanks(french), "{english}");
             let same = carried(english, english, english, &|_, it| it.to_owned());
             assert_eq!(same.as_deref(), Some(english), "it is of its own form");
@@ -578,7 +585,7 @@ mod tests {
         for (english, _) in all() {
             let mut fitting = all()
                 .filter(|(form, _)| carried(english, form, form, &|_, it| it.to_owned()).is_some());
-            assert_eq!(fitting.next().map(|first| first.0), Some(*english));
+            assert_eq!(fitting.next().map(|first| first.0), Some(english));
         }
     }
 

@@ -63,36 +63,6 @@ texts! {
     SIGML: "Notated sign", "Signe noté";
     SIGML_NAME: "Name of the notated sign", "Nom du signe noté";
     TEXT: "As text", "En texte";
-    CONFIGURE: "Handshape", "Configuration";
-    CONFIGURE_HINT: "another shape of the hand", "une autre forme de la main";
-    PLACE: "Place", "Emplacement";
-    PLACE_DOES: "the hands elsewhere", "les mains ailleurs";
-    ORIENT: "Orientation", "Orientation";
-    ORIENT_HINT: "the hands turned", "les mains tournées";
-    TRAVEL: "Path", "Trajet";
-    TRAVEL_HINT: "the hands moved along a path", "les mains portées le long d’un chemin";
-    AMPLIFY: "Size", "Ampleur";
-    AMPLIFY_HINT: "larger or smaller movement", "mouvement plus ample ou plus petit";
-    REPEAT: "Repeat", "Répéter";
-    REPEAT_HINT: "again and again", "encore et encore";
-    REVERSE: "Reverse", "Inverser";
-    REVERSE_HINT: "backwards", "à l’envers";
-    SWAP: "Swap hands", "Échanger les mains";
-    SWAP_HINT: "the arms exchange their movement", "les bras échangent leurs rôles";
-    MIRROR: "Mirror", "Miroir";
-    MIRROR_HINT: "one arm copies the other", "un bras copie l’autre";
-    RETIME: "Speed", "Vitesse";
-    RETIME_HINT: "slower or faster", "plus lent ou plus vite";
-    SPAN: "Part", "Extrait";
-    SPAN_HINT: "a part of the movement", "une partie du mouvement";
-    SPAN_FROM: "from", "à partir de";
-    SPAN_TO: "to", "jusqu’à";
-    TRIM: "Trim", "Rogner";
-    TRIM_HINT: "without rest and odd first and last frames", "sans repos ni images fausses au début et à la fin";
-    INDICATE: "Direct", "Diriger";
-    INDICATE_HINT: "between other places, as a directional verb", "entre d’autres lieux, comme un verbe directionnel";
-    NONMANUAL: "Face and head", "Visage et tête";
-    NONMANUAL_HINT: "head and face of another sign", "tête et visage d’un autre signe";
     HAND: "Hand", "Main";
     RIGHT_HAND: "right hand", "main droite";
     LEFT_HAND: "left hand", "main gauche";
@@ -126,8 +96,6 @@ texts! {
     SPOT_TOWARDS: "direction", "direction";
     SPOT_VALUE: "named place", "lieu nommé";
     SPOT_POINT: "point", "point";
-    SPOT_FROM: "from", "de";
-    SPOT_TO: "to", "à";
     HANDSHAPE: "Handshape", "Configuration";
     HANDSHAPE_WEAK: "Handshape of the weak hand", "Configuration de la main dominée";
     HANDSHAPE_HINT: "U, 5, beak…", "U, 5, beak…";
@@ -157,12 +125,6 @@ texts! {
     TURN: "Turn", "Rotation";
     ABOUT: "about", "autour de";
     ADD_TURN: "+ turn", "+ rotation";
-    COPIED: "copied from the", "copié de la";
-    SIZE: "Size", "Ampleur";
-    TIMES: "How often", "Combien de fois";
-    SMALLER: "size", "taille";
-    FASTER: "tempo", "tempo";
-    GAP: "gap", "pause";
     PACE: "Pace", "Allure";
     PACE_TIMES: "times as long", "fois plus long";
     PACE_TO: "lasting", "d’une durée de";
@@ -184,34 +146,3 @@ texts! {
     BOARD_DRAW: "Draw the path here", "Dessinez le trajet ici";
     NEEDS_CARD: "Choose a card of the recipe first.", "Choisissez d’abord une carte de la recette.";
 }
-
-/// The title and the description of each operator, by its name.
-pub(crate) const OPERATORS: [(&str, super::Text, super::Text); 14] = [
-    ("configure", CONFIGURE, CONFIGURE_HINT),
-    ("place", PLACE, PLACE_DOES),
-    ("orient", ORIENT, ORIENT_HINT),
-    ("travel", TRAVEL, TRAVEL_HINT),
-    ("amplify", AMPLIFY, AMPLIFY_HINT),
-    ("repeat", REPEAT, REPEAT_HINT),
-    ("reverse", REVERSE, REVERSE_HINT),
-    ("swap", SWAP, SWAP_HINT),
-    ("mirror", MIRROR, MIRROR_HINT),
-    ("retime", RETIME, RETIME_HINT),
-    ("span", SPAN, SPAN_HINT),
-    ("trim", TRIM, TRIM_HINT),
-    ("indicate", INDICATE, INDICATE_HINT),
-    ("nonmanual", NONMANUAL, NONMANUAL_HINT),
-];
-
-/// The captions of settings, by the names that operators give them.
-pub(crate) const SETTINGS: [(&str, super::Text); 9] = [
-    ("copied", COPIED),
-    ("from-sign", FROM_SIGN),
-    ("from-time", SPAN_FROM),
-    ("gap", GAP),
-    ("scale", SMALLER),
-    ("size", SIZE),
-    ("tempo", FASTER),
-    ("times", TIMES),
-    ("to-time", SPAN_TO),
-];

@@ -59,17 +59,10 @@ pub(super) fn sources() -> [(Text, Node); 6] {
 /// Returns the title and the description of each operator, with an initial one.
 pub(super) fn operators() -> Vec<(Text, Text, Step)> {
     let described = |step: Step| {
-        let (title, does) = described(&step);
-        (title, does, step)
+        let words = step.description();
+        (words.title, words.hint, step)
     };
     Step::usual().into_iter().map(described).collect()
-}
-
-/// Returns the title and the description of an operator.
-fn described(step: &Step) -> (Text, Text) {
-    let mut all = words::OPERATORS.into_iter();
-    let found = all.find(|(name, ..)| *name == step.name());
-    found.map_or((words::TEXT, words::TEXT), |(_, title, does)| (title, does))
 }
 
 /// Returns the title of a card.
@@ -84,27 +77,6 @@ pub(super) fn title(what: &What) -> Text {
             Node::Sigml(_) => words::SIGML,
             Node::Pipe(_) | Node::Then(_) => words::TEXT,
         },
-        What::Step(step) => described(step).0,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_operator_and_every_setting_has_words() {
-        for mut step in Step::usual() {
-            let name = step.name();
-            let named = words::OPERATORS.iter().filter(|(word, ..)| *word == name);
-            assert_eq!(named.count(), 1, "{name}");
-            for setting in step.fields() {
-                let named = words::SETTINGS
-                    .iter()
-                    .any(|(word, _)| *word == setting.name);
-                let plain = ["hand", "via"].contains(&setting.name);
-                assert!(named || plain, "{name}: {}", setting.name);
-            }
-        }
+        What::Step(step) => step.description().title,
     }
 }

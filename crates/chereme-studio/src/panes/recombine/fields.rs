@@ -1,11 +1,11 @@
-//! Widgets for the parts of recipes: hands, lengths, times, directions, places, names.
+//! Widgets for the parts of recipes: hands, lengths, times, directions, names.
 //!
 //! Each returns whether the user changed its value.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
 use chereme_corpus::recipe::{
-    Direction, Factor, Hands, Length, Node, Profile, Recipe, Seconds, Spot, Transition,
+    Direction, Factor, Hands, Length, Node, Profile, Recipe, Seconds, Transition,
 };
 use chereme_corpus::{MadePart, Overview, SignGlance, TokenRow};
 use chereme_sign::{Component, Inventory, InventoryValue};
@@ -277,88 +277,6 @@ pub(super) fn directions(
             }
         }
     });
-    changed
-}
-
-/// Shows a point as three lengths: to the left, up from the floor, forward.
-pub(super) fn point(ui: &mut Ui, seen: &PaneInput<'_>, value: &mut [Length; 3]) -> bool {
-    let rows = [
-        (words::TO_THE_LEFT, -80.0..=80.0),
-        (words::ABOVE_FLOOR, 0.0..=220.0),
-        (words::IN_FRONT, -20.0..=100.0),
-    ];
-    let mut changed = false;
-    for (axis, (text, range)) in value.iter_mut().zip(rows) {
-        ui.horizontal(|ui| {
-            caption(ui, seen, text);
-            match axis {
-                Length::Metres(metres) => {
-                    let mut cm = tidy(*metres * 100.0);
-                    if slide(ui, seen.say(text), &mut cm, range, " cm") {
-                        *metres = cm / 100.0;
-                        changed = true;
-                    }
-                }
-                Length::Arm(share) => {
-                    let mut percent = tidy(*share * 100.0);
-                    if slide(ui, seen.say(text), &mut percent, -300.0..=300.0, " %") {
-                        *share = percent / 100.0;
-                        changed = true;
-                    }
-                }
-            }
-        });
-    }
-    changed
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum SpotKind {
-    Me,
-    You,
-    Towards,
-    Value,
-    Point,
-}
-
-/// Shows a place in the signing space.
-pub(super) fn spot(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    id: Id,
-    name: &str,
-    value: &mut Spot,
-) -> bool {
-    let mut kind = match value {
-        Spot::Me => SpotKind::Me,
-        Spot::You => SpotKind::You,
-        Spot::Towards(_) => SpotKind::Towards,
-        Spot::Value(_) => SpotKind::Value,
-        Spot::Point(_) => SpotKind::Point,
-    };
-    let all = [
-        (SpotKind::Me, seen.say(words::SPOT_ME)),
-        (SpotKind::You, seen.say(words::SPOT_YOU)),
-        (SpotKind::Towards, seen.say(words::SPOT_TOWARDS)),
-        (SpotKind::Value, seen.say(words::SPOT_VALUE)),
-        (SpotKind::Point, seen.say(words::SPOT_POINT)),
-    ];
-    let mut changed = choose(ui, name, &mut kind, &all);
-    if changed {
-        *value = match kind {
-            SpotKind::Me => Spot::Me,
-            SpotKind::You => Spot::You,
-            SpotKind::Towards => Spot::Towards(vec![Direction::Left]),
-            SpotKind::Value => Spot::Value(String::new()),
-            SpotKind::Point => Spot::Point([0.3, 1.4, 0.5].map(Length::Metres)),
-        };
-    }
-    match value {
-        Spot::Towards(all) => changed |= directions(ui, seen, name, all),
-        Spot::Value(text) => changed |= of_inventory(ui, seen, id, Component::Placement, text),
-        Spot::Point(at) => changed |= point(ui, seen, at),
-        Spot::Me | Spot::You => {}
-    }
     changed
 }
 

@@ -8,6 +8,7 @@ mod operators;
 mod path;
 mod report;
 mod settings;
+mod spots;
 pub(crate) mod stack;
 mod steps;
 mod store;

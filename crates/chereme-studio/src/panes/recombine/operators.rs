@@ -1,15 +1,15 @@
 //! Widgets for the settings of operators with several settings.
 
 use chereme_corpus::recipe::{
-    Choice, Configure, Degrees, Direction, Factor, Goal, HandPoint, Indicate, Length, Orient, Pace,
-    Place, Retime, Seconds, Spot, Turn,
+    Choice, Configure, Degrees, Direction, Factor, Goal, HandPoint, Length, Orient, Pace, Place,
+    Retime, Seconds, Turn,
 };
 use chereme_sign::Component;
 use eframe::egui::{Id, Ui};
 
 use super::fields::{self, caption, choose};
-use super::path;
 use super::settings::{At, line, transition};
+use super::{path, spots};
 use crate::context::PaneInput;
 use crate::words::recombine as words;
 
@@ -143,7 +143,7 @@ pub(super) fn place(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Place) -
         Goal::At(text) => {
             changed |= fields::of_inventory(ui, seen, at.id, Component::Placement, text);
         }
-        Goal::AtPoint(point) => changed |= fields::point(ui, seen, point),
+        Goal::AtPoint(point) => changed |= spots::point(ui, seen, point),
         Goal::Near { of, by } => {
             changed |= fields::sign(ui, seen, at.id, seen.say(words::FROM_SIGN), of);
             changed |= path::offset(ui, seen, by);
@@ -269,29 +269,6 @@ pub(super) fn retime(ui: &mut Ui, seen: &PaneInput<'_>, it: &mut Retime) -> bool
     {
         it.paces.push(Pace::Times(Factor(1.0)));
         changed = true;
-    }
-    changed
-}
-
-pub(super) fn indicate(ui: &mut Ui, seen: &PaneInput<'_>, at: At, it: &mut Indicate) -> bool {
-    let mut changed = false;
-    ui.horizontal_wrapped(|ui| changed |= fields::hands(ui, seen, &mut it.hand, true));
-    for (text, value) in [
-        (words::SPOT_FROM, &mut it.from),
-        (words::SPOT_TO, &mut it.to),
-    ] {
-        ui.push_id(text.en, |ui| {
-            ui.horizontal_wrapped(|ui| {
-                let mut said = value.is_some();
-                if ui.checkbox(&mut said, seen.say(text)).changed() {
-                    *value = said.then_some(Spot::Me);
-                    changed = true;
-                }
-                if let Some(spot) = value {
-                    changed |= fields::spot(ui, seen, at.id.with(text.en), seen.say(text), spot);
-                }
-            });
-        });
     }
     changed
 }

@@ -7,7 +7,7 @@ use eframe::egui::{DragValue, Id, Role, Ui, WidgetInfo};
 
 use super::fields::{self, caption, choose};
 use super::stack::What;
-use super::{operators, path};
+use super::{operators, path, spots};
 use crate::context::PaneInput;
 use crate::pickers::{board, hamnosys};
 use crate::script::edit;
@@ -52,7 +52,7 @@ fn source(ui: &mut Ui, seen: &PaneInput<'_>, at: At, node: &mut Node) -> bool {
             ui.horizontal_wrapped(|ui| {
                 changed |= fields::hands(ui, seen, &mut it.hand, true);
                 caption(ui, seen, words::POINT_AT);
-                changed |= fields::spot(ui, seen, at.id, seen.say(words::POINT_AT), &mut it.at);
+                changed |= spots::spot(ui, seen, at.id, seen.say(words::POINT_AT), &mut it.at);
             });
             ui.horizontal_wrapped(|ui| {
                 changed |= fields::time(ui, seen, words::HOLD, &mut it.hold, 0.3);
@@ -243,7 +243,6 @@ fn operator(ui: &mut Ui, seen: &PaneInput<'_>, at: At, step: &mut Step) -> bool 
             return changed | transition(ui, seen, at, &mut it.via);
         }
         Step::Retime(it) => return operators::retime(ui, seen, it),
-        Step::Indicate(it) => return operators::indicate(ui, seen, at, it),
         _ => {}
     }
     let has_settings = step.to_string() != step.name();
@@ -255,18 +254,13 @@ fn operator(ui: &mut Ui, seen: &PaneInput<'_>, at: At, step: &mut Step) -> bool 
     }
 }
 
-/// Shows settings one after another.
+/// Shows settings one after another: first those that share a line.
 fn by_fields(ui: &mut Ui, seen: &PaneInput<'_>, at: At, all: Vec<FieldSetting<'_>>) -> bool {
-    let caption_of = |name: &str| {
-        let mut words = words::SETTINGS.into_iter();
-        let found = words.find(|(word, _)| *word == name);
-        found.map_or(words::TEXT, |(_, text)| text)
-    };
     let mut changed = false;
     let mut below = Vec::new();
     ui.horizontal_wrapped(|ui| {
         for setting in all {
-            let text = caption_of(setting.name);
+            let text = setting.label;
             changed |= match setting.field {
                 Field::Hands(hands) => fields::hands(ui, seen, hands, true),
                 Field::Hand(hand) => {
@@ -279,20 +273,37 @@ fn by_fields(ui: &mut Ui, seen: &PaneInput<'_>, at: At, all: Vec<FieldSetting<'_
                 }
                 Field::OptionalFactor(by, usual) => fields::factor(ui, seen, text, by, usual),
                 Field::Time(time, usual) => fields::time(ui, seen, text, time, usual),
-                Field::Sign(_) | Field::Via(_) => {
+                Field::Length(..)
+                | Field::Directions(_)
+                | Field::Spot(_)
+                | Field::Sign(_)
+                | Field::Via(_) => {
                     below.push(setting);
                     false
                 }
             };
         }
     });
-    for setting in below {
-        let text = seen.say(caption_of(setting.name));
-        changed |= match setting.field {
+    for FieldSetting { label, field } in below {
+        let text = seen.say(label);
+        let row = ui.push_id(label.en, |ui| match field {
+            Field::Length(length, most) => {
+                let line = ui.horizontal_wrapped(|ui| {
+                    caption(ui, seen, label);
+                    fields::length(ui, seen, text, length, most * 100.0)
+                });
+                line.inner
+            }
+            Field::Directions(all) => {
+                caption(ui, seen, label);
+                fields::directions(ui, seen, text, all)
+            }
+            Field::Spot(spot) => spots::optional_spot(ui, seen, at.id.with(label.en), label, spot),
             Field::Sign(name) => fields::sign(ui, seen, at.id, text, name),
             Field::Via(via) => transition(ui, seen, at, via),
             _ => false,
-        };
+        });
+        changed |= row.inner;
     }
     changed
 }
