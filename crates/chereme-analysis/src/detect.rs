@@ -4,15 +4,20 @@
 //! value, a confidence and the evidence. It stores nothing. The caller chooses the tiers and writes the detections with
 //! the origin of a detector, so that the codings of people stay apart.
 //!
-//! To add one, write a module with a type that implements [`Detector`], and add it to [`DETECTORS`]. No command runs
-//! that list yet: callers name the detector that they need.
+//! To add one, write a module beside `strokes` with a type that implements [`Detector`], and add it to [`DETECTORS`].
+//! `chereme propose --detector` and the window offer every detector of that list by its name and its words.
 
-use chereme_motion::{Anatomy, Clip, Instant, Side, Span};
-use chereme_sign::{Component, Field};
+mod nonmanuals;
+mod strokes;
+
+use chereme_motion::{Anatomy, Clip, Instant, Span};
+use chereme_sign::Field;
+use chereme_sign::words::Text;
 use serde::Serialize;
 
-use crate::nonmanuals::{Curves, proposals};
-use crate::strokes::{Mover, strokes};
+use crate::nonmanuals::Curves;
+pub use nonmanuals::Nonmanuals;
+pub use strokes::Strokes;
 
 /// Every detector.
 pub const DETECTORS: &[&dyn Detector] = &[&Nonmanuals, &Strokes];
@@ -22,23 +27,60 @@ pub trait Detector: Sync {
     /// Returns the name, such as `strokes`.
     fn name(&self) -> &'static str;
 
-    /// Returns the detections, field by field in order of time; empty if the part that it examines was not observed.
+    /// Returns the words about the detector that people read.
+    fn description(&self) -> &'static Description;
+
+    /// Returns the parts of a signer that it examines; it finds nothing if all of them are missing.
+    fn examines(&self) -> &'static [Part];
+
+    /// Returns the detections, field by field in order of time, without overlaps in a field; empty if the parts that it
+    /// examines were not observed.
     fn detect(&self, observed: &Observed<'_>) -> Vec<Detection>;
+}
+
+/// The words about a detector, in English and French.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Description {
+    /// The annotations that it finds, for a list of detectors.
+    pub finds: Text,
+    /// The sentences of its evidence; `{name}` stands for a variable part. A sentence that is contained in another comes
+    /// after it.
+    pub messages: &'static [Text],
+}
+
+/// A part of a signer that detectors examine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// The movement of the body and the hands.
+    Body,
+    /// The curves of face and head.
+    Face,
 }
 
 /// The observed movement and face of a signer; a missing part is `None`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Observed<'a> {
-    /// The movement of the body, and the body parts of its joints.
-    pub body: Option<(&'a Clip, &'a Anatomy)>,
-    /// The curves of the face.
+    /// The movement of the body.
+    pub body: Option<Body<'a>>,
+    /// The curves of the face, from the start of the recording.
     pub face: Option<Curves<'a>>,
+}
+
+/// The observed movement of a body.
+#[derive(Debug, Clone, Copy)]
+pub struct Body<'a> {
+    /// The movement.
+    pub clip: &'a Clip,
+    /// The body parts of its joints.
+    pub anatomy: &'a Anatomy,
+    /// The time of the first frame on the recording's clock.
+    pub start: Instant,
 }
 
 /// A stretch of movement in which a value was detected.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Detection {
-    /// The time of the value, counted from the first observed frame.
+    /// The time of the value on the recording's clock.
     pub span: Span,
     /// The field, such as `right.movement.phase` or `nonmanual.brows`.
     pub field: Field,
@@ -56,63 +98,6 @@ pub fn detector(name: &str) -> Option<&'static dyn Detector> {
     DETECTORS.iter().copied().find(|it| it.name() == name)
 }
 
-/// Detector of actions of brows, lids, gaze, mouth and head, by the rules of [`nonmanuals`](crate::nonmanuals).
-#[derive(Debug, Clone, Copy)]
-pub struct Nonmanuals;
-
-impl Detector for Nonmanuals {
-    fn name(&self) -> &'static str {
-        "nonmanuals"
-    }
-
-    fn detect(&self, observed: &Observed<'_>) -> Vec<Detection> {
-        let Some(curves) = &observed.face else {
-            return Vec::new();
-        };
-        let at = |frame: usize| Instant::from_seconds(frame as f64 / curves.rate);
-        let found = proposals(curves).into_iter();
-        found
-            .map(|it| Detection {
-                span: Span::between(at(it.frames.start), at(it.frames.end)),
-                field: Field::new(Component::NonManual).of(it.feature),
-                value: it.value.to_owned(),
-                confidence: it.confidence,
-                why: it.why,
-            })
-            .collect()
-    }
-}
-
-/// Detector of strokes of the wrists, between two minima of their speed: the phase `stroke` of a hand's movement.
-#[derive(Debug, Clone, Copy)]
-pub struct Strokes;
-
-/// The confidence of a stroke: minima of speed show that the wrist moves, but not whether it signs.
-const STROKE: f64 = 0.5;
-
-impl Detector for Strokes {
-    fn name(&self) -> &'static str {
-        "strokes"
-    }
-
-    fn detect(&self, observed: &Observed<'_>) -> Vec<Detection> {
-        let Some((clip, anatomy)) = observed.body else {
-            return Vec::new();
-        };
-        let of = |side: Side| {
-            let found = strokes(clip, anatomy, side, Mover::Wrist).into_iter();
-            found.map(move |frames| Detection {
-                span: clip.rate().span(frames),
-                field: Field::new(Component::Movement).of("phase").on(side),
-                value: "stroke".to_owned(),
-                confidence: STROKE,
-                why: "the wrist moves between two minima of its speed".to_owned(),
-            })
-        };
-        Side::BOTH.into_iter().flat_map(of).collect()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -123,6 +108,9 @@ mod tests {
         for it in DETECTORS {
             let found = detector(it.name()).map(Detector::name);
             assert_eq!(found, Some(it.name()));
+            let words = it.description();
+            assert!(!words.finds.en.is_empty() && !words.finds.fr.is_empty());
+            assert!(!it.examines().is_empty());
             assert!(it.detect(&Observed::default()).is_empty(), "{}", it.name());
         }
         assert!(detector("signs").is_none());
@@ -136,7 +124,11 @@ mod tests {
             .map(|n| if (50..100).contains(&n) { 1.0 } else { 0.2 })
             .collect();
         let observed = Observed {
-            body: Some((&clip, &anatomy)),
+            body: Some(Body {
+                clip: &clip,
+                anatomy: &anatomy,
+                start: Instant::from_seconds(10.0),
+            }),
             face: Some(Curves {
                 rate: 50.0,
                 brow_raise: [Some(&raised), Some(&raised)],
@@ -149,11 +141,16 @@ mod tests {
         ] {
             let found = detector(name).expect(name).detect(&observed);
             assert_eq!(found.len(), count, "{found:?}");
+            for pair in found.windows(2) {
+                assert!(pair[0].span.end() <= pair[1].span.start(), "{pair:?}");
+            }
             for it in &found {
                 assert_eq!(it.field.to_string(), field);
                 assert!(!it.span.is_empty() && (0.0..=1.0).contains(&it.confidence));
             }
         }
+        let hands = Strokes.detect(&observed);
+        assert!(hands[0].span.start() >= Instant::from_seconds(10.0));
         let brows = Nonmanuals.detect(&observed);
         assert_eq!(brows[0].span.start(), Instant::from_seconds(1.0));
         assert_eq!(brows[0].span.end(), Instant::from_seconds(2.0));

@@ -422,6 +422,32 @@ fn codings_are_proposed_for_tokens_without_one_and_reports_count_them() {
 }
 
 #[test]
+fn every_detector_is_named_in_the_help_and_in_the_error_for_an_unknown_one() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let path = corpus.display();
+    let done = desk.json(&format!("propose {path} --detector strokes"));
+    for key in ["annotations", "recordings", "unobserved", "found"] {
+        assert!(done.get(key).is_some(), "{key} of {done}");
+    }
+    assert_eq!(done["detector"], "strokes");
+    let undone = desk.run(&format!("undo {path}"));
+    assert_eq!(undone.status.code(), Some(0));
+    let refused = desk.run(&format!("propose {path} --detector waves"));
+    assert_eq!(refused.status.code(), Some(2));
+    let english = text(&desk.run("propose --help").stdout);
+    let french = text(&desk.run("--language fr propose --help").stdout);
+    let said = text(&refused.stderr);
+    for detector in chereme_corpus::DETECTORS {
+        let finds = detector.description().finds;
+        let flat = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(detector.name()), "{said}");
+        assert!(flat(&english).contains(&flat(finds.en)), "{english}");
+        assert!(flat(&french).contains(&flat(finds.fr)), "{french}");
+    }
+}
+
+#[test]
 fn tables_have_the_requested_width() {
     let desk = Desk::new();
     let corpus = desk.corpus();

@@ -18,6 +18,7 @@ mod curves;
 pub(crate) mod db;
 mod delete;
 mod details;
+mod detect;
 mod edit;
 mod error;
 mod export;
@@ -82,6 +83,7 @@ pub use annotate::{
 pub use annotate::{clipboard, drag_limits, paste, requests, snap, tier_values};
 pub use author::author;
 pub use check::{CheckReport, Fault};
+pub use chereme_analysis::detect::{DETECTORS, Detector};
 pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
 pub use chereme_analysis::phases::{NoPath, PhaseScore};
 pub use chereme_analysis::{Score, ScoreOptions};
@@ -117,13 +119,14 @@ pub use delete::{DeleteOptions, Deleted, DeletedRecording, Dependent, Dependents
 pub use details::{
     Details, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue,
 };
+pub use detect::{DetectOptions, Detected, DetectedIn, Proposal};
 pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{Cause, Error, FailedStep, Meant, Result, WrongQuery};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
 pub use face::{
     CHANNELS as FACE_CHANNELS, Choice, ChooseOptions, Expressions, FaceChannel, FaceFinding,
-    FaceFit, FaceNumber, FaceProposal, FaceProposals, FaceReport, FaceScore, FittedNumber,
-    FoundExpression, MilestoneOptions, OnsetRow, Onsets, Quartiles, Rank, Ranked, ScoredChannel,
+    FaceFit, FaceNumber, FaceProposals, FaceReport, FaceScore, FittedNumber, FoundExpression,
+    MilestoneOptions, OnsetRow, Onsets, Quartiles, Rank, Ranked, ScoredChannel,
 };
 pub use file_identity::FileIdentity;
 pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};

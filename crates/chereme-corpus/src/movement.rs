@@ -203,16 +203,19 @@ pub(crate) struct MotionTrack {
     exact: Option<(Layout, Arc<Skeleton>)>,
 }
 
+/// Returns the error for a recording without movement.
+pub(crate) fn no_movement(recording: &str) -> Error {
+    Error::wrong(format!("the recording {recording:?} holds no movement"))
+        .at(recording)
+        .advise("import the motion file of the same name")
+}
+
 impl MotionTrack {
     /// Returns the motion track of a recording's body.
     pub(crate) fn of(connection: &Connection, recording: i64) -> Result<Self> {
         let Some(row) = recordings::body_track(connection, recording)? else {
             let name = recordings::recording(connection, recording)?.name;
-            return Err(
-                Error::wrong(format!("the recording {name:?} holds no movement"))
-                    .at(name)
-                    .advise("import the motion file of the same name"),
-            );
+            return Err(no_movement(&name));
         };
         Self::read(connection, row)
     }

@@ -8,7 +8,7 @@ use chereme_formats::table::annotations::Moment;
 use chereme_motion::{Instant, Span};
 use chereme_sign::hamnosys::Notated;
 use chereme_sign::hamnosys::components::Mapper;
-use chereme_sign::{Component, HandRef, Phase, TierRole};
+use chereme_sign::{Component, Field, HandRef, Phase, TierRole};
 use serde::Serialize;
 
 use crate::Corpus;
@@ -77,6 +77,14 @@ const SUFFIX: &str = " (proposed)";
 #[must_use]
 pub fn proposed_for(tier: &str) -> Option<&str> {
     tier.strip_suffix(SUFFIX)
+}
+
+/// Returns the name of the tier for proposals of a field, such as `configuration dominant (proposed)`.
+pub(crate) fn proposal_tier(field: &Field) -> String {
+    let feature = field.feature.as_deref().map(|it| format!(".{it}"));
+    let hand = field.hand.map(|it| format!(" {}", it.name()));
+    let (feature, hand) = (feature.unwrap_or_default(), hand.unwrap_or_default());
+    format!("{}{feature}{hand}{SUFFIX}", field.component.name())
 }
 
 /// A value of a token to be written.
@@ -349,9 +357,9 @@ impl Corpus {
         let (mut tiers, mut changes) = (Vec::new(), Vec::new());
         for ((recording, (component, feature, hand)), mut values) in all {
             let recording = Name::Text(recording);
-            let part = feature.as_deref().map(|it| format!(".{it}"));
-            let part = part.unwrap_or_default();
-            let name = format!("{}{part} {}{SUFFIX}", component.name(), hand.name());
+            let mut field = Field::new(component).on(hand);
+            field.feature.clone_from(&feature);
+            let name = proposal_tier(&field);
             let tier = TierName::Of {
                 recording: recording.clone(),
                 tier: name.clone(),

@@ -110,3 +110,30 @@ fn values_are_proposed_for_a_recording_reviewed_and_accepted() {
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(count(&window, proposed), 0, "all of them were one step");
 }
+
+#[test]
+fn a_detector_is_chosen_from_the_list_and_its_proposals_are_one_step() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window(Options {
+        corpus: Some(uncoded(folder.path())),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "bol"));
+    idle(&mut window);
+    let all = Modifiers::COMMAND | Modifiers::SHIFT | Modifiers::ALT;
+    window.key_press_modifiers(all, Key::P);
+    window.run_steps(4);
+    let strokes = window.get_by_label_contains("strokes: strokes of each wrist");
+    strokes.click();
+    window.run_steps(4);
+    idle(&mut window);
+    let strokes = |name: &str| name == "movement.phase right (proposed)";
+    until(&mut window, "the strokes", |window| {
+        count(window, strokes) > 0
+    });
+    let undo = (Modifiers::COMMAND, Key::Z);
+    window.key_press_modifiers(undo.0, undo.1);
+    window.run_steps(4);
+    idle(&mut window);
+    assert_eq!(count(&window, strokes), 0, "{:?}", tiers(&window));
+}

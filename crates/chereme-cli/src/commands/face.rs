@@ -101,7 +101,7 @@ fn propose(corpus: &mut Corpus, address: &Address, store: bool, output: &mut Out
                 end,
                 it.value.clone(),
                 confidence,
-                it.why.clone(),
+                output.spoken(&it.why),
             ]
         })
         .collect();

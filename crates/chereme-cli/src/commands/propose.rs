@@ -1,27 +1,37 @@
-//! `chereme propose`: proposes values of components from movement, and accepts proposals.
+//! `chereme propose`: proposes values of components and detections from movement, and accepts proposals.
 
 use std::path::PathBuf;
 
 use anyhow::{Result, bail};
-use chereme_corpus::{Address, Progress, ProposeOptions, ProposeScope, Proposed, Step};
+use chereme_corpus::{
+    Address, DETECTORS, DetectOptions, Detector, Progress, ProposeOptions, ProposeScope, Proposed,
+    Step,
+};
 use chereme_sign::Component;
+use clap::builder::PossibleValue;
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 
-/// Propose values of a component from movement, for tokens without a value of it
+/// Propose values of a component from movement, for tokens without a value of it; or run a detector on recordings
 ///
 /// The movement of each token is transcribed, and the values are written on separate tiers, such as "configuration
 /// dominant (proposed)", as annotations of a detector. They never mix with a person's codings. A call is one operation,
 /// which `undo` takes back. Ctrl-C stops it and leaves the corpus as it was.
 ///
+/// With --detector no transcription runs: the detector examines whole recordings, and its detections are written on
+/// tiers such as "movement.phase right (proposed)", where they replace earlier ones that nobody has changed.
+///
 /// `--json` gives "tokens" and "annotations", the numbers of those that were written, "unread", the number of tokens
-/// whose movement could not be transcribed, and "recordings", the names of those with new annotations.
+/// whose movement could not be transcribed, and "recordings", the names of those with new annotations. With --detector
+/// it gives "detector", "annotations", "recordings", "unobserved", the number of recordings without the part that the
+/// detector examines, and "found", the proposals of each recording with tier, times, value, confidence and evidence.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   chereme propose mine.chereme configuration
   chereme propose mine.chereme --for recording:3
+  chereme propose mine.chereme --detector strokes --for recording:3
   chereme propose mine.chereme --accept 41 42
   chereme search mine.chereme configuration=U    (finds proposed codings, too)
   chereme undo mine.chereme                      (takes all of them back)")]
@@ -33,9 +43,18 @@ pub(crate) struct Args {
     /// Only for the tokens of this recording, or for this token
     #[arg(long = "for", value_name = "ADDRESS")]
     only: Option<String>,
+    /// Run this detector on every recording, or on that of --for
+    #[arg(long, value_name = "NAME", value_parser = detectors(), conflicts_with = "component")]
+    detector: Option<String>,
     /// Accept these proposals, by the numbers of their annotations, as codings of your own
-    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["component", "only"], num_args = 1..)]
+    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["component", "only", "detector"], num_args = 1..)]
     accept: Vec<i64>,
+}
+
+/// Returns the names of all detectors, each with the annotations that it finds.
+fn detectors() -> Vec<PossibleValue> {
+    let named = |it: &&dyn Detector| PossibleValue::new(it.name()).help(it.description().finds.en);
+    DETECTORS.iter().map(named).collect()
 }
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
@@ -58,6 +77,21 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         Some(Address::Token(token)) => ProposeScope::Token(token),
         Some(other) => bail!("{other} is no recording and no token; name one, such as recording:3"),
     };
+    if let Some(detector) = &args.detector {
+        let options = DetectOptions {
+            detector: detector.clone(),
+            scope,
+        };
+        let detected = corpus.detect(&options, &mut progress)?;
+        drop(bar);
+        output.line(format!(
+            "{} in {}; nothing to examine in {}",
+            output.counted(detected.annotations, "annotations"),
+            output.counted(detected.recordings.len() as u64, "recordings"),
+            output.counted(detected.unobserved, "recordings"),
+        ))?;
+        return output.document(detected);
+    }
     let options = ProposeOptions {
         components: match args.component {
             Some(component) => vec![component],

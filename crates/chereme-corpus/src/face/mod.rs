@@ -53,7 +53,8 @@ pub use milestones::{Expressions, FoundExpression, MilestoneOptions};
 pub use onsets::{OnsetRow, Onsets, Quartiles};
 pub use performances::{CHANNELS, FaceChannel};
 pub(crate) use performances::{Pool, numbers as numbers_of};
-pub use propose::{FaceProposal, FaceProposals};
+pub(crate) use propose::FaceCurves;
+pub use propose::FaceProposals;
 
 /// The face of a recording, derived from its capture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -192,7 +193,7 @@ pub(crate) fn has_face(connection: &Connection, recording: i64) -> Result<bool> 
     Ok(captured(connection, recording, None)?.is_some())
 }
 
-fn no_face(recording: &str) -> Error {
+pub(crate) fn no_face(recording: &str) -> Error {
     Error::wrong(format!("the recording {recording:?} has no captured face"))
         .at(recording)
         .advise("import its face file (Live Link CSV, OpenFace CSV, MediaPipe JSON, .fap) under the same name")

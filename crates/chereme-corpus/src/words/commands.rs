@@ -96,6 +96,14 @@ pub(super) const COMMANDS: &[(&str, &str)] = &[
         "écrivez le numéro d’une opération, comme 12",
     ),
     (
+        "no detector is called {name}",
+        "aucun détecteur ne s’appelle {name}",
+    ),
+    (
+        "the detectors are: {names}",
+        "les détecteurs sont : {names}",
+    ),
+    (
         "{name} is no face system",
         "{name} n’est pas un système de visage",
     ),

@@ -1,5 +1,6 @@
 //! Guides with examples in French, line by line: the help of queries, of recipes and of commands.
 
+use chereme_analysis::detect::DETECTORS;
 use chereme_compose::recipe::Step;
 
 use super::Language;
@@ -226,7 +227,9 @@ fn in_french(line: &str) -> String {
     let examples = || Step::DESCRIPTIONS.iter().flat_map(|it| it.examples);
     let known = |text: &str| {
         let operators = examples().map(|(_, effect)| (effect.en, effect.fr));
-        let mut all = GUIDES.iter().copied().chain(operators);
+        let detectors = DETECTORS.iter().map(|it| it.description().finds);
+        let detectors = detectors.map(|finds| (finds.en, finds.fr));
+        let mut all = GUIDES.iter().copied().chain(operators).chain(detectors);
         all.find(|(english, _)| *english == text)
     };
     match known(words).or_else(|| known(note)) {

@@ -368,6 +368,10 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("in most pairs: {list}", "dans le plus de paires : {list}"),
     ("{n} accepted", "accepté : {n}"),
     (
+        "{annotations} in {recordings}; nothing to examine in {unobserved}",
+        "{annotations} dans {recordings} ; rien à examiner dans {unobserved}",
+    ),
+    (
         "{annotations} in {recordings}, for {tokens}; {unread} could not be read from movement",
         "{annotations} dans {recordings}, pour {tokens} ; illisible dans le mouvement : {unread}",
     ),

@@ -5,6 +5,7 @@
 //! in the files beside this one, by theme; the first form that fits counts, so that a form with more words of its own
 //! comes before one with fewer.
 
+use chereme_analysis::detect::DETECTORS;
 use chereme_compose::recipe::Step;
 
 use super::Language;
@@ -490,6 +491,7 @@ pub fn message(text: &str, language: Language) -> Option<String> {
 fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
     let first = MESSAGES.iter().chain(FINDINGS).chain(QUERIES).copied();
     let operators = Step::DESCRIPTIONS.iter().flat_map(|it| it.messages);
+    let detectors = DETECTORS.iter().flat_map(|it| it.description().messages);
     let rest = NOTES
         .iter()
         .chain(MOVING)
@@ -504,7 +506,7 @@ fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
         .chain(ASKING)
         .chain(LINES);
     first
-        .chain(operators.map(|it| (it.en, it.fr)))
+        .chain(operators.chain(detectors).map(|it| (it.en, it.fr)))
         .chain(rest.copied())
 }
 

@@ -125,6 +125,8 @@ actions! {
         Value, Corpus, In(Timeline), changes, "Enter F2 Ctrl+Alt+M" "=" "=";
     Propose "value.propose" "Propose values from movement" | "Proposer des valeurs d’après le mouvement"
         Value, Corpus, In(Timeline), changes, "Ctrl+Alt+P" "=" "=";
+    Detect "value.detect" "Propose with a detector…" | "Proposer avec un détecteur…"
+        Value, Corpus, In(Timeline), changes, "Ctrl+Shift+Alt+P" "=" "=";
     AcceptProposal "value.accept" "Accept the proposal" | "Accepter la proposition"
         Value, Corpus, In(Timeline), changes, "Alt+Enter" "=" "=";
     NextProposal "value.next-proposal" "Next doubtful proposal" | "Proposition douteuse suivante"

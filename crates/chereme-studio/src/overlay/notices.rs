@@ -207,6 +207,13 @@ impl Notices {
                 words::NOTICE_PROPOSED.of(language),
                 &[("tokens", &it.tokens), ("unread", &it.unread)],
             ),
+            Outcome::Detected(it) if it.annotations == 0 => {
+                words::NOTICE_NOT_DETECTED.of(language).to_owned()
+            }
+            Outcome::Detected(it) => fill(
+                words::NOTICE_DETECTED.of(language),
+                &[("n", &it.annotations)],
+            ),
             Outcome::Checked(report) => return self.checked(report, language),
             Outcome::Redone(row) => {
                 let what = history::sentence(row, language);

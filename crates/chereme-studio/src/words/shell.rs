@@ -104,6 +104,8 @@ texts! {
     TASK_PROPOSE: "Proposing codings from movement", "Proposition de codages d’après le mouvement";
     NOTICE_PROPOSED: "Signs coded from movement, hatched on separate tiers: {tokens}; could not be read: {unread}. Enter accepts the selected one; the menu Value has the next doubtful one.", "Signes codés d’après le mouvement, hachurés sur des acteurs à part : {tokens} ; illisibles : {unread}. Entrée accepte celle qui est sélectionnée ; le menu Valeur mène à la prochaine douteuse.";
     NOTICE_NOT_PROPOSED: "None of these signs could be read from movement: {unread}. Their recordings have no movement, or the movement cannot be transcribed.", "Aucun de ces signes n’a pu être lu dans le mouvement : {unread}. Leurs enregistrements sont sans mouvement, ou leur mouvement n’a pas pu être transcrit.";
+    NOTICE_DETECTED: "Proposals on separate tiers, hatched: {n}. Enter accepts the selected one; the menu Value has the next doubtful one.", "Propositions sur des acteurs à part, hachurées : {n}. Entrée accepte celle qui est sélectionnée ; le menu Valeur mène à la prochaine douteuse.";
+    NOTICE_NOT_DETECTED: "The detector found nothing here.", "Le détecteur n’a rien trouvé ici.";
     TASK_CHECK: "Checking", "Vérification";
     CHECKED_WELL: "Checked: nothing is wrong.", "Vérifié : tout est en ordre.";
     CHECKED_MENDED: "Checked, and mended: {n}", "Vérifié, et réparé : {n}";

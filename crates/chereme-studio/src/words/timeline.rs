@@ -6,6 +6,10 @@ use super::Text;
 
 texts! {
     NO_PROPOSAL: "There is no proposal here. {value.propose} reads handshapes, places, movements and orientations from the movement.", "Il n’y a pas de proposition ici. {value.propose} lit configurations, emplacements, mouvements et orientations dans le mouvement.";
+    DETECT_TITLE: "Propose with a detector", "Proposer avec un détecteur";
+    DETECT_SIGN: "Proposals for the selected sign, on tiers of their own:", "Propositions pour le signe sélectionné, sur des acteurs à part :";
+    DETECT_SPAN: "Proposals for the selected time, on tiers of their own:", "Propositions pour le temps sélectionné, sur des acteurs à part :";
+    DETECT_RECORDING: "Proposals for the whole recording, on tiers of their own:", "Propositions pour tout l’enregistrement, sur des acteurs à part :";
     TITLE: "Timeline", "Ligne de temps";
     EMPTY: "This recording has no tiers yet.", "Cet enregistrement n’a pas encore d’acteurs.";
     NO_RECORDINGS: "This corpus has no recordings, and so no tiers. Its signs are in the library and in the search.", "Ce corpus n’a pas d’enregistrements, donc pas d’acteurs. Ses signes sont dans le fonds et la recherche.";

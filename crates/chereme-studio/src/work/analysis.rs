@@ -1,6 +1,6 @@
 //! Jobs that infer annotations from movement, and compare annotations with each other.
 
-use chereme_corpus::{Address, CuedOptions, Name, ProposeOptions};
+use chereme_corpus::{Address, CuedOptions, DetectOptions, Name, ProposeOptions};
 use chereme_sign::Component;
 
 use super::{About, Job, Outcome};
@@ -24,6 +24,13 @@ pub(crate) fn propose_coding(component: Component) -> Job {
     Job::new(PROPOSE, move |corpus, progress| {
         let proposed = corpus.propose_coding(component, progress);
         proposed.map(Outcome::Proposed)
+    })
+}
+
+/// Runs a detector, and stores its proposals.
+pub(crate) fn detect(options: DetectOptions) -> Job {
+    Job::new(PROPOSE, move |corpus, progress| {
+        corpus.detect(&options, progress).map(Outcome::Detected)
     })
 }
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     AnnotateReport, Answer, Around, CheckReport, Choice, CueSlips, Curves, Deleted, Details,
-    ExportReport, Expressions, ImportReport, MadePart, MergeReport, Moving, Onsets, OperationRow,
-    Picture, PointsPiece, Proposed, Recombination, SignMap, Suggestions,
+    Detected, ExportReport, Expressions, ImportReport, MadePart, MergeReport, Moving, Onsets,
+    OperationRow, Picture, PointsPiece, Proposed, Recombination, SignMap, Suggestions,
 };
 use eframe::egui::ColorImage;
 
@@ -39,6 +39,8 @@ pub(crate) enum Outcome {
     Checked(CheckReport),
     /// Values of a component were proposed from movement.
     Proposed(Proposed),
+    /// A detector proposed annotations.
+    Detected(Detected),
     /// All details of something.
     Looked(Details),
     /// Tokens were found.

@@ -16,11 +16,13 @@
 //! | `ui`, `names`, `above`, `paint` | rows, the names of tiers, the layer above them, painting |
 //! | `gesture`, `drag`, `menu` | mouse gestures: their begin, their course, the context menu |
 //! | `editor`, `value_list` | the field for values, and the list of matching values below it |
-//! | `tier_list`, `tier_box`, `go_to_time`, `bar` | boxes that choose a tier, edit a tier, or go to a time; the tools |
+//! | `tier_list`, `detector_list`, `tier_box`, `go_to_time` | boxes that choose a tier or a detector, edit a tier, or go to a time |
+//! | `bar` | the tools |
 
 mod above;
 pub(crate) mod bar;
 pub(crate) mod data;
+mod detector_list;
 mod drag;
 mod dragged;
 mod edit;

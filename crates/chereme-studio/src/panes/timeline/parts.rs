@@ -7,7 +7,9 @@ use chereme_motion::Span;
 
 use super::data::Window;
 use super::editor::Editing;
-use super::{Begun, Draft, Ghost, Then, go_to_time, paste_box, tier_box, tier_list, values};
+use super::{
+    Begun, Draft, Ghost, Then, detector_list, go_to_time, paste_box, tier_box, tier_list, values,
+};
 use crate::context::PaneInput;
 use crate::model::Opened;
 use crate::pickers::Picker;
@@ -155,6 +157,7 @@ impl Entry {
 #[derive(Default)]
 pub(super) struct Boxes {
     pub(super) choose: Option<tier_list::Choose>,
+    pub(super) detectors: Option<detector_list::ChooseDetector>,
     pub(super) paste_box: Option<paste_box::PasteBox>,
     pub(super) go_box: Option<go_to_time::GoBox>,
     /// The text to paste.
@@ -170,6 +173,7 @@ impl Boxes {
     /// Returns whether a box is open.
     pub(super) fn is_any_open(&self) -> bool {
         self.choose.is_some()
+            || self.detectors.is_some()
             || self.tier_box.is_some()
             || self.paste_box.is_some()
             || self.go_box.is_some()

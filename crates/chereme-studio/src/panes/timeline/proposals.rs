@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use chereme_corpus::{Contents, Name, ProposeOptions, ProposeScope, Proposed, proposed_for};
 use chereme_motion::Instant;
 
+use super::detector_list::ChooseDetector;
 use super::edit::Scene;
 use super::{Then, Timeline};
 use crate::action::Action;
@@ -35,7 +36,13 @@ pub(super) fn act(
     out: &mut Outbox,
 ) -> Acted {
     match action {
-        Action::Propose => propose(scene, out),
+        Action::Propose => {
+            out.work(analysis::propose(ProposeOptions {
+                components: Proposed::COMPONENTS.to_vec(),
+                scope: scope(scene),
+            }));
+        }
+        Action::Detect => timeline.boxes.detectors = Some(ChooseDetector::default()),
         Action::NextProposal => match next(&all(scene.contents), here(scene)) {
             Some(next) => go(timeline, next, out),
             None => return Acted::Cannot(words::NO_PROPOSAL),
@@ -64,23 +71,19 @@ pub(super) fn act(
     Acted::Yes
 }
 
-/// Requests proposals for the selected sign, the selected time, or else the recording.
-fn propose(scene: &Scene<'_>, out: &mut Outbox) {
+/// Returns the scope of proposals: the selected sign, the selected time, or else the recording.
+pub(super) fn scope(scene: &Scene<'_>) -> ProposeScope {
     let shown = scene.seen.shown;
     let recording = Name::Number(scene.contents.recording.id);
     let token = shown.annotation().and_then(|annotation| {
         let mut tokens = scene.contents.tokens.iter();
         tokens.find(|it| it.annotation_id == Some(annotation))
     });
-    let scope = match (token, shown.span) {
+    match (token, shown.span) {
         (Some(token), _) => ProposeScope::Token(token.id),
         (None, Some(span)) => ProposeScope::Span(recording, span),
         (None, None) => ProposeScope::Recording(recording),
-    };
-    out.work(analysis::propose(ProposeOptions {
-        components: Proposed::COMPONENTS.to_vec(),
-        scope,
-    }));
+    }
 }
 
 /// Returns the proposals of a recording, in order of time.

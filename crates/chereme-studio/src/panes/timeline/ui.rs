@@ -13,7 +13,9 @@ use eframe::egui::{
 use super::data::{self, Window, time_text};
 use super::edit::Scene;
 use super::rows::TimelineRow;
-use super::{Timeline, bar, go_to_time, paint, paste_box, select, tier_box, tier_list};
+use super::{
+    Timeline, bar, detector_list, go_to_time, paint, paste_box, select, tier_box, tier_list,
+};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
@@ -187,6 +189,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &PaneInput<'_>, o
         frame.rows(ui, scene.contents);
     }
     tier_list::show(timeline, ui, &scene, out);
+    detector_list::show(timeline, ui, &scene, out);
     tier_box::show(timeline, ui, &scene, out);
     paste_box::show(timeline, ui, &scene, out);
     go_to_time::show(timeline, ui, &scene, out);

@@ -1,0 +1,139 @@
+//! Detectors run by name: their proposals are annotations of a detector, replaced by the next run, and undone as one.
+
+use std::path::Path;
+
+use chereme_corpus::words::{Language, message};
+use chereme_corpus::{
+    Corpus, DETECTORS, DetectOptions, Detected, Error, ImportOptions, ListFilter, ListKind, Name,
+    Progress, ProposeScope, starter_files, unheard,
+};
+use chereme_motion::{Instant, Span};
+
+/// Returns a corpus with one recording without annotations.
+fn bowl(folder: &Path) -> Corpus {
+    let (_, bytes) = starter_files()
+        .find(|(name, _)| *name == Path::new("bol.bvh"))
+        .expect("in the starter corpus");
+    let path = folder.join("bol.bvh");
+    std::fs::write(&path, bytes).expect("written");
+    let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
+    let mut hear = unheard;
+    corpus
+        .import(
+            &[path],
+            &ImportOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("imported");
+    corpus
+}
+
+fn detect(
+    corpus: &mut Corpus,
+    detector: &str,
+    scope: ProposeScope,
+) -> chereme_corpus::Result<Detected> {
+    let options = DetectOptions {
+        detector: detector.to_owned(),
+        scope,
+    };
+    let mut hear = unheard;
+    corpus.detect(&options, &mut Progress::new(&mut hear))
+}
+
+/// Returns the value of a column for each row of a listing.
+fn column(corpus: &Corpus, kind: ListKind, name: &str) -> Vec<String> {
+    let listing = corpus.list(kind, &ListFilter::default()).expect("listed");
+    let rows = listing.rows.iter();
+    rows.map(|row| row[name].as_str().unwrap_or_default().to_owned())
+        .collect()
+}
+
+#[test]
+fn strokes_become_proposals_that_another_run_replaces_and_undo_removes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = bowl(folder.path());
+    let found = detect(&mut corpus, "strokes", ProposeScope::All).expect("detected");
+    assert!(found.annotations >= 2, "{found:?}");
+    assert_eq!((found.recordings.len(), found.unobserved), (1, 0));
+    let proposals = &found.found[0].proposals;
+    assert_eq!(proposals.len() as u64, found.annotations);
+    let tiers = column(&corpus, ListKind::Tiers, "name");
+    assert!(
+        tiers.contains(&"movement.phase right (proposed)".to_owned()),
+        "{tiers:?}"
+    );
+    let origins = column(&corpus, ListKind::Annotations, "origin");
+    assert_eq!(origins.len(), proposals.len());
+    assert!(origins.iter().all(|it| it == "detector"), "{origins:?}");
+    let faults = corpus
+        .check(false, &mut Progress::new(&mut unheard))
+        .expect("checked");
+    assert!(faults.ok, "{faults:?}");
+
+    let again = detect(&mut corpus, "strokes", ProposeScope::All).expect("detected");
+    assert_eq!(again.found, found.found);
+    let after = column(&corpus, ListKind::Annotations, "origin").len();
+    assert_eq!(after, proposals.len(), "earlier ones are replaced");
+    corpus.undo().expect("undone");
+    assert_eq!(corpus.undo().expect("undone").name, "propose");
+    assert!(column(&corpus, ListKind::Tiers, "name").is_empty());
+}
+
+#[test]
+fn a_span_gets_only_the_detections_that_overlap_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = bowl(folder.path());
+    let all = detect(&mut corpus, "strokes", ProposeScope::All).expect("detected");
+    let all = &all.found[0].proposals;
+    corpus.undo().expect("undone");
+    let first = &all[0];
+    let at = Instant::from_micros(first.start_us);
+    let span = Span::between(at, Instant::from_micros(first.start_us + 1));
+    let scope = ProposeScope::Span(Name::Text("bol".into()), span);
+    let found = detect(&mut corpus, "strokes", scope).expect("detected");
+    let overlapping = all
+        .iter()
+        .filter(|it| it.start_us <= first.start_us && it.end_us > first.start_us);
+    let overlapping: Vec<_> = overlapping.cloned().collect();
+    assert!(!overlapping.is_empty() && overlapping.len() < all.len());
+    assert_eq!(found.found[0].proposals, overlapping);
+}
+
+#[test]
+fn an_unknown_detector_is_refused_with_the_names_of_all_in_both_languages() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = bowl(folder.path());
+    let error = detect(&mut corpus, "waves", ProposeScope::All).expect_err("refused");
+    let remedy = error.remedy().expect("a remedy").text().to_owned();
+    for detector in DETECTORS {
+        assert!(remedy.contains(detector.name()), "{remedy}");
+    }
+    let french = |text: &str| message(text, Language::French).expect("French");
+    assert_eq!(
+        french(&error.to_string()),
+        "aucun détecteur ne s’appelle \"waves\""
+    );
+    assert!(french(&remedy).starts_with("les détecteurs sont"));
+}
+
+#[test]
+fn a_stop_leaves_the_corpus_and_evidence_has_french_words() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = bowl(folder.path());
+    let before = corpus.generation().expect("a generation");
+    let mut stop = |_: chereme_corpus::Step<'_>| std::ops::ControlFlow::Break(());
+    let options = DetectOptions {
+        detector: "strokes".to_owned(),
+        scope: ProposeScope::All,
+    };
+    let stopped = corpus.detect(&options, &mut Progress::new(&mut stop));
+    assert!(matches!(stopped, Err(Error::Stopped)));
+    assert_eq!(corpus.generation().expect("a generation"), before);
+    let scope = ProposeScope::Recording(Name::Text("bol".into()));
+    let found = detect(&mut corpus, "strokes", scope).expect("detected");
+    for it in &found.found[0].proposals {
+        let french = message(&it.why, Language::French);
+        assert!(french.is_some_and(|french| french != it.why), "{}", it.why);
+    }
+}
