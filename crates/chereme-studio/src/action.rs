@@ -1,7 +1,7 @@
 //! The table of everything that keys, menus and the command palette can request; each row is an [`Action`].
 //!
 //! An action has no data; its object is the selection. To add one, write a row into [`table`] and a match arm in the code
-//! of its [`Owner`]; an action that only shows a pane needs no arm.
+//! of its [`Owner`]; an action that only shows a pane or runs a use case needs no arm.
 
 /// Declares the actions.
 macro_rules! actions {
@@ -40,10 +40,12 @@ macro_rules! actions {
 
 mod table;
 
+use crate::context::PaneInput;
 use crate::keys::Keymap;
 use crate::keys::chord::Chord;
 use crate::panes::PaneKind;
 use crate::words::{Text, shell};
+use crate::work::Job;
 
 pub(crate) use table::{ACTIONS, Action};
 
@@ -91,7 +93,7 @@ pub(crate) enum Context {
 }
 
 /// The part of the program that carries out an action.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) enum Owner {
     /// The window, with or without a corpus.
     Window,
@@ -101,6 +103,8 @@ pub(crate) enum Owner {
     Player,
     /// The window, with a corpus open.
     WithCorpus,
+    /// The window, which runs the use case that the function returns for what is selected, or shows why it cannot be run.
+    Runs(fn(&PaneInput<'_>) -> Result<Job, Text>),
     /// The pane of this kind.
     In(PaneKind),
 }

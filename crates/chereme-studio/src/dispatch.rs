@@ -9,7 +9,7 @@ use eframe::egui::{Context, ViewportCommand};
 use crate::action::{Action, Owner};
 use crate::app::Studio;
 use crate::command::Command;
-use crate::context::{DisplayState, Showing};
+use crate::context::{DisplayState, PaneInput, Showing};
 use crate::file_dialogs::Choose;
 use crate::keys::Keys;
 use crate::layout::{self, Busy};
@@ -19,9 +19,9 @@ use crate::panes::{Acted, Carried, PaneKind, recombine};
 use crate::player::{Player, Preview};
 use crate::settings::ThemeChoice;
 use crate::theme;
-use crate::words::shell as words;
+use crate::words::{Text, shell as words};
 use crate::work::begin::{Begin, Beginning};
-use crate::work::{recordings, whole_corpus};
+use crate::work::{Job, recordings, whole_corpus};
 
 const SECOND: i64 = 1_000_000;
 /// Time added on either side of the selection when playing around it, in microseconds; as in ELAN.
@@ -195,7 +195,8 @@ impl Studio {
             Owner::Player => self.act_on_player(action),
             Owner::WithCorpus if self.may_act(action) => self.act_on_corpus(action, ctx),
             Owner::In(pane) if self.may_act(action) => self.act_in(pane, action, ctx),
-            Owner::WithCorpus | Owner::In(_) => {}
+            Owner::Runs(use_case) if self.may_act(action) => self.run_use_case(use_case, ctx),
+            Owner::WithCorpus | Owner::In(_) | Owner::Runs(_) => {}
         }
     }
 
@@ -214,16 +215,23 @@ impl Studio {
         self.desk.is_some()
     }
 
+    /// Runs a use case on the selection, or shows why it cannot be run.
+    fn run_use_case(&mut self, use_case: fn(&PaneInput<'_>) -> Result<Job, Text>, ctx: &Context) {
+        match self.seen(ctx).map(|seen| use_case(&seen)) {
+            Some(Ok(job)) => {
+                self.out.work(job);
+            }
+            Some(Err(text)) => self.out.send(Command::Cannot(text)),
+            None => {}
+        }
+    }
+
     fn act_on_corpus(&mut self, action: Action, ctx: &Context) {
         match action {
             Action::Undo | Action::Redo => self.walk_one(action == Action::Undo),
             Action::ClearSelection => {
                 self.shown.span = None;
                 self.shown.annotations.clear();
-            }
-            Action::Check => {
-                let mend = !self.is_read_only();
-                self.out.work(whole_corpus::check(mend));
             }
             Action::MergeCorpus => {
                 // If no chooser opens, the path can be typed in the import pane.

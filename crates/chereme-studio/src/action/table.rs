@@ -9,6 +9,7 @@ use crate::panes::PaneKind::{
     Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search, Stage, Timeline,
 };
 use crate::words::Text;
+use crate::work::whole_corpus;
 
 actions! {
     OpenStarter "file.starter" "Open the starter corpus" | "Ouvrir le corpus de départ"
@@ -30,7 +31,7 @@ actions! {
     Close "file.close" "Close the corpus" | "Fermer le corpus"
         File, Corpus, Window, "Ctrl+W" "=" "=";
     Check "file.check" "Check the corpus" | "Vérifier le corpus"
-        File, Corpus, WithCorpus, "none" "none" "none";
+        File, Corpus, Runs(whole_corpus::check), "none" "none" "none";
     Settings "file.settings" "Settings" | "Réglages"
         File, Everywhere, Window, "Ctrl+Comma" "=" "=";
     Quit "file.quit" "Quit" | "Quitter"

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use chereme_corpus::{Decision, Step, Unit};
 
 use super::{About, Job, Outcome};
-use crate::words::shell;
+use crate::context::PaneInput;
+use crate::words::{Text, shell};
 
 /// Undoes the newest operation (`back`), or redoes the last undone one.
 pub(crate) fn undo_or_redo(back: bool) -> Job {
@@ -38,16 +39,17 @@ pub(crate) fn walk(back: bool, steps: usize) -> Job {
     })
 }
 
-/// Checks the whole corpus; rebuilds wrong derived rows if `mend`.
-pub(crate) fn check(mend: bool) -> Job {
+/// Checks the whole corpus, and rebuilds wrong derived rows unless it is read-only.
+pub(crate) fn check(seen: &PaneInput<'_>) -> Result<Job, Text> {
+    let mend = !seen.snapshot.is_read_only();
     let about = About {
         task: shell::TASK_CHECK,
         may_stop: true,
         ..About::EDIT
     };
-    Job::new(about, move |corpus, progress| {
+    Ok(Job::new(about, move |corpus, progress| {
         corpus.check(mend, progress).map(Outcome::Checked)
-    })
+    }))
 }
 
 /// Merges another corpus into this one.
