@@ -4,6 +4,7 @@ mod help;
 pub(crate) mod kinds;
 mod titles;
 
+use chereme_corpus::readable_files;
 use chereme_corpus::words::{Language, guide, message};
 use clap::builder::StyledStr;
 use clap::{Arg, ArgAction, Command};
@@ -209,6 +210,9 @@ fn translated(text: &StyledStr) -> String {
         return french.to_owned();
     }
     let paragraph = |text: &str| {
+        if text == readable_files(Language::English) {
+            return readable_files(Language::French);
+        }
         let known = help::of(text).or_else(|| help::of(text.trim_end_matches('.')));
         known.map_or_else(|| guide(text, Language::French), str::to_owned)
     };
@@ -319,6 +323,17 @@ mod tests {
             ] {
                 assert!(!help.contains(english), "{english}: {help}");
             }
+        }
+        let mut import = command.find_subcommand("import").expect("import").clone();
+        let long = import.render_long_help().to_string();
+        let flat = long.split_whitespace().collect::<Vec<_>>().join(" ");
+        for part in [
+            "Fichiers lus : ",
+            ".eaf (annotations)",
+            "Un film est lié",
+            "déjà importé",
+        ] {
+            assert!(flat.contains(part), "{part}: {long}");
         }
         let mut undo = command.find_subcommand("undo").expect("undo").clone();
         let long = undo.render_long_help().to_string();

@@ -1,5 +1,7 @@
 //! Differences between annotation files and recordings, and merges of files.
 
+use std::path::Path;
+
 use chereme_formats::compare::{self, Conflict, Difference, Merged};
 use chereme_formats::eaf::{self, Transcript, patched, raw, to_raw};
 use chereme_formats::{subtitles, textgrid};
@@ -9,6 +11,7 @@ use serde::Serialize;
 use crate::Corpus;
 use crate::address::{self, Address};
 use crate::error::{Error, Result};
+use crate::import::readers;
 
 /// One side of a comparison.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -43,6 +46,8 @@ enum Format {
     Eaf,
     TextGrid,
     Subtitles,
+    /// A format that is read, known by the ending of the file's name.
+    Other,
 }
 
 impl CompareSide {
@@ -106,6 +111,15 @@ pub fn merge_files(
             let (text, _) = textgrid::write(&whole, textgrid::Form::Long, whole.end());
             text.into_bytes()
         }
+        Format::Other => {
+            return Err(
+                Error::wrong("a merged file cannot be written in the format of this one")
+                    .at(mine.0)
+                    .advise(Remedy::command(
+                        "import it into a corpus, then the other with `chereme import CORPUS FILE --merge`",
+                    )),
+            );
+        }
         Format::Subtitles => {
             return Err(
                 Error::wrong("subtitles are not merged: their lines have no tiers")
@@ -135,7 +149,7 @@ fn write_eaf(mine: &[u8], whole: &Transcript) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Reads a document and determines its format from its contents, ignoring the file name.
+/// Reads a document. Its contents determine its format; the ending of its name does if they do not.
 fn read(name: &str, bytes: &[u8]) -> Result<(Transcript, Format)> {
     let head = &bytes[..bytes.len().min(4096)];
     let plain: Vec<u8> = head.iter().copied().filter(|byte| *byte != 0).collect();
@@ -149,9 +163,37 @@ fn read(name: &str, bytes: &[u8]) -> Result<(Transcript, Format)> {
         let (it, _) = subtitles::read(bytes).map_err(|error| fault(error.to_string()))?;
         return Ok((it, Format::Subtitles));
     }
+    let by_name = readers::transcript(Path::new(name)).filter(|_| !says(b"<ANNOTATION_DOCUMENT"));
+    if let Some(read) = by_name {
+        return Ok((read(bytes).map_err(fault)?.0, Format::Other));
+    }
     let (it, _) = eaf::read(bytes).map_err(|error| {
-        fault(error.to_string())
-            .advise("name annotation files: .eaf, .etf, .TextGrid, .srt or .vtt")
+        fault(error.to_string()).advise(format!(
+            "name annotation files: {}",
+            readers::annotation_endings()
+        ))
     })?;
     Ok((it, Format::Eaf))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_whose_contents_show_no_format_is_read_by_the_ending_of_its_name() {
+        let message = |name: &str| {
+            let error = read(name, b"neither").expect_err("no annotation file");
+            error.to_string()
+        };
+        assert!(message("a.TextGrid").contains("TextGrid"));
+        assert!(message("a.eaf").contains("EAF"));
+        assert_eq!(
+            message("merge_file_1"),
+            message("a.eaf").replace("a.eaf", "merge_file_1")
+        );
+        let error = read("merge_file_1", b"neither").expect_err("no annotation file");
+        let remedy = error.remedy().expect("a remedy").text().to_owned();
+        assert!(remedy.contains(".eaf, .etf"), "{remedy}");
+    }
 }

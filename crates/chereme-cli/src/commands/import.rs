@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use chereme_corpus::words::{fill, trouble};
+use chereme_corpus::words::{Language, fill, trouble};
 use chereme_corpus::{
     Corpus, Error, FileReport, FileStatus, ImportOptions, ImportReport, Mapping, Origin, OwnEdits,
     Progress, ReportFinding,
@@ -18,25 +18,8 @@ use crate::output::{Bar, Output};
 use crate::streams::{self, Stand};
 
 /// Import recordings, annotations, lexicons and inventories into a corpus
-///
-/// Files: .bvh, .fbx, .glb, .gltf, .vrm (movement), .c3d, .trc (markers), .pose, .json of OpenPose or MediaPipe (points
-/// from film), .mp4 and other films (linked to the recording with their name, or whose .eaf names them), .csv of face
-/// captures, .fap (faces), .eaf, .textgrid, .srt, .vtt, and .txt, .csv or .tsv that ELAN exported (annotations), .ecv,
-/// .pfsx, .etf (ELAN's vocabularies, settings, templates), .csv or .tsv (a lexicon of codings, of HamNoSys, or both;
-/// also .json that holds signs), .sigml or .hsigml (signs as notation; also .xml that is SiGML), .hns (HamNoSys with
-/// one sign on each line: the gloss, a tab, the text; also .txt with such lines), .json (an inventory), or folders of
-/// these. Files of the same name in one folder become one recording, and so do files with overlapping timecodes; files
-/// of the same name in two folders become two recordings, except for annotations that fit into a take of their name.
-/// The report shows how each file was interpreted. Options override this, also later: --map gives an imported file
-/// other tiers or columns. A corpus that does not exist yet is created. If a file cannot be read, the others are
-/// imported.
-///
-/// An annotation file that was imported before and edited since updates its recording, annotation by annotation. If
-/// that would take back edits made in the corpus, the file is refused and the edits are listed; then --merge, --theirs
-/// or --mine decides. One import is one operation: `chereme undo` takes it back, and Ctrl-C leaves the corpus as it
-/// was.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "\
+#[command(long_about = long_about(), after_help = "\
 Examples:
   chereme import mine.chereme FOLDER
   chereme import mine.chereme take.bvh take.eaf --dry-run
@@ -110,6 +93,27 @@ pub(crate) struct Args {
     /// The frame rate of points from film that do not state it, in frames per second, such as 50 or 30000/1001
     #[arg(long, value_name = "RATE", value_parser = rate)]
     rate: Option<chereme_motion::Rate>,
+}
+
+/// The rules by which files are grouped and interpreted, for the help.
+const RULES: &str = "Files of the same name in one folder become one recording, and so do files with overlapping \
+timecodes; files of the same name in two folders become two recordings, except for annotations that fit into a take of \
+their name. A film is linked to the recording with its name, or whose .eaf names it. A line of HamNoSys holds the gloss, \
+a tab, and the symbols. The report shows how each file was interpreted. Options override this, also later: --map gives \
+an imported file other tiers or columns. A corpus that does not exist yet is created. If a file cannot be read, the \
+others are imported.";
+
+/// The treatment of files that are imported again, for the help.
+const AGAIN: &str = "An annotation file that was imported before and edited since updates its recording, annotation by \
+annotation. If that would take back edits made in the corpus, the file is refused and the edits are listed; then \
+--merge, --theirs or --mine decides. One import is one operation: `chereme undo` takes it back, and Ctrl-C leaves the \
+corpus as it was.";
+
+/// Returns the long help, with the endings that the table of readers lists.
+fn long_about() -> String {
+    let about = "Import recordings, annotations, lexicons and inventories into a corpus";
+    let files = chereme_corpus::readable_files(Language::English);
+    [about, &files, RULES, AGAIN].join("\n\n")
 }
 
 fn timecode(text: &str) -> Result<chereme_motion::Instant, String> {

@@ -7,12 +7,11 @@ use std::path::Path;
 use chereme_formats::eaf::Transcript;
 use chereme_formats::table::annotations;
 use chereme_formats::tracks::{Content, Tracks};
-use chereme_formats::{
-    Finding, Scene, c3d, curves, gltf, keypoints, pose, subtitles, textgrid, trc,
-};
+use chereme_formats::{Finding, Scene, curves, gltf, keypoints};
 use chereme_motion::{Anatomy, Convention};
 use chereme_sign::{Choice, Remedy};
 
+use super::readers::Parse;
 use super::report::ReportFinding;
 use super::understood::MovementRead;
 use super::{FileReport, FileStatus, Job, bvh, eaf, inventory, lexicon, notated, points, tracks};
@@ -26,31 +25,10 @@ const HEAD: usize = 1 << 14;
 /// The remedy for a capture that cannot be read.
 const DAMAGED: &str = "mend that place, or export the take again from the program that recorded it";
 
-/// Reads a C3D file: markers, analog channels, model outputs, events.
-pub(super) fn import_c3d(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    take(job, progress, |bytes| {
-        c3d::read(bytes).map_err(|it| it.to_string())
-    })
-}
-
-/// Reads a TRC file of markers.
-pub(super) fn import_trc(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    take(job, progress, |bytes| {
-        trc::read(bytes).map_err(|it| it.to_string())
-    })
-}
-
-/// Reads points that were estimated from film.
-pub(super) fn import_pose(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    take(job, progress, |bytes| {
-        pose::read(bytes).map_err(|it| it.to_string())
-    })
-}
-
 /// Reads facial animation parameters.
 pub(super) fn import_curves(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     job.kind = "curves";
-    take(job, progress, |bytes| {
+    import_tracks(job, progress, |bytes| {
         curves::read(bytes).map_err(|it| it.to_string())
     })
 }
@@ -153,6 +131,12 @@ pub(super) fn import_fbx(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Resu
     scene(job, progress, |bytes| {
         chereme_formats::fbx::read(bytes).map_err(|it| it.to_string())
     })
+}
+
+/// Refuses FBX, which this build of the program does not read.
+#[cfg(not(feature = "fbx"))]
+pub(super) fn import_fbx(job: &mut Job<'_>, _: &mut Progress<'_>) -> Result<FileReport> {
+    Err(super::readers::unread(job.path))
 }
 
 /// Stores the body of a scene and the curves of its face, with the same report as for BVH.
@@ -269,26 +253,6 @@ fn scale_of_body(stature: f64) -> f64 {
     }
 }
 
-/// Reads a Praat TextGrid.
-pub(super) fn import_text_grid(
-    job: &mut Job<'_>,
-    progress: &mut Progress<'_>,
-) -> Result<FileReport> {
-    eaf::import_as(job, progress, |bytes| {
-        textgrid::read(bytes).map_err(|it| it.to_string())
-    })
-}
-
-/// Reads subtitles.
-pub(super) fn import_subtitles(
-    job: &mut Job<'_>,
-    progress: &mut Progress<'_>,
-) -> Result<FileReport> {
-    eaf::import_as(job, progress, |bytes| {
-        subtitles::read(bytes).map_err(|it| it.to_string())
-    })
-}
-
 fn begun(job: &Job<'_>, findings: Vec<Finding>) -> FileReport {
     let mut report = FileReport::new(job.path, FileStatus::Imported);
     report
@@ -298,10 +262,10 @@ fn begun(job: &Job<'_>, findings: Vec<Finding>) -> FileReport {
 }
 
 /// Stores the tracks and events of a file.
-fn take(
+pub(super) fn import_tracks(
     job: &mut Job<'_>,
     progress: &mut Progress<'_>,
-    read: impl FnOnce(&[u8]) -> std::result::Result<(Tracks, Vec<Finding>), String>,
+    read: Parse<Tracks>,
 ) -> Result<FileReport> {
     if let Some(report) = job.unchanged() {
         return Ok(report);

@@ -7,8 +7,6 @@ mod vocabulary;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_formats::Finding;
-use chereme_formats::eaf;
 use chereme_formats::eaf::convert::{Annotation, AnnotationAddress, Timing, Transcript};
 use chereme_formats::roles::{self, Mapping, TierGuess};
 use chereme_motion::Instant;
@@ -16,6 +14,7 @@ use chereme_sign::TierRole;
 use chereme_sign::{Choice, Remedy};
 use serde_json::json;
 
+use super::readers::Parse;
 use super::report::{Outcome, ReportFinding};
 use super::understood::TiersRead;
 use super::{FileReport, FileStatus, Job, OwnEdits};
@@ -41,13 +40,6 @@ pub(crate) const TIERS: &str = "chereme.tiers";
 /// How far annotations may extend beyond the end of the movement without a warning, in microseconds.
 pub(super) const BEYOND: i64 = 1_000_000;
 
-/// Reads an annotation file onto its recording.
-pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    import_as(job, progress, |bytes| {
-        eaf::read(bytes).map_err(|error| error.to_string())
-    })
-}
-
 /// Adds tiers to a recording that has none of their names; returns whether it added them.
 pub(super) fn add(
     job: &mut Job<'_>,
@@ -71,7 +63,7 @@ pub(super) fn add(
 pub(super) fn import_as(
     job: &mut Job<'_>,
     progress: &mut Progress<'_>,
-    read: impl FnOnce(&[u8]) -> std::result::Result<(Transcript, Vec<Finding>), String>,
+    read: Parse<Transcript>,
 ) -> Result<FileReport> {
     let maps = job.options.mapping.entries().next().is_some();
     let here = job.places.at(&job.place, job.kind).cloned();
@@ -91,11 +83,11 @@ pub(super) fn import_as(
         .extend(findings.into_iter().map(ReportFinding::from));
     let guesses = guess(job, &transcript, &mut report)?;
     report.understood.tiers = Some(TiersRead::Guessed(guesses.clone()).into());
-    let target = target::find(job, &transcript, &mut report)?;
+    let target = target::find(job, read, &transcript, &mut report)?;
     let recording = recording(job, &transcript, target.recording, &mut report)?;
     know_participants(job, &transcript)?;
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
-    let base = target.transcript(job)?;
+    let base = target.transcript(job, read)?;
     let there = standing_tiers(job, recording, (&transcript, base.as_ref()), &mut report)?;
     if let Some(base) = target.base.as_ref().filter(|base| base.hash == job.hash) {
         if remap(job, &there, &transcript, &guesses, &mut report)? == 0 {

@@ -15,7 +15,7 @@ mod notated;
 mod notation;
 mod places;
 mod points;
-mod readers;
+pub(crate) mod readers;
 mod report;
 #[cfg(test)]
 mod tests;
@@ -44,6 +44,7 @@ use crate::progress::{Progress, Step, Unit};
 
 use places::Places;
 use readers::READERS;
+pub use readers::readable_files;
 use report::Counts;
 pub use report::{
     FileReport, FileStatus, ImportReport, Outcome, OwnEdit, ReportFinding, Saying, Unread,
@@ -295,7 +296,7 @@ fn one_take(files: &[Candidate]) -> BTreeSet<PathBuf> {
     let mut kinds: BTreeMap<(&Path, &str), usize> = BTreeMap::new();
     let mut stems: BTreeMap<(&Path, String), usize> = BTreeMap::new();
     let kind = |it: &Candidate| match it.reader {
-        Ok(reader) if READERS[reader].holds == "movement" => "movement",
+        Ok(reader) if READERS[reader].is_movement() => "movement",
         Ok(reader) => READERS[reader].kind,
         Err(_) => "",
     };
@@ -356,7 +357,7 @@ impl Import<'_> {
                 }
             };
             progress.report(Step {
-                task: READERS[reader].holds,
+                task: READERS[reader].holds.en,
                 done: before[reader],
                 total: Some(total(reader).count() as u64),
                 unit: Unit::Items,
@@ -443,7 +444,7 @@ impl Import<'_> {
         if !named && self.one_take.contains(path) {
             job.folder_take = job.places.movement_beside(&job.place);
         }
-        let done = (READERS[reader].read)(&mut job, progress)?;
+        let done = READERS[reader].import(&mut job, progress)?;
         // Files that add inventories make the next file load the inventories again.
         let same = Rc::ptr_eq(&job.inventories, &inventories) && READERS[reader].keeps_inventories;
         let counts = job.counts;

@@ -10,6 +10,7 @@ use std::path::Path;
 use rusqlite::Connection;
 
 use super::Job;
+use super::readers;
 use super::report::ReportFinding;
 use crate::db::recordings::{self, SourceFileRow};
 use crate::error::Result;
@@ -108,7 +109,7 @@ impl Places {
                 .path
                 .as_deref()
                 .is_some_and(|it| folder(it) == folder(place));
-            near && ["bvh", "gltf", "fbx"].contains(&row.kind.as_str())
+            near && readers::is_movement(&row.kind)
         };
         self.rows.iter().rev().find(is)?.recording_id
     }

@@ -1,16 +1,27 @@
 //! The kinds of files that an import recognises: those that it reads, and those that it can only name.
 //!
-//! To add a format, write a module with a reading function and add a line to [`READERS`].
+//! To add a format, write a reading function in `chereme-formats` and add an entry to [`READERS`].
 
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::path::Path;
 
+use chereme_formats::eaf::Transcript;
+use chereme_formats::tracks::Tracks;
+use chereme_formats::{Finding, c3d, eaf as elan_file, pose, subtitles, textgrid, trc};
 use chereme_sign::Remedy;
 
 use super::{FileReport, Job, bvh, captured, eaf, elan, film, notated};
 use crate::error::{Error, Result};
 use crate::notation::Form;
 use crate::progress::Progress;
+use crate::words::{Language, Text, fill};
+
+/// Reads bytes of a foreign file as a document with findings, or says what is wrong with them.
+pub(crate) type Parse<T> = fn(&[u8]) -> std::result::Result<(T, Vec<Finding>), String>;
+
+/// Reads a file into the corpus.
+type Import = fn(&mut Job<'_>, &mut Progress<'_>) -> Result<FileReport>;
 
 /// A kind of file that can be imported.
 pub(super) struct Reader {
@@ -18,15 +29,68 @@ pub(super) struct Reader {
     pub(super) endings: &'static [&'static str],
     /// The kind in `source_file.kind`.
     pub(super) kind: &'static str,
-    /// The contents of such files, in the plural.
-    pub(super) holds: &'static str,
+    /// The contents of such files for people, in the plural.
+    pub(super) holds: Text,
     /// Decides whether a file with one of these endings is of this kind, if the ending alone does not determine it.
     looks: fn(&Path) -> bool,
     /// Whether such files never add an inventory, so that the next one need not load them again.
     pub(super) keeps_inventories: bool,
-    /// Reads a file into the corpus.
-    pub(super) read: fn(&mut Job<'_>, &mut Progress<'_>) -> Result<FileReport>,
+    /// The use of the contents.
+    contents: Contents,
 }
+
+/// The use of a file's contents.
+enum Contents {
+    /// Annotations, which become tiers of a recording and update it if the file was edited since.
+    Annotations(Parse<Transcript>),
+    /// A template: tiers without annotations, which have an import of their own.
+    Template(Parse<Transcript>, Import),
+    /// Tracks, such as markers or curves.
+    Tracks(Parse<Tracks>),
+    /// The movement of a body, around which the other files of a folder gather.
+    Movement(Import),
+    /// Contents with an import of their own.
+    Other(Import),
+}
+
+impl Reader {
+    /// Reads a file into the corpus.
+    pub(super) fn import(
+        &self,
+        job: &mut Job<'_>,
+        progress: &mut Progress<'_>,
+    ) -> Result<FileReport> {
+        match self.contents {
+            Contents::Annotations(parse) => eaf::import_as(job, progress, parse),
+            Contents::Tracks(parse) => captured::import_tracks(job, progress, parse),
+            Contents::Template(_, import)
+            | Contents::Movement(import)
+            | Contents::Other(import) => import(job, progress),
+        }
+    }
+
+    /// Returns whether such files hold the movement of a body.
+    pub(super) fn is_movement(&self) -> bool {
+        matches!(self.contents, Contents::Movement(_))
+    }
+
+    /// Returns the function that reads annotations or tiers from the bytes of such a file, if they hold some.
+    fn transcript(&self) -> Option<Parse<Transcript>> {
+        match self.contents {
+            Contents::Annotations(parse) | Contents::Template(parse, _) => Some(parse),
+            _ => None,
+        }
+    }
+}
+
+/// Returns words in English and French.
+const fn words(en: &'static str, fr: &'static str) -> Text {
+    Text { en, fr }
+}
+
+const ANNOTATIONS: Text = words("annotations", "annotations");
+const MARKERS: Text = words("markers", "marqueurs");
+const MOVEMENT: Text = words("movement", "mouvement");
 
 /// The kinds in the order in which an import reads them. Annotations come after movement, so that they find their
 /// recordings and values; films come after annotations, because annotation files name them; templates come last, for
@@ -35,152 +99,169 @@ pub(super) static READERS: &[Reader] = &[
     Reader {
         endings: &["json"],
         kind: "inventory",
-        holds: "inventories, signs, scores of a face or points from film",
+        holds: words(
+            "inventories, signs, scores of a face, points from film of OpenPose or MediaPipe",
+            "inventaires, signes, scores d’un visage, points d’un film d’OpenPose ou de MediaPipe",
+        ),
         looks: always,
         keeps_inventories: false,
-        read: captured::import_json,
+        contents: Contents::Other(captured::import_json),
     },
     Reader {
         endings: &["bvh"],
         kind: "bvh",
-        holds: "movement",
+        holds: MOVEMENT,
         looks: always,
         keeps_inventories: true,
-        read: bvh::import,
+        contents: Contents::Movement(bvh::import),
     },
     Reader {
         endings: &["glb", "gltf", "vrm", "vrma"],
         kind: "gltf",
-        holds: "movement",
+        holds: MOVEMENT,
         looks: always,
         keeps_inventories: true,
-        read: captured::import_gltf,
+        contents: Contents::Movement(captured::import_gltf),
     },
-    #[cfg(feature = "fbx")]
     Reader {
-        endings: &["fbx"],
+        endings: if cfg!(feature = "fbx") { &["fbx"] } else { &[] },
         kind: "fbx",
-        holds: "movement",
+        holds: MOVEMENT,
         looks: always,
         keeps_inventories: true,
-        read: captured::import_fbx,
+        contents: Contents::Movement(captured::import_fbx),
     },
     Reader {
         endings: &["c3d"],
         kind: "c3d",
-        holds: "markers",
+        holds: MARKERS,
         looks: always,
         keeps_inventories: true,
-        read: captured::import_c3d,
+        contents: Contents::Tracks(|bytes| c3d::read(bytes).map_err(said)),
     },
     Reader {
         endings: &["trc"],
         kind: "trc",
-        holds: "markers",
+        holds: MARKERS,
         looks: always,
         keeps_inventories: true,
-        read: captured::import_trc,
+        contents: Contents::Tracks(|bytes| trc::read(bytes).map_err(said)),
     },
     Reader {
         endings: &["pose"],
         kind: "pose",
-        holds: "points from film",
+        holds: words("points from film", "points d’un film"),
         looks: always,
         keeps_inventories: true,
-        read: captured::import_pose,
+        contents: Contents::Tracks(|bytes| pose::read(bytes).map_err(said)),
     },
     Reader {
         endings: &["fap", "pbtxt", "gesichter"],
         kind: "curves",
-        holds: "faces",
+        holds: words("faces", "visages"),
         looks: always,
         keeps_inventories: true,
-        read: captured::import_curves,
+        contents: Contents::Other(captured::import_curves),
     },
     Reader {
         endings: &["csv", "tsv"],
         kind: "lexicon",
-        holds: "lexicons, annotations that ELAN exported",
+        holds: words(
+            "lexicons, faces, annotations that ELAN exported",
+            "lexiques, visages, annotations exportées par ELAN",
+        ),
         looks: always,
         keeps_inventories: false,
-        read: captured::import_table,
+        contents: Contents::Other(captured::import_table),
     },
     Reader {
         endings: &["sigml", "hsigml", "xml"],
         kind: "sigml",
-        holds: "notation",
+        holds: words("signs in SiGML", "signes en SiGML"),
         looks: |path| Form::of(path) == Some(Form::Sigml),
         keeps_inventories: true,
-        read: notated::import_sigml,
+        contents: Contents::Other(notated::import_sigml),
     },
     Reader {
         endings: &["hns", "txt"],
         kind: "lexicon",
-        holds: "notation",
+        holds: words(
+            "lines of HamNoSys, annotations that ELAN exported",
+            "lignes de HamNoSys, annotations exportées par ELAN",
+        ),
         looks: |path| Form::of(path) == Some(Form::Lines) || captured::is_export(path),
         keeps_inventories: false,
-        read: captured::import_text,
+        contents: Contents::Other(captured::import_text),
     },
     Reader {
         endings: &["textgrid"],
         kind: "textgrid",
-        holds: "annotations",
+        holds: ANNOTATIONS,
         looks: always,
         keeps_inventories: false,
-        read: captured::import_text_grid,
+        contents: Contents::Annotations(|bytes| textgrid::read(bytes).map_err(said)),
     },
     Reader {
         endings: &["srt", "vtt"],
         kind: "subtitles",
-        holds: "annotations",
+        holds: ANNOTATIONS,
         looks: always,
         keeps_inventories: false,
-        read: captured::import_subtitles,
+        contents: Contents::Annotations(|bytes| subtitles::read(bytes).map_err(said)),
     },
     Reader {
         endings: &["ecv"],
         kind: "ecv",
-        holds: "vocabularies of ELAN",
+        holds: words("vocabularies of ELAN", "vocabulaires d’ELAN"),
         looks: always,
         keeps_inventories: false,
-        read: elan::import_vocabularies,
+        contents: Contents::Other(elan::import_vocabularies),
     },
     Reader {
         endings: &["eaf"],
         kind: "eaf",
-        holds: "annotations",
+        holds: ANNOTATIONS,
         looks: always,
         keeps_inventories: false,
-        read: eaf::import,
+        contents: Contents::Annotations(eaf_transcript),
     },
     Reader {
         endings: &["pfsx", "psfx"],
         kind: "pfsx",
-        holds: "settings of ELAN",
+        holds: words("settings of ELAN", "réglages d’ELAN"),
         looks: always,
         keeps_inventories: true,
-        read: elan::import_settings,
+        contents: Contents::Other(elan::import_settings),
     },
     Reader {
         endings: &["mp4", "m4v", "mov", "avi", "mpg", "mpeg", "webm", "mkv"],
         kind: film::KIND,
-        holds: "films",
+        holds: words("films", "films"),
         looks: always,
         keeps_inventories: true,
-        read: film::import,
+        contents: Contents::Other(film::import),
     },
     Reader {
         endings: &["etf"],
         kind: "etf",
-        holds: "templates of ELAN",
+        holds: words("templates of ELAN", "modèles d’ELAN"),
         looks: always,
         keeps_inventories: false,
-        read: elan::import_template,
+        contents: Contents::Template(eaf_transcript, elan::import_template),
     },
 ];
 
 fn always(_: &Path) -> bool {
     true
+}
+
+/// Returns the message of an error.
+fn said(error: impl Display) -> String {
+    error.to_string()
+}
+
+fn eaf_transcript(bytes: &[u8]) -> std::result::Result<(Transcript, Vec<Finding>), String> {
+    elan_file::read(bytes).map_err(said)
 }
 
 /// A kind of file that often accompanies readable files but is not read.
@@ -257,7 +338,7 @@ pub(super) fn unread(path: &Path) -> Error {
         Some(known) => (format!("it holds {}", known.what), known.remedy.clone()),
         None => (
             "this kind of file is not known".to_owned(),
-            endings().into(),
+            format!("files that are read end in {}", endings(Language::English)).into(),
         ),
     };
     Error::wrong(message)
@@ -265,10 +346,37 @@ pub(super) fn unread(path: &Path) -> Error {
         .advise(remedy)
 }
 
-/// Lists the endings that are read, and the content of such files.
-fn endings() -> String {
-    let mut kinds: Vec<(&str, Vec<String>)> = Vec::new();
-    for reader in READERS {
+/// Returns the function that reads annotations from files of this name, if its ending is that of annotation files.
+pub(crate) fn transcript(path: &Path) -> Option<Parse<Transcript>> {
+    READERS[reader(path)?].transcript()
+}
+
+/// Returns whether files of a kind in `source_file.kind` hold the movement of a body.
+pub(super) fn is_movement(kind: &str) -> bool {
+    READERS.iter().any(|it| it.kind == kind && it.is_movement())
+}
+
+/// Lists the endings of annotation files.
+pub(crate) fn annotation_endings() -> String {
+    let readers = READERS.iter().filter(|it| it.transcript().is_some());
+    let dotted = readers.flat_map(|it| it.endings).map(|it| format!(".{it}"));
+    dotted.collect::<Vec<_>>().join(", ")
+}
+
+/// Returns the kinds of files that an import reads as a sentence, with their endings and contents.
+#[must_use]
+pub fn readable_files(language: Language) -> String {
+    let sentence = words(
+        "Files that are read: {endings}, or folders of these.",
+        "Fichiers lus : {endings}, ou des dossiers qui en contiennent.",
+    );
+    fill(sentence.of(language), &[("endings", &endings(language))])
+}
+
+/// Lists the endings that are read, and the contents of such files.
+pub(crate) fn endings(language: Language) -> String {
+    let mut kinds: Vec<(Text, Vec<String>)> = Vec::new();
+    for reader in READERS.iter().filter(|it| !it.endings.is_empty()) {
         let dotted = reader.endings.iter().map(|it| format!(".{it}"));
         match kinds.iter_mut().find(|(holds, _)| *holds == reader.holds) {
             Some((_, all)) => all.extend(dotted),
@@ -277,14 +385,15 @@ fn endings() -> String {
     }
     let kinds: Vec<String> = kinds
         .into_iter()
-        .map(|(holds, all)| format!("{} ({holds})", all.join(", ")))
+        .map(|(holds, all)| format!("{} ({})", all.join(", "), holds.of(language)))
         .collect();
-    format!("files that are read end in {}", kinds.join(", "))
+    kinds.join(", ")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::words::message;
 
     #[test]
     fn every_extension_has_one_kind_and_annotations_are_read_after_movement() {
@@ -301,6 +410,22 @@ mod tests {
     }
 
     #[test]
+    fn annotation_files_are_known_by_their_endings() {
+        for (name, holds) in [
+            ("a.eaf", true),
+            ("a.etf", true),
+            ("a.TextGrid", true),
+            ("a.vtt", true),
+            ("a.bvh", false),
+            ("a.docx", false),
+        ] {
+            assert_eq!(transcript(Path::new(name)).is_some(), holds, "{name}");
+        }
+        assert_eq!(annotation_endings(), ".textgrid, .srt, .vtt, .eaf, .etf");
+        assert!(is_movement("fbx") && !is_movement("film"));
+    }
+
+    #[test]
     fn unreadable_files_are_named_with_a_remedy() {
         for (name, said) in [
             ("a.wav", "sound"),
@@ -311,6 +436,14 @@ mod tests {
             assert!(error.to_string().contains(said), "{error}");
             assert!(error.remedy().is_some(), "{name}");
         }
-        assert!(endings().contains(".csv, .tsv (lexicons"), "{}", endings());
+        let all = endings(Language::English);
+        assert!(all.contains(".csv, .tsv (lexicons"), "{all}");
+        let french = endings(Language::French);
+        assert!(french.contains(".csv, .tsv (lexiques"), "{french}");
+        let remedy = format!("files that are read end in {all}");
+        assert_eq!(
+            message(&remedy, Language::French),
+            Some(format!("les fichiers qui sont lus finissent par {french}"))
+        );
     }
 }

@@ -15,12 +15,20 @@ pub(super) const ASKING: &[(&str, &str)] = &[
         "des sous-titres ne se fusionnent pas : leurs lignes n’ont pas d’acteurs",
     ),
     (
+        "a merged file cannot be written in the format of this one",
+        "un fichier fusionné ne s’écrit pas dans le format de celui-ci",
+    ),
+    (
+        "import it into a corpus, then the other with {command}",
+        "importez-le dans un corpus, puis l’autre avec {command}",
+    ),
+    (
         "merge the .eaf or .TextGrid, and export subtitles from it",
         "fusionnez les .eaf ou .TextGrid, et exportez-en des sous-titres",
     ),
     (
-        "name annotation files: .eaf, .etf, .TextGrid, .srt or .vtt",
-        "nommez des fichiers d’annotations : .eaf, .etf, .TextGrid, .srt ou .vtt",
+        "name annotation files: {endings}",
+        "nommez des fichiers d’annotations : {endings}",
     ),
     (
         "the {row} was changed by something else since, so this cannot be taken back",

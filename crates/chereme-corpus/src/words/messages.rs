@@ -24,6 +24,7 @@ use super::moving::MOVING;
 use super::notes::NOTES;
 use super::queries::QUERIES;
 use super::reading::READING;
+use crate::import::readers::endings;
 
 /// Messages and remedies in English and French; a form that is contained in another comes after it.
 const MESSAGES: &[(&str, &str)] = &[
@@ -516,6 +517,9 @@ fn in_french(text: &str) -> Option<String> {
         side.or_else(|| in_french(part))
             .unwrap_or_else(|| part.to_owned())
     };
+    if text.starts_with('.') && text == endings(Language::English) {
+        return Some(endings(Language::French));
+    }
     let translated = all().find_map(|(english, french)| carried(text, english, french, &part));
     translated.or_else(|| counted_in_french(text))
 }

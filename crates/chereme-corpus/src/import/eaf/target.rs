@@ -1,16 +1,14 @@
 //! Determines the recording of an annotation file, and the earlier file that it is a new version of.
 
 use chereme_formats::eaf::convert::Transcript;
-use chereme_formats::table::annotations;
-use chereme_formats::{eaf, subtitles, textgrid};
 use chereme_sign::{Choice, Remedy};
 
-use super::super::captured;
 use super::update;
 use super::{FileReport, Job, OwnEdits};
 use crate::db::recordings::{self, SourceFileRow};
 use crate::db::tracks;
 use crate::error::Result;
+use crate::import::readers::Parse;
 use crate::import::report::ReportFinding;
 
 /// The recording and the earlier version that an annotation file belongs to.
@@ -30,23 +28,26 @@ impl Target {
     }
 
     /// Reads the earlier version; nothing if the corpus does not have it or it cannot be read.
-    pub(super) fn transcript(&self, job: &Job<'_>) -> Result<Option<Transcript>> {
+    pub(super) fn transcript(
+        &self,
+        job: &Job<'_>,
+        read: Parse<Transcript>,
+    ) -> Result<Option<Transcript>> {
         match &self.base {
-            Some(base) => read(job, base),
+            Some(base) => stored(job, read, base),
             None => Ok(None),
         }
     }
 }
 
-fn read(job: &Job<'_>, file: &SourceFileRow) -> Result<Option<Transcript>> {
+/// Reads a stored file of the job's kind; nothing if its bytes are missing or cannot be read.
+fn stored(
+    job: &Job<'_>,
+    read: Parse<Transcript>,
+    file: &SourceFileRow,
+) -> Result<Option<Transcript>> {
     let bytes = recordings::source_bytes(job.connection, file.id)?;
-    let parsed = |bytes: Vec<u8>| match file.kind.as_str() {
-        "textgrid" => Some(textgrid::read(&bytes).ok()?.0),
-        captured::TIERS => Some(annotations::transcript(&bytes).ok()?.0),
-        "subtitles" => Some(subtitles::read(&bytes).ok()?.0),
-        _ => Some(eaf::read(&bytes).ok()?.0),
-    };
-    Ok(bytes.and_then(parsed))
+    Ok(bytes.and_then(|bytes| Some(read(&bytes).ok()?.0)))
 }
 
 /// Returns the report of an unchanged file at an unchanged path, if it belongs to the take beside it.
@@ -63,9 +64,10 @@ pub(super) fn unchanged(job: &Job<'_>, here: &SourceFileRow) -> Result<Option<Fi
 }
 
 /// Finds the recording of a file: that of the take beside it, otherwise that of the file that it is a version of,
-/// otherwise one of its name that has no annotation file from elsewhere.
+/// otherwise one of its name that has no annotation file from elsewhere. `read` reads files of its kind.
 pub(super) fn find(
     job: &Job<'_>,
+    read: Parse<Transcript>,
     transcript: &Transcript,
     report: &mut FileReport,
 ) -> Result<Target> {
@@ -87,7 +89,7 @@ pub(super) fn find(
         let Some(base) = earlier(job, id)? else {
             continue;
         };
-        if is_version(job, &base, transcript, report)? {
+        if is_version(job, (read, &base), transcript, report)? {
             return Ok(Target {
                 recording: Some(id),
                 base: Some(base),
@@ -150,7 +152,7 @@ fn earlier(job: &Job<'_>, recording: i64) -> Result<Option<SourceFileRow>> {
 /// says so, the bytes are the same, or at least half of the annotations are the same.
 fn is_version(
     job: &Job<'_>,
-    base: &SourceFileRow,
+    (read, base): (Parse<Transcript>, &SourceFileRow),
     transcript: &Transcript,
     report: &mut FileReport,
 ) -> Result<bool> {
@@ -163,7 +165,7 @@ fn is_version(
     if base.hash == job.hash {
         return Ok(true);
     }
-    let Some(before) = read(job, base)? else {
+    let Some(before) = stored(job, read, base)? else {
         return Ok(false);
     };
     let (same, all) = update::alike(&before, transcript);
