@@ -83,7 +83,7 @@ pub use annotate::{
 pub use annotate::{clipboard, drag_limits, paste, requests, snap, tier_values};
 pub use author::author;
 pub use check::{CheckReport, Fault};
-pub use chereme_analysis::detect::{DETECTORS, Detector};
+pub use chereme_analysis::detect::{DETECTORS, Detector, Nonmanuals};
 pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
 pub use chereme_analysis::phases::{NoPath, PhaseScore};
 pub use chereme_analysis::{Score, ScoreOptions};

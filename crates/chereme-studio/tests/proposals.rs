@@ -131,6 +131,10 @@ fn a_detector_is_chosen_from_the_list_and_its_proposals_are_one_step() {
     until(&mut window, "the strokes", |window| {
         count(window, strokes) > 0
     });
+    until(&mut window, "the notice", |window| {
+        let text = "Proposals on separate tiers, hatched:";
+        window.query_all_by_label_contains(text).next().is_some()
+    });
     let undo = (Modifiers::COMMAND, Key::Z);
     window.key_press_modifiers(undo.0, undo.1);
     window.run_steps(4);

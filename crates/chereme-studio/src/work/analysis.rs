@@ -1,6 +1,6 @@
 //! Jobs that infer annotations from movement, and compare annotations with each other.
 
-use chereme_corpus::{Address, CuedOptions, DetectOptions, Name, ProposeOptions};
+use chereme_corpus::{CuedOptions, DetectOptions, Name, ProposeOptions};
 use chereme_sign::Component;
 
 use super::{About, Job, Outcome};
@@ -39,14 +39,6 @@ pub(crate) fn accept(annotations: Vec<i64>) -> Job {
     Job::new(About::EDIT, move |corpus, progress| {
         let report = corpus.accept_proposals(&annotations, progress);
         report.map(Outcome::Annotated)
-    })
-}
-
-/// Writes the inferred facial movements of a recording onto tiers of proposals.
-pub(crate) fn propose_nonmanuals(recording: Address) -> Job {
-    Job::new(PROPOSE, move |corpus, progress| {
-        corpus.propose_nonmanuals(&recording, true, progress)?;
-        Ok(Outcome::Changed)
     })
 }
 

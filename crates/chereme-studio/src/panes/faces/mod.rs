@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, Choice, Expressions, FoundExpression, Function, Name, Onsets, Rank, Ranked,
+    Address, Choice, DetectOptions, Detector, Expressions, FoundExpression, Function, Name,
+    Nonmanuals, Onsets, ProposeScope, Rank, Ranked,
 };
 use eframe::egui::{Button, ComboBox, Role, ScrollArea, TextStyle, Ui, WidgetInfo};
 
@@ -234,9 +235,10 @@ impl Faces {
         if button.on_hover_text(seen.say(words::PROPOSE_TIP)).clicked()
             && let Some(id) = recording
         {
-            out.work(analysis::propose_nonmanuals(Address::Recording(
-                Name::Number(id),
-            )));
+            out.work(analysis::detect(DetectOptions {
+                detector: Nonmanuals.name().to_owned(),
+                scope: ProposeScope::Recording(Name::Number(id)),
+            }));
         }
     }
 

@@ -111,7 +111,7 @@ pub(crate) fn news(
     if own {
         let reported_already = newest.kind != OperationKind::Do
             || newest.name.starts_with("recombine")
-            || newest.name == "delete";
+            || ["delete", "propose"].contains(&newest.name.as_str());
         return (!reported_already).then(|| sentence(newest, language));
     }
     let what = match newest.kind {
@@ -190,6 +190,7 @@ mod tests {
             "2 removed in Un",
         );
         let made = row(2, OperationKind::Do, None, "recombine", "A = B");
+        let proposed = row(2, OperationKind::Do, None, "propose", "3 added in Un");
         let said = |now: &OperationRow, own| {
             let now = [now.clone(), before[0].clone()];
             news([&before, &now], own, Language::English)
@@ -204,6 +205,7 @@ mod tests {
             Some("Zoé changed the corpus in another program: 2 annotations restored in Un")
         );
         assert_eq!((said(&undid, true), said(&made, true)), (None, None));
+        assert_eq!(said(&proposed, true), None, "its own notice says more");
         assert_eq!(news([&before, &before], true, Language::English), None);
     }
 
