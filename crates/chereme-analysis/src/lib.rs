@@ -29,6 +29,9 @@ pub mod strokes;
 pub mod transcribe;
 
 #[cfg(test)]
+#[path = "../../../tests/shared/golden.rs"]
+mod golden;
+#[cfg(test)]
 mod tests;
 
 pub use kinematics::{Kinematics, kinematics};

@@ -1,10 +1,7 @@
 //! Golden tables of the models of cued speech.
 
-use std::fmt::Write as _;
-
 use glam::DVec3;
 
-use super::compare;
 use crate::cue::face::{FaceModel, share_of};
 use crate::cue::gauss::{Confusion, Recogniser};
 use crate::cue::generate::{self, RATE, Settings, Take};
@@ -13,10 +10,7 @@ use crate::cue::rigid::Rigid;
 use crate::cue::session::{
     Followed, Key, KeyGestures, KeySounds, examples, find, find_known, phases,
 };
-
-fn put(out: &mut String, line: impl AsRef<str>) {
-    writeln!(out, "{}", line.as_ref()).expect("a text grows");
-}
+use crate::golden::{compare, put};
 
 fn clean() -> Settings {
     Settings {

@@ -1,13 +1,12 @@
 //! Golden tables of alignments, shifts, maps, curves of faces, phases, and of what is measured in movement.
 
-use std::fmt::Write as _;
 use std::ops::Range;
 
 use chereme_motion::{Anatomy, Clip, Side};
 
-use super::compare;
 use crate::align::{Signal, shift};
 use crate::dtw::{self, Local, Policy, Series, StepPattern, Window};
+use crate::golden::{compare, put};
 use crate::kinematics::minima;
 use crate::map::{Features, lay_out, neighbours};
 use crate::measure::MeasuredKind;
@@ -16,10 +15,6 @@ use crate::phases::{self, Phased};
 use crate::strokes::{Mover, strokes};
 use crate::transcribe::tests::movements::{Case, one_hand, two_hands};
 use crate::{ScoreOptions, kinematics, measure, score};
-
-fn put(out: &mut String, line: impl AsRef<str>) {
-    writeln!(out, "{}", line.as_ref()).expect("a text grows");
-}
 
 /// Returns an irregular series of three channels.
 fn series(frames: usize, tempo: f64, shift: f64) -> Series {

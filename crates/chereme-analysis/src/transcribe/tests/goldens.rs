@@ -12,7 +12,7 @@ use super::super::tree::Sight;
 use super::super::words;
 use super::movements::{Case, captured, one_hand, places, two_hands};
 use super::*;
-use crate::tests::compare;
+use crate::golden::compare;
 
 #[test]
 fn golden_transcriptions_of_one_hand_hold_every_number_that_is_found() {
