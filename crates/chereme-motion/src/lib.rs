@@ -59,6 +59,12 @@ pub mod time;
 pub mod times;
 pub mod wrist;
 
+#[cfg(test)]
+#[path = "../../../tests/shared/golden.rs"]
+mod golden;
+#[cfg(test)]
+mod tests;
+
 pub use anatomy::{
     Anatomy, ArmChain, Evidence, HandCorrection, HandRange, Part, Roles, RolesError,
 };

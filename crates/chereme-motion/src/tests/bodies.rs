@@ -1,0 +1,360 @@
+//! Golden tables of bodies: their parts, measures, landmarks, hands, units and axes.
+
+use glam::{DQuat, DVec3};
+
+use super::{dressed, list, milli, signing, turned};
+use crate::anatomy::detect_convention;
+use crate::anatomy::fixtures::conventions::{conventional, conventions};
+use crate::anatomy::fixtures::{PLAIN, Wear, any_turn, body, renamed, wears};
+use crate::golden::{compare, put};
+use crate::{
+    Anatomy, Axes, Convention, Direction, Evidence, FingerAngles, HandAngles, ModelPose, Part,
+    Side, Skeleton, ThumbAngles,
+};
+
+/// Returns the joints of all parts that were found, with a letter for the evidence of each.
+fn parts(anatomy: &Anatomy) -> String {
+    let letter = |evidence| match evidence {
+        Evidence::Roles => 'r',
+        Evidence::Name => 'n',
+        Evidence::Topology => 't',
+    };
+    let found = anatomy
+        .found()
+        .map(|(part, joint, how)| format!("{part} {joint}{}", letter(how)));
+    found.collect::<Vec<_>>().join(", ")
+}
+
+fn described(out: &mut String, skeleton: &Skeleton, anatomy: &Anatomy) {
+    put(out, format!("parts: {}", parts(anatomy)));
+    put(
+        out,
+        format!(
+            "missing {:?} ambiguous {:?} markers {:?}",
+            anatomy.missing(),
+            anatomy.ambiguous(),
+            anatomy.markers()
+        ),
+    );
+    put(out, format!("mirror {:?}", anatomy.mirror_map(skeleton)));
+}
+
+#[test]
+fn golden_parts_of_skeletons_under_many_names() {
+    let mut out = String::new();
+    let plain = body(PLAIN);
+    for (name, sides, names) in conventions() {
+        put(&mut out, format!("## {name}"));
+        let named = renamed(&plain, |_, part| {
+            let part: Part = part.parse().expect("a part");
+            conventional(part, sides, &names)
+        });
+        described(&mut out, &named, &Anatomy::detect(&named));
+    }
+    let nameless = |wear: Wear| renamed(&body(wear), |n, _| format!("J{n}"));
+    for (name, wear) in wears() {
+        put(&mut out, format!("## {name}, without names"));
+        let skeleton = nameless(wear);
+        described(&mut out, &skeleton, &Anatomy::detect(&skeleton));
+    }
+    put(&mut out, "## sides that no name shows");
+    let sideless = renamed(&plain, |_, part| {
+        part.replace("right ", "").replace("left ", "")
+    });
+    described(&mut out, &sideless, &Anatomy::detect(&sideless));
+    put(&mut out, "## names that say two things");
+    let twice = renamed(&plain, |n, part| match n {
+        3 => "Head".to_owned(),
+        12 | 13 => "RightHand".to_owned(),
+        _ => part.to_owned(),
+    });
+    described(&mut out, &twice, &Anatomy::detect(&twice));
+    put(&mut out, "## parts");
+    for part in Part::all() {
+        put(
+            &mut out,
+            format!(
+                "{part}: {:?} {} usual {}",
+                part.side().map(Side::name),
+                part.mirrored(),
+                part.is_usual()
+            ),
+        );
+    }
+    compare("parts", &out);
+}
+
+/// Returns postures of hands: a fist, a claw, a spread hand and one with every angle different.
+fn hands() -> Vec<HandAngles> {
+    let finger = |n: usize, bend: f64, spread: f64| FingerAngles {
+        spread: spread * (1.5 - n as f64),
+        flexion: [bend, 1.1 * bend + 0.02, 0.6 * bend],
+    };
+    let hand = |thumb: [f64; 5], bend: f64, more: f64, spread: f64| HandAngles {
+        thumb: ThumbAngles {
+            radial: thumb[0],
+            palmar: thumb[1],
+            opposition: thumb[2],
+            flexion: [thumb[3], thumb[4]],
+        },
+        fingers: [0, 1, 2, 3].map(|n| finger(n, bend + more * n as f64, spread)),
+    };
+    vec![
+        HandAngles::default(),
+        hand([0.3, 0.5, 0.6, 0.5, 0.7], 1.4, 0.0, 0.0),
+        hand([0.8, 0.2, 0.1, 0.1, 0.2], 0.6, 0.05, 0.12),
+        hand([1.0, 0.1, 0.0, -0.1, 0.0], -0.05, 0.0, 0.2),
+        hand([0.4, 0.9, 1.1, 0.3, 0.4], 0.2, 0.35, 0.1),
+    ]
+}
+
+fn handled(out: &mut String, skeleton: &Skeleton, anatomy: &Anatomy) {
+    for side in Side::BOTH {
+        let Some(hand) = anatomy.joint(Part::Hand(side)) else {
+            continue;
+        };
+        for (n, angles) in hands().iter().enumerate() {
+            let mut pose = signing(skeleton, anatomy, 0.7 + n as f64);
+            let set = anatomy.set_hand_angles(skeleton, side, angles, &mut pose);
+            put(out, format!("{} hand {n}: set {set}", side.name()));
+            let read = anatomy.hand_angles(skeleton, side, &pose);
+            let degrees = read.map(|it| list(it.map(f64::to_degrees).to_array()));
+            put(out, format!("  read {degrees:?}"));
+            let model = ModelPose::of(skeleton, &pose);
+            let back = model.rotation(hand).inverse();
+            let tips = ["thumb", "index", "middle", "ring", "little"].map(|digit| {
+                let name = format!("{}-{digit}-tip", side.name());
+                let at = anatomy.landmark(skeleton, &model, &name);
+                at.map_or("none".to_owned(), |at| {
+                    milli(back * (at - model.position(hand)))
+                })
+            });
+            put(out, format!("  tips {}", tips.join(", ")));
+        }
+    }
+}
+
+fn directed(out: &mut String, skeleton: &Skeleton, anatomy: &Anatomy, model: &ModelPose) {
+    for side in Side::BOTH {
+        let along = anatomy.hand_direction(side, model);
+        let palm = anatomy.palm_normal(side, model);
+        put(
+            out,
+            format!(
+                "{}: along {:?} palm {:?} elbow {:?} fingers {:?} {} arm {:?} {:?}",
+                side.name(),
+                along.map(milli),
+                palm.map(milli),
+                anatomy.elbow(side).map(milli),
+                anatomy.fingers(side),
+                anatomy.has_fingers(side),
+                anatomy.arm(side),
+                anatomy.arm_joints(side)
+            ),
+        );
+        let asked = anatomy.hand_rotation(side, DVec3::new(0.3, 0.8, 0.5), DVec3::X);
+        put(out, format!("  asked {:?}", asked.map(turned)));
+    }
+    put(
+        out,
+        format!(
+            "head {:?}",
+            anatomy.head_axes(model).map(|it| it.map(milli))
+        ),
+    );
+    if let Some(frame) = anatomy.body_frame(model) {
+        let at = DVec3::new(0.2, 1.3, 0.4);
+        put(
+            out,
+            format!(
+                "trunk at {} left {} up {} forward {} scale {:?}; {} {} {} {} {}",
+                milli(frame.origin),
+                milli(frame.left),
+                milli(frame.up),
+                milli(frame.forward),
+                frame.scale,
+                milli(frame.to_body(at)),
+                milli(frame.to_model(at)),
+                milli(frame.direction_to_body(at)),
+                milli(frame.direction_to_model(at)),
+                turned(frame.rotation())
+            ),
+        );
+    }
+    let tips = (0..skeleton.len()).filter_map(|joint| model.tip(skeleton, joint));
+    put(out, format!("tips {}", milli(tips.sum::<DVec3>())));
+}
+
+#[test]
+fn golden_measures_and_hands_of_bodies() {
+    let mut out = String::new();
+    for (name, wear) in wears() {
+        let (skeleton, anatomy) = dressed(wear);
+        put(&mut out, format!("## {name}"));
+        put(
+            &mut out,
+            format!("{:?} posed {}", anatomy.measures(), anatomy.is_posed()),
+        );
+        directed(&mut out, &skeleton, &anatomy, &skeleton.rest_model_pose());
+        let pose = signing(&skeleton, &anatomy, 0.7);
+        directed(
+            &mut out,
+            &skeleton,
+            &anatomy,
+            &ModelPose::of(&skeleton, &pose),
+        );
+        handled(&mut out, &skeleton, &anatomy);
+    }
+    compare("measures_hands", &out);
+}
+
+#[test]
+fn golden_places_on_bodies() {
+    let mut out = String::new();
+    let eyes = {
+        let mut joints = body(PLAIN).joints().to_vec();
+        let head = joints.iter().position(|it| it.name == "head");
+        for side in Side::BOTH {
+            let at = DVec3::new(side.sign() * 0.03, 0.07, 0.08);
+            let name = Part::Eye(side).to_string();
+            joints.push(crate::Joint::new(name, head, at));
+        }
+        Skeleton::new(joints).expect("a tree")
+    };
+    let legless = {
+        let keep = |name: &str| {
+            !["thigh", "shin", "foot", "toes"]
+                .iter()
+                .any(|it| name.contains(it))
+        };
+        let joints = body(PLAIN).joints().to_vec();
+        let kept: Vec<usize> = (0..joints.len())
+            .filter(|&n| keep(&joints[n].name))
+            .collect();
+        let moved = kept.iter().map(|&n| crate::Joint {
+            parent: joints[n]
+                .parent
+                .and_then(|parent| kept.iter().position(|&it| it == parent)),
+            ..joints[n].clone()
+        });
+        Skeleton::new(moved.collect()).expect("a tree")
+    };
+    let odd = body(Wear {
+        frames: any_turn,
+        tips: false,
+        bent: 0.2,
+        lowered: 0.5,
+        ..PLAIN
+    });
+    let bodies = [
+        ("plain", body(PLAIN)),
+        ("with eyes", eyes),
+        ("without legs", legless),
+        ("odd frames", odd),
+    ];
+    for (name, skeleton) in &bodies {
+        put(&mut out, format!("## {name}"));
+        let roles = crate::anatomy::fixtures::roles(skeleton);
+        let anatomy = Anatomy::with_roles(skeleton, &roles).expect("a body");
+        put(&mut out, format!("{:?}", anatomy.measures()));
+        let model = ModelPose::of(skeleton, &signing(skeleton, &anatomy, 0.7));
+        for place in Anatomy::landmarks() {
+            let at = anatomy.landmark(skeleton, &model, &place).map(milli);
+            put(
+                &mut out,
+                format!("{place} {}", at.as_deref().unwrap_or("none")),
+            );
+        }
+    }
+    let (skeleton, anatomy) = dressed(PLAIN);
+    let model = skeleton.rest_model_pose();
+    put(&mut out, "## other names");
+    for name in [
+        "Ear left",
+        "left_lips",
+        "top-of-head",
+        "ear",
+        "moon",
+        "right hips",
+        "Trunk",
+    ] {
+        let at = anatomy.landmark(&skeleton, &model, name).map(milli);
+        put(&mut out, format!("{name}: {at:?}"));
+    }
+    compare("places", &out);
+}
+
+#[test]
+fn golden_units_and_axes_of_skeletons() {
+    let mut out = String::new();
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let sizes = [
+        ("m", 1.0),
+        ("cm", 100.0),
+        ("mm", 1000.0),
+        ("inch", 39.37),
+        ("acclaim", 0.45 * 39.37),
+        ("unknown", 7.0),
+    ];
+    let axes = [
+        ("usual", DQuat::IDENTITY),
+        ("z up", DQuat::from_rotation_x(quarter)),
+        ("facing x", DQuat::from_rotation_y(quarter)),
+        ("upside down", DQuat::from_rotation_z(2.0 * quarter)),
+        ("leaning", DQuat::from_rotation_x(0.3)),
+    ];
+    for (unit, size) in sizes {
+        for (turn, axes) in axes {
+            let skeleton = body(Wear {
+                unit: size,
+                axes,
+                lowered: 0.4,
+                ..PLAIN
+            });
+            put(&mut out, format!("## {unit}, {turn}"));
+            put(
+                &mut out,
+                format!("{:?}", detect_convention(&skeleton, None)),
+            );
+            let mut first = skeleton.rest_pose();
+            first.rotations[0] = DQuat::from_rotation_y(quarter);
+            let first = ModelPose::of(&skeleton, &first);
+            put(
+                &mut out,
+                format!("turned {:?}", detect_convention(&skeleton, Some(&first))),
+            );
+        }
+    }
+    put(&mut out, "## axes");
+    let directions = ["+X", "-x", "Y", "-Y", "+z", "-Z", "W", ""];
+    for up in directions {
+        for left in directions {
+            let found: Option<(Direction, Direction)> = up.parse().ok().zip(left.parse().ok());
+            let Some((up, left)) = found else { continue };
+            let Some(axes) = Axes::new(up, left) else {
+                continue;
+            };
+            let convention = Convention {
+                metres_per_unit: 0.01,
+                axes,
+            };
+            put(
+                &mut out,
+                format!(
+                    "{up} {left}: forward {} {} {}",
+                    axes.forward(),
+                    turned(axes.to_model()),
+                    milli(convention.point(DVec3::new(10.0, 20.0, 35.0)))
+                ),
+            );
+        }
+    }
+    for at in [
+        DVec3::new(1.0, -1.0, 0.5),
+        DVec3::new(0.1, -1.0, 1.0),
+        DVec3::NEG_Z,
+    ] {
+        put(&mut out, format!("nearest {}", Direction::nearest(at)));
+    }
+    compare("units_axes", &out);
+}
