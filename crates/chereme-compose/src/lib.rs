@@ -45,6 +45,9 @@ mod error;
 mod evaluate;
 mod explain;
 mod face;
+#[cfg(test)]
+#[path = "../../../tests/shared/golden.rs"]
+mod golden;
 mod json;
 mod language;
 mod learn;

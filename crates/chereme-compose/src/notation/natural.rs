@@ -19,6 +19,7 @@ use crate::outcome::About;
 use crate::testing::Axes;
 
 mod planned;
+mod tables;
 
 fn alive(sign: &Notated) -> Generated {
     animate(&[sign], &stage(Axes::Odd), &Settings::default()).expect("it can be animated")

@@ -4,9 +4,12 @@ mod choices;
 mod curves;
 mod draft;
 mod expression;
+mod goldens;
 mod laws;
+mod notated;
 mod operators;
 mod robust;
+mod said;
 mod values;
 
 use chereme_motion::glam::DVec3;
