@@ -10,6 +10,9 @@ pub mod faces;
 pub mod fbx;
 mod finding;
 pub mod gltf;
+#[cfg(test)]
+#[path = "../../../tests/shared/golden.rs"]
+mod golden;
 pub mod hns;
 pub mod keypoints;
 pub mod lexicon;
@@ -21,6 +24,8 @@ pub mod sigml;
 pub mod subtitles;
 pub mod table;
 mod tally;
+#[cfg(test)]
+mod tests;
 pub mod textgrid;
 pub mod timecode;
 pub mod tracks;

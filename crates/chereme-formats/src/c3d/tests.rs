@@ -341,3 +341,52 @@ fn markers_read_back_unchanged_from_c3d() {
         }
     }
 }
+
+#[test]
+fn golden_points_and_numbers_of_c3d() {
+    use crate::golden::{compare, put};
+    use crate::tests::{bytes, findings, tracks};
+    let mut out = String::new();
+    for kind in [84, 85, 86] {
+        for is_real in [false, true] {
+            let plain = file(kind, is_real);
+            // The label of the unit's parameter becomes that of a model's outputs.
+            let at = memchr::memmem::find(&plain, b"UNITS").expect("units");
+            let mut angles = plain.clone();
+            angles[at..at + 5].copy_from_slice(b"POWER");
+            // A second list of labels names one of the points as an output of a model.
+            let label = memchr::memmem::find(&plain, b"LABELS").expect("labels") - 2;
+            let mut list = plain[label..label + 27].to_vec();
+            list[2..8].copy_from_slice(b"ANGLES");
+            let first = memchr::memmem::find(&list, b"LSHO").expect("a label");
+            list[first..first + 4].copy_from_slice(b"NONE");
+            let mut modelled = plain.clone();
+            modelled.drain(1024 - list.len()..1024);
+            modelled.splice(label..label, list);
+            for (name, file) in [
+                ("plain", plain),
+                ("no unit", angles),
+                ("a model's", modelled),
+            ] {
+                put(&mut out, format!("## {name} {kind} {is_real}"));
+                match read(&file) {
+                    Ok((read, found)) => {
+                        tracks(&mut out, &read);
+                        findings(&mut out, &found);
+                        if let (Content::Markers(markers), true) =
+                            (&read.tracks[0].content, kind == 84)
+                        {
+                            let written = write(markers, Instant::from_millis(40));
+                            match written {
+                                Ok(written) => bytes(&mut out, &written),
+                                Err(error) => put(&mut out, error),
+                            }
+                        }
+                    }
+                    Err(error) => put(&mut out, format!("refused: {error}")),
+                }
+            }
+        }
+    }
+    compare("c3d", &out);
+}

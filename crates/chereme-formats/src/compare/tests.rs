@@ -471,3 +471,36 @@ fn an_hour_of_work_by_two_annotators_is_merged_without_loss() {
     let other = merge(&base, &theirs, &mine);
     assert_eq!(other.conflicts.len(), merged.conflicts.len());
 }
+
+#[test]
+fn golden_differences_and_merges() {
+    use crate::golden::{compare, put};
+    let mut out = String::new();
+    let documents = [
+        "G: a1 0-100 CHAT, a2 200-300 CHIEN, a3 400-500 VACHE\nP <G: a4 ^a1 x, a5 ^a1 y",
+        "G: a1 0-100 CHAT, a2 200-350 CHIEN, a9 600-700 LION\nP <G: a4 ^a1 z, a5 ^a1 y\nN:",
+        "G: a1 0-120 CHAT, a2 200-340 LOUP, a3 400-500 VACHE\nQ: q1 0-50 n",
+        "G: b1 0-100 CHAT, b2 205-300 CHIEN, b3 400-500 VACHES, b4 800-900 OURS\nP <G: b5 ^b1 y, b6 ^b1 x, b7 ^b4 w",
+        "",
+    ];
+    let documents: Vec<Transcript> = documents.iter().map(|text| document(text)).collect();
+    for (n, a) in documents.iter().enumerate() {
+        for (m, b) in documents.iter().enumerate().filter(|(m, _)| *m != n) {
+            put(&mut out, format!("## from {n} to {m}"));
+            let found = diff(a, b);
+            put(&mut out, format!("{} {found:?}", found.is_empty()));
+            put(&mut out, format!("applied {:?}", shown(&apply(&found, a))));
+            for merged in [merge_two(a, b), merge(&documents[0], a, b)] {
+                put(&mut out, format!("merged {:?}", shown(&merged.document)));
+                for conflict in &merged.conflicts {
+                    put(&mut out, format!("  {conflict:?}"));
+                }
+                put(
+                    &mut out,
+                    format!("both {:?}", shown(&with_candidates(&merged))),
+                );
+            }
+        }
+    }
+    compare("differences", &out);
+}

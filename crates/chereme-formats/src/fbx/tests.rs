@@ -193,3 +193,32 @@ fn files_of_other_people_are_read_as_other_programs_read_them() {
         }
     }
 }
+
+#[test]
+fn golden_scene_of_fbx() {
+    use crate::golden::{compare, put};
+    let mut out = String::new();
+    for (name, text) in [
+        ("plain", PLAIN.to_owned()),
+        (
+            "another unit",
+            PLAIN.replace(
+                "UnitScaleFactor\", \"double\", \"Number\", \"\",1",
+                "UnitScaleFactor\", \"double\", \"Number\", \"\",100",
+            ),
+        ),
+    ] {
+        put(&mut out, format!("## {name}"));
+        let (scene, found) = read(text.as_bytes()).expect("an ASCII FBX");
+        crate::tests::clip(&mut out, &scene.clip);
+        put(
+            &mut out,
+            format!("{:?} {:?} {:?}", scene.convention, scene.take, scene.clock),
+        );
+        if let Some(morphs) = &scene.morphs {
+            crate::tests::curves(&mut out, morphs);
+        }
+        crate::tests::findings(&mut out, &found);
+    }
+    compare("fbx", &out);
+}

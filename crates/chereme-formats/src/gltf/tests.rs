@@ -448,3 +448,50 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
         assert!(want.angle_between(got) < 1e-3, "{frame}");
     }
 }
+
+#[test]
+fn golden_scenes_and_avatars() {
+    use crate::golden::{compare, put};
+    use crate::tests::{clip as clip_of, scene_file};
+    let mut out = String::new();
+    let about = About {
+        name: "CHAT".into(),
+        licence: Some("CC0".into()),
+        notes: vec![Note {
+            tier: "gloss".into(),
+            begin: 0.1,
+            end: 0.4,
+            value: "CHAT".into(),
+        }],
+    };
+    let bytes = write(&clip(), &about);
+    scene_file(&mut out, &bytes);
+    let (scene, found) = parse(&bytes).expect("a GLB");
+    clip_of(&mut out, &scene.clip);
+    put(
+        &mut out,
+        format!("{:?} {:?} {found:?}", scene.convention, scene.take),
+    );
+    put(&mut out, "## an avatar");
+    let skeleton = Arc::new(figure());
+    let anatomy = chereme_motion::Anatomy::detect(&skeleton);
+    let channel = |joint: usize| Channel {
+        rotations: (0..6)
+            .map(|frame| DQuat::from_rotation_x(0.07 * f64::from(frame) * (joint % 4) as f64))
+            .collect(),
+        translations: (joint == 0).then(|| {
+            let at = |frame: i32| DVec3::new(0.02 * f64::from(frame), 0.9, -0.01);
+            (0..6).map(at).collect()
+        }),
+    };
+    let channels = (0..skeleton.len()).map(channel).collect();
+    let rate = Rate::new(30, 1).expect("a rate");
+    let moving = Clip::new(skeleton, rate, channels).expect("a clip");
+    let expressions = ["happy", "brow_raise"].map(|name| vrma::Expression {
+        name: name.into(),
+        weights: (0..6).map(|frame| 0.2 * f64::from(frame)).collect(),
+    });
+    let bytes = vrma::write(&moving, &anatomy, &expressions, &about).expect("written");
+    scene_file(&mut out, &bytes);
+    compare("gltf", &out);
+}

@@ -140,3 +140,75 @@ fn files_without_points_are_refused() {
         assert!(done.is_err(), "{text}");
     }
 }
+
+/// The number of a frame and the text of its file.
+type File = (Option<u64>, String);
+
+#[test]
+fn golden_points_of_people_on_film() {
+    use crate::golden::{compare, put};
+    use crate::tests::{findings, tracks};
+    let mut out = String::new();
+    let mark = |n: usize| {
+        format!(
+            r#"{{"x":{},"y":{},"z":-0.125,"visibility":0.{n}5}}"#,
+            0.01 * n as f64,
+            0.5 - 0.02 * n as f64
+        )
+    };
+    let marks: Vec<String> = (0..33).map(mark).collect();
+    let marks = marks.join(",");
+    let frames = format!(
+        "\"frames\":{{\"0\":{},\"1\":{}}}",
+        frame(&[1.5]),
+        frame(&[2.5, 90.0])
+    );
+    let cases: [(&str, Vec<File>); 5] = [
+        (
+            "people who change places",
+            vec![
+                (Some(7), frame(&[100.0, 500.0])),
+                (Some(8), frame(&[505.0, 101.0])),
+                (Some(10), frame(&[102.0])),
+                (Some(11), frame(&[700.0, 103.0, 498.0])),
+            ],
+        ),
+        (
+            "cameras",
+            vec![(
+                None,
+                format!(
+                    "[{{\"camera\":\"a1\",\"width\":1280,\"height\":720,{frames}}},{{\"camera\":\"b1\",{frames}}}]"
+                ),
+            )],
+        ),
+        (
+            "landmarks",
+            vec![(
+                None,
+                format!(
+                    "[{{\"timestampMs\":0,\"poseLandmarks\":[{marks}],\"poseWorldLandmarks\":[{marks}]}},{{\"timestampMs\":40,\"leftHandLandmarks\":[{marks}]}}]"
+                ),
+            )],
+        ),
+        ("nobody", vec![(Some(1), "{\"people\":[]}".to_owned())]),
+        ("no JSON", vec![(Some(1), "{".to_owned())]),
+    ];
+    for (name, files) in cases {
+        for rate in [None, chereme_motion::Rate::new(50, 1).ok()] {
+            put(&mut out, format!("## {name} {rate:?}"));
+            let mut reader = Reader::default();
+            let pushed = files
+                .iter()
+                .try_for_each(|(number, text)| reader.push(*number, text.as_bytes()));
+            match pushed.and_then(|()| reader.finish(rate)) {
+                Ok((read, found)) => {
+                    tracks(&mut out, &read);
+                    findings(&mut out, &found);
+                }
+                Err(error) => put(&mut out, format!("refused: {error}")),
+            }
+        }
+    }
+    compare("keypoints", &out);
+}

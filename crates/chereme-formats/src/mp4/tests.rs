@@ -424,3 +424,44 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn golden_films_written_and_read() {
+    use crate::golden::{compare, put};
+    let mut out = String::new();
+    let whole = film(9);
+    crate::tests::bytes(&mut out, &whole);
+    let container = opened(&whole);
+    for frame in &container.frames {
+        put(&mut out, format!("{frame:?}"));
+    }
+    put(
+        &mut out,
+        format!(
+            "{:?}",
+            Container {
+                frames: Vec::new(),
+                ..container
+            }
+        ),
+    );
+    let piece = sequence();
+    put(&mut out, format!("{:?}", h264::sequence(&piece)));
+    for profile in [66, 77, 100, 122] {
+        for format in ["1", "010", "011"] {
+            let odd = sequence_of(profile, format, &codes(&[0, 3]), "01");
+            put(
+                &mut out,
+                format!("{profile} {format}: {:?}", h264::sequence(&odd)),
+            );
+        }
+    }
+    for cut in [0, 8, 40, whole.len() / 2, whole.len() - 1] {
+        let read = read(&mut Cursor::new(&whole[..cut])).map(|it| it.0.frames.len());
+        put(
+            &mut out,
+            format!("{cut} bytes: {:?}", read.map_err(|it| it.to_string())),
+        );
+    }
+    compare("mp4", &out);
+}

@@ -164,3 +164,24 @@ fn files_of_others_hold_the_known_values() {
         }
     }
 }
+
+#[test]
+fn golden_points_of_pose_files() {
+    use crate::golden::{compare, put};
+    use crate::tests::{findings, tracks};
+    let mut out = String::new();
+    for version in [0.0, 0.1, 0.2] {
+        let whole = file(version);
+        for cut in [whole.len(), whole.len() - 1, 30, 3] {
+            put(&mut out, format!("## version {version}, {cut} bytes"));
+            match read(&whole[..cut]) {
+                Ok((read, found)) => {
+                    tracks(&mut out, &read);
+                    findings(&mut out, &found);
+                }
+                Err(error) => put(&mut out, format!("refused: {error}")),
+            }
+        }
+    }
+    compare("pose", &out);
+}

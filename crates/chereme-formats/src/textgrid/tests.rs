@@ -235,3 +235,48 @@ fn grids_of_others_are_read_whole() {
         assert_eq!(plain(&again), plain(&transcript), "{name}");
     }
 }
+
+#[test]
+fn golden_textgrids_read_and_written() {
+    use crate::golden::{compare, put};
+    use crate::tests::{findings, transcript};
+    let mut out = String::new();
+    let files = [
+        ("long", LONG.as_bytes().to_vec()),
+        ("short", SHORT.as_bytes().to_vec()),
+        ("binary", binary_form()),
+        ("UTF-16", utf16(true, true)),
+        (
+            "overlap",
+            LONG.replace("xmax = 1.25", "xmax = 1.5").into_bytes(),
+        ),
+        (
+            "backwards",
+            LONG.replace("xmin = 1.25", "xmin = 9").into_bytes(),
+        ),
+        (
+            "another count",
+            LONG.replace("size = 2", "size = 3").into_bytes(),
+        ),
+        ("broken off", LONG.as_bytes()[..LONG.len() / 2].to_vec()),
+        ("none", b"text".to_vec()),
+    ];
+    for (name, bytes) in &files {
+        put(&mut out, format!("## {name}"));
+        match read(bytes) {
+            Ok((it, found)) => {
+                transcript(&mut out, &it);
+                findings(&mut out, &found);
+                for form in [Form::Long, Form::Short] {
+                    for end in [Instant::ZERO, Instant::from_millis(4000)] {
+                        let (text, found) = write(&it, form, end);
+                        put(&mut out, text);
+                        findings(&mut out, &found);
+                    }
+                }
+            }
+            Err(error) => put(&mut out, format!("refused: {error}")),
+        }
+    }
+    compare("textgrid", &out);
+}

@@ -143,3 +143,52 @@ fn files_of_others_are_read_whole() {
     }
     assert_eq!(seen, 13);
 }
+
+#[test]
+fn golden_points_of_trc() {
+    use crate::golden::{compare, put};
+    use crate::tests::{findings, tracks};
+    let mut out = String::new();
+    for (name, text) in [
+        ("plain", PLAIN.to_owned()),
+        ("metres", PLAIN.replace("mm", "m")),
+        ("an odd unit", PLAIN.replace("mm", "ell")),
+        (
+            "feet",
+            PLAIN.replace("LSHO", "LTOE").replace("RSHO", "HEAD"),
+        ),
+        ("wrong count", PLAIN.replace("\t2\t2\tmm", "\t9\t2\tmm")),
+        ("uneven", PLAIN.replace("0.010000", "0.5")),
+        (
+            "no times",
+            PLAIN.replace("0.010000", "").replace("0.000000", ""),
+        ),
+        (
+            "late",
+            PLAIN
+                .replace("0.010000", "5.010000")
+                .replace("0.000000", "5.000000"),
+        ),
+        ("other rate", PLAIN.replace("100\t100\t2", "60\t60\t2")),
+        ("broken off", PLAIN[..PLAIN.len() - 4].to_owned()),
+        (
+            "no rows",
+            PLAIN.split("1\t0.0").next().unwrap_or_default().to_owned(),
+        ),
+        ("not one", "a\tb\n".to_owned()),
+    ] {
+        put(&mut out, format!("## {name}"));
+        match read(text.as_bytes()) {
+            Ok((read, found)) => {
+                tracks(&mut out, &read);
+                findings(&mut out, &found);
+                if let Content::Markers(markers) = &read.tracks[0].content {
+                    let written = write("a", markers, read.tracks[0].offset);
+                    put(&mut out, written.unwrap_or_else(|error| error));
+                }
+            }
+            Err(error) => put(&mut out, format!("refused: {error}")),
+        }
+    }
+    compare("trc", &out);
+}

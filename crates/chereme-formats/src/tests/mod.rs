@@ -1,0 +1,144 @@
+//! Golden tables: every field of documents that readers return, and what writers make of them.
+
+mod annotations;
+mod captures;
+mod codings;
+
+use chereme_motion::{Clip, Curves, Markers};
+
+use crate::Finding;
+use crate::eaf::Transcript;
+use crate::golden::put;
+use crate::tracks::{Content, Tracks};
+
+/// Writes down findings, one on each line.
+pub(crate) fn findings(out: &mut String, all: &[Finding]) {
+    for it in all {
+        let line = it.line.map_or("-".to_owned(), |line| line.to_string());
+        put(
+            out,
+            format!(
+                "{:?} {line}: {} {:?} {:?}",
+                it.severity, it.message, it.remedy, it.mend
+            ),
+        );
+    }
+}
+
+/// Writes down the tiers and annotations of a document, one on each line.
+pub(crate) fn transcript(out: &mut String, it: &Transcript) {
+    put(
+        out,
+        format!(
+            "by {:?} at {:?} media {:?} linked {:?} properties {:?}",
+            it.author, it.date, it.media, it.linked_files, it.properties
+        ),
+    );
+    for tier in &it.tiers {
+        let mut head = tier.clone();
+        head.annotations.clear();
+        put(out, format!("{head:?}"));
+        for annotation in &tier.annotations {
+            put(out, format!("  {annotation:?}"));
+        }
+    }
+    for vocabulary in &it.vocabularies {
+        put(out, format!("{vocabulary:?}"));
+    }
+}
+
+fn markers(out: &mut String, it: &Markers) {
+    put(
+        out,
+        format!(
+            "{:?} {:?} {:?} {:?} {} frames limbs {:?}",
+            it.space(),
+            it.capture(),
+            it.quality(),
+            it.times(),
+            it.frames(),
+            it.limbs()
+        ),
+    );
+    for point in it.points() {
+        put(out, format!("  {point:?}"));
+    }
+}
+
+pub(crate) fn curves(out: &mut String, it: &Curves) {
+    put(out, format!("{:?} {} frames", it.times(), it.frames()));
+    for curve in it.curves() {
+        put(out, format!("  {curve:?}"));
+    }
+}
+
+/// Writes down tracks with all their numbers, and their events.
+pub(crate) fn tracks(out: &mut String, it: &Tracks) {
+    for track in &it.tracks {
+        put(
+            out,
+            format!(
+                "{:?} offset {:?} clock {:?}",
+                track.name, track.offset, track.clock
+            ),
+        );
+        match &track.content {
+            Content::Markers(it) => markers(out, it),
+            Content::Curves(it) => curves(out, it),
+        }
+    }
+    if let Some(events) = &it.events {
+        transcript(out, events);
+    }
+}
+
+/// Writes down a clip: its joints, and some frames of each channel.
+pub(crate) fn clip(out: &mut String, it: &Clip) {
+    put(out, format!("{} frames at {:?}", it.frames(), it.rate()));
+    let step = (it.frames() / 3).max(1);
+    for (n, joint) in it.skeleton().joints().iter().enumerate() {
+        put(out, format!("{n} {joint:?}"));
+        let channel = it.channel(n);
+        for frame in (0..it.frames()).step_by(step) {
+            let at = channel.translations.as_ref().map(|all| all[frame]);
+            put(
+                out,
+                format!("  {frame}: {:?} {at:?}", channel.rotations[frame]),
+            );
+        }
+    }
+}
+
+/// Writes down bytes, 32 on each line; lines of zeros are left out.
+pub(crate) fn bytes(out: &mut String, bytes: &[u8]) {
+    put(out, format!("{} bytes", bytes.len()));
+    for (n, row) in bytes.chunks(32).enumerate() {
+        if row.iter().any(|byte| *byte != 0) {
+            let digits: Vec<String> = row.iter().map(|byte| format!("{byte:02x}")).collect();
+            put(out, format!("{:05} {}", 32 * n, digits.join(" ")));
+        }
+    }
+}
+
+/// Writes down the document inside a binary glTF, and its numbers.
+pub(crate) fn scene_file(out: &mut String, file: &[u8]) {
+    let length = u32::from_le_bytes([file[12], file[13], file[14], file[15]]) as usize;
+    let document: serde_json::Value = serde_json::from_slice(&file[20..20 + length]).expect("JSON");
+    for (key, value) in document.as_object().expect("an object") {
+        match value.as_array() {
+            Some(all) => all.iter().for_each(|it| put(out, format!("{key}: {it}"))),
+            None => {
+                let value = value
+                    .to_string()
+                    .replace(env!("CARGO_PKG_VERSION"), "VERSION");
+                put(out, format!("{key}: {value}"));
+            }
+        }
+    }
+    let numbers = file[28 + length..].chunks_exact(4).map(|four| {
+        let number = f32::from_le_bytes([four[0], four[1], four[2], four[3]]);
+        format!("{number:?}")
+    });
+    let numbers: Vec<String> = numbers.collect();
+    numbers.chunks(16).for_each(|row| put(out, row.join(" ")));
+}
