@@ -142,8 +142,8 @@ fn golden_units_directions_and_curves() {
     put(&mut out, "## directions");
     for a in Direction::ALL {
         for b in Direction::ALL {
-            let way = towards(&[a, b]).map(|it| list(it.to_array()));
-            put(&mut out, format!("{} {}: {way:?}", a.name(), b.name()));
+            let middle = towards(&[a, b]).map(|it| list(it.to_array()));
+            put(&mut out, format!("{} {}: {middle:?}", a.name(), b.name()));
         }
         put(&mut out, format!("{:?}", Direction::from_word(a.name())));
     }
@@ -159,7 +159,7 @@ fn golden_units_directions_and_curves() {
         );
     }
     put(&mut out, "## curves");
-    let ways: [&[[f64; 3]]; 5] = [
+    let courses: [&[[f64; 3]]; 5] = [
         &[[0.0, 0.0, 0.0], [0.1, 0.08, 0.0], [0.2, 0.0, 0.0]],
         &[[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.2, 0.001, 0.0]],
         &[
@@ -177,12 +177,16 @@ fn golden_units_directions_and_curves() {
         ],
         &[[0.0, 0.0, 0.0], [0.0, 0.0, 0.3]],
     ];
-    for way in ways {
-        let points: Vec<DVec3> = way.iter().copied().map(DVec3::from).collect();
+    for course in courses {
+        let points: Vec<DVec3> = course.iter().copied().map(DVec3::from).collect();
         let spline = Spline::new(&points);
         put(
             &mut out,
-            format!("{way:?}: length {:?} {}", spline.length(), spline.shape()),
+            format!(
+                "{course:?}: length {:?} {}",
+                spline.length(),
+                spline.shape()
+            ),
         );
         for share in [-0.1, 0.0, 0.13, 0.5, 0.77, 1.0, 1.2] {
             put(

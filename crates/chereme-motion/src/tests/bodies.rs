@@ -8,8 +8,8 @@ use crate::anatomy::fixtures::conventions::{conventional, conventions};
 use crate::anatomy::fixtures::{PLAIN, Wear, any_turn, body, renamed, wears};
 use crate::golden::{compare, put};
 use crate::{
-    Anatomy, Axes, Convention, Direction, Evidence, FingerAngles, HandAngles, ModelPose, Part,
-    Side, Skeleton, ThumbAngles,
+    Anatomy, Axes, Axis, Convention, Direction, Evidence, FingerAngles, HandAngles, Joint,
+    ModelPose, Part, Side, Skeleton, ThumbAngles,
 };
 
 /// Returns the joints of all parts that were found, with a letter for the evidence of each.
@@ -217,7 +217,7 @@ fn golden_places_on_bodies() {
         for side in Side::BOTH {
             let at = DVec3::new(side.sign() * 0.03, 0.07, 0.08);
             let name = Part::Eye(side).to_string();
-            joints.push(crate::Joint::new(name, head, at));
+            joints.push(Joint::new(name, head, at));
         }
         Skeleton::new(joints).expect("a tree")
     };
@@ -231,7 +231,7 @@ fn golden_places_on_bodies() {
         let kept: Vec<usize> = (0..joints.len())
             .filter(|&n| keep(&joints[n].name))
             .collect();
-        let moved = kept.iter().map(|&n| crate::Joint {
+        let moved = kept.iter().map(|&n| Joint {
             parent: joints[n]
                 .parent
                 .and_then(|parent| kept.iter().position(|&it| it == parent)),
@@ -284,6 +284,84 @@ fn golden_places_on_bodies() {
     compare("places", &out);
 }
 
+/// Returns a usual body, one whose toes point backwards, one in a row, and one without limbs.
+fn odd_bodies() -> Vec<(&'static str, Skeleton)> {
+    let usual = body(PLAIN);
+    let change = |change: &dyn Fn(&mut Joint)| {
+        let mut joints = usual.joints().to_vec();
+        joints.iter_mut().for_each(change);
+        Skeleton::new(joints).expect("a tree")
+    };
+    let backwards = change(&|joint| {
+        if joint.name.ends_with("toes") {
+            joint.offset.z = -joint.offset.z;
+        }
+    });
+    let row = change(&|joint| joint.offset = DVec3::Y * joint.offset.length());
+    let limbless = |size: f64| {
+        let trunk = usual.joints()[..5].iter();
+        let trunk = trunk.map(|joint| Joint {
+            offset: joint.offset * size,
+            ..joint.clone()
+        });
+        Skeleton::new(trunk.collect()).expect("a tree")
+    };
+    let (short, long) = (limbless(1.0), limbless(50.0));
+    vec![
+        ("usual", usual),
+        ("backwards", backwards),
+        ("in a row", row),
+        ("without limbs", short),
+        ("without limbs, large", long),
+    ]
+}
+
+#[test]
+fn golden_counterparts_of_joints() {
+    let mut out = String::new();
+    let mut joints = body(PLAIN).joints().to_vec();
+    let at = |name: &str| body(PLAIN).find(name).expect("a joint");
+    for (name, on) in [
+        ("skirt.L", "hips"),
+        ("skirt.R", "hips"),
+        ("LSleeve", "left forearm"),
+        ("RSleeve", "right forearm"),
+        ("r_pocket", "hips"),
+        ("l_pocket", "hips"),
+        ("Left cuff", "left hand"),
+        ("cuff two", "left hand"),
+        ("Right cuff", "right hand"),
+        ("cuff three", "right hand"),
+        ("HAIR LEFT", "head"),
+        ("HAIR RIGHT", "head"),
+        ("lace", "head"),
+        ("race", "head"),
+        ("tail", "hips"),
+        ("bag.l.2", "left clavicle"),
+        ("strap", "right clavicle"),
+        ("2L", "neck"),
+        ("2R", "neck"),
+    ] {
+        joints.push(Joint::new(name, Some(at(on)), DVec3::new(0.01, 0.02, 0.03)));
+        let last = joints.len() - 1;
+        joints.push(Joint::new(
+            format!("{name} end"),
+            Some(last),
+            DVec3::Y * 0.02,
+        ));
+    }
+    let skeleton = Skeleton::new(joints).expect("a tree");
+    let anatomy = Anatomy::detect(&skeleton);
+    for (joint, other) in anatomy.mirror_map(&skeleton).into_iter().enumerate() {
+        let name = other.map(|other| &skeleton.joint(other).name);
+        put(
+            &mut out,
+            format!("{}: {name:?}", skeleton.joint(joint).name),
+        );
+    }
+    compare("counterparts", &out);
+}
+
 #[test]
 fn golden_units_and_axes_of_skeletons() {
     let mut out = String::new();
@@ -323,6 +401,23 @@ fn golden_units_and_axes_of_skeletons() {
                 &mut out,
                 format!("turned {:?}", detect_convention(&skeleton, Some(&first))),
             );
+        }
+    }
+    put(
+        &mut out,
+        "## first frames that stand or face in another direction",
+    );
+    for (name, skeleton) in odd_bodies() {
+        let found = detect_convention(&skeleton, None);
+        put(&mut out, format!("{name}: {found:?}"));
+        for degrees in [20.0_f64, 50.0, 65.0, 100.0, 170.0] {
+            for axis in [Axis::X, Axis::Y, Axis::Z] {
+                let mut first = skeleton.rest_pose();
+                first.rotations[0] = axis.rotation(degrees.to_radians());
+                let first = ModelPose::of(&skeleton, &first);
+                let found = detect_convention(&skeleton, Some(&first));
+                put(&mut out, format!("  {degrees} about {axis:?}: {found:?}"));
+            }
         }
     }
     put(&mut out, "## axes");

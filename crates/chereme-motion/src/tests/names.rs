@@ -163,5 +163,26 @@ fn golden_parts_of_skeletons_with_more_or_fewer_joints() {
             );
         }
     }
+    put(&mut out, "## limbs of different lengths, without names");
+    for limb in [
+        "right forearm",
+        "left upper arm",
+        "right thigh",
+        "left shin",
+    ] {
+        for size in [0.5, 0.8, 1.1, 1.3, 1.6, 2.5] {
+            let mut joints = whole.joints().to_vec();
+            for joint in joints.iter_mut().filter(|it| it.name == limb) {
+                joint.offset *= size;
+            }
+            let uneven = nameless(&Skeleton::new(joints).expect("a tree"));
+            let anatomy = Anatomy::detect(&uneven);
+            let parts: Vec<String> = anatomy
+                .found()
+                .map(|(part, joint, _)| format!("{part} {joint}"))
+                .collect();
+            put(&mut out, format!("{limb} {size}: {}", parts.join(", ")));
+        }
+    }
     compare("odd_joints", &out);
 }

@@ -12,15 +12,15 @@ use crate::{ModelPose, Part, Side};
 
 /// Targets at many distances from the origin, in metres: near, usual, at the reach of half a metre, and beyond.
 fn targets() -> Vec<DVec3> {
-    let ways = [
+    let directions = [
         DVec3::new(0.3, 0.5, 0.8),
         DVec3::new(-0.7, 0.1, 0.2),
         DVec3::new(0.1, -0.9, -0.1),
     ];
     let far = [0.01, 0.2, 0.4, 0.495, 0.499, 0.51, 0.8];
-    let all = ways
+    let all = directions
         .into_iter()
-        .flat_map(|way| far.map(|far| way.normalize() * far));
+        .flat_map(|direction| far.map(|far| direction.normalize() * far));
     all.collect()
 }
 
@@ -258,9 +258,9 @@ fn golden_wrists_that_reach() {
                 let at = n as f64;
                 let mut pose = signing(&skeleton, &anatomy, 0.5 * at);
                 let shoulder = DVec3::new(side.sign() * 0.18, 1.43, 0.0);
-                let way = DVec3::new(-side.sign() * (0.4 - 0.2 * at), 0.6 - 0.15 * at, 0.7);
+                let direction = DVec3::new(-side.sign() * (0.4 - 0.2 * at), 0.6 - 0.15 * at, 0.7);
                 let target = WristTarget {
-                    position: shoulder + way.normalize() * (0.2 + 0.06 * at),
+                    position: shoulder + direction.normalize() * (0.2 + 0.06 * at),
                     rotation: DQuat::from_rotation_y(0.3 * at) * DQuat::from_rotation_x(0.7),
                 };
                 let reach = reach_wrist(&anatomy, &skeleton, side, &target, &options, &mut pose)
