@@ -200,6 +200,53 @@ fn golden_points_of_hands() {
     compare("hand_points", &out);
 }
 
+#[test]
+fn golden_acts_of_head_trunk_and_shoulders() {
+    let mut out = String::new();
+    let span = plan::SignSpan {
+        gloss: "SIGN".into(),
+        from: 1.0,
+        to: 2.6,
+    };
+    let codes: [(NonmanualPart, &[&str]); 3] = [
+        (
+            NonmanualPart::Head,
+            &[
+                "NO", "ND", "SH", "SR", "SL", "TR", "TL", "NF", "NB", "PF", "PB", "LI",
+            ],
+        ),
+        (
+            NonmanualPart::Body,
+            &["RL", "RR", "TL", "TR", "TF", "TB", "RD", "SI", "HE", "ST"],
+        ),
+        (
+            NonmanualPart::Shoulders,
+            &["UR", "UL", "UB", "HR", "HL", "HB", "SR", "SL", "SB"],
+        ),
+    ];
+    for (part, codes) in codes {
+        for (n, code) in codes.iter().enumerate() {
+            let mut act = Act::new(part, *code);
+            if n % 3 == 2 {
+                (act.amount, act.speed) = (Some(0.6), Some(1.7));
+            }
+            let mut sign = notated(HandsUsed::Dominant, flat(None), vec![]);
+            sign.nonmanual.push(part.tier(), vec![act]);
+            let spans = std::slice::from_ref(&span);
+            let language = BodyLanguage::usual();
+            let (bents, busy) = nonmanual::bents(&[&sign], spans, language, 50.0, 160);
+            put(&mut out, format!("## {part:?} {code}"));
+            for frame in [40, 46, 55, 70, 83, 97, 115, 128, 133, 150] {
+                put(
+                    &mut out,
+                    format!("{frame}: {:?} {:?}", bents[frame], busy[frame]),
+                );
+            }
+        }
+    }
+    compare("acts", &out);
+}
+
 fn described(posed: &Posed) -> String {
     format!(
         "shoulder {} elbow {} wrist {}",
