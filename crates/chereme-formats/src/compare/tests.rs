@@ -483,9 +483,16 @@ fn golden_differences_and_merges() {
         "G: b1 0-100 CHAT, b2 205-300 CHIEN, b3 400-500 VACHES, b4 800-900 OURS\nP <G: b5 ^b1 y, b6 ^b1 x, b7 ^b4 w",
         "",
     ];
-    let documents: Vec<Transcript> = documents.iter().map(|text| document(text)).collect();
+    let mut documents: Vec<Transcript> = documents.iter().map(|text| document(text)).collect();
+    // Documents of unknown origin, whose ids agree or do not.
+    for n in 0..4 {
+        let mut unknown = documents[n].clone();
+        unknown.properties.clear();
+        documents.push(unknown);
+    }
     for (n, a) in documents.iter().enumerate() {
-        for (m, b) in documents.iter().enumerate().filter(|(m, _)| *m != n) {
+        let others = documents.iter().enumerate();
+        for (m, b) in others.filter(|(m, _)| *m != n && (n > 4) == (*m > 4)) {
             put(&mut out, format!("## from {n} to {m}"));
             let found = diff(a, b);
             put(&mut out, format!("{} {found:?}", found.is_empty()));

@@ -137,7 +137,11 @@ pub(crate) fn scene_file(out: &mut String, file: &[u8]) {
     }
     let numbers = file[28 + length..].chunks_exact(4).map(|four| {
         let number = f32::from_le_bytes([four[0], four[1], four[2], four[3]]);
-        format!("{number:?}")
+        // Indices are pairs of small integers, which would be tiny numbers.
+        match number == 0.0 || number.is_normal() {
+            true => format!("{number:?}"),
+            false => format!("{four:?}"),
+        }
     });
     let numbers: Vec<String> = numbers.collect();
     numbers.chunks(16).for_each(|row| put(out, row.join(" ")));
