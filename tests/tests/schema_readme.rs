@@ -68,6 +68,22 @@ fn every_query_of_the_readme_works() {
 }
 
 #[test]
+fn the_readme_lists_the_roles_of_tiers() {
+    let (_folder, connection) = corpus();
+    let mut statement = connection
+        .prepare("SELECT '- `' || name || '`: ' || note FROM tier_role")
+        .expect("a table");
+    let rows = statement.query_map([], |row| row.get::<_, String>(0));
+    let rows: Vec<String> = rows.expect("rows").flatten().collect();
+    let readme = readme();
+    let missing: Vec<&String> = rows.iter().filter(|it| !readme.contains(*it)).collect();
+    assert!(
+        rows.len() >= 5 && missing.is_empty(),
+        "add to schema/README.md: {missing:#?}"
+    );
+}
+
+#[test]
 fn an_exported_folder_holds_the_dictionary_and_its_queries_run() {
     let (folder, connection) = corpus();
     drop(connection);

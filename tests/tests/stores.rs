@@ -8,6 +8,8 @@ use chereme_corpus::{
     Corpus, ExportOptions, ExportWhat, ListFilter, ListKind, Name, Progress, SearchOptions, unheard,
 };
 use chereme_tests::{files, repository};
+use rusqlite::Connection;
+use rusqlite::types::Value;
 
 /// Returns the stored corpora by their version of the schema.
 fn stores() -> BTreeMap<usize, PathBuf> {
@@ -145,6 +147,58 @@ fn curves_stored_with_movement_become_tracks_with_their_history() {
     corpus.redo().expect("and made again");
     assert_eq!(tracks(&corpus).len(), 2);
     assert!(corpus.undo().is_ok() && corpus.undo().is_err());
+}
+
+/// Returns every row of tiers and annotations as text, and the number of references to rows that do not exist.
+fn tiers_and_annotations(path: &Path) -> (Vec<String>, i64) {
+    let connection = Connection::open(path).expect("opened");
+    let mut rows = Vec::new();
+    for table in ["tier", "annotation"] {
+        let mut statement = connection
+            .prepare(&format!("SELECT * FROM {table} ORDER BY id"))
+            .expect("a table");
+        let columns = statement.column_count();
+        let found = statement.query_map([], |row| {
+            let cells: rusqlite::Result<Vec<Value>> = (0..columns).map(|at| row.get(at)).collect();
+            Ok(format!("{table} {:?}", cells?))
+        });
+        rows.extend(found.expect("rows").map(|row| row.expect("a row")));
+    }
+    let sql = "SELECT count(*) FROM pragma_foreign_key_check";
+    let broken = connection.query_row(sql, [], |row| row.get(0));
+    (rows, broken.expect("checked"))
+}
+
+#[test]
+fn an_upgrade_keeps_every_tier_and_undo_and_redo_of_earlier_work_restore_them() {
+    for (version, store) in stores() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("old.chereme");
+        let packed = fs::read(&store).expect("read");
+        let bytes = zstd::decode_all(packed.as_slice()).expect("unpacked");
+        fs::write(&path, bytes).expect("written");
+        let before = tiers_and_annotations(&path);
+        assert!(before.0.len() > 20 && before.1 == 0, "version {version}");
+        drop(Corpus::open(&path, "reader").expect("opened"));
+        assert!(tiers_and_annotations(&path) == before, "version {version}");
+        let mut corpus = Corpus::open(&path, "reader").expect("opened");
+        let mut undone = 0;
+        while corpus.undo().is_ok() {
+            undone += 1;
+        }
+        drop(corpus);
+        let (rows, broken) = tiers_and_annotations(&path);
+        assert!(
+            rows.is_empty() && broken == 0,
+            "version {version}: {rows:?}"
+        );
+        let mut corpus = Corpus::open(&path, "reader").expect("opened");
+        for _ in 0..undone {
+            corpus.redo().expect("done again");
+        }
+        drop(corpus);
+        assert!(tiers_and_annotations(&path) == before, "version {version}");
+    }
 }
 
 fn lists(corpus: &Corpus, version: usize) {

@@ -4,8 +4,8 @@ mod help;
 pub(crate) mod kinds;
 mod titles;
 
-use chereme_corpus::readable_files;
-use chereme_corpus::words::{Language, guide, message};
+use chereme_corpus::words::{Language, Text, fill, guide, message};
+use chereme_corpus::{TierRole, readable_files};
 use clap::builder::StyledStr;
 use clap::{Arg, ArgAction, Command};
 
@@ -58,6 +58,17 @@ const TEMPLATE: &str = "\
 Utilisation : {usage}
 
 {all-args}{after-help}";
+
+/// Returns the help of an option that takes the role of a tier.
+pub(crate) fn roles(language: Language) -> String {
+    let help = Text::new(
+        "The subject of its annotations: {roles}, or a component such as right.placement or nonmanual.brows; the word \
+         before the dot is their hand",
+        "L’objet de ses annotations : {roles}, ou un composant comme right.placement ou nonmanual.brows ; le mot avant \
+         le point est leur main",
+    );
+    fill(help.of(language), &[("roles", &TierRole::plain_kinds())])
+}
 
 /// Returns the command with its help in `language`; a text without French words stays English.
 pub(crate) fn spoken(command: Command, language: Language) -> Command {
@@ -210,8 +221,9 @@ fn translated(text: &StyledStr) -> String {
         return french.to_owned();
     }
     let paragraph = |text: &str| {
-        if text == readable_files(Language::English) {
-            return readable_files(Language::French);
+        let lists = [readable_files, roles];
+        if let Some(list) = lists.iter().find(|list| list(Language::English) == text) {
+            return list(Language::French);
         }
         let known = help::of(text).or_else(|| help::of(text.trim_end_matches('.')));
         known.map_or_else(|| guide(text, Language::French), str::to_owned)
@@ -324,6 +336,14 @@ mod tests {
                 assert!(!help.contains(english), "{english}: {help}");
             }
         }
+        let add = annotate.find_subcommand_mut("add-tier").expect("add-tier");
+        let help = add.render_help().to_string();
+        let flat = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        let part = format!(
+            "L’objet de ses annotations : {}, ou",
+            TierRole::plain_kinds()
+        );
+        assert!(flat.contains(&part), "{help}");
         let mut import = command.find_subcommand("import").expect("import").clone();
         let long = import.render_long_help().to_string();
         let flat = long.split_whitespace().collect::<Vec<_>>().join(" ");

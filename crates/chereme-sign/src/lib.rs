@@ -61,6 +61,6 @@ pub use inventory::{Inventory, InventoryError, InventoryValue};
 pub use relation::{Relation, RelationError};
 pub use remedy::{Choice, Remedy};
 pub use tier::{
-    Annotation, AnnotationId, Change, Edit, EditError, Hands, RoleError, Seam, Stereotype, Tier,
-    TierId, TierRole, TierSet, TierTopic, Violation, check, plan,
+    Annotation, AnnotationId, Change, Edit, EditError, Hands, RoleError, RoleWords, Seam,
+    Stereotype, Tier, TierId, TierRole, TierSet, TierTopic, Violation, check, plan,
 };

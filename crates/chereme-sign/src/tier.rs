@@ -30,7 +30,7 @@ mod tests;
 pub use check::{MAX_DEPTH, Named, Violation, check, check_tiers};
 pub use error::EditError;
 pub use plan::plan;
-pub use role::{Hands, RoleError, TierRole, TierTopic};
+pub use role::{Hands, RoleError, RoleWords, TierRole, TierTopic};
 
 use crate::component::{Field, HandRef, Reading};
 use chereme_motion::Span;

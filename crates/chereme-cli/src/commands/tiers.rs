@@ -1,6 +1,7 @@
 //! The parts of `chereme annotate` that change tiers, recordings, signers and signs.
 
 use anyhow::Result;
+use chereme_corpus::words::Language;
 use chereme_corpus::{
     Address, Copied, Corpus, Hands, Name, NewTier, Origin, RecordingChange, Scheme, SignChange,
     SignerChange, Stereotype, TierChange, TierName, TierTopic, Values,
@@ -10,6 +11,7 @@ use clap::{Subcommand, ValueEnum};
 use super::annotate;
 use crate::args::SideWord;
 use crate::output::Output;
+use crate::words::roles;
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Action {
@@ -17,9 +19,7 @@ pub(super) enum Action {
     AddTier {
         /// Its name
         name: String,
-        /// The subject of its annotations: gloss, translation, comment, free, or a component such as right.placement or
-        /// nonmanual.brows; the word before the dot is their hand
-        #[arg(long, default_value = "free")]
+        #[arg(long, default_value = "free", help = roles(Language::English))]
         role: TierTopic,
         /// The hand of the annotations, if the role does not name it
         #[arg(long, value_enum)]

@@ -1,18 +1,15 @@
 //! French words for the kinds of rows that an overview counts.
 
+use chereme_corpus::TierRole;
 use chereme_corpus::words::Language;
 
-/// Kinds as commands and queries spell them, and in French: one, and several.
-const KINDS: [(&str, &str, &str); 14] = [
+/// Kinds besides roles of tiers, as commands and queries spell them, and in French: one, and several.
+const KINDS: [(&str, &str, &str); 10] = [
     ("captured", "capté", "captés"),
     ("annotated", "annoté", "annotés"),
     ("generated", "produit", "produits"),
     ("made", "composé", "composés"),
     ("lexicon", "de lexique", "de lexique"),
-    ("gloss", "de gloses", "de gloses"),
-    ("translation", "de traduction", "de traduction"),
-    ("comment", "de remarques", "de remarques"),
-    ("free", "libre", "libres"),
     ("configuration", "de configuration", "de configuration"),
     ("placement", "d’emplacement", "d’emplacement"),
     ("movement", "de mouvement", "de mouvement"),
@@ -22,7 +19,12 @@ const KINDS: [(&str, &str, &str); 14] = [
 
 /// Returns a number of rows of a kind in a language; in French the word of queries follows in brackets if it differs.
 pub(crate) fn counted(count: u64, kind: &str, language: Language) -> String {
-    let known = KINDS.iter().find(|(english, ..)| *english == kind);
+    let roles = TierRole::PLAIN.iter().map(|role| {
+        let [one, several] = role.words().counted;
+        (role.kind(), one, several)
+    });
+    let mut all = KINDS.iter().copied().chain(roles);
+    let known = all.find(|(english, ..)| *english == kind);
     match (language, known) {
         (Language::French, Some((english, one, several))) => {
             let word = if count < 2 { one } else { several };
@@ -44,6 +46,7 @@ mod tests {
         for (count, kind, french) in [
             (1, "made", "1 composé (made)"),
             (2, "free", "2 libres (free)"),
+            (1, "gloss", "1 de gloses (gloss)"),
             (2, "orientation", "2 d’orientation"),
             (3, "skeleton", "3 skeleton"),
         ] {

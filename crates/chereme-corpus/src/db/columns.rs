@@ -1,13 +1,14 @@
 //! Columns that hold one of a few fixed words, read and written as Rust enums.
 //!
-//! The schema checks each of these columns against its list of words, so that reading fails only on a damaged file.
+//! The schema checks each of these columns against its list of words, or a table of them, so that reading fails only on
+//! a damaged file.
 
 use std::fmt;
 
 use chereme_sign::tier::Hands;
 use chereme_sign::{Component, Phase, Reading, Stereotype, TierRole};
 use rusqlite::Row;
-use rusqlite::types::{FromSql, FromSqlError, FromSqlResult, ToSql, ToSqlOutput, ValueRef};
+use rusqlite::types::{FromSql, FromSqlError, FromSqlResult, ToSql, ToSqlOutput, Type, ValueRef};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -63,11 +64,17 @@ pub(crate) fn word_or_null<T: Named>(row: &Row<'_>, column: usize) -> rusqlite::
 pub(crate) fn role(row: &Row<'_>, column: usize) -> rusqlite::Result<TierRole> {
     let text = |column: usize| Ok::<_, rusqlite::Error>(row.get_ref(column)?.as_str_or_null()?);
     let (kind, component, feature) = (text(column)?, text(column + 1)?, text(column + 2)?);
-    Ok(TierRole::of_parts(
-        kind.unwrap_or_default(),
-        component,
-        feature,
-    ))
+    let kind = kind.unwrap_or_default();
+    let role = TierRole::of_parts(kind, component, feature);
+    if role.kind() != kind {
+        let reason = format!("{kind:?} is no role of a tier").into();
+        return Err(rusqlite::Error::FromSqlConversionFailure(
+            column,
+            Type::Text,
+            reason,
+        ));
+    }
+    Ok(role)
 }
 
 /// Returns the values of the three columns of a tier's role: its kind, its component and its feature.
@@ -387,9 +394,18 @@ mod tests {
         check::<Hands>(&connection, ("token", "hand"), &[]);
         check::<Component>(&connection, ("token_value", "component"), &[]);
         check::<ValueState>(&connection, ("token_value", "state"), &[]);
-        for kind in allowed(&connection, "tier", "role") {
+        let read = |sql: &str| connection.query_row(sql, [], |row| self::role(row, 0));
+        for words in TierRole::all_words() {
+            let kind = words.kind();
             let component = (kind == "component").then_some("placement");
-            assert_eq!(TierRole::of_parts(&kind, component, None).kind(), kind);
+            let sql = format!(
+                "SELECT '{kind}', {}, NULL",
+                component.map_or("NULL", |_| "'placement'")
+            );
+            assert_eq!(read(&sql), Ok(TierRole::of_parts(kind, component, None)));
+            assert_eq!(TierRole::of_parts(kind, component, None).kind(), kind);
         }
+        assert!(read("SELECT 'unheard', NULL, NULL").is_err());
+        assert!(read("SELECT 'component', NULL, NULL").is_err());
     }
 }

@@ -20,6 +20,7 @@ pub(crate) mod notations;
 mod open;
 pub(crate) mod recipes;
 pub(crate) mod recordings;
+mod roles;
 pub(crate) mod rows;
 pub(crate) mod saved_searches;
 pub(crate) mod search;

@@ -12,14 +12,14 @@ use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags};
 use uuid::Uuid;
 
-use super::upgrade;
+use super::{damaged, roles, upgrade};
 use crate::error::{Error, Result};
 
 /// Marks the file as a corpus: the letters `Cher`.
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The steps of the schema; a file's `user_version` is the number of steps that it has taken.
-const STEPS: [&str; 8] = [
+const STEPS: [&str; 9] = [
     include_str!("../../../../schema/sql/0001_corpus.sql"),
     include_str!("../../../../schema/sql/0002_notation.sql"),
     include_str!("../../../../schema/sql/0003_kept_search.sql"),
@@ -28,6 +28,7 @@ const STEPS: [&str; 8] = [
     include_str!("../../../../schema/sql/0006_attributes.sql"),
     include_str!("../../../../schema/sql/0007_tracks.sql"),
     include_str!("../../../../schema/sql/0008_clock.sql"),
+    include_str!("../../../../schema/sql/0009_tier_roles.sql"),
 ];
 
 /// The schema version that this code writes.
@@ -275,6 +276,19 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
     if version < SCHEMA_VERSION {
         raise(&mut connection, |_| Ok(()))?;
     }
+    let unknown = roles::unknown(&connection)?;
+    if !unknown.is_empty() {
+        return Err(refuse(
+            format!(
+                "its tiers may have roles that this program does not know: {}",
+                unknown.join(", ")
+            ),
+            "open it with a newer version of Chereme".into(),
+        ));
+    }
+    if !connection.is_readonly("main")? {
+        roles::add_missing(&connection)?;
+    }
     Ok(connection)
 }
 
@@ -321,23 +335,80 @@ pub(super) fn configure(connection: &mut Connection) -> Result<()> {
     Ok(())
 }
 
+/// Brings the schema to this program's version.
+///
+/// Foreign keys are not enforced meanwhile, because a step may build a table again that others refer to; the steps fail
+/// if they leave more broken references than there were.
 fn raise(connection: &mut Connection, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()> {
+    connection.pragma_update(None, "foreign_keys", false)?;
+    let raised = take_steps(connection, fill);
+    connection.pragma_update(None, "foreign_keys", true)?;
+    raised
+}
+
+fn take_steps(
+    connection: &mut Connection,
+    fill: impl FnOnce(&Connection) -> Result<()>,
+) -> Result<()> {
     let transaction =
         connection.transaction_with_behavior(rusqlite::TransactionBehavior::Immediate)?;
     let version: i32 = transaction.pragma_query_value(None, "user_version", |row| row.get(0))?;
+    let broken_before = broken_references(&transaction)?;
     for step in STEPS.iter().skip(usize::try_from(version).unwrap_or(0)) {
         transaction.execute_batch(step)?;
         upgrade::after_step(&transaction)?;
     }
+    roles::add_missing(&transaction)?;
     fill(&transaction)?;
+    let broken = broken_references(&transaction)?;
+    if broken > broken_before {
+        let reason = format!("its upgrade would break {broken} references between rows");
+        return Err(damaged(format!("schema version {version}"), reason));
+    }
     transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;
     transaction.commit()?;
     Ok(())
 }
 
+/// Returns the number of rows that refer to a row that does not exist.
+fn broken_references(connection: &Connection) -> Result<i64> {
+    let sql = "SELECT count(*) FROM pragma_foreign_key_check";
+    Ok(connection.query_row(sql, [], |row| row.get(0))?)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn roles_are_rows_that_the_program_adds_and_tiers_have_no_others() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("c.chereme");
+        let connection = create(&path, |_| Ok(())).expect("made");
+        let run = |sql: &str| connection.execute_batch(sql);
+        run("INSERT INTO recording (id, name, origin) VALUES (1, 'A', 'captured')")
+            .expect("stored");
+        let tier = |role: &str| {
+            run(&format!(
+                "INSERT INTO tier (recording_id, name, position, role) VALUES (1, '{role}', 0, '{role}')"
+            ))
+        };
+        tier("gloss").expect("stored");
+        assert!(tier("unheard").is_err());
+        // A role that an earlier version of the program did not know is added when this one opens the corpus.
+        run("DELETE FROM tier_role WHERE name = 'comment'").expect("removed");
+        assert!(tier("comment").is_err());
+        let again = open(&path).expect("opened");
+        assert_eq!(roles::unknown(&again).ok(), Some(Vec::new()));
+        tier("comment").expect("stored");
+        run("INSERT INTO tier_role (name, note) VALUES ('unheard', 'of a newer program')")
+            .expect("stored");
+        let error = open(&path).expect_err("a newer program wrote it");
+        assert!(
+            error.to_string().contains("does not know: unheard"),
+            "{error}"
+        );
+    }
 
     #[test]
     fn a_file_in_a_read_only_folder_is_read() {

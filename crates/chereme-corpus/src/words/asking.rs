@@ -70,6 +70,10 @@ pub(super) const ASKING: &[(&str, &str)] = &[
         "c’est une base d’un autre programme",
     ),
     (
+        "its tiers may have roles that this program does not know: {roles}",
+        "ses acteurs peuvent avoir des rôles que ce programme ne connaît pas : {roles}",
+    ),
+    (
         "its schema is version {n}, and this program knows up to {most}",
         "son schéma est la version {n}, et ce programme connaît jusqu’à {most}",
     ),

@@ -115,8 +115,8 @@ pub(super) const CODING: &[(&str, &str)] = &[
         "{text} n’est pas une phase : initial, middle, middle2 ... ou final",
     ),
     (
-        "{text} is no role; write gloss, translation, comment, free, or a component such as right.configuration or nonmanual.brows",
-        "{text} n’est pas un rôle ; écrivez gloss, translation, comment, free, ou un composant comme right.configuration ou nonmanual.brows",
+        "{text} is no role; write {roles}, or a component such as right.configuration or nonmanual.brows",
+        "{text} n’est pas un rôle ; écrivez {roles}, ou un composant comme right.configuration ou nonmanual.brows",
     ),
     (
         "{text} names the {hand} hand; a role alone has none",

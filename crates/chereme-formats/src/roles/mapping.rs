@@ -17,8 +17,8 @@ use serde_json::Value;
 /// ```
 ///
 /// `*` stands for any text and `?` for one character; case and accents do not count. An entry without a
-/// pattern comes before those with one, and among patterns the first counts. A value is `gloss`,
-/// `translation`, `comment`, `free` (or `note` and `attribute` of a column), or a component as queries
+/// pattern comes before those with one, and among patterns the first counts. A value is one of
+/// [`TierRole::PLAIN`] (or `note` and `attribute` of a column), or a component as queries
 /// spell it, with an optional hand before it and an optional feature after it: `both.gloss`,
 /// `nonmanual.brows`, `weak.configuration`, `translation.en` of a column.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

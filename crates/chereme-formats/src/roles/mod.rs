@@ -218,7 +218,6 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
 /// head are non-manual; a component's gloss is the component.
 fn role_of(found: &Match) -> Option<(TierRole, String)> {
     let rank = |role: &TierRole| match role {
-        TierRole::Comment => 0,
         TierRole::Translation => 1,
         TierRole::Component {
             component: Component::Placement,
@@ -233,8 +232,8 @@ fn role_of(found: &Match) -> Option<(TierRole, String)> {
         } => 5,
         TierRole::Component { .. } => 6,
         TierRole::Gloss => 7,
-        // Parts of speech of glosses are not glosses.
-        TierRole::Free => 0,
+        // A comment on glosses is a comment, and their parts of speech are not glosses.
+        _ => 0,
     };
     let mut roles: Vec<&(TierRole, String)> = found.roles.iter().collect();
     roles.sort_by_key(|(role, word)| (rank(role), std::cmp::Reverse(word.chars().count())));

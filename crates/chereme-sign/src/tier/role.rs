@@ -2,6 +2,7 @@
 
 use crate::component::{Component, Field, HandRef, Phase};
 use crate::text::{did_you_mean, fold, nearest};
+use crate::words::Text;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -52,16 +53,62 @@ impl TierRole {
         matches!(self, Self::Translation | Self::Comment)
     }
 
-    /// Returns the kind of role without its component: `gloss`, `component`, `translation`, `comment` or `free`.
+    /// Returns the words for its kind, in files and commands and for people.
+    #[must_use]
+    pub const fn words(&self) -> RoleWords {
+        match self {
+            Self::Gloss => RoleWords {
+                names: &["gloss"],
+                name: Text::new("gloss", "glose"),
+                counted: ["de gloses", "de gloses"],
+                note: "signs; each value is a token",
+            },
+            Self::Component { .. } => RoleWords {
+                names: &["component"],
+                name: Text::new("component", "composant"),
+                counted: ["de composants", "de composants"],
+                note: "values of a component of signs, or of a feature of it",
+            },
+            Self::Translation => RoleWords {
+                names: &["translation"],
+                name: Text::new("translation", "traduction"),
+                counted: ["de traduction", "de traduction"],
+                note: "the meaning in a spoken language",
+            },
+            Self::Comment => RoleWords {
+                names: &["comment", "note"],
+                name: Text::new("comment", "commentaire"),
+                counted: ["de remarques", "de remarques"],
+                note: "remarks of the annotators",
+            },
+            Self::Free => RoleWords {
+                names: &["free", "ignore"],
+                name: Text::new("anything", "autre"),
+                counted: ["libre", "libres"],
+                note: "anything else",
+            },
+        }
+    }
+
+    /// Returns the words for every kind of role: those without a component, and the one of components.
+    pub fn all_words() -> impl Iterator<Item = RoleWords> {
+        let coded = Self::Component {
+            component: Component::Configuration,
+            feature: None,
+        };
+        Self::PLAIN.iter().map(Self::words).chain([coded.words()])
+    }
+
+    /// Lists the kinds of roles without a component: `gloss, translation, comment, free`.
+    #[must_use]
+    pub fn plain_kinds() -> String {
+        Self::PLAIN.each_ref().map(Self::kind).join(", ")
+    }
+
+    /// Returns the kind of role without its component, such as `gloss` or `component`.
     #[must_use]
     pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Gloss => "gloss",
-            Self::Component { .. } => "component",
-            Self::Translation => "translation",
-            Self::Comment => "comment",
-            Self::Free => "free",
-        }
+        self.words().kind()
     }
 
     /// Returns whether its annotations code signs: glosses and components, whose values may be missing in three ways.
@@ -93,8 +140,8 @@ impl TierRole {
         }
     }
 
-    /// Returns the role as text: `gloss`, `translation`, `comment`, `free`, or the component as a
-    /// query spells it, such as `configuration` or `nonmanual.brows`.
+    /// Returns the role as text: its kind, or the component as a query spells it, such as `configuration` or
+    /// `nonmanual.brows`.
     #[must_use]
     pub fn name(&self) -> String {
         match self.component() {
@@ -110,15 +157,31 @@ impl TierRole {
     }
 }
 
+/// The words for a kind of role.
+#[derive(Debug, Clone, Copy)]
+pub struct RoleWords {
+    /// The names in files, commands and the database; the first is the usual one.
+    pub names: &'static [&'static str],
+    /// The name for people.
+    pub name: Text,
+    /// The French words after a number of such tiers: one, and several.
+    pub counted: [&'static str; 2],
+    /// The content of such tiers, for readers of the database.
+    pub note: &'static str,
+}
+
+impl RoleWords {
+    /// Returns the usual name in files, commands and the database.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        self.names.first().copied().unwrap_or_default()
+    }
+}
+
 /// Returns the role that one word names, besides components.
 fn word(text: &str) -> Option<TierRole> {
-    match text {
-        "gloss" => Some(TierRole::Gloss),
-        "translation" => Some(TierRole::Translation),
-        "comment" | "note" => Some(TierRole::Comment),
-        "free" | "ignore" => Some(TierRole::Free),
-        _ => None,
-    }
+    let named = |role: &&TierRole| role.words().names.contains(&text);
+    TierRole::PLAIN.iter().find(named).cloned()
 }
 
 impl FromStr for TierRole {
@@ -269,7 +332,7 @@ impl fmt::Display for TierTopic {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum RoleError {
     /// No word of it is known, or the words do not go together.
-    #[error("{text:?} is no role; write gloss, translation, comment, free, or a component such as right.configuration or nonmanual.brows{}", did_you_mean(nearest.as_deref()))]
+    #[error("{text:?} is no role; write {}, or a component such as right.configuration or nonmanual.brows{}", TierRole::plain_kinds(), did_you_mean(nearest.as_deref()))]
     Unknown {
         /// The text.
         text: String,
@@ -297,7 +360,8 @@ pub enum RoleError {
 fn unknown(text: &str) -> RoleError {
     let known = Component::ALL.iter().flat_map(|it| it.names()).copied();
     let hands = HandRef::ALL.iter().flat_map(|it| it.names()).copied();
-    let others = ["gloss", "translation", "comment", "free", "note", "both"];
+    let roles = TierRole::PLAIN.iter().flat_map(|role| role.words().names);
+    let others = roles.copied().chain(["both"]);
     let words: Vec<&str> = known.chain(hands).chain(others).collect();
     let folded = fold(text);
     let wrong = folded
@@ -351,6 +415,26 @@ mod tests {
             (topic.to_string().as_str(), phase),
             ("weak.configuration", Some(Phase::Final))
         );
+    }
+
+    #[test]
+    fn each_kind_of_role_has_names_of_its_own_and_words_in_both_languages() {
+        let all: Vec<RoleWords> = TierRole::all_words().collect();
+        let mut names: Vec<&str> = all.iter().flat_map(|it| it.names).copied().collect();
+        let many = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert!(names.len() == many && all.len() > TierRole::PLAIN.len());
+        for words in all {
+            let texts = [
+                words.name.en,
+                words.name.fr,
+                words.counted[0],
+                words.counted[1],
+                words.note,
+            ];
+            assert!(texts.iter().all(|it| !it.trim().is_empty()), "{words:?}");
+        }
     }
 
     #[test]

@@ -1,9 +1,5 @@
 //! Texts of the timeline.
 
-use chereme_corpus::TierRole;
-
-use super::Text;
-
 texts! {
     NO_PROPOSAL: "There is no proposal here. {value.propose} reads handshapes, places, movements and orientations from the movement.", "Il n’y a pas de proposition ici. {value.propose} lit configurations, emplacements, mouvements et orientations dans le mouvement.";
     DETECT_TITLE: "Propose with a detector", "Proposer avec un détecteur";
@@ -105,10 +101,6 @@ texts! {
     HOW_WITHIN: "within its time", "dans son temps";
     HOW_LISTED: "in order, without times", "en ordre, sans temps";
     HOW_ONE: "one for each, its time", "une pour chacune, son temps";
-    ROLE_GLOSS: "gloss", "glose";
-    ROLE_TRANSLATION: "translation", "traduction";
-    ROLE_COMMENT: "comment", "commentaire";
-    ROLE_FREE: "anything", "autre";
     HAND_NONE: "none", "aucune";
     HAND_RIGHT: "right", "droite";
     HAND_LEFT: "left", "gauche";
@@ -150,14 +142,4 @@ texts! {
     GO_BEYOND: "The recording ends at {time}.", "L’enregistrement finit à {time}.";
     GO: "Go", "Aller";
     TIER_AT_END: "The tier is the last in that direction.", "L’acteur est le dernier dans ce sens.";
-}
-
-/// Returns the name of a tier's role that has no component.
-pub(crate) fn role(role: &TierRole) -> Text {
-    match role {
-        TierRole::Gloss => ROLE_GLOSS,
-        TierRole::Translation => ROLE_TRANSLATION,
-        TierRole::Comment => ROLE_COMMENT,
-        TierRole::Component { .. } | TierRole::Free => ROLE_FREE,
-    }
 }

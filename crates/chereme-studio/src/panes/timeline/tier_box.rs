@@ -189,7 +189,7 @@ pub(crate) fn role_text(role: &str, seen: &PaneInput<'_>) -> String {
     let rest = if hand.is_some() { rest } else { role };
     let plain = TierRole::PLAIN.iter().find(|role| role.kind() == rest);
     let what = match (plain, rest.parse::<Field>()) {
-        (Some(role), _) => seen.say(words::role(role)).to_owned(),
+        (Some(role), _) => seen.say(role.words().name).to_owned(),
         (None, Ok(field)) => field_text(&field, seen),
         _ => return role.to_owned(),
     };
@@ -206,7 +206,7 @@ fn roles(seen: &PaneInput<'_>) -> Vec<(String, String)> {
         .map(|role| {
             (
                 role.kind().to_owned(),
-                seen.say(words::role(role)).to_owned(),
+                seen.say(role.words().name).to_owned(),
             )
         })
         .collect();
