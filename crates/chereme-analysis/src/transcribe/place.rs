@@ -262,10 +262,11 @@ impl<'a> Body<'a> {
                     Some(_) => nearness[3],
                     None => nearness[1],
                 }
-                + if choice.top && !touching {
-                    tuned().choice.top
-                } else {
-                    0.0
+                + match (choice.half_top, choice.top) {
+                    _ if touching => 0.0,
+                    (true, _) => tuned().choice.top,
+                    (_, true) => tuned().choice.top_alone[usize::from(!near)],
+                    _ => 0.0,
                 }
                 + if symmetric && !spot.beside && spot.lateral != 0.0 {
                     tuned().place.own_sides

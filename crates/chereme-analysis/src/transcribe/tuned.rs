@@ -66,6 +66,7 @@ tuned_numbers! {
         oblique: f64,
         rare: f64,
         top: f64,
+        top_alone: [f64; 2],
         across: f64,
         beside: f64,
         wide: f64,

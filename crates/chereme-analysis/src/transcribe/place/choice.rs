@@ -63,6 +63,9 @@ pub(super) struct Choice {
     pub(super) second: Option<Site<BodyLocation>>,
     /// Its penalty in nepers.
     pub(super) cost: f64,
+    /// Whether one of the two places, but not the other, is the top of the shoulder.
+    pub(super) half_top: bool,
+    /// Whether it is the top of the shoulder.
     pub(super) top: bool,
     /// Whether only hands close to it can refer to it.
     near: bool,
@@ -209,7 +212,8 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
             })
             + tuned().choice.wide * wide
             + if across { tuned().choice.regions } else { 0.0 },
-        top: both().any(is_top) && !both().all(is_top),
+        half_top: both().any(is_top) && !both().all(is_top),
+        top: both().all(is_top),
         near: both().any(|spot| is_rare(spot) || spot.site.at == BodyLocation::UnderChin),
         far: false,
     }
