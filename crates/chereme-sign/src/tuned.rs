@@ -36,11 +36,11 @@ pub fn number<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result
     Ok(value)
 }
 
-/// Declares structs for groups of tuned numbers, and `Tuned`, which holds every group; the data file documents each
-/// number.
+/// Declares structs for groups of tuned numbers, `Tuned`, which holds every group, and `tuned()`, which returns the numbers
+/// of the crate's own data file at `$path`, relative to the source file. The data file documents each number.
 #[macro_export]
 macro_rules! tuned_numbers {
-    ($($(#[$doc:meta])* $group:ident: $numbers:ident { $($name:ident: $kind:ty,)* })*) => {
+    ($path:literal; $($(#[$doc:meta])* $group:ident: $numbers:ident { $($name:ident: $kind:ty,)* })*) => {
         $(
             $(#[$doc])*
             #[derive(Debug, ::serde::Deserialize)]
@@ -53,6 +53,16 @@ macro_rules! tuned_numbers {
         #[derive(Debug, ::serde::Deserialize)]
         pub(crate) struct Tuned {
             $($(#[$doc])* pub(crate) $group: $numbers,)*
+        }
+
+        const DOCUMENT: &str = include_str!($path);
+
+        /// Returns the tuned numbers.
+        pub(crate) fn tuned() -> &'static Tuned {
+            static TUNED: ::std::sync::LazyLock<Tuned> = ::std::sync::LazyLock::new(|| {
+                $crate::tuned::read(DOCUMENT).expect("the program's own file has every number")
+            });
+            &TUNED
         }
     };
 }

@@ -3,11 +3,10 @@
 //! The file `schema/notation/reading.json` holds each number with its unit and its meaning, grouped by the modules that
 //! use them.
 
-use std::sync::LazyLock;
-
-use chereme_sign::tuned::{read, tuned_numbers};
+use chereme_sign::tuned::tuned_numbers;
 
 tuned_numbers! {
+    "../../../../schema/notation/reading.json";
     /// Numbers for transcription as a whole.
     reading: ReadingNumbers {
         made: f64,
@@ -203,16 +202,6 @@ tuned_numbers! {
     }
 }
 
-const DOCUMENT: &str = include_str!("../../../../schema/notation/reading.json");
-
-static TUNED: LazyLock<Tuned> =
-    LazyLock::new(|| read(DOCUMENT).expect("the program's own file has every number"));
-
-/// Returns the tuned numbers.
-pub(crate) fn tuned() -> &'static Tuned {
-    &TUNED
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -227,7 +216,9 @@ mod tests {
     fn a_number_of_another_name_is_refused() {
         let other = DOCUMENT.replace("\"looked_at\": [48,", "\"looked_to\": [48,");
         assert_ne!(DOCUMENT, other);
-        let refused = read::<Tuned>(&other).expect_err("refused").to_string();
+        let refused = chereme_sign::tuned::read::<Tuned>(&other)
+            .expect_err("refused")
+            .to_string();
         assert!(refused.contains("looked_to"), "{refused}");
     }
 }

@@ -3,11 +3,10 @@
 //! The file `schema/notation/animating.json` holds each number with its unit and its meaning, grouped by the modules that
 //! use them. Numbers that differ between people and languages stand in `body_language.json` instead.
 
-use std::sync::LazyLock;
-
-use chereme_sign::tuned::{read, tuned_numbers};
+use chereme_sign::tuned::tuned_numbers;
 
 tuned_numbers! {
+    "../../../../schema/notation/animating.json";
     /// Numbers for approaches.
     approach: ApproachNumbers {
         lever: f64,
@@ -152,16 +151,6 @@ tuned_numbers! {
     }
 }
 
-const DOCUMENT: &str = include_str!("../../../../schema/notation/animating.json");
-
-static TUNED: LazyLock<Tuned> =
-    LazyLock::new(|| read(DOCUMENT).expect("the program's own file has every number"));
-
-/// Returns the tuned numbers.
-pub(crate) fn tuned() -> &'static Tuned {
-    &TUNED
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -169,13 +158,5 @@ mod tests {
     #[test]
     fn every_number_has_a_unit_and_a_meaning_of_its_own() {
         assert_eq!(chereme_sign::tuned::faults(DOCUMENT), Vec::<String>::new());
-    }
-
-    #[test]
-    fn a_number_of_another_name_is_refused() {
-        let other = DOCUMENT.replace("\"lever\": [0.04,", "\"levers\": [0.04,");
-        assert_ne!(DOCUMENT, other);
-        let refused = read::<Tuned>(&other).expect_err("refused").to_string();
-        assert!(refused.contains("levers"), "{refused}");
     }
 }
