@@ -85,11 +85,14 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         let detected = corpus.detect(&options, &mut progress)?;
         drop(bar);
         output.line(format!(
-            "{} in {}; nothing to examine in {}",
+            "proposed: {} in {}",
             output.counted(detected.annotations, "annotations"),
             output.counted(detected.recordings.len() as u64, "recordings"),
-            output.counted(detected.unobserved, "recordings"),
         ))?;
+        if detected.unobserved > 0 {
+            let unobserved = output.counted(detected.unobserved, "recordings");
+            output.line(format!("nothing to examine in {unobserved}"))?;
+        }
         return output.document(detected);
     }
     let options = ProposeOptions {

@@ -368,8 +368,12 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("in most pairs: {list}", "dans le plus de paires : {list}"),
     ("{n} accepted", "accepté : {n}"),
     (
-        "{annotations} in {recordings}; nothing to examine in {unobserved}",
-        "{annotations} dans {recordings} ; rien à examiner dans {unobserved}",
+        "proposed: {annotations} in {recordings}",
+        "proposé : {annotations} dans {recordings}",
+    ),
+    (
+        "nothing to examine in {recordings}",
+        "rien à examiner dans {recordings}",
     ),
     (
         "{annotations} in {recordings}, for {tokens}; {unread} could not be read from movement",
