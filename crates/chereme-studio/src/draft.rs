@@ -16,10 +16,11 @@ use crate::settings::{Folders, write_whole};
 pub(crate) struct Drafts {
     file: Option<PathBuf>,
     corpus: PathBuf,
-    /// The draft as it is in the file.
+    /// The draft that was read or written last.
     written: Option<Draft>,
 }
 
+/// The content of a draft file. It names its corpus, because two paths may have the same hash.
 #[derive(Serialize, Deserialize)]
 struct Kept {
     corpus: PathBuf,
@@ -27,7 +28,7 @@ struct Kept {
 }
 
 impl Drafts {
-    /// Returns the drafts of the corpus at `path`, which must be absolute; reads no file yet.
+    /// Returns the draft file of the corpus at `path`, which must be absolute; reads no file yet.
     pub(crate) fn of(folders: &Folders, path: &Path) -> Self {
         let name = format!("{:016x}.json", hash(&path.to_string_lossy()));
         let folder = folders.config.as_ref().map(|it| it.join("drafts"));
@@ -54,17 +55,18 @@ impl Drafts {
         let Some(file) = self.file.as_ref().filter(|_| draft != self.written) else {
             return Ok(());
         };
-        self.written.clone_from(&draft);
-        match draft {
+        match draft.clone() {
             Some(draft) => {
                 let corpus = self.corpus.clone();
-                write_whole(file, &Kept { corpus, draft })
+                write_whole(file, &Kept { corpus, draft })?;
             }
             None => match fs::remove_file(file) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-                _ => Ok(()),
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+                _ => {}
             },
         }
+        self.written = draft;
+        Ok(())
     }
 }
 

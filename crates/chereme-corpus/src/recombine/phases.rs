@@ -1,4 +1,7 @@
-//! The phase of each key in cued speech: milliseconds from the start of its sound to the arrival of the hand.
+//! The phase of each key in cued speech: the time from the start of its first sound to the arrival of the hand.
+//!
+//! Tokens store it in milliseconds. The medians of captured keys are in seconds; those of a consonant with a vowel are
+//! shares of the consonant's duration.
 
 use chereme_compose::{CuePhases, CueTier};
 use chereme_sign::cue;
@@ -14,8 +17,20 @@ use crate::error::Result;
 pub(crate) const PHASE: &str = "cue-phase";
 /// The fewest keys of a type that are enough to measure its phase.
 const FEWEST: usize = 8;
+/// The handshape of a vowel without a consonant.
+const VOWEL: u8 = 5;
 
-/// Sets the phases of the key tokens in a recording, computed from its tiers of keys and of the hand's movement.
+/// Returns the next gesture that leads to a key, and moves on behind it; if there is none, stays.
+fn next_to<'g>(gestures: &mut &'g [AnnotationRow], key: &str) -> Option<&'g AnnotationRow> {
+    let all = *gestures;
+    let leads = |gesture: &AnnotationRow| gesture.value.rsplit('>').next() == Some(key);
+    let n = all.iter().position(leads)?;
+    *gestures = &all[n + 1..];
+    Some(&all[n])
+}
+
+/// Sets the phases of the key tokens in a recording, computed from the tokens' starts and the tier of the hand's
+/// movement. A gesture is named `FROM>TO`; gestures and keys are in the same order.
 pub(crate) fn store(connection: &Connection, recording: i64) -> Result<()> {
     let mut tokens = signs::tokens_of_recording(connection, recording)?;
     tokens.retain(|token| cue::of_gloss(&token.gloss).is_some());
@@ -23,12 +38,11 @@ pub(crate) fn store(connection: &Connection, recording: i64) -> Result<()> {
         return Ok(());
     }
     let gestures = named(connection, recording, CueTier::Hand.name())?;
-    let mut gestures = gestures.iter().peekable();
+    let mut gestures = gestures.as_slice();
     for token in tokens {
         let key = token.gloss.trim_start_matches("cue:").to_owned();
-        let to_key = |gesture: &AnnotationRow| gesture.value.rsplit('>').next() == Some(&*key);
-        let Some(gesture) = gestures.find(|gesture| to_key(gesture)) else {
-            break;
+        let Some(gesture) = next_to(&mut gestures, &key) else {
+            continue;
         };
         let Some(start) = token.start_us else {
             continue;
@@ -56,7 +70,8 @@ fn named(connection: &Connection, recording: i64, name: &str) -> Result<Vec<Anno
     Ok(found)
 }
 
-/// Returns the medians of the phases of captured keys by type; nothing if a type has fewer than [`FEWEST`] keys.
+/// Returns the medians of the phases of captured keys of a consonant with a vowel, of a vowel, and of a consonant; nothing
+/// if one of the three has fewer than [`FEWEST`] keys.
 ///
 /// The sounds of a key are the phones that begin within it.
 pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {
@@ -68,13 +83,11 @@ pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {
         let keys = named(connection, row.id, CueTier::Keys.name())?;
         let phones = named(connection, row.id, CueTier::Phones.name())?;
         let gestures = named(connection, row.id, CueTier::Hand.name())?;
-        let mut gestures = gestures.iter();
+        let mut gestures = gestures.as_slice();
         for key in &keys {
             let own = key.value.trim_start_matches("cue:");
-            let Some(gesture) =
-                gestures.find(|gesture| gesture.value.rsplit('>').next() == Some(own))
-            else {
-                break;
+            let Some(gesture) = next_to(&mut gestures, own) else {
+                continue;
             };
             let first = phones.partition_point(|phone| phone.start_us < key.start_us);
             let sounds: Vec<&AnnotationRow> = phones[first..]
@@ -87,7 +100,7 @@ pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {
                     let consonant = (sounds[1].start_us - key.start_us) as f64 / 1e6;
                     found[0].push(phase / consonant.max(1e-3));
                 }
-                (_, Some((_, 5))) => found[1].push(phase),
+                (_, Some((_, VOWEL))) => found[1].push(phase),
                 _ => found[2].push(phase),
             }
         }
@@ -106,4 +119,31 @@ pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {
         consonant,
         counts,
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_without_a_gesture_hides_no_later_key() {
+        let row = |value: &str| AnnotationRow {
+            value: value.to_owned(),
+            ..AnnotationRow::default()
+        };
+        let all = ["N>side-5", "side-5>chin-1", "chin-1>side-5"].map(row);
+        let mut gestures = all.as_slice();
+        let found = ["side-5", "mouth-2", "chin-1", "side-5", "chin-1"]
+            .map(|key| next_to(&mut gestures, key).map(|it| it.value.as_str()));
+        assert_eq!(
+            found,
+            [
+                Some("N>side-5"),
+                None,
+                Some("side-5>chin-1"),
+                Some("chin-1>side-5"),
+                None
+            ]
+        );
+    }
 }
