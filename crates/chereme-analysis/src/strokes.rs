@@ -15,7 +15,8 @@ const DIP: f64 = 0.8;
 const REST: f64 = 0.1;
 /// Least peak of speed (m/s) and least distance (m) of a stroke of the wrist.
 const STROKE: (f64, f64) = (0.15, 0.05);
-/// Least peak of speed (rad/s) and least rotation (rad) of a change of handshape: 20 degrees.
+/// Least peak of speed (rad/s, root of the mean square over the joints) and least rotation (rad, root of the sum of squares:
+/// 20 degrees) of a change of handshape.
 const SHAPE: (f64, f64) = (0.5, 0.349);
 
 /// The body part that moves in a transition.
@@ -127,7 +128,7 @@ pub(crate) fn speeds(
         .collect()
 }
 
-/// Returns speeds smoothed by a Gaussian, so that their minima are those of the movement.
+/// Returns speeds smoothed by a Gaussian, so that noise adds no minima.
 pub(crate) fn smoothed(speeds: &[f64], clip: &Clip) -> Vec<f64> {
     let frame = clip.rate().frame_time();
     let reach = ((3.0 * SMOOTH / frame).ceil() as usize).min(speeds.len());

@@ -1,6 +1,7 @@
 //! A corpus opened for work: SQLite, search index, history, and all use cases.
 //!
-//! [`Corpus`] is the only entry point for the user interfaces. Each change is one named operation in one transaction,
+//! User interfaces work on a corpus through [`Corpus`]; free functions do what needs no corpus, such as merging two
+//! annotation files. Each change is one named operation in one transaction,
 //! with its changeset. Nothing here prints, prompts, or reads the environment.
 
 mod address;
@@ -169,6 +170,7 @@ pub use values::MergedValues;
 /// An open corpus.
 pub struct Corpus {
     store: Store,
+    /// Cache of what was learned from the corpus: the profile of strokes and samples of body language.
     learned: RefCell<sources::Learned>,
     /// Cache of the inventories, with the generation for which they are valid.
     inventories: RefCell<Option<(i64, Arc<Vec<StoredInventory>>)>>,
@@ -176,7 +178,7 @@ pub struct Corpus {
     hands: RefCell<hands::Kept>,
     /// The recipe being drafted.
     drafted: recombine::Drafted,
-    /// Cache of facial expressions as numbers, valid after the newest operation.
+    /// Cache of facial expressions as numbers; after a change only the changed recordings are read again.
     faces: RefCell<face::Pool>,
 }
 
@@ -236,7 +238,7 @@ impl Corpus {
     /// Redoes the operation that was undone last, and returns the operation that did so.
     ///
     /// # Errors
-    /// Fails if nothing is left to redo.
+    /// Fails if nothing is left to redo, or if a row of the operation is not as the undo left it.
     pub fn redo(&mut self) -> Result<OperationRow> {
         self.redo_with_progress(&mut Progress::new(&mut unheard))
     }
@@ -249,7 +251,7 @@ impl Corpus {
         self.store.redo(progress)
     }
 
-    /// Returns the newest operations first, at most `limit` of them.
+    /// Returns at most `limit` operations, the newest first.
     ///
     /// # Errors
     /// Fails if the database fails.

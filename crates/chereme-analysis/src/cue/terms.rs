@@ -1,4 +1,5 @@
-//! The terms of the regression for the hand's markers: cosines and sines of angles and of their sums.
+//! The terms of the regression for the hand's markers: a constant, cosines and sines of angles and of their sums, and
+//! products of a sine and a cosine.
 
 use super::hand::ANGLES;
 
@@ -13,13 +14,13 @@ fn of_finger(finger: usize) -> usize {
 pub(super) struct Terms {
     /// Sums of angles: a single angle, or several of one finger.
     sums: Vec<Vec<usize>>,
-    /// Products: the angle whose sine, and the sum whose cosine, are multiplied.
+    /// Products: the index of the angle whose sine, and the index in `sums` of the sum whose cosine, are multiplied.
     products: Vec<(usize, usize)>,
 }
 
 impl Terms {
-    /// Returns the terms for the angles of a hand: each angle by itself, the angles between a segment and the hand as
-    /// sums of the preceding bends, and the spread of a finger times the length that its bends leave.
+    /// Returns the terms for the angles of a hand. A finger with the spread s and the bends a, b and c has the angles a, s,
+    /// b, c, b+c, a+b and a+b+c, and the products sin s · cos b and sin s · cos(b+c). The thumb has its angles only.
     pub(super) fn of_a_hand() -> Self {
         // The first three angles are those of the wrist, which rotates the hand as a whole.
         let mut sums: Vec<Vec<usize>> = (3..ANGLES).map(|n| vec![n]).collect();
@@ -27,6 +28,7 @@ impl Terms {
         for finger in 0..4 {
             let first = of_finger(finger);
             let (middle, last) = (first + 2, first + 3);
+            // A single angle n is the sum n - 3.
             products.push((first + 1, middle - 3));
             products.push((first + 1, sums.len()));
             sums.push(vec![middle, last]);

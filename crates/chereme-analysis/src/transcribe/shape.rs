@@ -147,7 +147,7 @@ impl Forms {
             shape: self.entries[best].shape.clone(),
             cost: self.entries[best].cost,
         };
-        for n in self.but_for_digits(&own, known) {
+        for n in self.best_without_fingers(&own, known) {
             let entry = &self.entries[n];
             let mut tried = Tried {
                 score: score(n),
@@ -173,8 +173,9 @@ impl Forms {
         })
     }
 
-    /// Returns the forms that are nearest when one or two fingers are ignored.
-    fn but_for_digits(&self, own: &[f64; HandAngles::LEN], known: &Known) -> Vec<usize> {
+    /// Returns the indices of the forms that fit best without their worst finger, and of those that fit best without their
+    /// two worst; the thumb always counts.
+    fn best_without_fingers(&self, own: &[f64; HandAngles::LEN], known: &Known) -> Vec<usize> {
         let mut near: [Vec<(f64, usize)>; 2] = [Vec::new(), Vec::new()];
         for (n, entry) in self.entries.iter().enumerate() {
             if entry.shape.between.is_some() {

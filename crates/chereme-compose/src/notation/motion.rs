@@ -394,7 +394,7 @@ impl Planner<'_> {
     }
 
     /// Makes hands that rotate while they leave each other, or that rotate far while they move, rotate about their palms
-    /// instead of their fingertips: otherwise the rotation would consume the path of the wrist.
+    /// instead of their fingertips: otherwise turning about the fingertips would move the wrist back against its path.
     fn let_go(&mut self, motions: &[Motion], who: Who, time: f64) {
         let goes = |motion: &Motion| {
             matches!(

@@ -130,7 +130,7 @@ pub(super) fn said(out: &mut String, made: &Generated) {
     }
 }
 
-/// Returns the corpus with the handshapes of cued speech.
+/// Returns the small test corpus with invented handshapes for cued speech.
 fn shelf() -> Shelf {
     let mut shelf = Shelf::new();
     for (n, id) in ["A", "1", "3-outer-together", "B-thumb", "L"]

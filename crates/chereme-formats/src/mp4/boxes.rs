@@ -1,4 +1,4 @@
-//! Boxes of a file, one by one; no box reaches beyond its parent.
+//! Boxes of an MP4 file, one by one; no box reaches beyond its parent.
 
 use std::io::{Read, Seek, SeekFrom};
 
@@ -9,9 +9,9 @@ const LARGEST: u64 = 256 << 20;
 /// The most boxes of a file at its top level.
 const MANY: usize = 400_000;
 
-/// A box in a file that is read in parts.
+/// The place of a top-level box in a file; its content is read later.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct BoxPart {
+pub(super) struct BoxPlace {
     pub(super) kind: [u8; 4],
     /// The byte at which it begins.
     pub(super) at: u64,
@@ -20,8 +20,11 @@ pub(super) struct BoxPart {
     pub(super) to: u64,
 }
 
-/// Returns the boxes at the top level of a file, and whether a broken header ended the list early.
-pub(super) fn places(input: &mut (impl Read + Seek)) -> Result<(Vec<BoxPart>, bool), Error> {
+/// Returns the boxes at the top level of a file, and whether the list ends before the file does: at a broken
+/// header, a box that is cut short, left-over bytes, or after [`MANY`] boxes.
+pub(super) fn top_level_boxes(
+    input: &mut (impl Read + Seek),
+) -> Result<(Vec<BoxPlace>, bool), Error> {
     let end = input.seek(SeekFrom::End(0))?;
     let mut places = Vec::new();
     let mut at = 0;
@@ -44,7 +47,7 @@ pub(super) fn places(input: &mut (impl Read + Seek)) -> Result<(Vec<BoxPart>, bo
         if size < header {
             return Ok((places, true));
         }
-        places.push(BoxPart {
+        places.push(BoxPlace {
             kind,
             at,
             from: at + header,
@@ -59,7 +62,7 @@ pub(super) fn places(input: &mut (impl Read + Seek)) -> Result<(Vec<BoxPart>, bo
 }
 
 /// Reads the content of a box.
-pub(super) fn content(input: &mut (impl Read + Seek), place: &BoxPart) -> Result<Vec<u8>, Error> {
+pub(super) fn content(input: &mut (impl Read + Seek), place: &BoxPlace) -> Result<Vec<u8>, Error> {
     let size = place.to - place.from;
     if size > LARGEST {
         return Err(Error::Limit {
@@ -93,7 +96,7 @@ impl<'a> Inner<'a> {
         }
     }
 
-    /// Returns the boxes inside it, from `skip` bytes after its start.
+    /// Returns the boxes in its content after the first `skip` bytes, up to the first broken one.
     pub(super) fn children(self, skip: usize) -> impl Iterator<Item = Inner<'a>> {
         let base = self.at;
         let mut at = skip.min(self.bytes.len());

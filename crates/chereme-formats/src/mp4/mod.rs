@@ -123,7 +123,7 @@ pub enum Error {
     Box {
         /// The four letters of the box.
         kind: String,
-        /// The byte at which it begins.
+        /// The byte of the file at which its content begins.
         at: u64,
         /// The problem.
         problem: &'static str,

@@ -18,7 +18,7 @@ const FIRST: [&[u8; 4]; 8] = [
 /// [`Error`] if the file is no MP4, is not whole, or holds no pictures.
 pub fn read(input: &mut (impl Read + Seek)) -> Result<(Container, Vec<Finding>), Error> {
     let mut findings = Vec::new();
-    let (places, broken) = boxes::places(input)?;
+    let (places, broken) = boxes::top_level_boxes(input)?;
     let known = |kind: [u8; 4]| FIRST.iter().any(|it| **it == kind);
     if !places.first().is_some_and(|place| known(place.kind)) {
         return Err(Error::NoMp4);

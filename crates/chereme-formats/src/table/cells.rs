@@ -8,7 +8,7 @@ use std::borrow::Cow;
 pub(crate) const COLUMNS: usize = 4096;
 /// The most empty cells that are added to short rows of a table, in all.
 pub(crate) const PADDED: usize = 1 << 22;
-/// The most lines of one cell; a longer one suggests that a closing quote is missing.
+/// A cell with more lines than this gets a warning: a closing quote may be missing.
 const LINES: usize = 40;
 
 /// The reason why bytes could not be read as a table.
@@ -31,7 +31,7 @@ pub enum TableError {
         /// The limit.
         limit: usize,
     },
-    /// Most rows are much shorter than the first one, which therefore cannot hold their titles.
+    /// Rows lack so many cells of the first row's columns that the first row is probably no row of titles.
     #[error(
         "line {line}: the rows up to here lack {lacking} cells of the first row's {width} columns; \
          write one row of titles that fits the others"
@@ -85,8 +85,8 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    /// Reads a table whose first row names the columns; rows of another width are reported and padded with
-    /// empty cells.
+    /// Reads a table whose first row names the columns; shorter rows are padded with empty cells, longer
+    /// ones are cut to its width. Both are reported, unless only empty cells are cut.
     pub(crate) fn read(bytes: &[u8], findings: &mut Findings) -> Result<Self, TableError> {
         let text = decode(bytes, findings)?;
         let first = text
@@ -141,7 +141,7 @@ impl Cells {
     }
 }
 
-/// Returns the byte at which a record starts: csv includes the end of the previous line and empty lines.
+/// Returns the byte at which a record's text starts: the position from `csv` may lie before line ends and empty lines.
 fn start(text: &[u8], position: Option<&csv::Position>) -> usize {
     let at = position.map_or(0, |position| {
         usize::try_from(position.byte()).unwrap_or(usize::MAX)
@@ -202,17 +202,17 @@ pub(crate) fn western(byte: u8) -> char {
     }
 }
 
-/// Returns the text of bytes in UTF-8, UTF-16 or Windows-1252.
+/// Returns the text of bytes in UTF-8, in UTF-16 with a byte order mark, or otherwise in Windows-1252.
 pub(crate) fn decode<'b>(
     bytes: &'b [u8],
     findings: &mut Findings,
 ) -> Result<Cow<'b, str>, TableError> {
-    let little: Option<fn([u8; 2]) -> u16> = match bytes {
+    let read_unit: Option<fn([u8; 2]) -> u16> = match bytes {
         [0xff, 0xfe, ..] => Some(u16::from_le_bytes),
         [0xfe, 0xff, ..] => Some(u16::from_be_bytes),
         _ => None,
     };
-    if let Some(unit) = little {
+    if let Some(unit) = read_unit {
         let units = bytes[2..]
             .chunks_exact(2)
             .map(|pair| unit([pair[0], pair[1]]));

@@ -136,8 +136,8 @@ pub(crate) fn coded_of_token(
 }
 
 /// Calls `take` with the readings of a component in a recording: the annotations of its tiers, and the values of tokens
-/// that come from no annotation. With `phases` it is the values of tokens instead, each over the span of its
-/// annotation.
+/// that come from no annotation. With `phases` it is called with the values of tokens instead, each over the span
+/// of its annotation, or of its token if it has none.
 pub(crate) fn coded_in_recording(
     connection: &Connection,
     recording: i64,

@@ -286,7 +286,7 @@ fn count_ordinals(column: &StrColumn, docs: &[Doc], labels: &Labels) -> Vec<(usi
         .collect()
 }
 
-/// Row numbers, by segment.
+/// The database row of each document in the index: one column of numbers for each segment of the index.
 struct Rows(Vec<Numbers<u64>>);
 
 impl Column for Rows {

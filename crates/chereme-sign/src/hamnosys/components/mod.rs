@@ -229,7 +229,8 @@ impl Lost {
     }
 }
 
-/// Returns the successive values of each feature of face and body.
+/// Returns the successive values of each feature of face and body; simultaneous acts of one feature follow each other, and a
+/// mouth picture becomes `word`, without its sounds.
 fn nonmanual(notated: &Nonmanual, lost: &mut Lost) -> BTreeMap<&'static str, Vec<Vec<Value>>> {
     let mut features: BTreeMap<&'static str, Vec<Vec<Value>>> = BTreeMap::new();
     for (_, act) in notated.acts() {

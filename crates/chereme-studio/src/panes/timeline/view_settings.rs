@@ -66,7 +66,7 @@ impl TimelineSettings {
         Some(settings)
     }
 
-    /// Returns whether the switch of an action is on.
+    /// Returns whether the setting that an action switches or chooses is on; `false` for other actions.
     pub(crate) fn is_on(&self, action: Action) -> bool {
         match action {
             Action::ModeNormal => self.mode == Mode::Normal,
