@@ -107,7 +107,8 @@ impl Corpus {
     /// `movement.phase right (proposed)`.
     ///
     /// Each is an annotation by a detector ([`AnnotationOrigin::Detector`]) with its confidence. Earlier proposals on
-    /// these tiers that nobody has changed are replaced; annotations of people stay. All of it is one operation, which
+    /// these tiers that nobody has changed are replaced; annotations of people stay, and so do proposals on a tier for
+    /// which nothing is found any more. All of it is one operation, which
     /// one undo reverts. Two hours of a recording are examined.
     ///
     /// # Errors

@@ -16,7 +16,7 @@ use crate::settings::{Folders, write_whole};
 pub(crate) struct Drafts {
     file: Option<PathBuf>,
     corpus: PathBuf,
-    /// The draft that was read or written last.
+    /// The draft that was read last, or was last given to be written.
     written: Option<Draft>,
 }
 
@@ -50,23 +50,23 @@ impl Drafts {
         Some(kept.draft)
     }
 
-    /// Writes the draft if it changed; removes the file if there is no draft.
+    /// Writes the draft if it changed; removes the file if there is no draft. After an error the same draft is not tried
+    /// again, because the window calls this in every frame.
     pub(crate) fn keep(&mut self, draft: Option<Draft>) -> io::Result<()> {
         let Some(file) = self.file.as_ref().filter(|_| draft != self.written) else {
             return Ok(());
         };
-        match draft.clone() {
+        self.written.clone_from(&draft);
+        match draft {
             Some(draft) => {
                 let corpus = self.corpus.clone();
-                write_whole(file, &Kept { corpus, draft })?;
+                write_whole(file, &Kept { corpus, draft })
             }
             None => match fs::remove_file(file) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-                _ => {}
+                Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+                _ => Ok(()),
             },
         }
-        self.written = draft;
-        Ok(())
     }
 }
 

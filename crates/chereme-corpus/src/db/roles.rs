@@ -10,6 +10,7 @@ use rusqlite::Connection;
 
 use crate::error::Result;
 
+/// Returns the roles that the corpus lists.
 fn listed(connection: &Connection) -> Result<BTreeSet<String>> {
     let mut statement = connection.prepare("SELECT name FROM tier_role")?;
     let names = statement.query_map([], |row| row.get(0))?;

@@ -20,7 +20,8 @@ const FEWEST: usize = 8;
 /// The handshape of a vowel without a consonant.
 const VOWEL: u8 = 5;
 
-/// Returns the next gesture that leads to a key, and moves on behind it; if there is none, stays.
+/// Returns the next gesture that leads to a key and cuts the list behind it; leaves the list as it is if no gesture leads to
+/// the key.
 fn next_to<'g>(gestures: &mut &'g [AnnotationRow], key: &str) -> Option<&'g AnnotationRow> {
     let all = *gestures;
     let leads = |gesture: &AnnotationRow| gesture.value.rsplit('>').next() == Some(key);

@@ -31,7 +31,7 @@ pub enum TableError {
         /// The limit.
         limit: usize,
     },
-    /// Rows lack so many cells of the first row's columns that the first row is probably no row of titles.
+    /// Rows lack more cells of the first row's columns than may be added: the first row probably holds no titles.
     #[error(
         "line {line}: the rows up to here lack {lacking} cells of the first row's {width} columns; \
          write one row of titles that fits the others"
