@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use anyhow::Result;
 use chereme_corpus::remedy::Remedy;
-use chereme_corpus::words::{Language, Text, counted_in, fill, message, trouble};
+use chereme_corpus::words::{Language, Text, counted_in, fill, trouble};
 use chereme_corpus::{Step, Unit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
@@ -108,7 +108,7 @@ impl Output {
 
     /// Returns a message of the library in the language of the output; unchanged if there is no translation.
     pub(crate) fn spoken(&self, text: &str) -> String {
-        message(text, self.language).unwrap_or_else(|| text.to_owned())
+        words::message(text, self.language).unwrap_or_else(|| text.to_owned())
     }
 
     /// Writes a warning of the library in the language of the output.

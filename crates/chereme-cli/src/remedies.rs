@@ -110,7 +110,7 @@ fn fault(command: &str) -> Option<String> {
 }
 
 /// Returns the string literals of source code without its tests, each with the code directly before it.
-fn literals(text: &str) -> Vec<(String, String)> {
+pub(crate) fn literals(text: &str) -> Vec<(String, String)> {
     let text = text.split("#[cfg(test)]").next().unwrap_or_default();
     let lines = text.lines().map(str::trim_start);
     let code: Vec<&str> = lines.filter(|line| !line.starts_with("//")).collect();
@@ -121,7 +121,7 @@ fn literals(text: &str) -> Vec<(String, String)> {
     for (index, part) in code.split('"').enumerate() {
         match index % 2 {
             0 => part.clone_into(&mut before),
-            _ => found.push((before.clone(), part.replace("\\ ", " "))),
+            _ => found.push((before.clone(), part.replace("\\ ", ""))),
         }
     }
     found

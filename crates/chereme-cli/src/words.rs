@@ -1,15 +1,59 @@
-//! The help of the command line in French, found by its English form.
+//! The French of the command line, found by its English form: help, lines and titles of tables.
+//!
+//! Each command states its French in `WORDS` of its module; [`shared`] holds the French of what several commands have.
 
-mod help;
 pub(crate) mod kinds;
-mod titles;
+mod shared;
+#[cfg(test)]
+mod tests;
 
-use chereme_corpus::words::{Language, Text, fill, guide, message};
+use chereme_corpus::words::{Forms, Language, Text, fill, guide_among, message_among};
 use chereme_corpus::{TierRole, readable_files};
 use clap::builder::StyledStr;
 use clap::{Arg, ArgAction, Command};
 
-pub(crate) use titles::title;
+use crate::commands;
+use shared::SHARED;
+
+/// The French words of a command, each beside its English form. No English form has two French ones.
+pub(crate) struct Words {
+    /// Paragraphs of the help, without a full stop at the end of one that has nothing below it, and notes behind examples.
+    pub(crate) help: Forms,
+    /// Lines and errors; `{name}` stands for a variable part. A form that is contained in another comes after it.
+    pub(crate) lines: Forms,
+    /// Titles of tables. Names of columns that filters use stay English.
+    pub(crate) titles: Forms,
+}
+
+/// Returns the words of every command, then the shared ones.
+fn all() -> impl Iterator<Item = &'static Words> {
+    commands::WORDS.iter().copied().chain([&SHARED])
+}
+
+/// Returns the French form of an English text in tables; nothing if they lack it.
+fn of(mut tables: impl Iterator<Item = Forms>, english: &str) -> Option<&'static str> {
+    let found = |table: Forms| table.iter().find(|known| known.0 == english);
+    tables.find_map(found).map(|known| known.1)
+}
+
+/// Returns a text of the help in French; nothing if the tables lack it.
+fn help(english: &str) -> Option<&'static str> {
+    of(all().map(|it| it.help), english)
+}
+
+/// Returns the title of a column in `language`; a title that the tables lack stays as it is.
+pub(crate) fn title(title: &str, language: Language) -> &str {
+    match language {
+        Language::English => title,
+        Language::French => of(all().map(|it| it.titles), title).unwrap_or(title),
+    }
+}
+
+/// Returns a line or a message of the library in `language`; nothing if no table has it.
+pub(crate) fn message(text: &str, language: Language) -> Option<String> {
+    let own: Vec<Forms> = all().map(|it| it.lines).collect();
+    message_among(text, language, &own)
+}
 
 /// The phrases of clap, as English and French.
 const FRAME: [(&str, &str); 20] = [
@@ -217,16 +261,20 @@ fn listed(values: &[(String, Option<String>)]) -> String {
 /// English.
 fn translated(text: &StyledStr) -> String {
     let text = text.to_string();
-    if let Some(french) = help::of(&text) {
+    if let Some(french) = help(&text) {
         return french.to_owned();
     }
+    let notes: Vec<Forms> = all().map(|it| it.help).collect();
     let paragraph = |text: &str| {
         let lists = [readable_files, roles];
         if let Some(list) = lists.iter().find(|list| list(Language::English) == text) {
             return list(Language::French);
         }
-        let known = help::of(text).or_else(|| help::of(text.trim_end_matches('.')));
-        known.map_or_else(|| guide(text, Language::French), str::to_owned)
+        let known = help(text).or_else(|| help(text.trim_end_matches('.')));
+        known.map_or_else(
+            || guide_among(text, Language::French, &notes),
+            str::to_owned,
+        )
     };
     let all: Vec<String> = text.split("\n\n").map(paragraph).collect();
     all.join("\n\n")
@@ -249,127 +297,4 @@ fn with_reason(line: &str) -> String {
         Some(format!("{head}' : {reason}"))
     });
     translated.unwrap_or_else(|| line.to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
-
-    use super::*;
-    use crate::args::Cli;
-    use clap::CommandFactory;
-
-    /// Returns every text of the help, first paragraphs only.
-    fn texts(command: &Command, into: &mut BTreeSet<String>) {
-        let mut take = |text: Option<&StyledStr>| {
-            let text = text.map(ToString::to_string).unwrap_or_default();
-            let first = text.split("\n\n").next().unwrap_or_default();
-            if !first.is_empty() {
-                into.insert(first.to_owned());
-            }
-        };
-        take(command.get_about());
-        for argument in command.get_arguments() {
-            take(argument.get_help());
-            for value in argument.get_possible_values() {
-                take(value.get_help());
-            }
-        }
-        for command in command.get_subcommands() {
-            texts(command, into);
-        }
-    }
-
-    #[test]
-    fn nearly_all_help_has_a_french_form() {
-        let mut all = BTreeSet::new();
-        texts(&Cli::command(), &mut all);
-        let missing: Vec<&String> = all.iter().filter(|text| help::of(text).is_none()).collect();
-        // Options that are newer than the translation are shown in English.
-        assert!(
-            missing.len() * 5 < all.len(),
-            "{} of {} are not there:\n{missing:#?}",
-            missing.len(),
-            all.len()
-        );
-        for command in Cli::command().get_subcommands() {
-            let about = command
-                .get_about()
-                .map(ToString::to_string)
-                .unwrap_or_default();
-            assert!(help::of(&about).is_some(), "{about}");
-        }
-    }
-
-    #[test]
-    fn the_help_is_french_if_french_is_requested() {
-        let mut command = spoken(Cli::command(), Language::French);
-        command.clone().debug_assert();
-        let help = command.render_help().to_string();
-        assert!(
-            help.contains("Utilisation : chereme") && help.contains("Commandes :"),
-            "{help}"
-        );
-        assert!(
-            help.contains("Afficher l’aide") && !help.contains("Print help"),
-            "{help}"
-        );
-        assert!(help.contains("Annuler la dernière modification"), "{help}");
-        let mut annotate = command
-            .find_subcommand("annotate")
-            .expect("annotate")
-            .clone();
-        for help in [annotate.render_help(), annotate.render_long_help()] {
-            let help = help.to_string();
-            let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
-            assert!(
-                help.contains("bulldozer") && help.contains("[défaut : normal]"),
-                "{help}"
-            );
-            for english in [
-                "default:",
-                "ossible values",
-                "Options:",
-                "Arguments:",
-                "<COMMAND>",
-            ] {
-                assert!(!help.contains(english), "{english}: {help}");
-            }
-        }
-        let add = annotate.find_subcommand_mut("add-tier").expect("add-tier");
-        let help = add.render_help().to_string();
-        let flat = help.split_whitespace().collect::<Vec<_>>().join(" ");
-        let part = format!(
-            "L’objet de ses annotations : {}, ou",
-            TierRole::plain_kinds()
-        );
-        assert!(flat.contains(&part), "{help}");
-        let mut import = command.find_subcommand("import").expect("import").clone();
-        let long = import.render_long_help().to_string();
-        let flat = long.split_whitespace().collect::<Vec<_>>().join(" ");
-        for part in [
-            "Fichiers lus : ",
-            ".eaf (annotations)",
-            "Un film est lié",
-            "déjà importé",
-        ] {
-            assert!(flat.contains(part), "{part}: {long}");
-        }
-        let mut undo = command.find_subcommand("undo").expect("undo").clone();
-        let long = undo.render_long_help().to_string();
-        let flat: Vec<&str> = long.split_whitespace().collect();
-        let flat = flat.join(" ");
-        assert!(
-            flat.contains("Toute modification peut être annulée"),
-            "{long}"
-        );
-        let error = command
-            .try_get_matches_from(["chereme", "dance"])
-            .expect_err("no command");
-        let said = usage(&error.render().to_string());
-        assert!(
-            said.starts_with("erreur : commande inconnue : 'dance'"),
-            "{said}"
-        );
-    }
 }

@@ -1,5 +1,7 @@
 //! `chereme annotate`: adds, changes and removes annotations, one by one or from a table.
 
+mod french;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
@@ -15,6 +17,8 @@ use super::tiers;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 use crate::streams;
+
+pub(super) use french::WORDS;
 
 /// Add, change, move, split, merge, replace and remove annotations and tiers; in bulk from a table
 ///

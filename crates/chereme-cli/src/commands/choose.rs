@@ -9,6 +9,7 @@ use serde_json::json;
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
+use crate::words::Words;
 
 /// Rank recorded expressions of the face, such as those of a negation, for a sentence, and animate it with one of them
 ///
@@ -221,3 +222,114 @@ fn show(choice: &Choice, output: &mut Output) -> Result<()> {
     }
     Ok(())
 }
+
+/// The French words of the command.
+pub(super) const WORDS: Words = Words {
+    help: &[
+        (
+            "Rank recorded expressions of the face, such as those of a negation, for a sentence, and animate it with one of them",
+            "Classer pour une phrase les expressions du visage enregistrées, comme celles d’une négation, et l’animer avec l’une d’elles",
+        ),
+        (
+            "The function of the expression: negation, wh, yn, topic, conditional, rhetorical, or another word of the tier of functions",
+            "La fonction de l’expression : negation, wh, yn, topic, conditional, rhetorical, ou un autre mot de l’acteur des fonctions",
+        ),
+        (
+            "The sentence: a recording, a token in it, or the annotation of its function",
+            "La phrase : un enregistrement, une occurrence qu’il contient, ou l’annotation de sa fonction",
+        ),
+        ("The order of the ranking", "L’ordre du classement"),
+        (
+            "How many performances to report",
+            "Combien d’exécutions donner",
+        ),
+        (
+            "Animate the sentence with the face, and store it under this gloss",
+            "Animer la phrase avec ce visage, et l’enregistrer sous cette glose",
+        ),
+        (
+            "The address of the performance to animate with; without it the first of the ranking",
+            "L’adresse de l’exécution avec laquelle animer ; sinon la première du classement",
+        ),
+        (
+            "The channels to compare, separated by commas: head, brow, eye, gaze, jaw, mouth …; without it head and brows",
+            "Les canaux à comparer, séparés par des virgules : head, brow, eye, gaze, jaw, mouth … ; sinon la tête et les sourcils",
+        ),
+        (
+            "The weights of the phases onset, first, rest and offset, such as 1,2,2,0.5",
+            "Les poids des phases onset, first, rest et offset, par exemple 1,2,2,0.5",
+        ),
+        (
+            "Leave the ratio of lengths out of the score",
+            "Ne pas compter le rapport des durées",
+        ),
+        (
+            "Refuse phases that no path within the alignment window (10 frames) connects, instead of widening the window",
+            "Refuser les phases qu’aucun chemin dans la fenêtre d’alignement (10 images) ne relie, au lieu d’élargir la fenêtre",
+        ),
+        (
+            "The most similar to the sentence's own face; the medoid if that face was not recorded",
+            "La plus proche du visage propre de la phrase ; le médoïde si ce visage n’a pas été enregistré",
+        ),
+        (
+            "The least similar to the sentence's own face",
+            "La plus éloignée du visage propre de la phrase",
+        ),
+        (
+            "The most similar to all others",
+            "La plus proche de toutes les autres",
+        ),
+        (
+            "Dynamic time warping aligns each phase of a recorded performance (see `milestones`) with the same phase of the sentence's own face. The score is the sum of the distances times the ratio of lengths; 0 is the same face. If the sentence's face was not recorded, the most typical performance, the medoid, comes first. A recording is never its own candidate; equal scores are ordered by name.",
+            "La déformation temporelle dynamique aligne chaque phase d’une exécution enregistrée (voir `milestones`) sur la même phase du visage propre de la phrase. Le score est la somme des distances fois le rapport des durées ; 0 est le même visage. Si le visage de la phrase n’a pas été enregistré, l’exécution la plus typique, le médoïde, vient en premier. Un enregistrement n’est jamais son propre candidat ; à score égal, l’ordre est celui des noms.",
+        ),
+        (
+            "With --as the sentence is generated again with head, trunk and face of the first performance, or of the one that --use names; each of its phases is stretched to the length of the sentence's own.",
+            "Avec --as, la phrase est générée de nouveau avec la tête, le tronc et le visage de la première exécution, ou de celle que --use nomme ; chacune de ses phases est étirée à la durée de celle de la phrase.",
+        ),
+        (
+            "`--json` gives \"ranking\", each with \"token\", \"recording\", \"score\", \"unstretched\", \"stretch\", \"partial\", \"phases\" (\"phase\", \"frames\", \"distance\", \"normalized\", \"made\", \"channels\") and \"channels\", and \"channels\", \"left_out\", \"compared\", \"adapted\", \"skipped\"; with --as \"made\" and \"recipe\".",
+            "`--json` donne \"ranking\", chacune avec \"token\", \"recording\", \"score\", \"unstretched\", \"stretch\", \"partial\", \"phases\" (\"phase\", \"frames\", \"distance\", \"normalized\", \"made\", \"channels\") et \"channels\", et \"channels\", \"left_out\", \"compared\", \"adapted\", \"skipped\" ; avec --as \"made\" et \"recipe\".",
+        ),
+    ],
+    lines: &[
+        (
+            "and {n} more were not compared",
+            "pas comparées non plus : {n}",
+        ),
+        (
+            "{n} performances of {function} for {sign}, {order}; compared: {channels}",
+            "{n} exécutions de {function} pour {sign}, {order} ; comparé : {channels}",
+        ),
+        (
+            "the most similar to its own face first",
+            "d’abord la plus semblable à son propre visage",
+        ),
+        (
+            "the least similar to its own face first",
+            "d’abord la moins semblable à son propre visage",
+        ),
+        ("the most usual first", "d’abord la plus habituelle"),
+        (
+            "left out, as they are unknown: {names}",
+            "laissés de côté, car inconnus : {names}",
+        ),
+        (
+            "comparisons with phases of too different lengths for the window of 10 frames, which was widened: {n}",
+            "comparaisons de phases de durées trop différentes pour la fenêtre de 10 images, qui a été élargie : {n}",
+        ),
+        (
+            "each was compared with {n} others",
+            "comparaisons de chacune avec d’autres : {n}",
+        ),
+        (
+            "not compared: {token}: {why}",
+            "pas comparée : {token} : {why}",
+        ),
+    ],
+    titles: &[
+        ("differs most in", "diffère surtout par"),
+        ("score", "score"),
+        ("stretch", "étirement"),
+    ],
+};

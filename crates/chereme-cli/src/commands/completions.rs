@@ -10,6 +10,7 @@ use clap_complete::Shell;
 
 use crate::args::Cli;
 use crate::output::Output;
+use crate::words::Words;
 
 /// Write the completion script of a shell to standard output
 #[derive(Debug, clap::Args)]
@@ -33,7 +34,7 @@ pub(crate) struct ManArgs {
     to: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Args, output: &mut Output) -> Result<()> {
+pub(super) fn run(_: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "chereme", &mut script);
     let script = String::from_utf8(script)?;
@@ -41,7 +42,7 @@ pub(super) fn run(args: &Args, output: &mut Output) -> Result<()> {
     output.document(serde_json::json!({ "shell": args.shell.to_string(), "script": script }))
 }
 
-pub(super) fn man(args: &ManArgs, output: &mut Output) -> Result<()> {
+pub(super) fn man(_: &Cli, args: &ManArgs, output: &mut Output) -> Result<()> {
     let Some(folder) = &args.to else {
         let mut page = Vec::new();
         clap_mangen::Man::new(Cli::command()).render(&mut page)?;
@@ -72,3 +73,24 @@ pub(super) fn man(args: &ManArgs, output: &mut Output) -> Result<()> {
     output.line(format!("wrote {count} to {}", folder.display()))?;
     output.document(serde_json::json!({ "files": files }))
 }
+
+/// The French words of the commands.
+pub(super) const WORDS: Words = Words {
+    help: &[
+        (
+            "Write the completion script of a shell to standard output",
+            "Écrire le script de complétion d’un shell sur la sortie standard",
+        ),
+        ("The shell", "Le shell"),
+        (
+            "Write the manual pages for the program `man`",
+            "Écrire les pages du manuel, pour le programme `man`",
+        ),
+        (
+            "The folder for the pages, one for each command; without it the page of the whole program goes to standard output",
+            "Le dossier des pages, une par commande ; sinon la page de tout le programme va sur la sortie standard",
+        ),
+    ],
+    lines: &[("wrote {n} to {path}", "écrit : {n} dans {path}")],
+    titles: &[],
+};

@@ -1,5 +1,7 @@
 //! `chereme cued`: evaluates captured cued speech, from markers to a dictionary of movements.
 
+mod french;
+
 use std::path::PathBuf;
 
 use anyhow::Result;
@@ -14,6 +16,8 @@ use super::cue::RuleWord;
 use super::track::recording;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
+
+pub(super) use french::WORDS;
 
 /// Work with captured cued speech: markers, restoration, recognition, targets, phases, dictionary, slips
 ///
@@ -167,16 +171,16 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         Action::Markers { recording } => {
             let found = corpus.cued_markers(recording, &options)?;
             for (name, set) in [("hand", &found.hand), ("face", &found.face)] {
-                let missing = match set.missing.len() {
-                    0 => String::new(),
-                    1..=12 => format!("; missing: {}", set.missing.join(", ")),
-                    count => format!("; {count} are missing"),
-                };
-                output.line(format!(
-                    "{name}: {} markers, {:.1} % of their positions visible{missing}",
+                let visible = format!(
+                    "{name}: {} markers, {:.1} % of their positions visible",
                     set.found,
                     set.seen * 100.0
-                ))?;
+                );
+                output.line(match set.missing.len() {
+                    0 => visible,
+                    1..=12 => format!("{visible}; missing: {}", set.missing.join(", ")),
+                    count => format!("{visible}; {count} are missing"),
+                })?;
             }
             if !found.unused.is_empty() {
                 output.line(format!("not used: {}", found.unused.join(", ")))?;

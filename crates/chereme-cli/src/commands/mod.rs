@@ -45,93 +45,86 @@ use clap::Subcommand;
 
 use crate::args::Cli;
 use crate::output::Output;
+use crate::words::Words;
 
-/// The commands.
-#[derive(Debug, Subcommand)]
-pub(crate) enum Command {
-    Demo(demo::Args),
-    New(new::Args),
-    Import(import::Args),
-    Info(list::InfoArgs),
-    List(list::Args),
-    Annotate(annotate::Args),
-    Delete(delete::Args),
-    Inventory(inventory::Args),
-    Track(track::Args),
-    Fit(fit::Args),
-    Search(search::Args),
-    Recombine(recombine::Args),
-    Animate(animate::Args),
-    Render(render::Args),
-    Score(score::Args),
-    Face(face::Args),
-    Milestones(milestones::Args),
-    Choose(choose::Args),
-    Onsets(onsets::Args),
-    Suggest(suggest::Args),
-    Pairs(pairs::Args),
-    Map(map::Args),
-    Transcribe(transcribe::Args),
-    Cue(cue::Args),
-    Cued(cued::Args),
-    Propose(propose::Args),
-    Keys(keys::Args),
-    Check(check::Args),
-    Diff(diff::Args),
-    Merge(merge::MergeArgs),
-    Conflicts(merge::ConflictsArgs),
-    Export(export::Args),
-    Undo(history::UndoArgs),
-    Redo(history::RedoArgs),
-    Log(history::LogArgs),
-    Completions(completions::Args),
-    Man(completions::ManArgs),
-    Studio(studio::Args),
+/// Declares the commands: the name, the function that runs it with its options, and a change of its errors, if any.
+/// `WORDS` of the module holds the French of what the command prints.
+macro_rules! commands {
+    ($($name:ident => $module:ident::$run:ident($args:ident) $(or $mend:ident)?;)*) => {
+        /// The commands.
+        #[derive(Debug, Subcommand)]
+        pub(crate) enum Command {
+            $($name($module::$args),)*
+        }
+
+        /// Runs the command.
+        pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
+            match &cli.command {
+                $(Command::$name(args) => $module::$run(cli, args, output).map(Ended::code)$(.map_err($mend))?,)*
+            }
+        }
+
+        /// The French of every command.
+        pub(crate) const WORDS: &[&Words] = &[$(&$module::WORDS),*];
+    };
 }
 
-/// Runs the command.
-pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
-    match &cli.command {
-        Command::Demo(args) => demo::run(cli, args, output),
-        Command::Info(args) => list::info(cli, args, output),
-        Command::List(args) => list::list(cli, args, output),
-        Command::Annotate(args) => annotate::run(cli, args, output),
-        Command::Delete(args) => delete::run(cli, args, output),
-        Command::Inventory(args) => inventory::run(cli, args, output),
-        Command::Export(args) => export::run(cli, args, output).map_err(offer_force),
-        Command::New(args) => new::run(cli, args, output),
-        Command::Import(args) => return import::run(cli, args, output),
-        Command::Diff(args) => return diff::run(cli, args, output),
-        Command::Merge(args) => merge::merge(cli, args, output),
-        Command::Conflicts(args) => merge::conflicts(cli, args, output),
-        Command::Check(args) => return check::run(cli, args, output).map_err(past_checking),
-        Command::Score(args) => score::run(cli, args, output).map_err(offer_force),
-        Command::Face(args) => face::run(cli, args, output),
-        Command::Milestones(args) => milestones::run(cli, args, output),
-        Command::Onsets(args) => onsets::run(cli, args, output).map_err(offer_force),
-        Command::Choose(args) => choose::run(cli, args, output),
-        Command::Suggest(args) => suggest::run(cli, args, output),
-        Command::Pairs(args) => pairs::run(cli, args, output),
-        Command::Map(args) => map::run(cli, args, output).map_err(offer_force),
-        Command::Transcribe(args) => transcribe::run(cli, args, output),
-        Command::Cue(args) => cue::run(cli, args, output),
-        Command::Cued(args) => cued::run(cli, args, output),
-        Command::Propose(args) => propose::run(cli, args, output),
-        Command::Keys(args) => keys::run(cli, args, output),
-        Command::Track(args) => track::run(cli, args, output),
-        Command::Fit(args) => fit::run(cli, args, output),
-        Command::Search(args) => search::run(cli, args, output),
-        Command::Recombine(args) => recombine::run(cli, args, output),
-        Command::Animate(args) => animate::run(cli, args, output),
-        Command::Render(args) => render::run(cli, args, output).map_err(offer_force),
-        Command::Undo(args) => history::undo(cli, args, output),
-        Command::Redo(args) => history::redo(cli, args, output),
-        Command::Log(args) => history::log(cli, args, output),
-        Command::Completions(args) => completions::run(args, output),
-        Command::Man(args) => completions::man(args, output),
-        Command::Studio(args) => return studio::run(cli, args),
-    }?;
-    Ok(ExitCode::SUCCESS)
+commands! {
+    Demo => demo::run(Args);
+    New => new::run(Args);
+    Import => import::run(Args);
+    Info => list::info(InfoArgs);
+    List => list::list(Args);
+    Annotate => annotate::run(Args);
+    Delete => delete::run(Args);
+    Inventory => inventory::run(Args);
+    Track => track::run(Args);
+    Fit => fit::run(Args);
+    Search => search::run(Args);
+    Recombine => recombine::run(Args);
+    Animate => animate::run(Args);
+    Render => render::run(Args) or offer_force;
+    Score => score::run(Args) or offer_force;
+    Face => face::run(Args);
+    Milestones => milestones::run(Args);
+    Choose => choose::run(Args);
+    Onsets => onsets::run(Args) or offer_force;
+    Suggest => suggest::run(Args);
+    Pairs => pairs::run(Args);
+    Map => map::run(Args) or offer_force;
+    Transcribe => transcribe::run(Args);
+    Cue => cue::run(Args);
+    Cued => cued::run(Args);
+    Propose => propose::run(Args);
+    Keys => keys::run(Args);
+    Check => check::run(Args) or past_checking;
+    Diff => diff::run(Args);
+    Merge => merge::merge(MergeArgs);
+    Conflicts => merge::conflicts(ConflictsArgs);
+    Export => export::run(Args) or offer_force;
+    Undo => history::undo(UndoArgs);
+    Redo => history::redo(RedoArgs);
+    Log => history::log(LogArgs);
+    Completions => completions::run(Args);
+    Man => completions::man(ManArgs);
+    Studio => studio::run(Args);
+}
+
+/// The result of a command that did its work.
+trait Ended {
+    fn code(self) -> ExitCode;
+}
+
+impl Ended for () {
+    fn code(self) -> ExitCode {
+        ExitCode::SUCCESS
+    }
+}
+
+impl Ended for ExitCode {
+    fn code(self) -> ExitCode {
+        self
+    }
 }
 
 /// Replaces the remedy `chereme check` by another one if that command itself fails on damage.

@@ -7,6 +7,7 @@ use chereme_corpus::{Function, Progress, Quartiles, Step};
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
+use crate::words::Words;
 
 /// Measure when non-manuals begin and end relative to the signs that they span, for each function
 ///
@@ -77,3 +78,29 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     output.document(found)
 }
+
+/// The French words of the command.
+pub(super) const WORDS: Words = Words {
+    help: &[
+        (
+            "Measure when non-manuals begin and end relative to the signs that they span, for each function",
+            "Mesurer quand les éléments non manuels commencent et finissent par rapport aux signes qu’ils couvrent, pour chaque fonction",
+        ),
+        (
+            "A channel of the face or head begins when it is halfway from its value half a second before the expression to its most extreme value over the signs, and ends when it is halfway back. Onsets are in seconds after the start of the first sign (negative: before it), and ends in seconds after the end of the last sign. The functions are those of `milestones`.",
+            "Un canal du visage ou de la tête commence quand il est à mi-chemin entre sa valeur une demi-seconde avant l’expression et sa valeur la plus extrême pendant les signes, et finit quand il est revenu à mi-chemin. Les débuts sont en secondes après le début du premier signe (négatif : avant lui), les fins en secondes après la fin du dernier. Les fonctions sont celles de `milestones`.",
+        ),
+        (
+            "`--json` gives \"expressions\", \"without_face\" and \"rows\", each with \"function\", \"channel\", \"n\", \"onset_s\" and \"offset_s\" (\"q1\", \"median\", \"q3\").",
+            "`--json` donne \"expressions\", \"without_face\" et \"rows\", chacune avec \"function\", \"channel\", \"n\", \"onset_s\" et \"offset_s\" (\"q1\", \"median\", \"q3\").",
+        ),
+    ],
+    lines: &[(
+        "expressions: {n}; without a face: {none}",
+        "expressions : {n} ; sans visage : {none}",
+    )],
+    titles: &[
+        ("begins: median (quartiles)", "début : médiane (quartiles)"),
+        ("ends: median (quartiles)", "fin : médiane (quartiles)"),
+    ],
+};

@@ -11,6 +11,7 @@ use clap::ValueEnum;
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
+use crate::words::Words;
 
 /// Find the tokens that answer a query
 ///
@@ -271,3 +272,102 @@ fn cells(hit: &Hit) -> Vec<String> {
         components_text(&hit.components),
     ]
 }
+
+/// The French words of the command.
+pub(super) const WORDS: Words = Words {
+    help: &[
+        (
+            "The number of values of each field whose counts are shown, or all",
+            "Le nombre de valeurs de chaque champ dont le compte est montré, ou all",
+        ),
+        (
+            "Count the values of a field among all tokens found, such as placement or signer",
+            "Compter les valeurs d’un champ parmi toutes les occurrences trouvées, par exemple placement ou signer",
+        ),
+        (
+            "Count them for each value of another field, too, such as signer",
+            "Les compter aussi pour chaque valeur d’un autre champ, par exemple signer",
+        ),
+        (
+            "Count how often each pair of values of two fields occurs, such as dominant.configuration placement",
+            "Compter combien de fois se rencontre chaque paire de valeurs de deux champs, par exemple dominant.configuration placement",
+        ),
+        (
+            "Write the table of --count or --cross with commas or tabs between its cells",
+            "Écrire le tableau de --count ou de --cross avec des virgules ou des tabulations entre les cellules",
+        ),
+        (
+            "Find the tokens that answer a query",
+            "Trouver les occurrences qui répondent à une requête",
+        ),
+        (
+            "The query; all of its conditions must hold. @NAME stands for a saved search",
+            "La requête ; toutes ses conditions doivent être vraies. @NOM est une recherche enregistrée",
+        ),
+        (
+            "Save the query in the corpus as @NAME; an earlier one of that name is replaced",
+            "Enregistrer la requête dans le corpus sous @NOM ; une autre de ce nom est remplacée",
+        ),
+        (
+            "Delete the saved search NAME",
+            "Supprimer la recherche enregistrée NOM",
+        ),
+        ("Show at most N tokens", "Montrer au plus N occurrences"),
+        (
+            "Skip the first N tokens",
+            "Sauter les N premières occurrences",
+        ),
+        ("The order of the results", "L’ordre des résultats"),
+        (
+            "Leave out the counts of values",
+            "Sans les comptes des valeurs",
+        ),
+        (
+            "A query finds lexicon entries like captured tokens. Quote it for your shell, for example 'right.configuration=U placement=chin' or 'gloss:BO* not weak.configuration=S'. Any query can contain @NAME for a search that was saved with --keep NAME; `chereme list CORPUS searches` lists the saved ones.",
+            "Une requête trouve les entrées du lexique comme les occurrences captées. Mettez-la entre guillemets pour votre interpréteur de commandes, par exemple 'right.configuration=U placement=chin' ou 'gloss:BO* not weak.configuration=S'. Toute requête peut contenir @NOM pour une recherche enregistrée avec --keep NOM ; `chereme list CORPUS searches` énumère celles qui sont enregistrées.",
+        ),
+        ("A table for people to read", "Un tableau à lire"),
+        (
+            "Commas between the cells",
+            "Des virgules entre les cellules",
+        ),
+        (
+            "Tabs between the cells",
+            "Des tabulations entre les cellules",
+        ),
+        (
+            "The best first if the query ranks, otherwise by recording and time",
+            "Les meilleurs d’abord si la requête classe, sinon par enregistrement et temps",
+        ),
+        ("By gloss", "Par glose"),
+        ("By recording and time", "Par enregistrement et temps"),
+        ("The longest first", "Les plus longs d’abord"),
+    ],
+    lines: &[
+        (
+            "saved search @{name} deleted: {query}",
+            "recherche enregistrée @{name} supprimée : {query}",
+        ),
+        (
+            "saved: @{name} stands for this query",
+            "enregistré : @{name} vaut pour cette requête",
+        ),
+        ("1 token: {query}", "1 occurrence : {query}"),
+        ("0 tokens: {query}", "0 occurrence : {query}"),
+        ("{n} tokens: {query}", "{n} occurrences : {query}"),
+        (
+            "{n} tokens, {shown} shown: {query}",
+            "{n} occurrences, dont {shown} affichées : {query}",
+        ),
+        (
+            "there is no table to write",
+            "il n’y a pas de table à écrire",
+        ),
+        (
+            "name its fields with --count or --cross",
+            "nommez ses champs avec --count ou --cross",
+        ),
+        ("write a number, or all", "écrivez un nombre, ou all"),
+    ],
+    titles: &[("length", "durée")],
+};

@@ -400,10 +400,6 @@ pub(super) const EDITING: &[(&str, &str)] = &[
         "une occurrence part avec son annotation : {command}",
     ),
     (
-        "remove a tier with {command}",
-        "retirez un acteur avec {command}",
-    ),
-    (
         "write recording:3, recording:NAME or sign:GLOSS",
         "écrivez recording:3, recording:NOM ou sign:GLOSE",
     ),

@@ -1,13 +1,12 @@
-//! Guides with examples in French, line by line: the help of queries, of recipes and of commands.
+//! Guides with examples in French, line by line, such as the help of queries.
 
 use chereme_analysis::detect::DETECTORS;
 use chereme_compose::recipe::Step;
 
-use super::Language;
+use super::{Forms, Language};
 
 /// Lines, and notes behind examples, in English and French.
 const GUIDES: &[(&str, &str)] = &[
-    ("Examples:", "Exemples :"),
     (
         "A query is a list of conditions; a token must meet all of them:",
         "Une requête est une liste de conditions ; une occurrence doit les remplir toutes :",
@@ -146,82 +145,28 @@ const GUIDES: &[(&str, &str)] = &[
         "lead to a suggested query.",
         "mènent à une requête proposée.",
     ),
-    (
-        "Sources: what a recipe begins with",
-        "Sources : par quoi une recette commence",
-    ),
-    (
-        "a sign of the corpus, with movement or as notation",
-        "un signe du corpus, avec mouvement ou en notation",
-    ),
-    (
-        "a whole recording, by its name if no sign has that name",
-        "un enregistrement entier, par son nom si aucun signe ne le porte",
-    ),
-    (
-        "a word in a manual alphabet",
-        "un mot dans un alphabet manuel",
-    ),
-    (
-        "reaching for a point: to the left, up from the floor, forward",
-        "vers un point : à gauche, au-dessus du sol, en avant",
-    ),
-    ("notation", "de la notation"),
-    (
-        "Operators: the changes, one after another, each after |",
-        "Opérateurs : les changements, l’un après l’autre, chacun après |",
-    ),
-    (
-        "One after the other, with transitions",
-        "L’un après l’autre, avec des transitions",
-    ),
-    ("(the systems)", "(les systèmes)"),
-    (
-        "(its channels, formulas and losses)",
-        "(ses canaux, formules et pertes)",
-    ),
-    (
-        "(the face of a recording)",
-        "(le visage d’un enregistrement)",
-    ),
-    (
-        "(brows, blinks, gaze, mouth, shakes and nods as tiers)",
-        "(sourcils, clignements, regard, bouche et mouvements de la tête comme acteurs)",
-    ),
-    (
-        "(weights for this signer, from a range of motion)",
-        "(les poids de ce signeur, d’après toute l’ampleur)",
-    ),
-    (
-        "(all functions; nothing is written)",
-        "(toutes les fonctions ; rien n’est écrit)",
-    ),
-    ("(a milestone corrected)", "(un jalon corrigé)"),
-    (
-        "(finds proposed codings, too)",
-        "(trouve aussi les codages proposés)",
-    ),
-    ("(takes all of them back)", "(les retire tous)"),
-    (
-        "(then: export mine.chereme token:41 --to it.sigml)",
-        "(puis : export mine.chereme token:41 --to it.sigml)",
-    ),
 ];
 
 /// Returns a guide in `language`: its headings, and the notes two blanks or more behind an example; examples stay.
 #[must_use]
 pub fn guide(text: &str, language: Language) -> String {
+    guide_among(text, language, &[])
+}
+
+/// Returns a guide in `language`, as [`guide`] does, with words of the library and those of a program, `own`.
+#[must_use]
+pub fn guide_among(text: &str, language: Language, own: &[Forms]) -> String {
     match language {
         Language::English => text.to_owned(),
         Language::French => text
             .split('\n')
-            .map(in_french)
+            .map(|line| in_french(line, own))
             .collect::<Vec<_>>()
             .join("\n"),
     }
 }
 
-fn in_french(line: &str) -> String {
+fn in_french(line: &str, own: &[Forms]) -> String {
     let words = line.trim_start();
     let note = words.rsplit("  ").next().unwrap_or(words);
     let examples = || Step::DESCRIPTIONS.iter().flat_map(|it| it.examples);
@@ -229,8 +174,13 @@ fn in_french(line: &str) -> String {
         let operators = examples().map(|(_, effect)| (effect.en, effect.fr));
         let detectors = DETECTORS.iter().map(|it| it.description().finds);
         let detectors = detectors.map(|finds| (finds.en, finds.fr));
-        let mut all = GUIDES.iter().copied().chain(operators).chain(detectors);
-        all.find(|(english, _)| *english == text)
+        let own = own.iter().copied().flatten();
+        let mut all = GUIDES.iter().chain(own).copied();
+        let found = all.find(|(english, _)| *english == text);
+        found.or_else(|| {
+            let mut described = operators.chain(detectors);
+            described.find(|(english, _)| *english == text)
+        })
     };
     match known(words).or_else(|| known(note)) {
         Some((english, french)) => format!("{}{french}", &line[..line.len() - english.len()]),

@@ -12,14 +12,13 @@ use super::Language;
 use super::asking::ASKING;
 use super::captures::CAPTURES;
 use super::coding::CODING;
-use super::commands::COMMANDS;
 use super::composing::COMPOSING;
 use super::count::counted_in_french;
 use super::documents::DOCUMENTS;
 use super::editing::EDITING;
 use super::findings::FINDINGS;
 use super::importing::IMPORTING;
-use super::lines::LINES;
+use super::lines::{GENERAL, LINES};
 use super::moving::MOVING;
 use super::notes::NOTES;
 use super::queries::QUERIES;
@@ -28,6 +27,18 @@ use crate::import::readers::endings;
 
 /// Messages and remedies in English and French; a form that is contained in another comes after it.
 const MESSAGES: &[(&str, &str)] = &[
+    (
+        "no detector is called {name}",
+        "aucun détecteur ne s’appelle {name}",
+    ),
+    (
+        "the detectors are: {names}",
+        "les détecteurs sont : {names}",
+    ),
+    (
+        "{text} is no number of a conflict",
+        "{text} n’est pas un numéro de conflit",
+    ),
     (
         "write the name of a signer or a recording; {command} lists them",
         "écrivez le nom d’un signeur ou d’un enregistrement ; {command} en donne la liste",
@@ -72,10 +83,6 @@ const MESSAGES: &[(&str, &str)] = &[
         "une clé n’a pas de partie {part}",
     ),
     (
-        "{text} is no number of a conflict",
-        "{text} n’est pas un numéro de conflit",
-    ),
-    (
         "{text} is no number of a frame",
         "{text} n’est pas un numéro d’image",
     ),
@@ -110,10 +117,6 @@ const MESSAGES: &[(&str, &str)] = &[
     (
         "{path}: there is nothing of this name",
         "{path} : rien ne porte ce nom",
-    ),
-    (
-        "{path}: something of this name is there already",
-        "{path} : quelque chose porte déjà ce nom",
     ),
     (
         "{path} cannot be opened as a corpus: {why}",
@@ -155,10 +158,6 @@ const MESSAGES: &[(&str, &str)] = &[
     (
         "choose another name, or move the existing one away",
         "choisissez un autre nom, ou déplacez ce qui existe",
-    ),
-    (
-        "choose another name, or write over it with --force",
-        "choisissez un autre nom, ou remplacez-le avec --force",
     ),
     (
         "another program has been writing to the corpus for 20 seconds; try again when it is done",
@@ -225,8 +224,6 @@ const MESSAGES: &[(&str, &str)] = &[
         "un autre ({what}) s’appelle déjà {name}",
     ),
     ("give it another name", "donnez-lui un autre nom"),
-    ("which recording?", "quel enregistrement ?"),
-    ("name it with --in", "nommez-le avec --in"),
     (
         "which recording’s tier is {tier}?",
         "de quel enregistrement est l’acteur {tier} ?",
@@ -479,17 +476,26 @@ const MESSAGES: &[(&str, &str)] = &[
     ),
 ];
 
+/// A table of texts in English and French.
+pub type Forms = &'static [(&'static str, &'static str)];
+
 /// Returns a message of the library in `language`; nothing if the table lacks it.
 #[must_use]
 pub fn message(text: &str, language: Language) -> Option<String> {
+    message_among(text, language, &[])
+}
+
+/// Returns a message in `language`, as [`message`] does, from the tables of the library and those of a program, `own`.
+#[must_use]
+pub fn message_among(text: &str, language: Language, own: &[Forms]) -> Option<String> {
     if language == Language::English {
         return Some(text.to_owned());
     }
-    in_french(text)
+    in_french(text, own)
 }
 
-/// Returns all messages in English and French.
-fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
+/// Returns all messages in English and French; those of a program come before the most general forms of the library.
+pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)> {
     let first = MESSAGES.iter().chain(FINDINGS).chain(QUERIES).copied();
     let operators = Step::DESCRIPTIONS.iter().flat_map(|it| it.messages);
     let detectors = DETECTORS.iter().flat_map(|it| it.description().messages);
@@ -500,27 +506,28 @@ fn all() -> impl Iterator<Item = (&'static str, &'static str)> {
         .chain(EDITING)
         .chain(COMPOSING)
         .chain(CODING)
-        .chain(COMMANDS)
         .chain(READING)
         .chain(CAPTURES)
         .chain(DOCUMENTS)
         .chain(ASKING)
         .chain(LINES);
+    let own = own.iter().copied().flatten();
     first
         .chain(operators.chain(detectors).map(|it| (it.en, it.fr)))
-        .chain(rest.copied())
+        .chain(rest.chain(own).chain(GENERAL).copied())
 }
 
-fn in_french(text: &str) -> Option<String> {
+fn in_french(text: &str, own: &[Forms]) -> Option<String> {
     let part = |blank: &str, part: &str| {
         let side = side_in_french(blank, part).map(str::to_owned);
-        side.or_else(|| in_french(part))
+        side.or_else(|| in_french(part, own))
             .unwrap_or_else(|| part.to_owned())
     };
     if text.starts_with('.') && text == endings(Language::English) {
         return Some(endings(Language::French));
     }
-    let translated = all().find_map(|(english, french)| carried(text, english, french, &part));
+    let mut all = forms(own);
+    let translated = all.find_map(|(english, french)| carried(text, english, french, &part));
     translated.or_else(|| counted_in_french(text))
 }
 
@@ -579,7 +586,7 @@ mod tests {
             names.sort();
             names
         };
-        for (english, french) in all() {
+        for (english, french) in forms(&[]) {
             assert_eq!(blanks(english), blanks(french), "{english}");
             let same = carried(english, english, english, &|_, it| it.to_owned());
             assert_eq!(same.as_deref(), Some(english), "it is of its own form");
@@ -588,8 +595,8 @@ mod tests {
 
     #[test]
     fn no_form_hides_a_later_one() {
-        for (english, _) in all() {
-            let mut fitting = all()
+        for (english, _) in forms(&[]) {
+            let mut fitting = forms(&[])
                 .filter(|(form, _)| carried(english, form, form, &|_, it| it.to_owned()).is_some());
             assert_eq!(fitting.next().map(|first| first.0), Some(english));
         }

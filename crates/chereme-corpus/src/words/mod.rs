@@ -7,8 +7,8 @@ use std::fmt::Display;
 
 pub use chereme_sign::words::{Language, Text};
 pub use count::{counted, counted_in, numbered};
-pub use guides::guide;
-pub use messages::message;
+pub use guides::{guide, guide_among};
+pub use messages::{Forms, forms, message, message_among};
 
 /// Declares the texts of one part.
 macro_rules! texts {
@@ -25,7 +25,6 @@ macro_rules! texts {
 mod asking;
 mod captures;
 mod coding;
-mod commands;
 mod composing;
 mod count;
 pub mod deeds;
