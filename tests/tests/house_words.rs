@@ -44,14 +44,11 @@ fn words(text: &str) -> String {
     format!(" {} ", words.join(" "))
 }
 
-/// Returns the prose of a line: a comment of Rust, a line of a guide, or the English of a help text.
+/// Returns the prose of a line: a comment of Rust, which is the help of commands too, or a line of a guide.
 fn prose<'a>(path: &str, line: &'a str) -> Option<&'a str> {
     if path.ends_with(".rs") {
         let comment = line.trim_start().strip_prefix("//")?;
         return Some(comment);
-    }
-    if path.ends_with("help.tsv") {
-        return line.split('\t').next();
     }
     Some(line)
 }
@@ -69,8 +66,7 @@ fn every_term_is_the_one_of_the_glossary() {
     let mut files = repository::text_files();
     files.retain(|file| {
         let guide = file.path.ends_with("README.md");
-        let help = file.path.ends_with("help.tsv");
-        (guide || help || file.path.ends_with(".rs")) && !OWN.contains(&file.path.as_str())
+        (guide || file.path.ends_with(".rs")) && !OWN.contains(&file.path.as_str())
     });
     assert!(files.len() > 500, "{} files", files.len());
     let mut faults = Vec::new();

@@ -2,14 +2,15 @@
 //!
 //! A row: the variant, the name in the settings file, the words in English and French; menu, where its keys count, who
 //! carries it out, whether it changes the corpus and whether a held key repeats it, and the keys of ELAN 6.9, of Praat
-//! and of video editors. Several keys are parted by blanks; `none` is none; `=` is the same as ELAN's.
+//! and of video editors. Several keys are parted by blanks; `none` is none; `=` is the same as ELAN's. `Runs` holds a use
+//! case on the selection, as a closure that returns its job.
 
 use super::{ActionRow, Context, Menu, Owner};
 use crate::panes::PaneKind::{
     Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search, Stage, Timeline,
 };
-use crate::words::Text;
-use crate::work::whole_corpus;
+use crate::words::{Text, shell};
+use crate::work::{Job, Outcome};
 
 actions! {
     OpenStarter "file.starter" "Open the starter corpus" | "Ouvrir le corpus de départ"
@@ -31,7 +32,12 @@ actions! {
     Close "file.close" "Close the corpus" | "Fermer le corpus"
         File, Corpus, Window, "Ctrl+W" "=" "=";
     Check "file.check" "Check the corpus" | "Vérifier le corpus"
-        File, Corpus, Runs(whole_corpus::check), "none" "none" "none";
+        File, Corpus, Runs(|seen| {
+            let mend = !seen.snapshot.is_read_only();
+            Ok(Job::long(shell::TASK_CHECK, move |corpus, progress| {
+                corpus.check(mend, progress).map(Outcome::Checked)
+            }))
+        }), "none" "none" "none";
     Settings "file.settings" "Settings" | "Réglages"
         File, Everywhere, Window, "Ctrl+Comma" "=" "=";
     Quit "file.quit" "Quit" | "Quitter"

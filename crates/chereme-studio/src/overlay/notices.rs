@@ -186,6 +186,7 @@ impl Notices {
         );
         self.all.retain(|notice| !(written && notice.passes));
         let text = match outcome {
+            Outcome::Said(text) => text.clone(),
             Outcome::Recombined(made) => {
                 fill(words::NOTICE_STORED.of(language), &[("gloss", &made.gloss)])
             }
@@ -206,13 +207,6 @@ impl Notices {
             Outcome::Proposed(it) => fill(
                 words::NOTICE_PROPOSED.of(language),
                 &[("tokens", &it.tokens), ("unread", &it.unread)],
-            ),
-            Outcome::Detected(it) if it.annotations == 0 => {
-                words::NOTICE_NOT_DETECTED.of(language).to_owned()
-            }
-            Outcome::Detected(it) => fill(
-                words::NOTICE_DETECTED.of(language),
-                &[("n", &it.annotations)],
             ),
             Outcome::Checked(report) => return self.checked(report, language),
             Outcome::Redone(row) => {

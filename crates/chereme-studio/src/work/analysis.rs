@@ -4,7 +4,7 @@ use chereme_corpus::{CuedOptions, DetectOptions, Name, ProposeOptions};
 use chereme_sign::Component;
 
 use super::{About, Job, Outcome};
-use crate::words::shell;
+use crate::words::{Language, fill, shell};
 
 const PROPOSE: About = About {
     task: shell::TASK_PROPOSE,
@@ -27,10 +27,15 @@ pub(crate) fn propose_coding(component: Component) -> Job {
     })
 }
 
-/// Runs a detector, and stores its proposals.
-pub(crate) fn detect(options: DetectOptions) -> Job {
+/// Runs a detector, stores its proposals, and reports their number in `language`.
+pub(crate) fn detect(options: DetectOptions, language: Language) -> Job {
     Job::new(PROPOSE, move |corpus, progress| {
-        corpus.detect(&options, progress).map(Outcome::Detected)
+        let found = corpus.detect(&options, progress)?.annotations;
+        let text = match found {
+            0 => shell::NOTICE_NOT_DETECTED,
+            _ => shell::NOTICE_DETECTED,
+        };
+        Ok(Outcome::Said(fill(text.of(language), &[("n", &found)])))
     })
 }
 

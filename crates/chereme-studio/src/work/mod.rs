@@ -1,6 +1,7 @@
 //! Work on other threads: each use case of the corpus is a [`Job`], a value that a thread carries out.
 //!
-//! Each use case is one function in a module by theme, which states its [`About`] and the call of the corpus. The call is a
+//! Each use case is one function in a module by theme, which states its [`About`] and the call of the corpus; one that
+//! needs only the selection is a closure in its row of the table of actions. The call is a
 //! boxed closure, as a closure owns its arguments without naming them again; a trait would need a struct, its fields and
 //! an `impl` for each use case. Nothing can look into a job: a pane that needs its request later remembers it beside the
 //! [`WorkId`].
@@ -100,12 +101,25 @@ impl Job {
     }
 
     /// Returns an edit whose whole result is in the next snapshot.
-    fn change<T>(
+    pub(crate) fn change<T>(
         call: impl FnOnce(&mut Corpus, &mut Progress<'_>) -> Result<T> + Send + 'static,
     ) -> Self {
         Self::new(About::EDIT, |corpus, progress| {
             call(corpus, progress).map(|_| Outcome::Changed)
         })
+    }
+
+    /// Returns an edit that may take long: its title is shown while it runs, and it may be stopped.
+    pub(crate) fn long(
+        task: Text,
+        call: impl FnOnce(&mut Corpus, &mut Progress<'_>) -> Result<Outcome> + Send + 'static,
+    ) -> Self {
+        let about = About {
+            task,
+            may_stop: true,
+            ..About::EDIT
+        };
+        Self::new(about, call)
     }
 
     /// Carries out the job.

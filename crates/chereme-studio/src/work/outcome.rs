@@ -4,14 +4,16 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     AnnotateReport, Answer, Around, CheckReport, Choice, CueSlips, Curves, Deleted, Details,
-    Detected, ExportReport, Expressions, ImportReport, MadePart, MergeReport, Moving, Onsets,
-    OperationRow, Picture, PointsPiece, Proposed, Recombination, SignMap, Suggestions,
+    ExportReport, Expressions, ImportReport, MadePart, MergeReport, Moving, Onsets, OperationRow,
+    Picture, PointsPiece, Proposed, Recombination, SignMap, Suggestions,
 };
 use eframe::egui::ColorImage;
 
 /// The result of a [`Job`](super::Job).
 #[derive(Debug)]
 pub(crate) enum Outcome {
+    /// A sentence that reports the result, in the language of the window.
+    Said(String),
     /// Annotations were changed.
     Annotated(AnnotateReport),
     /// Something was changed that the next snapshot shows.
@@ -39,8 +41,6 @@ pub(crate) enum Outcome {
     Checked(CheckReport),
     /// Values of a component were proposed from movement.
     Proposed(Proposed),
-    /// A detector proposed annotations.
-    Detected(Detected),
     /// All details of something.
     Looked(Details),
     /// Tokens were found.

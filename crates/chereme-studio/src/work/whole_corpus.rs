@@ -1,12 +1,11 @@
-//! Jobs on the whole corpus: its history, its integrity, and merging.
+//! Jobs on the whole corpus: its history and merging.
 
 use std::path::PathBuf;
 
 use chereme_corpus::{Decision, Step, Unit};
 
 use super::{About, Job, Outcome};
-use crate::context::PaneInput;
-use crate::words::{Text, shell};
+use crate::words::shell;
 
 /// Undoes the newest operation (`back`), or redoes the last undone one.
 pub(crate) fn undo_or_redo(back: bool) -> Job {
@@ -37,19 +36,6 @@ pub(crate) fn walk(back: bool, steps: usize) -> Job {
         }
         Ok(Outcome::Walked { back, steps })
     })
-}
-
-/// Checks the whole corpus, and rebuilds wrong derived rows unless it is read-only.
-pub(crate) fn check(seen: &PaneInput<'_>) -> Result<Job, Text> {
-    let mend = !seen.snapshot.is_read_only();
-    let about = About {
-        task: shell::TASK_CHECK,
-        may_stop: true,
-        ..About::EDIT
-    };
-    Ok(Job::new(about, move |corpus, progress| {
-        corpus.check(mend, progress).map(Outcome::Checked)
-    }))
 }
 
 /// Merges another corpus into this one.

@@ -235,10 +235,13 @@ impl Faces {
         if button.on_hover_text(seen.say(words::PROPOSE_TIP)).clicked()
             && let Some(id) = recording
         {
-            out.work(analysis::detect(DetectOptions {
-                detector: Nonmanuals.name().to_owned(),
-                scope: ProposeScope::Recording(Name::Number(id)),
-            }));
+            out.work(analysis::detect(
+                DetectOptions {
+                    detector: Nonmanuals.name().to_owned(),
+                    scope: ProposeScope::Recording(Name::Number(id)),
+                },
+                seen.language,
+            ));
         }
     }
 

@@ -58,10 +58,13 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
         });
     match done.and_then(|at| DETECTORS.get(at)) {
         Some(detector) => {
-            out.work(analysis::detect(DetectOptions {
-                detector: detector.name().to_owned(),
-                scope,
-            }));
+            out.work(analysis::detect(
+                DetectOptions {
+                    detector: detector.name().to_owned(),
+                    scope,
+                },
+                scene.seen.language,
+            ));
         }
         None if !closed => timeline.boxes.detectors = Some(list),
         None => {}
