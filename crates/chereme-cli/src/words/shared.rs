@@ -100,10 +100,6 @@ pub(super) const SHARED: Words = Words {
             "laissez --json de côté, ou nommez un fichier",
         ),
         (
-            "{path}: something of this name is there already",
-            "{path} : quelque chose porte déjà ce nom",
-        ),
-        (
             "choose another name, or write over it with --force",
             "choisissez un autre nom, ou remplacez-le avec --force",
         ),

@@ -28,6 +28,10 @@ use crate::import::readers::endings;
 /// Messages and remedies in English and French; a form that is contained in another comes after it.
 const MESSAGES: &[(&str, &str)] = &[
     (
+        "{path}: something of this name is there already",
+        "{path} : quelque chose porte déjà ce nom",
+    ),
+    (
         "no detector is called {name}",
         "aucun détecteur ne s’appelle {name}",
     ),
