@@ -358,6 +358,12 @@ fn the_command_line_speaks_french_if_requested() {
             text(&done.stderr)
         );
     }
+    for (language, last) in [("en", ": import "), ("fr", " : Importé : ")] {
+        let info = desk.run(&format!("info {path} --language {language}"));
+        let said = text(&info.stdout);
+        let line = said.lines().find(|it| it.contains("maker"));
+        assert!(line.is_some_and(|it| it.contains(last)), "{said}");
+    }
     let done = desk.run(&format!("undo {path} --language fr"));
     assert!(
         text(&done.stdout).starts_with("annulé : opération 1, Importé : "),

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::words::counted_in;
+use chereme_corpus::words::history::sentence;
+use chereme_corpus::words::{Language, counted_in};
 use chereme_corpus::{AttributeInfo, Info, ListFilter, ListKind, cell_text};
 
 use crate::args::Cli;
@@ -159,10 +160,12 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
         output.line(format!("attributes of signs: {}", named.join(", ")))?;
     }
     if let Some(last) = &info.last_operation {
-        output.line(format!(
-            "last change: {} by {}: {} {}",
-            last.at, last.author, last.name, last.summary
-        ))?;
+        let what = match language {
+            Language::English => format!("{} {}", last.name, last.summary),
+            Language::French => sentence(last, language),
+        };
+        let (at, who) = (&last.at, &last.author);
+        output.line(format!("last change: {at} by {who}: {what}"))?;
     }
     Ok(())
 }
