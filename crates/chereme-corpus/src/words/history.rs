@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 
+use super::count::counted_in_french;
 use super::{Language, Text, deeds, fill};
 use crate::OperationRow;
 
@@ -204,6 +205,10 @@ pub fn annotated(summary: &str, language: Language) -> Option<String> {
         parts.push(fill(text.of(language), &[("n", &count)]));
     }
     let parts = parts.join(", ");
+    let place = match (language, counted_in_french(place)) {
+        (Language::French, Some(several)) => several,
+        _ => place.to_owned(),
+    };
     let values: [(&str, &dyn Display); 2] = [("what", &parts), ("place", &place)];
     Some(fill(DID_ANNOTATE.of(language), &values))
 }
@@ -236,6 +241,12 @@ mod tests {
     #[test]
     fn operations_are_sentences_in_both_languages() {
         for (name, summary, english, french) in [
+            (
+                "propose",
+                "3 added in 2 recordings",
+                "Proposed from movement: 3 annotations added in 2 recordings",
+                "Proposé d’après le mouvement : 3 annotations ajoutées dans 2 enregistrements",
+            ),
             (
                 "annotate",
                 "2 added, 1 removed in Un",

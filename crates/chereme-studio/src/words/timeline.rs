@@ -3,6 +3,7 @@
 texts! {
     NO_PROPOSAL: "There is no proposal here. {value.propose} reads handshapes, places, movements and orientations from the movement.", "Il n’y a pas de proposition ici. {value.propose} lit configurations, emplacements, mouvements et orientations dans le mouvement.";
     DETECT_TITLE: "Propose with a detector", "Proposer avec un détecteur";
+    DETECTOR: "{name}: {finds}", "{name} : {finds}";
     DETECT_SIGN: "Proposals for the selected sign, on tiers of their own:", "Propositions pour le signe sélectionné, sur des acteurs à part :";
     DETECT_SPAN: "Proposals for the selected time, on tiers of their own:", "Propositions pour le temps sélectionné, sur des acteurs à part :";
     DETECT_RECORDING: "Proposals for the whole recording, on tiers of their own:", "Propositions pour tout l’enregistrement, sur des acteurs à part :";

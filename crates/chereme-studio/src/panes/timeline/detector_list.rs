@@ -6,7 +6,7 @@ use eframe::egui::{Align2, Button, Id, Key, Label, Modifiers, Ui, Window, vec2};
 use super::edit::Scene;
 use super::{Timeline, proposals};
 use crate::context::Outbox;
-use crate::words::{shell, timeline as words};
+use crate::words::{fill, shell, timeline as words};
 use crate::work::analysis;
 
 /// The list while it is open.
@@ -46,7 +46,10 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
             ui.add(Label::new(scene.seen.say(text)).wrap());
             for (at, detector) in DETECTORS.iter().enumerate() {
                 let finds = detector.description().finds.of(scene.seen.language);
-                let text = format!("{}: {finds}", detector.name());
+                let text = fill(
+                    scene.seen.say(words::DETECTOR),
+                    &[("name", &detector.name()), ("finds", &finds)],
+                );
                 let button = Button::selectable(at == list.chosen, text)
                     .wrap()
                     .min_size(vec2(ui.available_width(), 0.0));
