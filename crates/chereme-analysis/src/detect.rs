@@ -33,6 +33,10 @@ pub trait Detector: Sync {
     /// Returns the parts of a signer that it examines; it finds nothing if all of them are missing.
     fn examines(&self) -> &'static [Part];
 
+    /// Returns the fields that it may write. A stored proposal does not name its detector, so no two detectors write the
+    /// same field: the earlier proposals of its fields are its own, and another run replaces them.
+    fn fields(&self) -> Vec<Field>;
+
     /// Returns the detections, field by field in order of time, without overlaps in a field; empty if the parts that it
     /// examines were not observed.
     fn detect(&self, observed: &Observed<'_>) -> Vec<Detection>;
@@ -117,6 +121,20 @@ mod tests {
     }
 
     #[test]
+    fn no_two_detectors_write_the_same_field() {
+        let mut all: Vec<String> = Vec::new();
+        for it in DETECTORS {
+            let own = it.fields();
+            assert!(!own.is_empty(), "{}", it.name());
+            all.extend(own.iter().map(ToString::to_string));
+        }
+        let count = all.len();
+        all.sort_unstable();
+        all.dedup();
+        assert_eq!(all.len(), count, "{all:?}");
+    }
+
+    #[test]
     fn every_detector_gives_spans_fields_and_confidences() {
         let step = |s: f64| s.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * s.clamp(0.0, 1.0));
         let (clip, anatomy) = bending(|t| step(2.0 * t - 1.0) - step(2.0 * t - 3.0));
@@ -144,8 +162,10 @@ mod tests {
             for pair in found.windows(2) {
                 assert!(pair[0].span.end() <= pair[1].span.start(), "{pair:?}");
             }
+            let own = detector(name).expect(name).fields();
             for it in &found {
                 assert_eq!(it.field.to_string(), field);
+                assert!(own.contains(&it.field), "{it:?}");
                 assert!(!it.span.is_empty() && (0.0..=1.0).contains(&it.confidence));
             }
         }

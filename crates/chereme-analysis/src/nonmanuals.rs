@@ -72,10 +72,13 @@ pub struct Curves<'a> {
     pub head_yaw: Option<&'a [f64]>,
 }
 
+/// The parts of face and head whose actions are proposed.
+pub const FEATURES: [&str; 5] = ["brows", "lids", "gaze", "mouth", "head"];
+
 /// A proposed action of a part of the face.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Proposal {
-    /// The part: `brows`, `lids`, `gaze`, `mouth` or `head`.
+    /// The part, one of [`FEATURES`].
     pub feature: &'static str,
     /// The value of the part's inventory.
     pub value: &'static str,

@@ -41,7 +41,7 @@ pub struct Detected {
     pub detector: String,
     /// How many annotations were written.
     pub annotations: u64,
-    /// The names of the recordings with new annotations, in order.
+    /// The names of the recordings with new annotations, or without earlier ones that are no longer found, in order.
     pub recordings: Vec<String>,
     /// How many recordings have no part that the detector examines.
     pub unobserved: u64,
@@ -107,9 +107,8 @@ impl Corpus {
     /// `movement.phase right (proposed)`.
     ///
     /// Each is an annotation by a detector ([`AnnotationOrigin::Detector`]) with its confidence. Earlier proposals on
-    /// these tiers that nobody has changed are replaced; annotations of people stay, and so do proposals on a tier for
-    /// which nothing is found any more. All of it is one operation, which
-    /// one undo reverts. Two hours of a recording are examined.
+    /// the tiers of its fields that nobody has changed are replaced, even if nothing is found there any more; annotations of
+    /// people stay. All of it is one operation, which one undo reverts. Two hours of a recording are examined.
     ///
     /// # Errors
     /// [`Error::Stopped`] if `progress` asks to stop before anything is written. Fails if there is no such detector,
@@ -144,7 +143,7 @@ impl Corpus {
             };
             let span = within.unwrap_or_else(|| whole(row));
             proposals.retain(|it| overlaps(span, it.start_us, it.end_us));
-            changes.take(connection, row.id, span, &proposals)?;
+            changes.take(connection, row.id, span, (detector, &proposals))?;
             if !proposals.is_empty() {
                 detected.found.push(DetectedIn {
                     recording: row.name.clone(),
@@ -261,26 +260,22 @@ fn overlaps(span: Span, start: i64, end: i64) -> bool {
 }
 
 impl ProposalChanges {
-    /// Adds the changes that store proposals for a recording: on each of their tiers they replace the annotations of
-    /// detectors that overlap `within`, and leave out what other annotations occupy.
+    /// Adds the changes that store the proposals of a detector for a recording: on each tier of its fields they replace
+    /// the annotations of detectors that overlap `within`, and leave out what other annotations occupy.
     pub(crate) fn take(
         &mut self,
         connection: &Connection,
         recording: i64,
         within: Span,
-        proposals: &[Proposal],
+        (detector, proposals): (&dyn Detector, &[Proposal]),
     ) -> Result<()> {
         let known = tiers::tiers(connection, recording)?;
-        let mut done: Vec<&str> = Vec::new();
-        for first in proposals {
-            let name = first.tier.as_str();
-            if done.contains(&name) {
-                continue;
-            }
-            done.push(name);
+        for field in detector.fields() {
+            let name = proposal_tier(&field);
+            let mut found = proposals.iter().filter(|it| it.tier == name).peekable();
             let mut occupied = Vec::new();
-            match known.iter().find(|row| row.name == name) {
-                Some(row) => {
+            match (known.iter().find(|row| row.name == name), found.peek()) {
+                (Some(row), _) => {
                     for old in tiers::annotations(connection, row.id)? {
                         if old.origin == AnnotationOrigin::Detector
                             && overlaps(within, old.start_us, old.end_us)
@@ -293,9 +288,10 @@ impl ProposalChanges {
                         }
                     }
                 }
-                None => self.tiers.push(tier_of(recording, first)),
+                (None, Some(first)) => self.tiers.push(tier_of(recording, first)),
+                (None, None) => {}
             }
-            for it in proposals.iter().filter(|it| it.tier == name) {
+            for it in found {
                 let mut others = occupied.iter();
                 if others.any(|own| own.start < it.end_us && it.start_us < own.end) {
                     continue;

@@ -4,18 +4,31 @@ use std::path::Path;
 
 use chereme_corpus::words::{Language, message};
 use chereme_corpus::{
-    Corpus, DETECTORS, DetectOptions, Detected, Error, ImportOptions, ListFilter, ListKind, Name,
-    Progress, ProposeScope, starter_files, unheard,
+    AnnotateOptions, AnnotationAction, AnnotationOrigin, Corpus, DETECTORS, DetectOptions,
+    Detected, Error, ImportOptions, ListFilter, ListKind, Moment, Name, NewTier, Progress,
+    ProposeScope, TierName, TierRole, starter_files, unheard,
 };
 use chereme_motion::{Instant, Span};
+use chereme_sign::Component;
 
 /// Returns a corpus with one recording without annotations.
 fn bowl(folder: &Path) -> Corpus {
-    let (_, bytes) = starter_files()
+    recorded(folder, &bowl_file())
+}
+
+/// Returns a movement file of the starter corpus.
+fn bowl_file() -> String {
+    let mut files = starter_files();
+    let (_, bytes) = files
         .find(|(name, _)| *name == Path::new("bol.bvh"))
         .expect("in the starter corpus");
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Returns a corpus with one recording from a movement file, without annotations.
+fn recorded(folder: &Path, bvh: &str) -> Corpus {
     let path = folder.join("bol.bvh");
-    std::fs::write(&path, bytes).expect("written");
+    std::fs::write(&path, bvh).expect("written");
     let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
     let mut hear = unheard;
     corpus
@@ -78,6 +91,70 @@ fn strokes_become_proposals_that_another_run_replaces_and_undo_removes() {
     corpus.undo().expect("undone");
     assert_eq!(corpus.undo().expect("undone").name, "propose");
     assert!(column(&corpus, ListKind::Tiers, "name").is_empty());
+}
+
+#[test]
+fn a_run_that_finds_nothing_removes_earlier_proposals_of_its_own_fields_only() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let bvh = bowl_file();
+    let mut lines: Vec<&str> = bvh.lines().collect();
+    let time = lines.iter().position(|it| it.starts_with("Frame Time"));
+    let first = time.expect("a frame time") + 1;
+    let still = lines[first];
+    lines[first..].fill(still);
+    let mut corpus = recorded(folder.path(), &lines.join("\n"));
+    let recording = || Name::Text("bol".into());
+    let (phase, brows) = (
+        "movement.phase right (proposed)",
+        "nonmanual.brows (proposed)",
+    );
+    for (tier, component, feature) in [
+        (phase, Component::Movement, "phase"),
+        (brows, Component::NonManual, "brows"),
+    ] {
+        let feature = Some(feature.to_owned());
+        let role = TierRole::Component { component, feature };
+        let tier = NewTier::new(recording(), tier, role);
+        corpus.add_tier(&tier).expect("added");
+    }
+    let mut add = |tier: &str, start: f64, value: &str, origin| {
+        let time = |seconds| Some(Moment::Time(Instant::from_seconds(seconds)));
+        let change = AnnotationAction::Add {
+            tier: TierName::Of {
+                recording: recording(),
+                tier: tier.to_owned(),
+            },
+            start: time(start),
+            end: time(start + 0.2),
+            parent: None,
+            order: None,
+            value: value.to_owned(),
+            confidence: None,
+        };
+        let options = AnnotateOptions {
+            origin,
+            ..AnnotateOptions::default()
+        };
+        let mut hear = unheard;
+        let progress = &mut Progress::new(&mut hear);
+        corpus
+            .annotate(&[change.into()], &options, progress)
+            .expect("added");
+    };
+    add(phase, 0.1, "stroke", AnnotationOrigin::Detector);
+    add(phase, 0.5, "stroke", AnnotationOrigin::Human);
+    add(brows, 0.1, "raised", AnnotationOrigin::Detector);
+    let found = detect(&mut corpus, "strokes", ProposeScope::All).expect("detected");
+    assert_eq!((found.annotations, found.found.len()), (0, 0), "{found:?}");
+    assert_eq!(found.recordings, ["bol"]);
+    let mut left = column(&corpus, ListKind::Annotations, "value");
+    left.sort_unstable();
+    assert_eq!(left, ["raised", "stroke"]);
+    let mut origins = column(&corpus, ListKind::Annotations, "origin");
+    origins.sort_unstable();
+    assert_eq!(origins, ["detector", "human"]);
+    assert_eq!(corpus.undo().expect("undone").name, "propose");
+    assert_eq!(column(&corpus, ListKind::Annotations, "value").len(), 3);
 }
 
 #[test]

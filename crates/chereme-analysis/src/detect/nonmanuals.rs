@@ -5,7 +5,7 @@ use chereme_sign::words::Text;
 use chereme_sign::{Component, Field};
 
 use super::{Description, Detection, Detector, Observed, Part};
-use crate::nonmanuals::proposals;
+use crate::nonmanuals::{FEATURES, proposals};
 
 /// Detector of actions of brows, lids, gaze, mouth and head, by the rules of [`nonmanuals`](crate::nonmanuals).
 #[derive(Debug, Clone, Copy)]
@@ -44,6 +44,10 @@ impl Detector for Nonmanuals {
         &[Part::Face]
     }
 
+    fn fields(&self) -> Vec<Field> {
+        FEATURES.map(field).to_vec()
+    }
+
     fn detect(&self, observed: &Observed<'_>) -> Vec<Detection> {
         let Some(curves) = &observed.face else {
             return Vec::new();
@@ -53,11 +57,16 @@ impl Detector for Nonmanuals {
         found
             .map(|it| Detection {
                 span: Span::between(at(it.frames.start), at(it.frames.end)),
-                field: Field::new(Component::NonManual).of(it.feature),
+                field: field(it.feature),
                 value: it.value.to_owned(),
                 confidence: it.confidence,
                 why: it.why,
             })
             .collect()
     }
+}
+
+/// Returns the field of a part of face or head.
+fn field(feature: &str) -> Field {
+    Field::new(Component::NonManual).of(feature)
 }

@@ -37,6 +37,10 @@ impl Detector for Strokes {
         &[Part::Body]
     }
 
+    fn fields(&self) -> Vec<Field> {
+        Side::BOTH.map(field).to_vec()
+    }
+
     fn detect(&self, observed: &Observed<'_>) -> Vec<Detection> {
         let Some(body) = observed.body else {
             return Vec::new();
@@ -47,7 +51,7 @@ impl Detector for Strokes {
             let times = found.map(|frames| body.clip.rate().span(frames.start..frames.end - 1));
             times.map(move |span| Detection {
                 span: span.shifted(body.start.micros()),
-                field: Field::new(Component::Movement).of("phase").on(side),
+                field: field(side),
                 value: "stroke".to_owned(),
                 confidence: STROKE,
                 why: "the wrist moves between two minima of its speed".to_owned(),
@@ -55,4 +59,9 @@ impl Detector for Strokes {
         };
         Side::BOTH.into_iter().flat_map(of).collect()
     }
+}
+
+/// Returns the field of the strokes of a side.
+fn field(side: Side) -> Field {
+    Field::new(Component::Movement).of("phase").on(side)
 }

@@ -88,7 +88,7 @@ impl Corpus {
         if store {
             let mut changes = ProposalChanges::default();
             let whole = Span::between(Instant::ZERO, Instant::from_micros(row.duration_us));
-            changes.take(connection, recording, whole, &proposals)?;
+            changes.take(connection, recording, whole, (&Nonmanuals, &proposals))?;
             self.store_proposals(&changes, progress)?;
             written = changes.added;
         }
