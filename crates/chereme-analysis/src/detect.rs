@@ -55,8 +55,10 @@ pub struct Description {
 /// A part of a signer that detectors examine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// The movement of the body and the hands.
+    /// The movement of the whole body and the hands.
     Body,
+    /// The movement of the arms, from the collar bones to the wrists; all other joints of the observed clip may be at rest.
+    Arms,
     /// The curves of face and head.
     Face,
 }

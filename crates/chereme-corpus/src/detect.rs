@@ -210,14 +210,19 @@ pub(crate) fn proposals(
     row: &RecordingRow,
 ) -> Result<Option<Vec<Proposal>>> {
     let examines = |part| detector.examines().contains(&part);
-    let moves = examines(Part::Body) && recordings::body_track(connection, row.id)?.is_some();
+    let groups: &[ChannelGroup] = match (examines(Part::Body), examines(Part::Arms)) {
+        (true, _) => &ChannelGroup::ALL,
+        (false, true) => &[ChannelGroup::RightArm, ChannelGroup::LeftArm],
+        (false, false) => &[],
+    };
+    let moves = !groups.is_empty() && recordings::body_track(connection, row.id)?.is_some();
     let body = if moves {
         let track = MotionTrack::of(connection, row.id)?;
         let wanted = Span::between(
             Instant::from_micros(track.row.offset_us),
             Instant::from_micros(track.row.offset_us.saturating_add(LONGEST)),
         );
-        let clip = track.clip(connection, track.frames_in(wanted), &ChannelGroup::ALL)?;
+        let clip = track.clip(connection, track.frames_in(wanted), groups)?;
         let start = Instant::from_micros(track.row.offset_us);
         Some((clip, track.anatomy(connection)?, start))
     } else {

@@ -34,7 +34,7 @@ impl Detector for Strokes {
     }
 
     fn examines(&self) -> &'static [Part] {
-        &[Part::Body]
+        &[Part::Arms]
     }
 
     fn fields(&self) -> Vec<Field> {
