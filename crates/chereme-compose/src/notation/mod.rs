@@ -18,7 +18,7 @@
 //! | `stage` | the body: its surface, points of its hands |
 //! | `thumb`, `rest`, `lift` | the thumb of a pinch; hands at rest; arms raised to be touched |
 //! | `arm` | elbow, collar bone, wrist |
-//! | `track` | from events to the goals of the hands in each frame |
+//! | `track`, `outlines` | from events to the goals and outlines of the hands in each frame |
 //! | `hands_apart` | separation of two hands whose paths would pass through each other |
 //! | `bulk` | separation of two hands that would penetrate each other |
 //! | `freedom` | over time: the arm's plane and its shoulder |
@@ -47,6 +47,7 @@ mod natural;
 mod nonmanual;
 mod notes;
 mod orient;
+mod outlines;
 mod own_side;
 mod pace;
 mod path;

@@ -10,9 +10,10 @@ use std::sync::LazyLock;
 use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::Bearing;
+use super::outlines::Outlines;
 use super::solve::{Arm, ArmFrame, Got, eased};
 use super::stage::HandOutline;
-use super::track::{Outlines, Wanted};
+use super::track::Wanted;
 use super::tuned::tuned;
 
 /// The number of rounds of this correction.

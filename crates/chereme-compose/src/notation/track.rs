@@ -6,10 +6,11 @@ use std::ops::Range;
 use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::Limits;
+use super::outlines::Outlines;
 use super::pace::{Pace, Paces};
 use super::plan::{Act, Event, HandState, SignPlan};
 use super::solve::{Arm, ArmFrame, Got, Hindrance};
-use super::stage::{Hand, HandOutline, Stage};
+use super::stage::{Hand, Stage};
 use super::stretch_time::{Moved, Warp};
 
 /// The movement of one arm and hand, frame by frame.
@@ -378,7 +379,7 @@ pub(crate) fn wanted<'a>(
         turns: goals.turns,
         offsets: goals.offsets,
         wrist: goals.wrist,
-        outlines: outlines(stage, plan, n, timing),
+        outlines: Outlines::of(stage, plan, n, timing),
         touch: touch(&plan.contacts[n], timing),
         transitions: goals.transitions,
     }
@@ -529,7 +530,11 @@ impl<T: Copy> Steps<T> {
 }
 
 /// Returns the frames, shape and event of each change of shape, in order of time.
-fn shape_spans(events: &[Event], rate: f64, total: usize) -> Vec<(Range<usize>, usize, &Event)> {
+pub(super) fn shape_spans(
+    events: &[Event],
+    rate: f64,
+    total: usize,
+) -> Vec<(Range<usize>, usize, &Event)> {
     let mut spans: Vec<(Range<usize>, usize, &Event)> = events
         .iter()
         .filter_map(|event| match event.act {
@@ -543,7 +548,7 @@ fn shape_spans(events: &[Event], rate: f64, total: usize) -> Vec<(Range<usize>, 
 
 /// Returns the completed share of a change of shape: hands take their shape in the first part of a
 /// transition.
-fn early(event: &Event, frame: usize, timing: &Timing<'_>) -> f64 {
+pub(super) fn early(event: &Event, frame: usize, timing: &Timing<'_>) -> f64 {
     let time = share(event, frame, timing.rate);
     let lax = matches!(event.pace, Pace::Lax | Pace::Calm);
     let time = if lax { time * 1.4 } else { time };
@@ -588,7 +593,7 @@ pub(crate) fn fingers(
     all
 }
 
-fn nlerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
+pub(super) fn nlerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
     let to = if from.dot(to) < 0.0 { -to } else { to };
     (from * (1.0 - share) + to * share).normalize()
 }
@@ -626,72 +631,5 @@ fn play(
             let turn = DQuat::from_axis_angle(axis, angle(frame, digit));
             all[row][frame] = (turn * all[row][frame]).normalize();
         }
-    }
-}
-
-/// The outlines of a hand over time, as two outlines from each frame on that bracket the actual one during
-/// a change of shape.
-pub(crate) struct Outlines<'a> {
-    /// Index of the first frame.
-    first: usize,
-    from: Vec<(usize, [Outline<'a>; 2])>,
-    between: Vec<HandOutline>,
-}
-
-/// The outline of a shape, or an intermediate one by its index.
-#[derive(Clone, Copy)]
-enum Outline<'a> {
-    Shape(&'a HandOutline),
-    Between(usize),
-}
-
-/// The number of steps for the outlines of a change of shape.
-const STEPS: usize = 4;
-
-fn outlines<'a>(stage: &Stage, plan: &'a SignPlan, n: usize, timing: &Timing<'_>) -> Outlines<'a> {
-    let shapes = &plan.shapes[n];
-    let of = |shape: usize| Outline::Shape(&shapes[shape].outline);
-    let mut now = plan.start[n].shape;
-    let mut from = vec![(0, [of(now); 2])];
-    let mut between = Vec::new();
-    for (span, shape, event) in shape_spans(&plan.events[n], timing.rate, timing.total) {
-        let mut steps = vec![of(now)];
-        for step in 1..STEPS {
-            let share = step as f64 / STEPS as f64;
-            let turns = shapes[now].rotations.iter().zip(&shapes[shape].rotations);
-            let turns = turns.map(|(a, b)| nlerp(*a, *b, share)).collect();
-            between.push(stage.outline(plan.sides[n], turns));
-            steps.push(Outline::Between(between.len() - 1));
-        }
-        steps.push(of(shape));
-        let mut last = None;
-        for frame in span.clone() {
-            let share = early(event, frame, timing);
-            let step = ((share * STEPS as f64) as usize).min(STEPS - 1);
-            if last.replace(step) != Some(step) {
-                from.push((frame, [steps[step], steps[step + 1]]));
-            }
-        }
-        from.push((span.end, [of(shape); 2]));
-        now = shape;
-    }
-    Outlines {
-        first: 0,
-        from,
-        between,
-    }
-}
-
-impl Outlines<'_> {
-    pub(crate) fn at(&self, frame: usize) -> [&HandOutline; 2] {
-        let n = self
-            .from
-            .partition_point(|&(from, ..)| from <= self.first + frame);
-        self.from[n.saturating_sub(1)]
-            .1
-            .map(|outline| match outline {
-                Outline::Shape(outline) => outline,
-                Outline::Between(n) => &self.between[n],
-            })
     }
 }
