@@ -1,4 +1,4 @@
-//! The bulk of a hand: its bones with their flesh, measured from its joints alone.
+//! The bulk of hands and head: bones with their flesh and an ellipsoid, measured from joints alone.
 
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Anatomy, ModelPose, Side, Skeleton};
@@ -218,4 +218,35 @@ pub(crate) fn between(a: [DVec3; 2], b: [DVec3; 2]) -> (f64, DVec3) {
     }
     let offset = (a[0] + u * s) - (b[0] + v * t);
     (offset.length(), offset)
+}
+
+/// The skull in one frame, as an ellipsoid a little within the places of the face.
+pub(crate) struct Skull {
+    middle: DVec3,
+    axes: [DVec3; 3],
+    half: [f64; 3],
+}
+
+impl Skull {
+    pub(crate) fn of(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
+        let size = anatomy.measures()?.head;
+        let axes = anatomy.head_axes(model)?;
+        let top = anatomy.landmark(skeleton, model, "head-top")?;
+        Some(Self {
+            middle: top - axes[1] * (0.5 * size),
+            axes,
+            half: [0.33, 0.49, 0.42].map(|share| share * size),
+        })
+    }
+
+    /// Returns the depth of a point in the skull, in metres, along the line from its middle.
+    pub(crate) fn depth(&self, at: DVec3) -> f64 {
+        let offset = at - self.middle;
+        let share = (0..3).map(|n| (offset.dot(self.axes[n]) / self.half[n]).powi(2));
+        let share = share.sum::<f64>().sqrt();
+        match share < 1.0 {
+            true => offset.length() * (1.0 / share.max(1e-6) - 1.0),
+            false => 0.0,
+        }
+    }
 }

@@ -8,7 +8,7 @@ use chereme_sign::hamnosys::{Contact, MotionKind, NonmanualPart, Notated, WristM
 use chereme_sign::{Component, Reading};
 
 use crate::Result;
-use crate::bulk::{Hand, Tube, deepest};
+use crate::bulk::{Hand, Skull, Tube, deepest};
 use crate::checks::{Trunk, worst};
 use crate::walk::{each_motion, interlocked, places, with_motions};
 
@@ -26,7 +26,7 @@ const CAPTURED: [[f64; 2]; 4] = [
 /// Heights of the wrist (shoulder widths) between which captured elbows are known.
 const KNOWN: [f64; 2] = [-0.30 / 0.36, 0.10 / 0.36];
 
-pub(crate) const FAULTS: [Judge; 19] = [
+pub(crate) const FAULTS: [Judge; 20] = [
     (
         "a thumb across lies more than 3 mm off its finger or palm",
         thumb_off,
@@ -54,6 +54,7 @@ pub(crate) const FAULTS: [Judge; 19] = [
         lifted,
     ),
     ("flesh of a hand more than 5 mm in the trunk", buried),
+    ("a finger's bone more than 1 cm in the head", in_head),
     (
         "at a turned or tilted head, a touch is more than 1.5 cm off its site",
         off_face,
@@ -368,6 +369,26 @@ fn buried(seen: &Seen<'_>) -> Option<bool> {
                 ends.iter().any(|&at| trunk.depth_with(at, *radius) > 0.005)
             })
         })
+    });
+    Some(deep)
+}
+
+fn in_head(seen: &Seen<'_>) -> Option<bool> {
+    let (from, to) = seen.sign()?;
+    let anatomy = &seen.made.anatomy;
+    let skeleton = seen.made.clip.skeleton();
+    let deep = (from..=to).step_by(3).any(|n| {
+        let model = &seen.models[n];
+        let Some(skull) = Skull::of(anatomy, skeleton, model) else {
+            return false;
+        };
+        let hands = Side::BOTH
+            .into_iter()
+            .filter_map(|side| Hand::of(anatomy, skeleton, model, side));
+        let tubes = hands.flat_map(|hand| hand.tubes);
+        tubes
+            .flat_map(|tube| tube.ends)
+            .any(|at| skull.depth(at) > 0.01)
     });
     Some(deep)
 }

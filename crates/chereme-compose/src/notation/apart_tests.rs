@@ -2,10 +2,11 @@
 
 use chereme_motion::{ModelPose, Part, Side};
 use chereme_sign::hamnosys::{
-    BodyLanguage, BodyLocation, Contact, HandClass, Motion, MotionKind, Notated, Posture,
-    from_names, parse,
+    BodyLanguage, BodyLocation, Constellation, Contact, HandClass, HandsUsed, Motion, MotionKind,
+    Notated, Place, Posture, WristMotion, from_names, parse,
 };
 
+use super::skull::Skull;
 use super::stage::Stage;
 use super::tests::{at, directed, mirrored, notated, posture, stage};
 use super::*;
@@ -188,4 +189,112 @@ fn fingers_that_play_in_a_pinch_stay_closed() {
         let most = gaps.iter().copied().fold(0.0, f64::max);
         assert!(most - gaps[0] < 0.006, "{shape}: {} to {most} m", gaps[0]);
     }
+}
+
+#[test]
+fn two_hands_close_to_each_other_stay_so_at_the_body() {
+    let shoulders = || at(BodyLocation::Shoulders, None);
+    let near = Place::Hands(Constellation {
+        contact: Some(Contact::Close),
+        at: match shoulders() {
+            Place::Body(place) => Some(place),
+            _ => None,
+        },
+        ..Constellation::default()
+    });
+    let target = |place: Place| {
+        Motion::new(MotionKind::Target {
+            motion: Some(Box::new(directed("i"))),
+            posture: Box::new(Posture {
+                place: Some(place),
+                ..Posture::default()
+            }),
+        })
+    };
+    let apart = |first: Place, place: Place| {
+        let begun = posture(HandClass::Flat, "u", "l", Some(first));
+        let made = animated(&notated(mirrored(), begun, vec![target(place)]));
+        let last = postures(&made).pop().expect("some");
+        let [right, left] = Side::BOTH.map(|side| {
+            let hand = made.anatomy.joint(Part::Hand(side)).expect("a hand");
+            last.position(hand)
+        });
+        right.distance(left)
+    };
+    let chest = at(BodyLocation::Chest, Some(Contact::Close));
+    let kept = apart(near, chest.clone());
+    let own = apart(shoulders(), chest);
+    assert!(kept < own - 0.05, "{kept} m of {own} m");
+}
+
+#[test]
+fn fingers_go_round_the_head_unless_they_touch_it() {
+    let inwards = || vec![directed("i")];
+    for (contact, actions, most) in [
+        (Contact::Close, inwards(), 0.012),
+        (Contact::Touch, vec![], 0.1),
+    ] {
+        let sign = notated(
+            HandsUsed::Dominant,
+            posture(
+                HandClass::Flat,
+                "i",
+                "l",
+                Some(at(BodyLocation::Nose, Some(contact))),
+            ),
+            actions,
+        );
+        let made = animated(&sign);
+        let deep = postures(&made).into_iter().map(|model| {
+            let skeleton = made.clip.skeleton();
+            let skull = Skull::of(&made.anatomy, skeleton, &model).expect("a head");
+            let tip = made
+                .anatomy
+                .landmark(skeleton, &model, "right-middle-tip")
+                .expect("a tip");
+            skull.offset_out(tip).length()
+        });
+        let deep = deep.fold(0.0, f64::max);
+        let said = &made.report.warnings;
+        let reported = said.iter().any(|said| said.contains("through the head"));
+        assert!(deep < most, "{deep} m, {said:?}");
+        assert_eq!(reported, contact == Contact::Close, "{said:?}");
+    }
+}
+
+#[test]
+fn a_hand_that_nods_at_the_skin_leaves_it_and_returns() {
+    let nods = |contact: Contact| {
+        let sign = notated(
+            HandsUsed::Dominant,
+            posture(
+                HandClass::Flat,
+                "ul",
+                "r",
+                Some(at(BodyLocation::Chest, Some(contact))),
+            ),
+            vec![Motion::new(MotionKind::Wrist {
+                motion: WristMotion::Nodding,
+                size: None,
+            })],
+        );
+        let made = animated(&sign);
+        let ahead = postures(&made).into_iter().map(|model| {
+            let tip = made
+                .anatomy
+                .landmark(made.clip.skeleton(), &model, "right-middle-tip")
+                .expect("a tip");
+            let frame = made.anatomy.body_frame(&model).expect("a body");
+            (tip - frame.origin).dot(frame.forward)
+        });
+        let all: Vec<f64> = ahead.collect();
+        let first = all[0];
+        let [least, most] =
+            [f64::min, f64::max].map(|pick| all.iter().map(|at| at - first).fold(0.0, pick));
+        [least, most]
+    };
+    let [least, most] = nods(Contact::Touch);
+    assert!(least > -0.01 && most > 0.03, "{least} to {most} m");
+    let [least, most] = nods(Contact::ArmExtended);
+    assert!(least < -0.02 && most > 0.02, "{least} to {most} m");
 }

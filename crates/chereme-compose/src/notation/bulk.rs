@@ -192,6 +192,11 @@ impl<'a> Placed<'a> {
         (self.wrist - point).dot(normal) + least
     }
 
+    /// Returns the joints and tips of the fingers.
+    pub(super) fn bones(&self) -> impl Iterator<Item = DVec3> {
+        (2..self.points.len()).map(|n| self.at(n))
+    }
+
     /// Returns the position of a point of the outline.
     fn at(&self, n: usize) -> DVec3 {
         self.wrist + self.turned * self.points[n]

@@ -9,6 +9,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Motion, Place};
 
 use super::motion::Env;
+use super::path::Path;
 use super::place::is_at_hand;
 use super::plan::{Hands, Planner, Signer, Who, acting};
 use super::solve::Arm;
@@ -41,6 +42,21 @@ impl Planner<'_> {
         if let Some(trail) = &mut self.trail {
             trail.within += 1;
         }
+    }
+
+    /// Records the stances of a hand on a path from its current state, at these shares of the path.
+    pub(crate) fn pass(&mut self, n: usize, path: &Path, shares: impl Iterator<Item = f64>) {
+        let Some(mut trail) = self.trail.take() else {
+            return;
+        };
+        if trail.within == 0 && !trail.over {
+            for share in shares {
+                let mut stance = self.hands().stance(n);
+                stance.point += path.at(share);
+                trail.note(n, stance);
+            }
+        }
+        self.trail = Some(trail);
     }
 
     /// Ends such a part, or any motion of the acting hands, and records their stances.

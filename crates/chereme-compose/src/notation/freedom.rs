@@ -35,6 +35,17 @@ pub(crate) struct Choice {
     /// The part of the cost that stems from deviations of the hand's orientation and place, and from an arm inside the
     /// trunk.
     amiss: f64,
+    /// Whether the hand is on its way from rest or back.
+    away: bool,
+}
+
+/// The leeway of a hand at one moment.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Leeway {
+    /// Whether the hand is between two notated orientations.
+    pub(crate) free: bool,
+    /// Whether the hand is on its way from rest or back.
+    pub(crate) away: bool,
 }
 
 impl Arm<'_> {
@@ -47,9 +58,9 @@ impl Arm<'_> {
             outlines: [HandOutline::NONE; 2],
             touch: 0.0,
         };
-        let mut choices = self.choices(&want, false);
+        let mut choices = self.choices(&want, Leeway::default());
         if choices[best(&choices)].amiss > tuned().freedom.shrugs_above {
-            self.shrug(&mut choices, &want, false);
+            self.shrug(&mut choices, &want, Leeway::default());
         }
         refined(&choices, best(&choices))
     }
@@ -194,10 +205,10 @@ impl Arm<'_> {
     /// the hand suffers without them.
     pub(crate) fn choose<'w>(
         &self,
-        wants: impl Iterator<Item = (Want<'w>, bool)>,
+        wants: impl Iterator<Item = (Want<'w>, Leeway)>,
         dt: f64,
     ) -> Vec<Choice> {
-        let mut lists: Vec<((Want<'w>, bool), Vec<Choice>)> = Vec::new();
+        let mut lists: Vec<((Want<'w>, Leeway), Vec<Choice>)> = Vec::new();
         let mut of: Vec<usize> = Vec::new();
         for want in wants {
             if lists.last().is_none_or(|(known, _)| *known != want) {
@@ -217,22 +228,23 @@ impl Arm<'_> {
         if !shrugs.contains(&true) {
             return chosen;
         }
-        for (((want, free), list), _) in lists.iter_mut().zip(shrugs).filter(|(_, shrugs)| *shrugs)
+        for (((want, leeway), list), _) in
+            lists.iter_mut().zip(shrugs).filter(|(_, shrugs)| *shrugs)
         {
-            self.shrug(list, want, *free);
+            self.shrug(list, want, *leeway);
         }
         cheapest(&lists, &of, dt)
     }
 
     /// Returns the candidate planes with their costs, for either limit of the forearm.
-    fn choices(&self, want: &Want<'_>, free: bool) -> Vec<Choice> {
+    fn choices(&self, want: &Want<'_>, leeway: Leeway) -> Vec<Choice> {
         let mut choices: Vec<Choice> = Vec::with_capacity(2 * planes().count());
         let wrist = want.wrist();
         let line = self.rig().line(wrist, self.limits);
         let rule = line.bent(0.0);
         let usual = self.usual(wrist, &rule);
         let rule = (Bearing::default(), rule);
-        let rule = self.choice(want, rule, (false, free), usual);
+        let rule = self.choice(want, rule, (false, leeway), usual);
         for high in [false, true] {
             for (n, plane) in planes().enumerate() {
                 if high && !choices[n].over {
@@ -255,7 +267,7 @@ impl Arm<'_> {
                         cost: held,
                         ..rule
                     },
-                    false => self.choice(want, (bearing, posed), (high, free), usual),
+                    false => self.choice(want, (bearing, posed), (high, leeway), usual),
                 });
             }
         }
@@ -273,7 +285,7 @@ impl Arm<'_> {
     }
 
     /// Adds shrugged postures for the planes in which the hand suffers.
-    fn shrug(&self, choices: &mut Vec<Choice>, want: &Want<'_>, free: bool) {
+    fn shrug(&self, choices: &mut Vec<Choice>, want: &Want<'_>, leeway: Leeway) {
         let still = choices.clone();
         let wrist = want.wrist();
         let reach = |bearing: Bearing| self.rig().reach(wrist, bearing, self.limits);
@@ -289,23 +301,23 @@ impl Arm<'_> {
                 let plane = choice.bearing.plane;
                 let bearing = Bearing { plane, shrug };
                 let posed = reach(bearing);
-                choices.push(self.choice(want, (bearing, posed), (choice.high, free), usual));
+                choices.push(self.choice(want, (bearing, posed), (choice.high, leeway), usual));
             }
         }
     }
 
     /// Returns a candidate posture with its cost: deviation from the rule's plane, closeness of wrist and
     /// forearm to their limits, deviation of the hand's orientation, height of the elbow above its `usual` one, depth of
-    /// the upper arm in the trunk, and distance from the goal. If the hand is `free`, between two notated orientations, its
-    /// orientation hardly counts.
+    /// the upper arm in the trunk, and distance from the goal. Between two notated orientations the
+    /// hand's orientation hardly counts.
     fn choice(
         &self,
         want: &Want<'_>,
         (bearing, posed): (Bearing, Posed),
-        (high, free): (bool, bool),
+        (high, leeway): (bool, Leeway),
         usual: f64,
     ) -> Choice {
-        let given = if free { 0.02 } else { 1.0 };
+        let given = if leeway.free { 0.02 } else { 1.0 };
         // The whole outline of the hand counts only if it touches something.
         let (tries, outlines) = if want.touch > 0.0 {
             (4, want.outlines)
@@ -334,6 +346,7 @@ impl Arm<'_> {
             wrist: hung.posed.wrist / self.rig().length(),
             cost,
             amiss,
+            away: leeway.away,
         }
     }
 }
@@ -431,12 +444,11 @@ fn change(from: &Choice, to: &Choice, dt: f64, most: f64) -> Option<f64> {
     let far = to.elbow.distance(from.elbow);
     let elbow = far / (tuned().freedom.elbow * dt);
     let pumps = (far - to.wrist.distance(from.wrist)).max(0.0) / (tuned().freedom.pumping * dt);
-    Some(
-        own + tuned().freedom.pumped * pumps * pumps
-            + 150.0 * over(elbow)
-            + 20.0 * over(shrug)
-            + 6.0 * over(bend),
-    )
+    let pumped = match from.away && to.away {
+        true => tuned().freedom.pumped.1,
+        false => tuned().freedom.pumped.0,
+    };
+    Some(own + pumped * pumps * pumps + 150.0 * over(elbow) + 20.0 * over(shrug) + 6.0 * over(bend))
 }
 
 fn best(choices: &[Choice]) -> usize {

@@ -13,7 +13,7 @@
 //! | `place` | positions of hands: on the body, in space, in constellations |
 //! | `touch` | the fit of a hand to the trunk's surface in contact |
 //! | `comfort` | shifts of hands within their place for the comfort of the arm |
-//! | `motion` | motions, repetitions, sequences |
+//! | `motion`, `wrist_cycle` | motions, repetitions, sequences; movement about the wrist |
 //! | `path`, `pace` | paths through space; their course in time |
 //! | `stage` | the body: its surface, points of its hands |
 //! | `thumb`, `rest`, `lift` | the thumb of a pinch; hands at rest; arms raised to be touched |
@@ -21,6 +21,7 @@
 //! | `track`, `outlines` | from events to the goals and outlines of the hands in each frame |
 //! | `hands_apart` | separation of two hands whose paths would pass through each other |
 //! | `bulk` | separation of two hands that would penetrate each other |
+//! | `skull` | the head as an obstacle, and hands that go round it |
 //! | `freedom` | over time: the arm's plane and its shoulder |
 //! | `solve`, `solve_frame` | from goals to postures of an arm, without jumps |
 //! | `push_out` | removal of remaining intersections with the trunk |
@@ -56,6 +57,7 @@ mod place;
 mod plan;
 mod push_out;
 mod rest;
+pub(crate) mod skull;
 mod solve;
 mod solve_frame;
 pub(crate) mod stage;
@@ -69,6 +71,7 @@ mod touch;
 mod track;
 mod transit;
 mod tuned;
+mod wrist_cycle;
 
 use std::sync::Arc;
 
@@ -178,6 +181,7 @@ pub fn animate(
         wanted,
         parted,
         cleared,
+        round_head,
     } = Goals::of(&body, signs, &plan, &settings.language, &timing);
     let mut wanted = wanted.map(Some);
     let made = [0, 1].map(|n| {
@@ -238,6 +242,15 @@ pub fn animate(
             parted.by * 100.0
         ));
     }
+    for (side, moved) in sides.into_iter().zip(round_head) {
+        let Some(moved) = moved else { continue };
+        plan.remarks.push(format!(
+            "the {} hand would go through the head at {:.2} s: it moves {:.1} cm aside",
+            side.name(),
+            warp.at(moved.time),
+            moved.by * 100.0
+        ));
+    }
     plan.stretch(&warp);
     let language = &settings.language;
     let planned = match warp.is_none() {
@@ -273,6 +286,8 @@ struct Goals<'a> {
     parted: Option<Parted>,
     /// The separation of hands that would penetrate each other.
     cleared: Option<Cleared>,
+    /// The displacement of each hand that would go through the head.
+    round_head: [Option<Parted>; 2],
 }
 
 impl<'a> Goals<'a> {
@@ -291,6 +306,7 @@ impl<'a> Goals<'a> {
         if let [Some(a), Some(b)] = hands {
             parted = own_side::keep(body, plan, [a, b], [&mut first, &mut second], rate);
         }
+        let round_head = [&mut first, &mut second].map(|one| skull::go_round(body, one, rate));
         let alive = Alive::of(body, signs, plan, language, [&first, &second], rate);
         for wanted in [&mut first, &mut second] {
             alive.carry(body, wanted);
@@ -309,6 +325,7 @@ impl<'a> Goals<'a> {
             wanted: [first, second],
             parted,
             cleared,
+            round_head,
         }
     }
 }

@@ -21,6 +21,7 @@ use super::pace::Pace;
 use super::path::Path;
 use super::plan::{Act, Event, Frame, HandState, PhaseKind, Planner, Signer, Who, acting, mean};
 use super::tuned::tuned;
+use super::wrist_cycle::WristCycle;
 
 /// Modifiers that a motion inherits from the motions around it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -219,6 +220,13 @@ impl Planner<'_> {
         };
         let usual = l.time_circle * turns.max(0.4);
         let end = time + self.signer.timed(usual, path.length(), env);
+        let quarters = (1..4).map(|n| f64::from(n) / 4.0 / turns.max(1.0));
+        for (n, frame) in acting(who) {
+            let sign = if frame.behind { -1.0 } else { 1.0 };
+            let stage = self.signer.stage;
+            let own = path.map(|v| stage.direction(v * frame.axes * sign));
+            self.pass(n, &own, quarters.clone());
+        }
         self.along(&path, who, [time, end], Pace::of(manner, Pace::Linear));
         self.make_room(&path, who, [time, end]);
         let says = format!("circle {}", circular.axis);
@@ -303,15 +311,36 @@ impl Planner<'_> {
                 WristMotion::StirCw => [nod, swing].map(|axis| axis * angle(l.wrist_stirring)),
                 WristMotion::StirCcw => [nod, -swing].map(|axis| axis * angle(l.wrist_stirring)),
             };
+            let mut cycle = WristCycle {
+                axes,
+                cycles,
+                one_sided: false,
+            };
+            let flaps = matches!(motion, WristMotion::Nodding | WristMotion::Swinging);
+            if let Some(skin) = self.skin(n, frame).filter(|_| flaps) {
+                self.off_skin(n, frame.axes * skin, &mut cycle);
+            }
             self.plan.events[n].push(Event {
                 from: time,
                 to: end,
                 pace: Pace::of(manner, Pace::Linear),
-                act: Act::Wrist { axes, cycles },
+                act: Act::Wrist(cycle),
             });
         }
         self.add_phase(who, PhaseKind::Stroke, time, end, wrist_name(motion));
         end
+    }
+
+    /// Makes a hand that touches the skin leave it and return to it, if its movement about the wrist would otherwise lead
+    /// into the body. `skin` is the outward normal of the skin (left, up, forward).
+    fn off_skin(&self, n: usize, skin: DVec3, cycle: &mut WristCycle) {
+        let state = &self.state[n];
+        let moves = state.rotation * cycle.axes[0].cross(state.offset);
+        let out = moves.dot(self.signer.stage.direction(skin));
+        if out.abs() > tuned().motion.flaps.0 * moves.length() {
+            cycle.one_sided = true;
+            cycle.axes[0] *= tuned().motion.flaps.1 * out.signum();
+        }
     }
 
     fn crossing(&mut self, diagonal: bool, manner: &Manner, who: Who, time: f64, env: &Env) -> f64 {
@@ -502,6 +531,7 @@ impl Planner<'_> {
         let events = [0, 1].map(|n| self.plan.events[n].len());
         let (phases, remarks) = (self.plan.phases.len(), self.plan.remarks.len());
         let (named, together) = (self.named.clone(), self.together.clone());
+        let near = self.near.clone();
         let contacts = [0, 1].map(|n| self.plan.contacts[n].len());
         let arrivals = [0, 1].map(|n| self.plan.arrivals[n].len());
         let at_body = self.at_body.clone();
@@ -509,6 +539,7 @@ impl Planner<'_> {
         self.state = state;
         self.named = named;
         self.together = together;
+        self.near = near;
         self.at_body = at_body;
         for n in 0..2 {
             self.plan.events[n].truncate(events[n]);

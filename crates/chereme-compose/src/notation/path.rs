@@ -178,6 +178,7 @@ mod tests {
     use super::super::pace::Pace;
     use super::super::plan::{Act, Event, HandState};
     use super::super::track::goals;
+    use super::super::wrist_cycle::WristCycle;
     use super::*;
 
     #[test]
@@ -281,10 +282,11 @@ mod tests {
             event(
                 0.0,
                 2.0,
-                Act::Wrist {
+                Act::Wrist(WristCycle {
                     axes: [DVec3::X * 0.2, DVec3::Z * 0.1],
                     cycles: 2.0,
-                },
+                    one_sided: false,
+                }),
             ),
         ];
         let goals = goals(&start, &events, 100.0, 401, |_, share| share);

@@ -38,7 +38,11 @@ impl Planner<'_> {
     /// Puts hands at their place in the plan.
     pub(crate) fn place(&mut self, place: &Place, named: Who) {
         match place {
+            Place::Body(body) if let Some(near) = self.still_near(body, named) => {
+                self.by_each_other(&near, named);
+            }
             Place::Body(body) => {
+                self.near = None;
                 for (n, frame) in acting(named) {
                     let goal = self.on_body(n, body, frame, true);
                     self.settle(n, &goal);
@@ -78,6 +82,22 @@ impl Planner<'_> {
                 }
             }
         }
+    }
+
+    /// Returns the constellation that two hands written close to each other keep at a place in the middle of the body.
+    fn still_near(&self, body: &BodyPlace, named: Who) -> Option<Constellation> {
+        let [Some(own), Some(other)] = named else {
+            return None;
+        };
+        let touches = matches!(body.contact, Some(Contact::Touch | Contact::Brushing));
+        let near = self
+            .near
+            .as_ref()
+            .filter(|_| own.mirrors(&other) && !touches)?;
+        (self.hands().sites(0, body, own).site.lateral == 0.0).then(|| Constellation {
+            at: Some(body.clone()),
+            ..near.clone()
+        })
     }
 
     fn define(&mut self, number: Option<u8>, n: usize) {
@@ -128,9 +148,14 @@ impl Planner<'_> {
         if site.site.region == Region::Trunk && skin.is_some() {
             self.lay(n, &points, at);
         }
-        let at = match apart && self.symmetric && site.site.lateral == 0.0 {
-            true if !touching => self.signer.apart(n, at),
-            true if site.site.region == Region::Trunk => self.hands().beside(n, &points, at),
+        let at = match apart && self.symmetric {
+            true if !touching && site.site.lateral == 0.0 => self.signer.apart(n, at),
+            true if touching
+                && site.site.region == Region::Trunk
+                && site.site.lateral * side.sign() >= 0.0 =>
+            {
+                self.hands().beside(n, &points, at)
+            }
             _ => at,
         };
         Goal {
@@ -213,6 +238,7 @@ impl Planner<'_> {
     /// Moves the hands together, and both to a place.
     fn by_each_other(&mut self, hands: &Constellation, named: Who) {
         let hands = &self.remembered(hands);
+        self.near = (hands.contact == Some(Contact::Close)).then(|| hands.clone());
         if matches!(hands.contact, Some(Contact::Interlock | Contact::Cross)) {
             self.plan.laced = true;
         }
@@ -367,7 +393,7 @@ impl Hands<'_> {
         }
     }
 
-    /// Moves a place on the skin in the middle to the hand's own side, so that the other hand touches the skin beside it.
+    /// Moves a place on the skin to the hand's own side, so far that the other hand finds room beside it.
     fn beside(&self, n: usize, points: &[HandPoint], at: DVec3) -> DVec3 {
         let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
             return at;
@@ -379,7 +405,9 @@ impl Hands<'_> {
         let outline = &self.shapes[n][state.shape].outline.points;
         let reach = outline.iter().map(|part| (*part - offset).dot(own));
         let reach = reach.fold(0.0, f64::max) + FINGER_FLESH * hand.length();
-        at + outwards * reach.min(tuned().contact.beside * hand.length())
+        let room = (at - self.signer.stage.middle()).dot(outwards);
+        let missing = (reach - room).max(0.0);
+        at + outwards * missing.min(tuned().contact.beside * hand.length())
     }
 
     fn site(&self, n: usize, site: &Site<BodyLocation>, frame: Frame) -> Placed {

@@ -21,6 +21,7 @@ use super::stage::{Shape, Stage};
 use super::stretch_time::Warp;
 use super::thumb;
 use super::tuned::tuned;
+use super::wrist_cycle::WristCycle;
 
 /// One act of a hand with its time span, in seconds.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,9 +51,8 @@ pub(crate) enum Act {
     Point(DVec3),
     /// Its fingers take a shape, by index among the plan's.
     Shape(usize),
-    /// It moves to and fro about the wrist, `cycles` times: two rotation vectors (rad) in the hand's
-    /// space, a quarter of a cycle apart.
-    Wrist { axes: [DVec3; 2], cycles: f64 },
+    /// It moves to and fro about the wrist.
+    Wrist(WristCycle),
     /// Fingers play, thumb first, `cycles` times, by `angle` (rad) at the base joint.
     Play {
         digits: [bool; 5],
@@ -219,6 +219,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) symmetric: bool,
     /// The last constellation of the hands in this sign.
     pub(crate) together: Option<Constellation>,
+    /// The last constellation of hands that are close to each other, in this sign.
+    pub(crate) near: Option<Constellation>,
     /// Whether the hands have reached the first posture of the sign.
     pub(crate) begun: bool,
     /// The hand that stays in place while the other moves to it.
@@ -269,6 +271,7 @@ impl<'a> Planner<'a> {
             named: BTreeMap::new(),
             symmetric: false,
             together: None,
+            near: None,
             begun: false,
             fixed: None,
             trail: None,
@@ -311,6 +314,7 @@ impl<'a> Planner<'a> {
             let mut from = None;
             self.named.clear();
             self.together = None;
+            self.near = None;
             self.at_body = [None, None];
             self.speed = speed(notated);
             for part in &notated.sign.parts {

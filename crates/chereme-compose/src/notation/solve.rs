@@ -9,7 +9,7 @@ use chereme_motion::WristAngles;
 use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::{Bearing, HeldDirections, Limits, Posed, Rig};
-use super::freedom::Choice;
+use super::freedom::{Choice, Leeway};
 use super::stage::{Hand, HandOutline, Stage};
 use super::track::Wanted;
 use super::tuned::tuned;
@@ -136,7 +136,13 @@ impl<'a> Arm<'a> {
                 .unwrap_or(frame)
         };
         let keys = (0..total.div_ceil(step) + 1).map(|n| near((n * step).min(total - 1)));
-        let keys = keys.map(|frame| (self.want(wanted, frame), free[frame]));
+        let keys = keys.map(|frame| {
+            let leeway = Leeway {
+                free: free[frame],
+                away: wanted.away[frame],
+            };
+            (self.want(wanted, frame), leeway)
+        });
         let keys = self.choose(keys, step as f64 / rate);
         let planes = spline(&keys, step, total, |bearing| bearing.plane);
         let shrugs = spline(&keys, step, total, |bearing| bearing.shrug);

@@ -12,6 +12,7 @@ use super::plan::{Act, Event, HandState, SignPlan};
 use super::solve::{Arm, ArmFrame, Got, Hindrance};
 use super::stage::{Hand, Stage};
 use super::stretch_time::{Moved, Warp};
+use super::tuned::tuned;
 
 /// The movement of one arm and hand, frame by frame.
 pub(crate) struct ArmTrack {
@@ -102,6 +103,8 @@ pub(crate) struct Wanted<'a> {
     pub(crate) outlines: Outlines<'a>,
     /// Degree of contact, from 0 to 1.
     pub(crate) touch: Vec<f64>,
+    /// Whether the hand is outside of signs: on its way from rest or back.
+    pub(crate) away: Vec<bool>,
     /// Rotations between two orientations: the frames, and the completed share in each.
     pub(crate) transitions: Vec<(Range<usize>, Vec<f64>)>,
 }
@@ -128,15 +131,22 @@ impl Wanted<'_> {
             offsets: kept(self.offsets, &span),
             wrist: kept(self.wrist, &span),
             touch: kept(self.touch, &span),
+            away: kept(self.away, &span),
             outlines: self.outlines,
         }
     }
 
-    /// Returns for each frame whether the hand is between two notated orientations; the first frame of a
-    /// rotation still counts as notated.
+    /// Returns for each frame whether the hand is between two notated orientations that are far from each other; the
+    /// first frame of a rotation still counts as notated.
     pub(crate) fn free(&self) -> Vec<bool> {
         let mut free = vec![false; self.points.len()];
-        for (span, _) in &self.transitions {
+        let last = self.turns.len().saturating_sub(1);
+        let turned = |span: &Range<usize>| {
+            let [from, to] = [span.start, span.end].map(|frame| self.turns[frame.min(last)]);
+            from.angle_between(to)
+        };
+        let far = |span: &Range<usize>| turned(span) > tuned().solve.free_from;
+        for (span, _) in self.transitions.iter().filter(|(span, _)| far(span)) {
             let first = (span.start + 1).min(span.end);
             free[first..span.end].fill(true);
         }
@@ -360,6 +370,12 @@ fn signing(plan: &SignPlan, time: f64) -> bool {
         .any(|sign| (sign.from..=sign.to).contains(&time))
 }
 
+/// Returns for each frame whether it is outside of signs.
+fn away(plan: &SignPlan, timing: &Timing<'_>) -> Vec<bool> {
+    let away = |frame: usize| !signing(plan, frame as f64 / timing.rate);
+    (0..timing.total).map(away).collect()
+}
+
 /// Returns the goals of a hand in each frame.
 pub(crate) fn wanted<'a>(
     stage: &Stage,
@@ -381,6 +397,7 @@ pub(crate) fn wanted<'a>(
         wrist: goals.wrist,
         outlines: Outlines::of(stage, plan, n, timing),
         touch: touch(&plan.contacts[n], timing),
+        away: away(plan, timing),
         transitions: goals.transitions,
     }
 }
@@ -446,14 +463,9 @@ pub(crate) fn goals(
                 done,
             ),
             Act::Point(to) => offsets.go(span, *to, |from, to, s| from.lerp(to, s), done),
-            Act::Wrist { axes, cycles } => {
+            Act::Wrist(cycle) => {
                 for frame in span {
-                    let time = share(event, frame, rate);
-                    let turn = TAU * cycles * time;
-                    let ends = (time.min(1.0 - time) * cycles * 4.0).clamp(0.0, 1.0);
-                    let ends = ends * ends * (3.0 - 2.0 * ends);
-                    let about = (axes[0] * turn.sin() + axes[1] * turn.cos()) * ends;
-                    wrist[frame] = Some(DQuat::from_scaled_axis(about));
+                    wrist[frame] = Some(cycle.at(share(event, frame, rate)));
                 }
             }
             Act::Shape(_) | Act::Play { .. } => {}

@@ -56,7 +56,7 @@ tuned_numbers! {
         crossed: (f64, f64),
         low: f64,
         pumping: f64,
-        pumped: f64,
+        pumped: (f64, f64),
         missed: f64,
         within: f64,
         behind: (f64, f64),
@@ -100,6 +100,7 @@ tuned_numbers! {
         bends: f64,
         turning: f64,
         hit: f64,
+        flaps: (f64, f64),
     }
     /// Numbers for leaning hands.
     orient: OrientNumbers {
@@ -117,9 +118,15 @@ tuned_numbers! {
     push_out: PushOutNumbers {
         near: f64,
     }
+    /// Numbers for hands that go round the head.
+    skull: SkullNumbers {
+        soft: f64,
+        around: f64,
+    }
     /// Numbers for an arm over time.
     solve: SolveNumbers {
         chosen: f64,
+        free_from: f64,
         lead: f64,
         bending: f64,
         pushing: f64,

@@ -3,19 +3,15 @@
 use std::ops::Range;
 
 use chereme_motion::glam::DVec3;
-use chereme_motion::{ModelPose, Part, Side};
+use chereme_motion::{ModelPose, Side};
 
 use crate::arm;
 use crate::contact::{BLEND, blended};
+use crate::notation::skull::Skull;
 use crate::notation::stage::Torso;
 use crate::recipe::Solver;
 use crate::work::{Columns, Group, Work};
 
-/// Half of the head's breadth, height and depth, as shares of its height from chin to top; a little within the places
-/// of the face, which hands touch.
-const HEAD: [f64; 3] = [0.33, 0.49, 0.42];
-/// The height of the head's middle above the chin, as a share of the head's height.
-const MIDDLE: f64 = 0.5;
 /// The depth in metres that a joint of a finger may have in a body without skin.
 const SKIN: f64 = 0.01;
 /// The largest number of rounds in which hands are moved out of the body; the report describes any remaining depth.
@@ -162,12 +158,6 @@ struct Solids {
     head: Option<Skull>,
 }
 
-struct Skull {
-    middle: DVec3,
-    axes: [DVec3; 3],
-    half: [f64; 3],
-}
-
 impl Solids {
     fn of(work: &Work, frame: usize) -> Self {
         let pose = work.pose(frame);
@@ -180,7 +170,7 @@ impl Solids {
         );
         Self {
             trunk,
-            head: Skull::of(work, &model),
+            head: Skull::of(&work.anatomy, &work.skeleton, &model),
         }
     }
 
@@ -195,34 +185,5 @@ impl Solids {
         } else {
             trunk
         }
-    }
-}
-
-impl Skull {
-    fn of(work: &Work, model: &ModelPose) -> Option<Self> {
-        work.anatomy.joint(Part::Head)?;
-        let size = work.anatomy.measures()?.head;
-        let axes = work.anatomy.head_axes(model)?;
-        let top = work.anatomy.landmark(&work.skeleton, model, "head-top")?;
-        Some(Self {
-            middle: top - axes[1] * ((1.0 - MIDDLE) * size),
-            axes,
-            half: HEAD.map(|share| share * size),
-        })
-    }
-
-    /// Returns the vector by which a point in the head leaves it, straight away from the head's middle.
-    fn offset_out(&self, at: DVec3) -> DVec3 {
-        let offset = at - self.middle;
-        let shares: [f64; 3] =
-            std::array::from_fn(|axis| offset.dot(self.axes[axis]) / self.half[axis]);
-        let share = shares.iter().map(|it| it * it).sum::<f64>().sqrt();
-        if share >= 1.0 {
-            return DVec3::ZERO;
-        }
-        if share < 1e-6 {
-            return self.axes[2] * self.half[2];
-        }
-        offset * (1.0 / share - 1.0)
     }
 }

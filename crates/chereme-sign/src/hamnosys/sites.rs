@@ -225,21 +225,17 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
         BodyLocation::Ear => face(sided("ear"), [0.0; 3], [own.sign(), 0.0, 0.1]),
         BodyLocation::EarLobe => face(sided("earlobe"), [0.0; 3], [own.sign(), -0.2, 0.1]),
         BodyLocation::Cheek => face(sided("cheek"), [0.0; 3], [0.7 * own.sign(), 0.0, 0.7]),
-        BodyLocation::UpperArm => arm(site.side, acting, "upper-arm", mirrored),
-        BodyLocation::Elbow => arm(site.side, acting, "elbow", mirrored),
-        BodyLocation::ElbowInside => arm(
-            Some(site.side.unwrap_or(Side::Front)),
-            acting,
-            "elbow",
-            mirrored,
-        ),
-        BodyLocation::LowerArm => arm(site.side, acting, "forearm", mirrored),
+        BodyLocation::UpperArm => arm(site.side, acting, "upper-arm"),
+        BodyLocation::Elbow => arm(site.side, acting, "elbow"),
+        BodyLocation::ElbowInside => arm(Some(site.side.unwrap_or(Side::Front)), acting, "elbow"),
+        BodyLocation::LowerArm => arm(site.side, acting, "forearm"),
     }
 }
 
-/// Returns a place on the arm that an acting hand reaches for: the opposite arm.
-fn arm(side: Option<Side>, acting: Half, part: &str, mirrored: bool) -> BodySite {
-    let half = said(side, mirrored).unwrap_or(acting.other());
+/// Returns a place on the arm that an acting hand reaches for: the other arm, whatever side is notated, as no hand
+/// reaches its own.
+fn arm(side: Option<Side>, acting: Half, part: &str) -> BodySite {
+    let half = acting.other();
     let outside = half.sign();
     let out = match side {
         Some(Side::Palmar | Side::Front) => [-0.3 * outside, 0.2, 1.0],
