@@ -298,3 +298,48 @@ fn a_hand_that_nods_at_the_skin_leaves_it_and_returns() {
     let [least, most] = nods(Contact::ArmExtended);
     assert!(least < -0.02 && most > 0.02, "{least} to {most} m");
 }
+
+#[test]
+fn a_resting_hand_does_not_take_the_posture_of_the_hand_that_comes_to_it() {
+    use chereme_sign::hamnosys::{Each, HandLocation, HandSite};
+    let chest = || Some(Box::new(at(BodyLocation::Chest, None)));
+    let begun = Posture {
+        place: Some(Place::Split(chest(), chest())),
+        ..Posture::default()
+    };
+    let shape = |class: HandClass| posture(class, "ol", "d", None);
+    let [flat, fist] = [HandClass::Flat, HandClass::Fist].map(shape);
+    let begun = Posture {
+        shape: Each::Split(
+            flat.shape.dominant().cloned(),
+            fist.shape.dominant().cloned(),
+        ),
+        extended: flat.extended.clone(),
+        palm: flat.palm.clone(),
+        ..begun
+    };
+    let comes = Motion::new(MotionKind::Target {
+        motion: Some(Box::new(directed("l"))),
+        posture: Box::new(Posture {
+            place: Some(Place::Hand(HandSite {
+                at: Some(HandLocation::WristBack),
+                contact: Some(Contact::Close),
+                ..HandSite::default()
+            })),
+            ..flat
+        }),
+    });
+    let alone = Motion::new(MotionKind::Split(Some(Box::new(comes)), None));
+    let made = animated(&notated(mirrored(), begun, vec![alone]));
+    let postures = postures(&made);
+    let bent = |model: &ModelPose| {
+        let joint = made
+            .anatomy
+            .joint(Part::Finger(Side::Left, chereme_motion::Finger::Middle, 2))
+            .expect("a finger");
+        let hand = made.anatomy.joint(Part::Hand(Side::Left)).expect("a hand");
+        model.rotation(joint).angle_between(model.rotation(hand))
+    };
+    let [first, last] = [postures.first(), postures.last()].map(|it| bent(it.expect("some")));
+    assert!(first > 1.5 && (first - last).abs() < 0.01, "{first} {last}");
+}

@@ -1,5 +1,7 @@
 //! Postures as the goals of motions: reached during the motion, reached at its end, or brushed in passing.
 
+use chereme_sign::hamnosys::Each;
+
 use super::super::tuned::tuned;
 use super::*;
 
@@ -17,6 +19,7 @@ impl Planner<'_> {
         if let (Some(still), Some(Place::Body(_))) = (waiting(motion), &posture.place) {
             named[still] = None;
         }
+        let posture = &self.of_acting(posture, who);
         let start = self.state.clone();
         let raised = [0, 1].map(|n| named[n].is_some() && !start[n].used);
         for n in (0..2).filter(|&n| raised[n]) {
@@ -108,6 +111,25 @@ impl Planner<'_> {
             end + self.signer.language.time_contact
         } else {
             end
+        }
+    }
+
+    /// Returns a posture that only the acting hand of two takes, if the other one signs already: it may be the goal, but
+    /// keeps its own shape and orientation.
+    fn of_acting(&self, posture: &Posture, who: Who) -> Posture {
+        let (own, other) = match who {
+            [Some(_), None] => (0, 1),
+            [None, Some(_)] => (1, 0),
+            _ => return posture.clone(),
+        };
+        if !self.state[other].used {
+            return posture.clone();
+        }
+        Posture {
+            shape: only(&posture.shape, own),
+            extended: only(&posture.extended, own),
+            palm: only(&posture.palm, own),
+            place: posture.place.clone(),
         }
     }
 
@@ -206,6 +228,15 @@ impl Signer<'_> {
         (0..2)
             .map(|n| self.length_between(&a[n], &b[n], n))
             .fold(0.0, f64::max)
+    }
+}
+
+/// Returns a value that both hands share as that of one hand alone.
+fn only<T: Clone>(each: &Each<T>, n: usize) -> Each<T> {
+    match each {
+        Each::Shared(value) if n == 0 => Each::Split(Some(value.clone()), None),
+        Each::Shared(value) => Each::Split(None, Some(value.clone())),
+        other => other.clone(),
     }
 }
 
