@@ -119,12 +119,12 @@ const MESSAGES: &[(&str, &str)] = &[
         "écrivez-en un de chaque sorte, après le mouvement qu’il modifie",
     ),
     (
-        "{path}: there is nothing of this name",
-        "{path} : rien ne porte ce nom",
-    ),
-    (
         "{path} cannot be opened as a corpus: {why}",
         "{path} ne s’ouvre pas comme corpus : {why}",
+    ),
+    (
+        "{path}: there is nothing of this name",
+        "{path} : rien ne porte ce nom",
     ),
     (
         "the corpus database says: {what}",
@@ -640,6 +640,10 @@ mod tests {
         }
         assert_eq!(message("no such words", Language::French), None);
         for (english, french) in [
+            (
+                "a.png cannot be opened as a corpus: there is nothing of this name",
+                "a.png ne s’ouvre pas comme corpus : rien ne porte ce nom",
+            ),
             (
                 "lines end with CR LF, as on Windows",
                 "les lignes finissent par CR LF, comme sous Windows",
