@@ -25,8 +25,22 @@ pub(crate) fn chosen(folder: &Path, count: usize, seed: u64) -> Result<Vec<Strin
     Ok(names)
 }
 
+/// The part of a movement that a sheet shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shown {
+    /// The sign alone.
+    Sign,
+    /// The whole movement, from rest to rest.
+    Whole,
+}
+
 /// Draws a sheet `GLOSS.png` in `out` for each of these signs.
-pub(crate) fn sheets(folder: &Path, body: &Path, out: &Path, glosses: &[&str]) -> Result<()> {
+pub(crate) fn sheets(
+    folder: &Path,
+    body: &Path,
+    out: &Path,
+    (glosses, what): (&[&str], Shown),
+) -> Result<()> {
     std::fs::create_dir_all(out)?;
     let stage = bodies::stage(body)?;
     for (name, notated) in bodies::signs(folder)? {
@@ -40,9 +54,10 @@ pub(crate) fn sheets(folder: &Path, body: &Path, out: &Path, glosses: &[&str]) -
             .find(|note| note.about == chereme_compose::About::Gloss)
             .map(|note| made.clip.rate().frames_in(note.span));
         let frames = span
-            .filter(|span| span.len() > 1)
+            .filter(|span| span.len() > 1 && what == Shown::Sign)
             .unwrap_or(0..made.clip.frames());
-        let count = 7.min(frames.len());
+        let most = if what == Shown::Sign { 7 } else { 12 };
+        let count = most.min(frames.len());
         let shown = (0..count).map(|n| frames.start + n * (frames.len() - 1) / (count - 1).max(1));
         let options = SheetOptions {
             title: name.clone(),

@@ -3,7 +3,7 @@
 use chereme_compose::notation::{Settings, animate};
 use chereme_compose::{About, Generated, Material};
 use chereme_motion::glam::DVec3;
-use chereme_motion::{ModelPose, Part, Side, Span};
+use chereme_motion::{Anatomy, ModelPose, Part, Side, Span};
 use chereme_sign::hamnosys::{Contact, MotionKind, NonmanualPart, Notated, WristMotion};
 use chereme_sign::{Component, Reading};
 
@@ -26,7 +26,7 @@ const CAPTURED: [[f64; 2]; 4] = [
 /// Heights of the wrist (shoulder widths) between which captured elbows are known.
 const KNOWN: [f64; 2] = [-0.30 / 0.36, 0.10 / 0.36];
 
-pub(crate) const FAULTS: [Judge; 20] = [
+pub(crate) const FAULTS: [Judge; 24] = [
     (
         "a thumb across lies more than 3 mm off its finger or palm",
         thumb_off,
@@ -53,6 +53,13 @@ pub(crate) const FAULTS: [Judge; 20] = [
         "an elbow is 10 cm above three of four captured ones with the hand at its height",
         lifted,
     ),
+    ("an elbow is more than 10 cm behind its shoulder", behind),
+    ("a wrist is folded by more than 65° for 0.2 s", folded),
+    (
+        "a wrist's way from rest is over 1.25 of the straight one",
+        wandering,
+    ),
+    ("a head turns faster than 400° a second", whipped),
     ("flesh of a hand more than 5 mm in the trunk", buried),
     ("a finger's bone more than 1 cm in the head", in_head),
     (
@@ -351,6 +358,75 @@ fn lifted(seen: &Seen<'_>) -> Option<bool> {
         })
     });
     Some(high)
+}
+
+/// Farthest distance of an elbow behind its shoulder (m): beyond, it stands behind the back.
+const BEHIND: f64 = 0.10;
+
+fn behind(seen: &Seen<'_>) -> Option<bool> {
+    let (from, to) = seen.sign()?;
+    let arms = Side::BOTH
+        .into_iter()
+        .filter_map(|side| seen.made.anatomy.arm(side));
+    let back = arms.into_iter().any(|arm| {
+        seen.models[from..=to].iter().any(|model| {
+            let forward = seen
+                .made
+                .anatomy
+                .body_frame(model)
+                .map(|frame| frame.forward);
+            let [shoulder, elbow] = [arm.upper, arm.forearm].map(|joint| model.position(joint));
+            forward.is_some_and(|forward| (shoulder - elbow).dot(forward) > BEHIND)
+        })
+    });
+    Some(back)
+}
+
+/// Angle between a hand and its forearm (degrees) above which the wrist is near its limit.
+const FOLDED: f64 = 65.0;
+
+/// Returns the angle (degrees) between a hand and its forearm towards the palm or the back of the hand.
+fn flexed(anatomy: &Anatomy, model: &ModelPose, side: Side) -> Option<f64> {
+    let arm = anatomy.arm(side)?;
+    let along = anatomy.hand_direction(side, model)?;
+    let palm = anatomy.palm_normal(side, model)?;
+    let forearm = (model.position(arm.hand) - model.position(arm.forearm)).normalize();
+    Some((-forearm.dot(palm)).atan2(forearm.dot(along)).to_degrees())
+}
+
+fn folded(seen: &Seen<'_>) -> Option<bool> {
+    let (from, to) = seen.sign()?;
+    let least = (0.2 * seen.rate) as usize;
+    let long = Side::BOTH.into_iter().any(|side| {
+        let bent = seen.models[from..=to].iter().map(|model| {
+            flexed(&seen.made.anatomy, model, side).is_some_and(|angle| angle.abs() > FOLDED)
+        });
+        let run = bent.scan(0, |run, bent| {
+            *run = if bent { *run + 1 } else { 0 };
+            Some(*run)
+        });
+        run.max().is_some_and(|run| run >= least)
+    });
+    Some(long)
+}
+
+fn wandering(seen: &Seen<'_>) -> Option<bool> {
+    let arm = seen.made.anatomy.arm(seen.dominant())?;
+    let (from, to) = seen.approach()?;
+    let [start, end] = [from, to].map(|frame| seen.models[frame].position(arm.hand));
+    Some(seen.path(arm.hand, (from, to)) > 1.25 * start.distance(end))
+}
+
+/// Fastest turn of a head, in degrees a second: people who shake it in speech reach half of that.
+const WHIPS: f64 = 400.0;
+
+fn whipped(seen: &Seen<'_>) -> Option<bool> {
+    let head = seen.made.anatomy.joint(Part::Head)?;
+    let fast = seen.models.windows(2).any(|two| {
+        let turned = two[0].rotation(head).angle_between(two[1].rotation(head));
+        turned.to_degrees() * seen.rate > WHIPS
+    });
+    Some(fast)
 }
 
 fn buried(seen: &Seen<'_>) -> Option<bool> {

@@ -2,7 +2,8 @@
 //!
 //! `cargo run --release -p chereme-tests --example notation -- table FOLDER BODY.bvh...` animates every `.sigml`
 //! file of a folder on each body and prints the result. `... -- draw FOLDER BODY.bvh OUT GLOSS...` draws contact
-//! sheets of some, `... -- draw random COUNT SEED FOLDER BODY.bvh OUT` of signs that a seed chooses. `... -- list FOLDER BODY.bvh` prints a line for each sign: its worst values, and its report.
+//! sheets of some, `... -- draw whole FOLDER BODY.bvh OUT GLOSS...` with the way from rest and back, `... -- draw random
+//! COUNT SEED FOLDER BODY.bvh OUT` of signs that a seed chooses. `... -- list FOLDER BODY.bvh` prints a line for each sign: its worst values, and its report.
 //! `... -- faults FOLDER BODY.bvh [FILE.md [BEFORE]]` counts faults that make movement look unlike a person's, and writes
 //! the table between the marks of a file, with the counts of BEFORE, its output for an earlier animator;
 //! `faults sample N FOLDER BODY.bvh` takes one sign out of N.
@@ -20,6 +21,8 @@ mod walk;
 
 use std::error::Error;
 use std::path::Path;
+
+use draw::Shown;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -47,10 +50,15 @@ fn main() -> Result<()> {
             let glosses = draw::chosen(folder, count.parse()?, seed.parse()?)?;
             println!("{}", glosses.join(" "));
             let glosses: Vec<&str> = glosses.iter().map(String::as_str).collect();
-            draw::sheets(folder, Path::new(body), Path::new(out), &glosses)
+            draw::sheets(folder, Path::new(body), Path::new(out), (&glosses, Shown::Sign))
+        }
+        ["draw", "whole", folder, body, out, glosses @ ..] => {
+            let out = Path::new(out);
+            draw::sheets(Path::new(folder), Path::new(body), out, (glosses, Shown::Whole))
         }
         ["draw", folder, body, out, glosses @ ..] => {
-            draw::sheets(Path::new(folder), Path::new(body), Path::new(out), glosses)
+            let out = Path::new(out);
+            draw::sheets(Path::new(folder), Path::new(body), out, (glosses, Shown::Sign))
         }
         _ => Err("say `table FOLDER BODY.bvh...`, `draw FOLDER BODY.bvh OUT GLOSS...` `list FOLDER BODY.bvh` or `faults FOLDER BODY.bvh [FILE.md]`".into()),
     }
