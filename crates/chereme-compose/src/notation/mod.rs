@@ -38,6 +38,8 @@ mod approach;
 mod arm;
 mod bulk;
 mod comfort;
+#[cfg(test)]
+mod ease_tests;
 mod freedom;
 mod hands_apart;
 mod life;

@@ -34,6 +34,8 @@ pub(crate) struct Env {
     pub(crate) rounds: f64,
     /// Whether it runs backwards.
     pub(crate) back: bool,
+    /// Whether a path of the hand is notated at the same time.
+    pub(crate) goes: bool,
 }
 
 impl Default for Env {
@@ -43,6 +45,7 @@ impl Default for Env {
             size: 1.0,
             rounds: 0.0,
             back: false,
+            goes: false,
         }
     }
 }
@@ -298,21 +301,22 @@ impl Planner<'_> {
             let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
                 continue;
             };
-            let own = -hand.side.sign() * if frame.behind { -1.0 } else { 1.0 };
             let nod = hand.along.cross(hand.palm);
-            let swing = hand.palm * own;
+            let swing = hand.palm * -hand.side.sign();
             let angle = |degrees: f64| (degrees * scale).to_radians();
             let axes = match motion {
                 WristMotion::Nodding => [nod * angle(l.wrist_nodding), DVec3::ZERO],
                 WristMotion::Swinging => [swing * angle(l.wrist_swinging), DVec3::ZERO],
-                WristMotion::Twisting => {
-                    [hand.along * (own * angle(l.wrist_twisting)), DVec3::ZERO]
-                }
+                WristMotion::Twisting => [
+                    hand.along * (-hand.side.sign() * angle(l.wrist_twisting)),
+                    DVec3::ZERO,
+                ],
                 WristMotion::StirCw => [nod, swing].map(|axis| axis * angle(l.wrist_stirring)),
                 WristMotion::StirCcw => [nod, -swing].map(|axis| axis * angle(l.wrist_stirring)),
             };
+            let half = if frame.behind { -1.0 } else { 1.0 };
             let mut cycle = WristCycle {
-                axes,
+                axes: axes.map(|axis| axis * half),
                 cycles,
                 one_sided: false,
             };
@@ -425,12 +429,6 @@ impl Planner<'_> {
     /// Makes hands that rotate while they leave each other, or that rotate far while they move, rotate about their palms
     /// instead of their fingertips: otherwise turning about the fingertips would move the wrist back against its path.
     fn let_go(&mut self, motions: &[Motion], who: Who, time: f64) {
-        let goes = |motion: &Motion| {
-            matches!(
-                motion.kind,
-                MotionKind::Directed(_) | MotionKind::Circular(_)
-            )
-        };
         let turns = |motion: &Motion| match &motion.kind {
             MotionKind::Target { motion, posture } => {
                 let turned =
@@ -486,6 +484,10 @@ impl Planner<'_> {
     fn parallel(&mut self, motions: &[Motion], who: Who, time: f64, env: &Env) -> f64 {
         self.let_go(motions, who, time);
         let shared = self.signer.shared_tempo(motions);
+        let env = &Env {
+            goes: env.goes || motions.iter().any(goes),
+            ..*env
+        };
         let at_tempo = |motion: &Motion| Env {
             slower: match has_tempo(motion) {
                 true => env.slower,
@@ -550,6 +552,14 @@ impl Planner<'_> {
         self.plan.remarks.truncate(remarks);
         end
     }
+}
+
+/// Returns whether a motion is a path of the hand.
+fn goes(motion: &Motion) -> bool {
+    matches!(
+        motion.kind,
+        MotionKind::Directed(_) | MotionKind::Circular(_)
+    )
 }
 
 impl Signer<'_> {

@@ -182,7 +182,7 @@ fn waves_go_to_and_fro_at_most_four_times_a_second() {
         let stroke = phases.iter().find(|phase| phase.kind == PhaseKind::Stroke);
         let stroke = stroke.expect("a stroke");
         let rate = BodyLanguage::usual().zigzag_waves / (stroke.to - stroke.from);
-        assert!((2.5..=4.0).contains(&rate), "{rate}");
+        assert!((2.5..4.0 + 1e-9).contains(&rate), "{rate}");
     }
 }
 

@@ -24,6 +24,8 @@ struct Timed<'a> {
     to: f64,
     attack: f64,
     release: f64,
+    /// How often it is written at this moment: three shakes are one act that shakes three times.
+    times: usize,
 }
 
 impl Timed<'_> {
@@ -32,6 +34,15 @@ impl Timed<'_> {
         let rise = (time - self.from + self.attack) / self.attack.max(1e-6);
         let fall = (self.to + self.release - time) / self.release.max(1e-6);
         smooth(rise).min(smooth(fall))
+    }
+
+    /// Begins a nod or a shake earlier and ends it later if the hands leave too little time for it.
+    fn stretch(&mut self, speed: f64) {
+        let needs = cycles(self) / (tuned().nonmanual.shakes * speed);
+        let missing = (needs - (self.to - self.from)).max(0.0);
+        let [before, after] = tuned().nonmanual.spread;
+        self.from -= missing * before;
+        self.to += missing * after;
     }
 
     /// Returns the elapsed share of its duration.
@@ -190,16 +201,25 @@ fn timed<'a>(
     let each = (to - from).max(0.05) / tier.groups.len().max(1) as f64;
     for (n, group) in tier.groups.iter().enumerate() {
         let from = from + each * n as f64;
-        for act in group {
+        for (k, act) in group.iter().enumerate() {
+            let alike = |other: &&Act| other.part == act.part && other.code() == act.code();
+            if group[..k].iter().any(|other| alike(&other)) {
+                continue;
+            }
             let speed = act.speed.filter(|speed| speed.is_finite() && *speed > 0.0);
             let speed = speed.unwrap_or(1.0).clamp(0.2, 5.0);
-            all.push(Timed {
+            let mut timed = Timed {
                 act,
                 from,
                 to: from + each,
                 attack: language.time_attack / speed,
                 release: language.time_release / speed,
-            });
+                times: group.iter().filter(alike).count(),
+            };
+            if waves(act) {
+                timed.stretch(speed);
+            }
+            all.push(timed);
         }
     }
 }
@@ -250,9 +270,15 @@ fn bent(acts: &[Timed<'_>], time: f64) -> Bent {
     bent
 }
 
-/// Returns the number of nods or shakes of an act: two per second, at least two.
+/// Returns the number of nods or shakes of an act: two per second, at least two, and at least as many as are written.
 fn cycles(timed: &Timed<'_>) -> f64 {
-    (2.0 * (timed.to - timed.from)).round().max(2.0)
+    let least = timed.times.max(2) as f64;
+    (2.0 * (timed.to - timed.from)).round().max(least)
+}
+
+/// Returns whether an act nods or shakes the head.
+fn waves(act: &Act) -> bool {
+    act.part == NonmanualPart::Head && matches!(act.code(), "NO" | "ND" | "SH")
 }
 
 fn turn_head(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, wave: f64) {

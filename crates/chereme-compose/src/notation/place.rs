@@ -43,8 +43,10 @@ impl Planner<'_> {
             }
             Place::Body(body) => {
                 self.near = None;
+                // Two hands at one place would be in each other.
+                let apart = self.symmetric || named.iter().all(Option::is_some);
                 for (n, frame) in acting(named) {
-                    let goal = self.on_body(n, body, frame, true);
+                    let goal = self.on_body(n, body, frame, apart);
                     self.settle(n, &goal);
                     self.define(body.define, n);
                     self.at_body[n] = Some(body.clone());
@@ -118,7 +120,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns the goal of a hand for a place on the body or in space.
+    /// Returns the goal of a hand for a place on the body or in space; `apart` if the other hand goes there too.
     fn on_body(&mut self, n: usize, place: &BodyPlace, frame: Frame, apart: bool) -> Goal {
         let side = self.signer.sides[n];
         let site = self.hands().sites(n, place, frame);
@@ -129,15 +131,24 @@ impl Planner<'_> {
         ) && !site.site.beside;
         let aside = contact == Some(Contact::Touch) && site.site.region == Region::Face;
         let near = touching || aside || contact == Some(Contact::Close);
+        let region = site.site.region_for(contact);
         let facing = site.out * if place.behind { -1.0 } else { 1.0 };
         let points = match &place.by {
             Some(by) => hand_points(by, side, frame.mirrored),
-            None if touching || (near && site.site.region != Region::Trunk) => {
-                vec![self.hands().facing(n, -facing, site.site.region)]
+            None if touching || (near && region != Region::Trunk) => {
+                vec![self.hands().facing(n, -facing, region)]
             }
             None => vec![HandPoint::Palm],
         };
-        let at = self.signer.before(&site, contact, touching, place.behind);
+        let ahead = match points.as_slice() {
+            [HandPoint::Palm] => self.hands().ahead(n),
+            _ => 0.0,
+        };
+        let at = match (place.behind, touching) {
+            (true, _) => self.signer.behind(&site),
+            (false, true) => site.at,
+            (false, false) => self.signer.before(&site, contact, ahead),
+        };
         let skin = match site.site.region {
             _ if !touching || place.behind => None,
             Region::Trunk => self.signer.stage.torso.normal(at),
@@ -148,7 +159,7 @@ impl Planner<'_> {
         if site.site.region == Region::Trunk && skin.is_some() {
             self.lay(n, &points, at);
         }
-        let at = match apart && self.symmetric {
+        let at = match apart {
             true if !touching && site.site.lateral == 0.0 => self.signer.apart(n, at),
             true if touching
                 && site.site.region == Region::Trunk
@@ -228,7 +239,7 @@ impl Planner<'_> {
             place.contact = hands.contact.or(place.contact);
             let by = known.and_then(|known| known.by);
             place.by = hands.dominant.clone().or(place.by).or(by);
-            let goal = self.on_body(n, &place, frame, true);
+            let goal = self.on_body(n, &place, frame, self.symmetric);
             self.settle(n, &goal);
             self.define(hands.define, n);
             self.at_body[n] = Some(place);
@@ -340,24 +351,22 @@ impl Signer<'_> {
         at + stage.left * by
     }
 
-    /// Returns the position of a hand before a place.
-    fn before(
-        &self,
-        site: &Placed,
-        contact: Option<Contact>,
-        touching: bool,
-        behind: bool,
-    ) -> DVec3 {
+    /// Returns the position of a hand behind the body, at the height of a place.
+    fn behind(&self, site: &Placed) -> DVec3 {
+        let stage = self.stage;
+        let by = -stage.forward * (0.5 * stage.shoulders);
+        site.at + by + site.out * (0.05 * stage.shoulders)
+    }
+
+    /// Returns the position of a hand before a place, if its point is this far ahead of its wrist (m).
+    fn before(&self, site: &Placed, contact: Option<Contact>, ahead: f64) -> DVec3 {
         let (stage, l) = (self.stage, self.language);
-        if behind {
-            let by = -stage.forward * (0.5 * stage.shoulders);
-            return site.at + by + site.out * (0.05 * stage.shoulders);
-        }
-        if touching {
-            return site.at;
-        }
-        let found = (site.site.region, site.site.lateral, site.site.beside);
-        match HandAt::of(found, contact, l, [stage.arm, stage.shoulders]) {
+        let found = (
+            site.site.region_for(contact),
+            site.site.lateral,
+            site.site.beside,
+        );
+        match HandAt::of(found, contact, l, [stage.arm, stage.shoulders], ahead) {
             HandAt::Place => site.at,
             HandAt::Off { out, left } => site.at + site.out * out + stage.left * left,
             HandAt::Front { left, forward } => {
@@ -379,6 +388,12 @@ impl Signer<'_> {
 }
 
 impl Hands<'_> {
+    /// Returns the distance (m) of the middle of a palm before its wrist; negative behind it.
+    fn ahead(&self, n: usize) -> f64 {
+        let palm = self.offset(n, &[HandPoint::Palm]);
+        (self.state[n].rotation * palm).dot(self.signer.stage.forward)
+    }
+
     /// Returns the position of a place on the body, or half-way between two.
     fn sites(&self, n: usize, place: &BodyPlace, frame: Frame) -> Placed {
         let neutral = Site {

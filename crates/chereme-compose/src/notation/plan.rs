@@ -385,7 +385,7 @@ impl<'a> Planner<'a> {
         };
         for (n, _) in acting(named) {
             self.swing(n, &goal[n], time, reached, pace);
-            self.go(n, &goal[n], time, reached, pace);
+            self.travel(n, &goal[n], time, reached, pace);
             self.phase(n, PhaseKind::Transition, time, reached, "");
             if part.posture.place.is_some() {
                 self.plan.arrivals[n].push((time, reached));

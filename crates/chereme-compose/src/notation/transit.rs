@@ -43,6 +43,44 @@ impl Planner<'_> {
         self.state[n] = goal.clone();
     }
 
+    /// Plans the way of a hand from one state to another, within a time span (s). From rest, and back to rest, the wrist
+    /// follows the path and the hand turns about it: otherwise a hand that is placed by a fingertip would wander, as its
+    /// turn moves the wrist. Near the posture of the sign the hand is placed by its own part again, and turns no more.
+    pub(super) fn travel(&mut self, n: usize, goal: &HandState, from: f64, to: f64, pace: Pace) {
+        let was = self.state[n].clone();
+        if was.used == goal.used {
+            return self.go(n, goal, from, to, pace);
+        }
+        let placed = (to - from) * tuned().transit.placed;
+        let (leaves, comes) = match was.used {
+            true => (from + placed, to),
+            false => (from, to - placed),
+        };
+        let mut plan = |[from, to]: [f64; 2], act| {
+            self.plan.events[n].push(Event {
+                from,
+                to,
+                pace,
+                act,
+            });
+        };
+        plan([from, leaves], Act::Point(DVec3::ZERO));
+        let to_wrist = was.wrist() - was.point;
+        plan([from, leaves], Act::Move(Path::Line(to_wrist)));
+        if was.rotation != goal.rotation {
+            plan([leaves, comes], Act::Turn(goal.rotation));
+        }
+        if was.shape != goal.shape {
+            plan([from, to], Act::Shape(goal.shape));
+        }
+        let displacement = goal.wrist() - was.wrist();
+        plan([from, to], Act::Move(Path::Line(displacement)));
+        plan([comes, to], Act::Point(goal.offset));
+        let from_wrist = goal.point - goal.wrist();
+        plan([comes, to], Act::Move(Path::Line(from_wrist)));
+        self.state[n] = goal.clone();
+    }
+
     /// Leads a transition round the own shoulder if the forearm would have to fold up, and bends its path forward if the
     /// elbow would go behind the trunk.
     pub(super) fn swing(&mut self, n: usize, goal: &HandState, from: f64, to: f64, pace: Pace) {
@@ -98,7 +136,7 @@ impl Planner<'_> {
             let length = 1.25 * self.signer.length_between(&self.state[n], &rest, n);
             let to = to.map_or(from + length, |to| to.max(from + length));
             self.swing(n, &rest, from, to, Pace::Lax);
-            self.go(n, &rest, from, to, Pace::Lax);
+            self.travel(n, &rest, from, to, Pace::Lax);
             self.phase(n, PhaseKind::Transition, from, to, "");
             end = end.max(to);
         }

@@ -49,6 +49,7 @@ tuned_numbers! {
         swivel: f64,
         elbow: f64,
         turned: f64,
+        away: f64,
         raised: f64,
         lifted: f64,
         above: f64,
@@ -61,6 +62,7 @@ tuned_numbers! {
         within: f64,
         behind: (f64, f64),
         bent: (f64, f64),
+        folded: (f64, f64),
         twisted: (f64, f64),
         untried: f64,
         shrugged: f64,
@@ -101,6 +103,11 @@ tuned_numbers! {
         turning: f64,
         hit: f64,
         flaps: (f64, f64),
+    }
+    /// Numbers for head, trunk and face.
+    nonmanual: NonmanualNumbers {
+        shakes: f64,
+        spread: [f64; 2],
     }
     /// Numbers for leaning hands.
     orient: OrientNumbers {
@@ -155,6 +162,7 @@ tuned_numbers! {
     transit: TransitNumbers {
         round: f64,
         behind: f64,
+        placed: f64,
     }
 }
 

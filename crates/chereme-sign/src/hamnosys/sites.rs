@@ -42,6 +42,27 @@ pub struct BodySite {
     /// Whether the place is next to the body. Of these places hands touch only those next to the head,
     /// nearer, as [`HandAt`] says.
     pub beside: bool,
+    /// Whether the place is a height of the space before the body, unless a hand touches it: transcribers write the head
+    /// so, as they write shoulders and chest.
+    pub level: bool,
+}
+
+impl BodySite {
+    /// Returns the part of the body that determines the distance of a hand with this contact.
+    #[must_use]
+    pub fn region_for(&self, contact: Option<Contact>) -> Region {
+        region_for((self.region, self.level), contact)
+    }
+}
+
+/// Returns the part of the body that determines the distance of a hand with a contact, from a place's region and
+/// whether it is a height of the space before the body.
+#[must_use]
+pub fn region_for((region, level): (Region, bool), contact: Option<Contact>) -> Region {
+    match contact {
+        None | Some(Contact::Close | Contact::ArmExtended) if level => Region::Trunk,
+        _ => region,
+    }
 }
 
 /// Distance from the middle of the `at` side of the trunk, in shoulder widths.
@@ -85,13 +106,19 @@ pub enum HandAt {
 }
 
 impl HandAt {
-    /// Returns the position of a hand with a contact at a place; `arm` and `shoulders` are the body's lengths in metres.
+    /// Returns the position of a hand with a contact at a place, of which it needs the region for that contact; `arm` and
+    /// `shoulders` are the body's lengths in metres.
+    ///
+    /// `ahead` is the distance (m) of the hand's point before its wrist. In the space before the trunk, a hand that
+    /// points away from the signer is farther by that: the forearm decides how far hands are, and an elbow that would
+    /// have to go behind the back for a nearer place stays beside the trunk.
     #[must_use]
     pub fn of(
         (region, lateral, beside): (Region, f64, bool),
         contact: Option<Contact>,
         language: &BodyLanguage,
         [arm, shoulders]: [f64; 2],
+        ahead: f64,
     ) -> Self {
         let trunk = region == Region::Trunk;
         let far = match contact {
@@ -108,9 +135,14 @@ impl HandAt {
         } * arm;
         if trunk {
             let share = if beside { BESIDE_NEARER } else { 1.0 };
+            // An extended arm is extended beside the trunk too, and reaches no farther for a hand that points away.
+            let (share, ahead) = match contact {
+                Some(Contact::ArmExtended) => (1.0, 0.0),
+                _ => (share, ahead.max(0.0)),
+            };
             return Self::Front {
                 left: lateral * shoulders,
-                forward: FRONT * shoulders + far * share,
+                forward: FRONT * shoulders + far * share + ahead,
             };
         }
         let near = contact == Some(Contact::Close) || beside;
@@ -143,6 +175,7 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
             region: Region::Trunk,
             lateral: sign * if beside { BESIDE } else { BEFORE },
             beside,
+            level: false,
         }
     };
     let face = |landmark: String, offset: [f64; 3], out: [f64; 3]| BodySite {
@@ -156,6 +189,7 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
         region: Region::Face,
         lateral: sign * if beside { 0.62 } else { 0.30 },
         beside,
+        level: false,
     };
     let sided = |name: &str| format!("{}-{name}", own.name());
     let or = |middle: &str, side: &str| match half {
@@ -190,9 +224,13 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
             },
             _ => trunk("throat", 0.02),
         },
-        BodyLocation::Head => match half {
-            Some(_) => face(sided("temple"), [0.0, 0.0, 0.0], [sign, 0.0, 0.3]),
-            None => face("eyebrows".into(), [0.0; 3], front),
+        BodyLocation::Head => BodySite {
+            level: true,
+            lateral: sign * if beside { BESIDE } else { BEFORE },
+            ..match half {
+                Some(_) => face(sided("temple"), [0.0, 0.0, 0.0], [sign, 0.0, 0.3]),
+                None => face("eyebrows".into(), [0.0; 3], front),
+            }
         },
         BodyLocation::HeadTop => face("head-top".into(), shifted(0.16), [0.25 * sign, 1.0, 0.0]),
         BodyLocation::Forehead => match half {
@@ -254,6 +292,7 @@ fn arm(side: Option<Side>, acting: Half, part: &str) -> BodySite {
         region: Region::Arm(half),
         lateral: half.sign() * BEFORE,
         beside: false,
+        level: false,
     }
 }
 
@@ -312,6 +351,67 @@ mod tests {
         BodyLocation::LowerArm,
         BodyLocation::NeutralSpace,
     ];
+
+    #[test]
+    fn the_head_is_a_height_of_the_space_before_the_body_unless_it_is_touched() {
+        let site = |at| Site {
+            at,
+            side: Some(Side::RightAt),
+            approx: false,
+        };
+        let head = body_site(&site(BodyLocation::Head), Half::Right, false);
+        for (contact, region) in [
+            (None, Region::Trunk),
+            (Some(Contact::Close), Region::Trunk),
+            (Some(Contact::ArmExtended), Region::Trunk),
+            (Some(Contact::Touch), Region::Face),
+            (Some(Contact::Brushing), Region::Face),
+        ] {
+            assert_eq!(head.region_for(contact), region, "{contact:?}");
+        }
+        for at in [BodyLocation::Forehead, BodyLocation::Chest] {
+            let found = body_site(&site(at), Half::Right, false);
+            assert_eq!(found.region_for(None), found.region);
+        }
+    }
+
+    #[test]
+    fn a_hand_that_points_away_is_farther_before_the_trunk() {
+        let language = BodyLanguage::usual();
+        let forward = |contact, ahead| {
+            let place = (Region::Trunk, 0.0, false);
+            match HandAt::of(place, contact, language, [0.5, 0.4], ahead) {
+                HandAt::Front { forward, .. } => forward,
+                other => panic!("{other:?}"),
+            }
+        };
+        for (contact, far) in [
+            (None, language.medium_trunk),
+            (Some(Contact::Close), language.near_trunk),
+        ] {
+            let still = FRONT * 0.4 + far * 0.5;
+            for (ahead, more) in [(0.0, 0.0), (0.08, 0.08), (-0.08, 0.0)] {
+                assert!((forward(contact, ahead) - still - more).abs() < 1e-12);
+            }
+        }
+        let stretched = Some(Contact::ArmExtended);
+        assert_eq!(forward(stretched, 0.08), forward(stretched, 0.0));
+    }
+
+    #[test]
+    fn an_arm_is_extended_beside_the_trunk_as_far_as_before_it() {
+        let language = BodyLanguage::usual();
+        let forward = |beside, contact| {
+            let place = (Region::Trunk, 0.8, beside);
+            match HandAt::of(place, contact, language, [0.5, 0.4], 0.0) {
+                HandAt::Front { forward, .. } => forward,
+                other => panic!("{other:?}"),
+            }
+        };
+        let stretched = Some(Contact::ArmExtended);
+        assert_eq!(forward(true, stretched), forward(false, stretched));
+        assert!(forward(true, None) < forward(false, None));
+    }
 
     #[test]
     fn every_location_has_a_landmark_and_mirrors_to_the_other_side() {

@@ -1,6 +1,6 @@
 //! Candidate places: single ones, and those half-way between two.
 
-use chereme_sign::hamnosys::sites::Region;
+use chereme_sign::hamnosys::sites::{Region, region_for};
 use chereme_sign::hamnosys::{BodyLocation, Contact, Side, Site};
 use glam::DVec3;
 
@@ -54,6 +54,20 @@ pub(super) struct Spot {
     /// Distance to the left of the middle, in shoulder widths.
     pub(super) lateral: f64,
     pub(super) beside: bool,
+    /// Whether it is a height of the space before the body, unless a hand touches it.
+    pub(super) level: bool,
+}
+
+impl Spot {
+    /// Returns the part of the body that determines the distance of a hand with a contact.
+    pub(super) fn region_for(&self, contact: Option<Contact>) -> Region {
+        region_for((self.region, self.level), contact)
+    }
+
+    /// Returns the same for a hand that touches nothing.
+    fn free(&self) -> Region {
+        self.region_for(None)
+    }
 }
 
 /// A candidate place: a single one, or half-way between two.
@@ -102,7 +116,7 @@ pub(super) fn all(spot: impl Fn(&Site<BodyLocation>) -> Option<Spot>) -> Vec<Cho
             };
             add(first, second);
             // The first of the two regions determines the usual distance of the hand.
-            if first.region != second.region {
+            if first.free() != second.free() {
                 add(second, first);
             }
         }
@@ -142,7 +156,7 @@ fn neighbours(a: &Spot, b: &Spot) -> bool {
         spot.region == Region::Face
             || matches!(spot.site.at, BodyLocation::Neck | BodyLocation::ShoulderTop)
     };
-    let most = match a.region == b.region {
+    let most = match a.free() == b.free() {
         true if a.site.at == b.site.at => tuned().choice.aside,
         true => tuned().choice.apart,
         false if high(a) && high(b) => tuned().choice.above,
@@ -156,7 +170,7 @@ fn neighbours(a: &Spot, b: &Spot) -> bool {
 fn distant(a: &Spot, b: &Spot) -> bool {
     let apart = a.at.distance(b.at);
     let arms = matches!(a.region, Region::Arm(_));
-    apart > 1e-3 && apart < tuned().choice.aside && a.region == b.region && !arms
+    apart > 1e-3 && apart < tuned().choice.aside && a.free() == b.free() && !arms
 }
 
 /// Returns whether a common place lies between two.
@@ -195,7 +209,7 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
     let wide = second.map_or(0.0, |second| {
         first.at.distance(second.at) / tuned().choice.apart
     });
-    let across = second.is_some_and(|second| second.region != first.region);
+    let across = second.is_some_and(|second| second.free() != first.free());
     Choice {
         spot: second.map_or(*first, |second| middle(first, second)),
         second: second.map(|second| second.site),
@@ -277,6 +291,7 @@ mod tests {
                 region: Region::Trunk,
                 lateral: 0.0,
                 beside: false,
+                level: false,
             })
         })
     }

@@ -29,6 +29,8 @@ pub(super) struct Hand {
     named: Vec<(DVec3, Vec<HandPoint>, f64)>,
     /// The expected distance between the hand and its goal, in metres.
     slack: f64,
+    /// Distance of the palm before the wrist, in metres; negative behind it.
+    pub(super) ahead: f64,
 }
 
 impl Hand {
@@ -52,6 +54,7 @@ impl Hand {
             named: nameable(&points),
             points,
             slack: scene.slack,
+            ahead: (track.palm[frame] - track.wrist[frame]).z,
         })
     }
 
@@ -66,8 +69,8 @@ impl Hand {
         }
     }
 
-    /// Creates a hand from the position of its palm alone.
-    pub(super) fn only(palm: DVec3) -> Self {
+    /// Creates a hand from the position of its palm and its distance before the wrist alone.
+    pub(super) fn only(palm: DVec3, ahead: f64) -> Self {
         Self {
             palm,
             axes: [DVec3::Z, DVec3::NEG_Y, DVec3::X],
@@ -75,6 +78,7 @@ impl Hand {
             points: Vec::new(),
             named: Vec::new(),
             slack: 0.0,
+            ahead,
         }
     }
 

@@ -196,7 +196,7 @@ impl Body<'_> {
         together: &Together,
         most: usize,
     ) -> Vec<Placed> {
-        let hand = Hand::only(together.at[0].midpoint(together.at[1]));
+        let hand = Hand::only(together.at[0].midpoint(together.at[1]), self.ahead());
         let mut all = self.likeliest_of(0, &hand, false, most);
         all.extend(self.shared(hand.palm));
         for placed in &mut all {
@@ -205,12 +205,19 @@ impl Body<'_> {
         all
     }
 
+    /// Returns the distance (m) of the dominant palm before its wrist: it decides how far the point that both hands
+    /// share is from the body.
+    fn ahead(&self) -> f64 {
+        self.hands[0].as_ref().map_or(0.0, |hand| hand.ahead)
+    }
+
     /// Returns the place nearest to a point that both hands share; empty in neutral space.
     fn shared(&self, at: DVec3) -> Option<Placed> {
-        let mut placed = self.placed(0, &Hand::only(at), false)?;
+        let ahead = self.ahead();
+        let mut placed = self.placed(0, &Hand::only(at, ahead), false)?;
         placed.place.by = None;
         let neutral = self.spot(0, &NEUTRAL)?;
-        let off = at - self.goal(&neutral, None, 0, false);
+        let off = at - self.goal(&neutral, None, (0, ahead), false);
         let score = self.spread.free(off, false);
         if score > placed.score {
             return Some(placed);

@@ -41,6 +41,9 @@ impl Planner<'_> {
             }
         }
         self.fixed = None;
+        if motion.is_none() && posture.place.is_none() && !env.goes {
+            self.about_wrist(&before, named);
+        }
         let goal = self.state.clone();
         let contact = posture.place.as_ref().is_some_and(meets);
         let usual = if posture.place.is_some() {
@@ -111,6 +114,19 @@ impl Planner<'_> {
             end + self.signer.language.time_contact
         } else {
             end
+        }
+    }
+
+    /// Makes hands that only turn, and touch nothing, turn about their wrists: people leave the arm where it is.
+    fn about_wrist(&mut self, before: &[HandState; 2], named: Who) {
+        if self.together.is_some() {
+            return;
+        }
+        for (n, frame) in acting(named) {
+            if self.skin(n, frame).is_none() {
+                let state = &mut self.state[n];
+                state.point = before[n].wrist() + state.rotation * state.offset;
+            }
         }
     }
 

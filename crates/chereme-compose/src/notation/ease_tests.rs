@@ -1,0 +1,193 @@
+//! Tests that arms and heads move within what is comfortable: elbows, wrists, shakes of the head.
+
+use chereme_motion::glam::DVec3;
+use chereme_motion::{Part, Side};
+use chereme_sign::hamnosys::{
+    Act, BodyLanguage, BodyLocation, BodyPlace, Contact, HandClass, HandsUsed, Motion, MotionKind,
+    NonmanualPart, Place, Posture, Site, WristMotion,
+};
+
+use super::tests::{at, mirrored, model, notated, posture, stage};
+use super::*;
+use crate::testing::Axes;
+
+/// Animates a sign on a body that does not sway.
+fn still(sign: &Notated) -> Generated {
+    let settings = Settings {
+        language: BodyLanguage::usual().without_life(),
+        ..Settings::default()
+    };
+    animate(&[sign], &stage(Axes::Plain), &settings).expect("it can be animated")
+}
+
+/// Returns the positions of shoulder, elbow and wrist of the right arm at a share of the sign.
+fn arm(made: &Generated, share: f64) -> [DVec3; 3] {
+    let chain = made.anatomy.arm(Side::Right).expect("an arm");
+    let model = model(made, share);
+    [chain.upper, chain.forearm, chain.hand].map(|joint| model.position(joint))
+}
+
+/// Returns the direction of a hand at a share of the sign.
+fn along(made: &Generated, side: Side, share: f64) -> DVec3 {
+    let model = model(made, share);
+    made.anatomy
+        .hand_direction(side, &model)
+        .expect("a direction")
+}
+
+fn placed(location: BodyLocation, side: chereme_sign::hamnosys::Side) -> Place {
+    Place::Body(BodyPlace {
+        site: Some(Site {
+            at: location,
+            side: Some(side),
+            approx: false,
+        }),
+        contact: Some(Contact::Close),
+        ..BodyPlace::default()
+    })
+}
+
+#[test]
+fn an_elbow_stays_beside_the_trunk_if_its_hand_points_away_close_to_the_chest() {
+    let beside = chereme_sign::hamnosys::Side::RightBeside;
+    for palm in ["d", "l", "ul"] {
+        let place = Some(placed(BodyLocation::Chest, beside));
+        let made = still(&notated(
+            mirrored(),
+            posture(HandClass::Flat, "o", palm, place),
+            vec![],
+        ));
+        let [shoulder, elbow, _] = arm(&made, 0.5);
+        let behind = shoulder.z - elbow.z;
+        assert!(behind < 0.05, "{palm}: {behind} m");
+    }
+}
+
+#[test]
+fn an_elbow_goes_out_rather_than_the_wrist_to_its_limit() {
+    let place = Some(at(BodyLocation::Shoulders, None));
+    let made = still(&notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Flat, "l", "dl", place),
+        vec![],
+    ));
+    let [_, elbow, wrist] = arm(&made, 0.5);
+    let bent = along(&made, Side::Right, 0.5).angle_between(wrist - elbow);
+    assert!(bent.to_degrees() < 56.0, "{}", bent.to_degrees());
+}
+
+#[test]
+fn a_hand_close_to_the_head_is_before_the_face_and_not_beside_the_ear() {
+    let place = placed(BodyLocation::Head, chereme_sign::hamnosys::Side::RightAt);
+    let made = still(&notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Fist, "u", "d", Some(place)),
+        vec![],
+    ));
+    let model = model(&made, 0.5);
+    let skeleton = made.clip.skeleton();
+    let point = |name: &str| {
+        let found = made.anatomy.landmark(skeleton, &model, name);
+        found.expect("a landmark")
+    };
+    let (palm, brows) = (point("right-palm"), point("eyebrows"));
+    assert!(palm.z > brows.z + 0.08, "{palm} {brows}");
+    assert!((palm.y - brows.y).abs() < 0.03, "{palm} {brows}");
+    assert!(palm.x < -0.08, "on the right: {palm}");
+}
+
+#[test]
+fn a_hand_that_only_turns_leaves_its_wrist_where_it_is() {
+    let turned = Motion::new(MotionKind::Target {
+        motion: None,
+        posture: Box::new(Posture {
+            place: None,
+            ..posture(HandClass::Flat, "uo", "l", None)
+        }),
+    });
+    let made = still(&notated(
+        HandsUsed::Dominant,
+        posture(
+            HandClass::Flat,
+            "u",
+            "l",
+            Some(at(BodyLocation::Shoulders, None)),
+        ),
+        vec![turned],
+    ));
+    let [before, after] = [0.0, 1.0].map(|share| arm(&made, share)[2]);
+    assert!(before.distance(after) < 0.015, "{before} {after}");
+    let turned = [0.0, 1.0].map(|share| along(&made, Side::Right, share));
+    assert!(turned[0].angle_between(turned[1]) > 0.5);
+}
+
+#[test]
+fn hands_that_nod_in_turn_nod_to_opposite_sides() {
+    let mut nod = Motion::new(MotionKind::Wrist {
+        motion: WristMotion::Nodding,
+        size: None,
+    });
+    nod.manner.alternating = true;
+    let chest = Some(at(BodyLocation::Chest, None));
+    let sign = notated(
+        mirrored(),
+        posture(HandClass::Flat, "o", "d", chest),
+        vec![nod],
+    );
+    let made = still(&sign);
+    let heights = |side: Side| -> Vec<f64> {
+        let shares = (0..60).map(|n| f64::from(n) / 60.0);
+        shares.map(|share| along(&made, side, share).y).collect()
+    };
+    let [right, left] = Side::BOTH.map(heights);
+    let spread = |all: &[f64]| {
+        all.iter().fold(f64::MIN, |a, b| a.max(*b)) - all.iter().fold(f64::MAX, |a, b| a.min(*b))
+    };
+    assert!(spread(&right) > 0.2 && spread(&left) > 0.2);
+    let sum: Vec<f64> = right.iter().zip(&left).map(|(a, b)| a + b).collect();
+    assert!(spread(&sum) < 0.4 * spread(&right), "{}", spread(&sum));
+}
+
+#[test]
+fn three_shakes_in_one_moment_are_three_shakes_and_no_whip() {
+    let mut sign = notated(
+        HandsUsed::Dominant,
+        posture(
+            HandClass::Flat,
+            "ol",
+            "d",
+            Some(at(BodyLocation::Chest, None)),
+        ),
+        vec![],
+    );
+    let part = NonmanualPart::Head;
+    let shake = || Act::new(part, "SH");
+    sign.nonmanual
+        .push(part.tier(), vec![shake(), shake(), shake()]);
+    let made = still(&sign);
+    let head = made.anatomy.joint(Part::Head).expect("a head");
+    let first = made.clip.model_pose(0).rotation(head);
+    let turned: Vec<f64> = (0..made.clip.frames())
+        .map(|frame| {
+            let now = made.clip.model_pose(frame).rotation(head);
+            (now * first.inverse()).to_scaled_axis().y.to_degrees()
+        })
+        .collect();
+    let fastest = turned.windows(2).map(|two| (two[1] - two[0]).abs() * 60.0);
+    let fastest = fastest.fold(0.0, f64::max);
+    assert!(
+        (100.0..300.0).contains(&fastest),
+        "{fastest} degrees a second"
+    );
+    let farthest = turned
+        .iter()
+        .fold(0.0_f64, |most, angle| most.max(angle.abs()));
+    assert!((10.0..17.0).contains(&farthest), "{farthest} degrees");
+    let sides: Vec<bool> = turned
+        .iter()
+        .filter(|angle| angle.abs() > 4.0)
+        .map(|angle| *angle > 0.0)
+        .collect();
+    let changes = sides.windows(2).filter(|two| two[0] != two[1]).count();
+    assert_eq!(changes, 5, "three shakes");
+}
