@@ -3,11 +3,12 @@
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Part, Side};
 use chereme_sign::hamnosys::{
-    Act, BodyLanguage, BodyLocation, BodyPlace, Contact, HandClass, HandsUsed, Motion, MotionKind,
-    NonmanualPart, Place, Posture, Site, WristMotion,
+    Act, BodyLanguage, BodyLocation, BodyPlace, Constellation, Contact, Digit, Digits, HandClass,
+    HandLocation, HandSite, HandsUsed, Motion, MotionKind, NonmanualPart, Place, Posture, Site,
+    WristMotion,
 };
 
-use super::tests::{at, mirrored, model, notated, posture, stage};
+use super::tests::{at, directed, mirrored, model, notated, posture, stage};
 use super::*;
 use crate::testing::Axes;
 
@@ -33,6 +34,14 @@ fn along(made: &Generated, side: Side, share: f64) -> DVec3 {
     made.anatomy
         .hand_direction(side, &model)
         .expect("a direction")
+}
+
+/// Returns the touch of a place in the middle of the body by a part of the hand.
+fn touched(location: BodyLocation, by: Option<HandSite>) -> Place {
+    match at(location, Some(Contact::Touch)) {
+        Place::Body(place) => Place::Body(BodyPlace { by, ..place }),
+        other => other,
+    }
 }
 
 fn placed(location: BodyLocation, side: chereme_sign::hamnosys::Side) -> Place {
@@ -119,6 +128,122 @@ fn a_hand_that_only_turns_leaves_its_wrist_where_it_is() {
     assert!(before.distance(after) < 0.015, "{before} {after}");
     let turned = [0.0, 1.0].map(|share| along(&made, Side::Right, share));
     assert!(turned[0].angle_between(turned[1]) > 0.5);
+}
+
+/// Returns a straight path and what happens at its end.
+fn to(direction: &str, then: Posture) -> Motion {
+    Motion::new(MotionKind::Target {
+        motion: Some(Box::new(directed(direction))),
+        posture: Box::new(then),
+    })
+}
+
+/// Returns a part of a hand: the tip of the index finger, or a side.
+fn part(location: HandLocation, digit: Option<Digit>) -> HandSite {
+    HandSite {
+        at: Some(location),
+        digits: Digits(digit.into_iter().collect()),
+        ..HandSite::default()
+    }
+}
+
+#[test]
+fn hands_that_meet_with_other_parts_than_before_stay_where_they_are() {
+    let tip = part(HandLocation::Tip, Some(Digit::Index));
+    let forehead = touched(BodyLocation::Forehead, Some(tip));
+    let side = part(HandLocation::PinkySide, None);
+    let together = Constellation {
+        dominant: Some(side.clone()),
+        other: Some(side),
+        contact: Some(Contact::Touch),
+        ..Constellation::default()
+    };
+    let meet = Posture {
+        place: Some(Place::Hands(together)),
+        ..Posture::default()
+    };
+    let made = still(&notated(
+        mirrored(),
+        posture(HandClass::Flat, "u", "l", Some(forehead)),
+        vec![to("o", meet)],
+    ));
+    let [before, after] = [0.0, 1.0].map(|share| arm(&made, share)[2].y);
+    assert!((after - before).abs() < 0.05, "{before} {after}");
+}
+
+#[test]
+fn a_hand_that_tips_while_it_leaves_the_skin_takes_its_wrist_along() {
+    let tip = part(HandLocation::Tip, Some(Digit::Middle));
+    let chin = touched(BodyLocation::Chin, Some(tip));
+    let tipped = Motion::new(MotionKind::Target {
+        motion: None,
+        posture: Box::new(Posture {
+            place: None,
+            ..posture(HandClass::Flat, "uo", "u", None)
+        }),
+    });
+    let away = MotionKind::Parallel(vec![directed("o"), tipped]);
+    let made = still(&notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Flat, "u", "u", Some(chin)),
+        vec![Motion::new(away)],
+    ));
+    let [before, after] = [0.0, 1.0].map(|share| arm(&made, share)[2].z);
+    assert!(after > before + 0.04, "{before} {after}");
+}
+
+#[test]
+fn a_hand_that_moves_to_touch_the_head_starts_on_the_side_from_which_it_comes() {
+    let eyes = |contact| {
+        Place::Body(BodyPlace {
+            site: Some(Site {
+                at: BodyLocation::Eyes,
+                side: Some(chereme_sign::hamnosys::Side::RightAt),
+                approx: false,
+            }),
+            contact: Some(contact),
+            by: Some(part(HandLocation::Tip, Some(Digit::Index))),
+            ..BodyPlace::default()
+        })
+    };
+    let touch = Posture {
+        place: Some(eyes(Contact::Touch)),
+        ..Posture::default()
+    };
+    let made = still(&notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Finger2, "u", "l", Some(eyes(Contact::Close))),
+        vec![to("l", touch)],
+    ));
+    let [before, after] = [0.0, 1.0].map(|share| arm(&made, share)[2].x);
+    assert!(after > before + 0.03, "to the left: {before} {after}");
+}
+
+#[test]
+fn a_hand_that_moves_down_to_the_other_one_starts_above_it() {
+    let palm = part(HandLocation::Palm, None);
+    let near = |contact| {
+        Some(Place::Hands(Constellation {
+            dominant: Some(palm.clone()),
+            other: Some(palm.clone()),
+            contact: Some(contact),
+            ..Constellation::default()
+        }))
+    };
+    let touch = Posture {
+        place: near(Contact::Touch),
+        ..Posture::default()
+    };
+    for (direction, axis) in [("d", DVec3::NEG_Y), ("o", DVec3::Z), ("l", DVec3::X)] {
+        let made = still(&notated(
+            HandsUsed::Dominant,
+            posture(HandClass::Flat, "ol", "l", near(Contact::Close)),
+            vec![to(direction, touch.clone())],
+        ));
+        let [before, after] = [0.0, 1.0].map(|share| arm(&made, share)[2]);
+        let along = (after - before).dot(axis);
+        assert!(along > 0.03, "{direction}: {along} m");
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@ mod relative;
 mod repeat;
 mod room;
 mod size;
+mod start;
 mod target;
 
 use std::f64::consts::TAU;
@@ -250,36 +251,6 @@ impl Planner<'_> {
         skin.or_else(beside)
     }
 
-    /// Starts a second hand that is half a period behind on the other side of its circle.
-    pub(crate) fn start_behind(&mut self, part: &chereme_sign::hamnosys::Manual, who: Who) {
-        let Some(frame) = who[1].filter(|frame| frame.behind) else {
-            return;
-        };
-        let skin = self.outwards(who);
-        fn circle(motion: &Motion) -> Option<&Circular> {
-            match &motion.kind {
-                MotionKind::Circular(circular) => Some(circular),
-                MotionKind::Repeated { motion, .. } => circle(motion),
-                MotionKind::Parallel(all) | MotionKind::Sequence { motions: all, .. } => {
-                    all.iter().find_map(circle)
-                }
-                MotionKind::Target { motion, .. } => circle(motion.as_deref()?),
-                _ => None,
-            }
-        }
-        let Some(circular) = part.actions.first().and_then(circle) else {
-            return;
-        };
-        let l = self.signer.language;
-        let radius = amount(
-            &circular.size,
-            [l.circle_small, l.circle_normal, l.circle_big],
-        );
-        let (start, _) = self.signer.rim(circular, radius, skin);
-        let by = self.signer.stage.direction(start * frame.axes * -2.0);
-        self.state[1].point += by;
-    }
-
     fn wrist(
         &mut self,
         motion: WristMotion,
@@ -426,7 +397,7 @@ impl Planner<'_> {
         now
     }
 
-    /// Makes hands that rotate while they leave each other, or that rotate far while they move, rotate about their palms
+    /// Makes hands that rotate while they leave each other or the skin, or that rotate far while they move, rotate about their palms
     /// instead of their fingertips: otherwise turning about the fingertips would move the wrist back against its path.
     fn let_go(&mut self, motions: &[Motion], who: Who, time: f64) {
         let turns = |motion: &Motion| match &motion.kind {
@@ -451,7 +422,14 @@ impl Planner<'_> {
             None => self.turned_by(motions.iter().filter(|motion| turns(motion)), who),
         };
         for (n, frame) in acting(who) {
-            if turned[n] < tuned().motion.far_turn || self.skin(n, frame).is_some() {
+            let least = match self.skin(n, frame) {
+                Some(skin) if motions.iter().any(|motion| leaves(motion, skin)) => {
+                    tuned().motion.leaving_turn
+                }
+                Some(_) => continue,
+                None => tuned().motion.far_turn,
+            };
+            if turned[n] < least {
                 continue;
             }
             let palm = self.hands().offset(n, &[HandPoint::Palm]);
@@ -560,6 +538,14 @@ fn goes(motion: &Motion) -> bool {
         motion.kind,
         MotionKind::Directed(_) | MotionKind::Circular(_)
     )
+}
+
+/// Returns whether a motion leads away from the skin; `out` is its outward normal (left, up, forward in the hand's frame).
+fn leaves(motion: &Motion, out: DVec3) -> bool {
+    match &motion.kind {
+        MotionKind::Directed(path) => mean(path.direction, path.second).dot(out) > 0.3,
+        _ => false,
+    }
 }
 
 impl Signer<'_> {

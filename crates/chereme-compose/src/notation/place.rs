@@ -259,7 +259,6 @@ impl Planner<'_> {
             }
         }
         let frames = named.map(|frame| frame.unwrap_or_else(|| self.signer.own_frame()));
-        let centre = self.centre(hands, frames[0]);
         let across = self.signer.stage.left * self.signer.sides[0].sign();
         let mirrored = frames[0].mirrors(&frames[1]);
         let far = self.signer.language.hands_near * self.signer.stage.arm;
@@ -291,6 +290,7 @@ impl Planner<'_> {
         } else {
             self.hands().unlike(hands, frames, across)
         };
+        let centre = self.centre(hands, frames[0], &points);
         let goals = points.map(|points| Goal {
             at: centre,
             points,
@@ -330,14 +330,20 @@ impl Planner<'_> {
         known
     }
 
-    /// Returns the position of two hands in a constellation: at their place if named, else at their
-    /// current position, else before the chest.
-    fn centre(&mut self, hands: &Constellation, frame: Frame) -> DVec3 {
+    /// Returns the position of two hands in a constellation: at their place if named, else half-way between the points
+    /// that meet, else before the chest.
+    fn centre(
+        &mut self,
+        hands: &Constellation,
+        frame: Frame,
+        points: &[Vec<HandPoint>; 2],
+    ) -> DVec3 {
         if let Some(place) = &hands.at {
             return self.on_body(0, place, frame, false).at;
         }
         if self.begun {
-            return (self.state[0].point + self.state[1].point) / 2.0;
+            let [own, other] = [0, 1].map(|n| self.hands().at_hand(n, &points[n]).0);
+            return (own + other) / 2.0;
         }
         self.on_body(0, &BodyPlace::default(), frame, false).at
     }
@@ -392,6 +398,13 @@ impl Hands<'_> {
     fn ahead(&self, n: usize) -> f64 {
         let palm = self.offset(n, &[HandPoint::Palm]);
         (self.state[n].rotation * palm).dot(self.signer.stage.forward)
+    }
+
+    /// Returns the direction out of the head at a place on it.
+    pub(crate) fn out_of_head(&self, n: usize, place: &BodyPlace, frame: Frame) -> Option<DVec3> {
+        let placed = self.sites(n, place, frame);
+        let face = placed.site.region_for(place.contact) == Region::Face;
+        (face && !place.behind).then_some(placed.out)
     }
 
     /// Returns the position of a place on the body, or half-way between two.

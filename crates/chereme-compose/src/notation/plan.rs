@@ -359,6 +359,8 @@ impl<'a> Planner<'a> {
         }
         self.begun = true;
         self.start_behind(part, who);
+        self.start_against(part, who);
+        self.start_over(part, who);
         if let Some(place) = &posture.place {
             self.ease(place, named, Some((part.actions.as_slice(), who)));
         }

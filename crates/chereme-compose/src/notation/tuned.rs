@@ -96,6 +96,7 @@ tuned_numbers! {
         let_go: f64,
         rubs: f64,
         far_turn: f64,
+        leaving_turn: f64,
         leads_back: f64,
         shallow: f64,
         soon: f64,

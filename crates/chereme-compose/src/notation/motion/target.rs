@@ -275,7 +275,7 @@ fn staying(motion: Option<&Motion>, who: Who) -> Option<usize> {
 }
 
 /// Returns the hand for which a motion of both writes no movement, if there is one.
-fn waiting(motion: Option<&Motion>) -> Option<usize> {
+pub(super) fn waiting(motion: Option<&Motion>) -> Option<usize> {
     let still = |half: &Option<Box<Motion>>| match half {
         Some(half) => matches!(half.kind, MotionKind::Still),
         None => true,
