@@ -106,8 +106,8 @@ pub enum HandAt {
 }
 
 impl HandAt {
-    /// Returns the position of a hand with a contact at a place, of which it needs the region for that contact; `arm` and
-    /// `shoulders` are the body's lengths in metres.
+    /// Returns the position of a hand with a contact at a place. The region is that for this contact; `arm` and `shoulders`
+    /// are the body's lengths in metres.
     ///
     /// `ahead` is the distance (m) of the hand's point before its wrist. In the space before the trunk, a hand that
     /// points away from the signer is farther by that: the forearm decides how far hands are, and an elbow that would

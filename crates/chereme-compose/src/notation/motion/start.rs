@@ -65,14 +65,14 @@ impl Planner<'_> {
             };
             let from = -self.signer.stage.direction(direction * frame.axes);
             if (-0.3..0.7).contains(&from.dot(out)) {
-                // Half-way to that side, where it is still read as close to its place.
+                // Half-way to that side: from the side itself, a reader would take it for another place.
                 self.state[n].point += ((from + out).normalize() - out) * near;
             }
         }
     }
 
-    /// Starts a hand that is close to the other one, and moves to touch it, on the side from which its movement leads, if
-    /// it would come from another side.
+    /// Starts a hand that is close to the other one, and moves to touch it, opposite to the direction of its
+    /// movement, if it would come from another side.
     pub(crate) fn start_over(&mut self, part: &Manual, who: Who) {
         let near = |place: &Option<Place>, contact: Contact| match place {
             Some(Place::Hands(hands)) => hands.contact == Some(contact),
@@ -112,7 +112,7 @@ impl Planner<'_> {
     }
 }
 
-/// Returns the motion that leads to a goal, or that is repeated: the whole, its path, and the posture at its end.
+/// Returns a motion with a goal, its path, and the posture at its end; of a repeated motion, those of one repetition.
 fn goal_of(motion: &Motion) -> Option<(&Motion, &Motion, &Posture)> {
     match &motion.kind {
         MotionKind::Target {

@@ -117,7 +117,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Makes hands that only turn, and touch nothing, turn about their wrists: people leave the arm where it is.
+    /// Makes hands that only turn, and touch nothing, turn about their wrists: people keep the arm still.
     fn about_wrist(&mut self, before: &[HandState; 2], named: Who) {
         if self.together.is_some() {
             return;
