@@ -20,10 +20,10 @@ const WEIGHED: usize = 6;
 
 /// Position and orientation of a hand at one moment of a sign.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Stance {
-    point: DVec3,
-    rotation: DQuat,
-    offset: DVec3,
+pub(crate) struct Stance {
+    pub(crate) point: DVec3,
+    pub(crate) rotation: DQuat,
+    pub(crate) offset: DVec3,
 }
 
 /// Collects the stances of the hands during a trial plan.
@@ -128,19 +128,14 @@ impl Planner<'_> {
         }
     }
 
-    /// Shifts hands within a room (arm lengths) to reduce the strain of their arms.
-    fn shift(
+    /// Returns the stances of hands that count, now and during `follows`, those that strain the arm most first; empty if
+    /// none strains it.
+    pub(crate) fn strained(
         &mut self,
-        room: Option<[DVec3; 2]>,
-        axes: [Option<DVec3>; 2],
         named: Who,
         follows: Option<(&[Motion], Who)>,
-    ) {
-        let Some(room) = room
-            .map(|ends| ends.map(|ends| ends * (tuned().comfort.taken * self.signer.stage.arm)))
-        else {
-            return;
-        };
+        counts: impl Fn(usize, &Stance) -> bool,
+    ) -> Vec<(usize, Stance)> {
         let mut trail = Trail::default();
         for (n, _) in acting(named) {
             trail.note(n, self.hands().stance(n));
@@ -155,20 +150,37 @@ impl Planner<'_> {
             });
             trail = self.trail.take().unwrap_or_default();
         }
-        let mut seen = trail.seen;
-        seen.retain(|(n, _)| axes[*n].is_some());
-        let mut strained: Vec<(f64, (usize, Stance))> = seen
-            .into_iter()
+        let all = trail.seen.into_iter();
+        let all = all.filter(|(n, stance)| counts(*n, stance));
+        let mut all: Vec<(f64, (usize, Stance))> = all
             .map(|(n, stance)| (self.signer.strain(n, &stance, DVec3::ZERO), (n, stance)))
             .collect();
-        strained.sort_by(|a, b| b.0.total_cmp(&a.0));
-        if strained
-            .first()
-            .is_none_or(|(most, _)| *most < tuned().comfort.strained)
-        {
+        all.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let most = all.first().map_or(0.0, |(most, _)| *most);
+        if most < tuned().comfort.strained {
+            return Vec::new();
+        }
+        all.into_iter().map(|(_, stance)| stance).collect()
+    }
+
+    /// Shifts hands within a room (arm lengths) to reduce the strain of their arms.
+    fn shift(
+        &mut self,
+        room: Option<[DVec3; 2]>,
+        axes: [Option<DVec3>; 2],
+        named: Who,
+        follows: Option<(&[Motion], Who)>,
+    ) {
+        let Some(room) = room
+            .map(|ends| ends.map(|ends| ends * (tuned().comfort.taken * self.signer.stage.arm)))
+        else {
+            return;
+        };
+        let mut strained = self.strained(named, follows, |n, _| axes[n].is_some());
+        strained.truncate(WEIGHED);
+        if strained.is_empty() {
             return;
         }
-        strained.truncate(WEIGHED);
         let by = |local: DVec3, n: usize| {
             let axes = axes[n].unwrap_or(DVec3::ONE);
             self.signer.stage.direction(local * axes)
@@ -177,7 +189,7 @@ impl Planner<'_> {
         let cost = |local: DVec3, most: f64| {
             let shifted = tuned().comfort.shifted * share(local, room).powi(2);
             let mut sum = 0.0;
-            for (_, (n, stance)) in &strained {
+            for (n, stance) in &strained {
                 sum += self.signer.strain(*n, stance, by(local, *n));
                 if sum + shifted > most {
                     return f64::INFINITY;
@@ -221,7 +233,7 @@ impl Signer<'_> {
     }
 
     /// Returns the strain of an arm whose hand is shifted by an offset (m).
-    fn strain(&self, n: usize, stance: &Stance, by: DVec3) -> f64 {
+    pub(crate) fn strain(&self, n: usize, stance: &Stance, by: DVec3) -> f64 {
         let Some(hand) = self.stage.hand(self.sides[n]) else {
             return 0.0;
         };
@@ -239,7 +251,7 @@ impl Signer<'_> {
 }
 
 impl Hands<'_> {
-    fn stance(&self, n: usize) -> Stance {
+    pub(crate) fn stance(&self, n: usize) -> Stance {
         let state = &self.state[n];
         Stance {
             point: state.point,
@@ -305,7 +317,7 @@ fn share(at: DVec3, [less, more]: [DVec3; 2]) -> f64 {
 
 /// Returns an offset with a low cost, by a search along the axes from the origin. `cost(offset, limit)`
 /// may return any number above the limit instead of the exact cost.
-fn lowest(cost: impl Fn(DVec3, f64) -> f64, room: [DVec3; 2]) -> DVec3 {
+pub(crate) fn lowest(cost: impl Fn(DVec3, f64) -> f64, room: [DVec3; 2]) -> DVec3 {
     let (mut best, mut step) = (DVec3::ZERO, 0.7);
     let mut least = cost(best, f64::INFINITY);
     for _ in 0..7 {

@@ -42,6 +42,7 @@ mod comfort;
 mod ease_tests;
 mod freedom;
 mod hands_apart;
+mod lean;
 mod life;
 mod lift;
 mod motion;

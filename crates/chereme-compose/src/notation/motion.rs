@@ -446,16 +446,12 @@ impl Planner<'_> {
     /// Returns the angles (rad) by which motions rotate the hands, by a trial plan.
     fn turned_by<'m>(&mut self, motions: impl Iterator<Item = &'m Motion>, who: Who) -> [f64; 2] {
         let before = [0, 1].map(|n| self.state[n].rotation);
-        self.enter();
-        let after = self.aside(|planner| {
+        let after = self.unseen(|planner| {
             for motion in motions {
                 planner.motion(motion, who, 0.0, &Env::default());
             }
             [0, 1].map(|n| planner.state[n].rotation)
         });
-        if let Some(trail) = &mut self.trail {
-            trail.within -= 1;
-        }
         [0, 1].map(|n| before[n].angle_between(after[n]))
     }
 
@@ -497,12 +493,17 @@ impl Planner<'_> {
 
     /// Returns the duration of a motion (s), by a trial plan.
     fn length_of(&mut self, motion: &Motion, who: Who, env: &Env) -> f64 {
+        self.unseen(|planner| planner.motion(motion, who, 0.0, env))
+    }
+
+    /// Runs a trial plan whose stances do not count.
+    fn unseen<T>(&mut self, plan: impl FnOnce(&mut Self) -> T) -> T {
         self.enter();
-        let end = self.aside(|planner| planner.motion(motion, who, 0.0, env));
+        let result = self.aside(plan);
         if let Some(trail) = &mut self.trail {
             trail.within -= 1;
         }
-        end
+        result
     }
 
     /// Runs a trial plan and discards its events and remarks; returns its result.
@@ -515,7 +516,9 @@ impl Planner<'_> {
         let contacts = [0, 1].map(|n| self.plan.contacts[n].len());
         let arrivals = [0, 1].map(|n| self.plan.arrivals[n].len());
         let at_body = self.at_body.clone();
+        self.aside += 1;
         let end = plan(self);
+        self.aside -= 1;
         self.state = state;
         self.named = named;
         self.together = together;

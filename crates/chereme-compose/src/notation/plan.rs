@@ -227,6 +227,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) fixed: Option<usize>,
     /// Collects stances during a trial plan.
     pub(crate) trail: Option<super::comfort::Trail>,
+    /// The number of trial plans, one within the other, that are being made.
+    pub(crate) aside: usize,
     /// The last place of each hand at the body in this sign.
     pub(crate) at_body: [Option<BodyPlace>; 2],
     /// Indexes of shapes by handshape, for each hand.
@@ -275,6 +277,7 @@ impl<'a> Planner<'a> {
             begun: false,
             fixed: None,
             trail: None,
+            aside: 0,
             at_body: [None, None],
             shaped: [Vec::new(), Vec::new()],
             speed: 1.0,
@@ -360,10 +363,11 @@ impl<'a> Planner<'a> {
         self.begun = true;
         self.start_behind(part, who);
         self.start_against(part, who);
-        self.start_over(part, who);
+        self.start_over(part, who, named);
         if let Some(place) = &posture.place {
             self.ease(place, named, Some((part.actions.as_slice(), who)));
         }
+        self.lean(named, Some((part.actions.as_slice(), who)));
         let goal = self.state.clone();
         let drops = !part.holdover && self.lone(part);
         let dropped =
@@ -463,7 +467,7 @@ impl<'a> Planner<'a> {
     }
 
     /// Returns the acting hands of a part with their frames.
-    fn who(&self, hands: HandsUsed) -> Who {
+    pub(crate) fn who(&self, hands: HandsUsed) -> Who {
         let own = self.signer.own_frame();
         match hands {
             HandsUsed::Dominant => [Some(own), None],

@@ -34,6 +34,8 @@ tuned_numbers! {
         shifted: f64,
         taken: f64,
         strained: f64,
+        most_leaned: f64,
+        leaned: f64,
         near: f64,
     }
     /// Numbers for contacts.

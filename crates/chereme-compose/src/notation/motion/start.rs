@@ -72,8 +72,9 @@ impl Planner<'_> {
     }
 
     /// Starts a hand that is close to the other one, and moves to touch it, opposite to the direction of its
-    /// movement, if it would come from another side.
-    pub(crate) fn start_over(&mut self, part: &Manual, who: Who) {
+    /// movement, if it would come from another side. If both hands are placed (`named`), each gives way by half,
+    /// so that they stay at their place.
+    pub(crate) fn start_over(&mut self, part: &Manual, who: Who, named: Who) {
         let near = |place: &Option<Place>, contact: Contact| match place {
             Some(Place::Hands(hands)) => hands.contact == Some(contact),
             _ => false,
@@ -97,17 +98,16 @@ impl Planner<'_> {
         };
         let direction = self.signer.stage.direction(direction * frame.axes);
         let start = self.state[n].wrist();
-        self.enter();
-        let end = self.aside(|planner| {
+        let end = self.unseen(|planner| {
             planner.motion(whole, who, 0.0, &Env::default());
             planner.state[n].wrist()
         });
-        if let Some(trail) = &mut self.trail {
-            trail.within -= 1;
-        }
         if (end - start).angle_between(direction) > tuned().motion.bends {
             let far = self.signer.language.hands_near * self.signer.stage.arm;
-            self.state[n].point += end - direction * far - start;
+            let by = end - direction * far - start;
+            let share = if named[1 - n].is_some() { 0.5 } else { 0.0 };
+            self.state[n].point += by * (1.0 - share);
+            self.state[1 - n].point -= by * share;
         }
     }
 }

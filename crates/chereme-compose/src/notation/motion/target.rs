@@ -44,6 +44,7 @@ impl Planner<'_> {
         if motion.is_none() && posture.place.is_none() && !env.goes {
             self.about_wrist(&before, named);
         }
+        self.lean(named, None);
         let goal = self.state.clone();
         let contact = posture.place.as_ref().is_some_and(meets);
         let usual = if posture.place.is_some() {

@@ -1,0 +1,167 @@
+//! Turns hands within their notated orientation for the comfort of the arm.
+//!
+//! A notated direction is a region, too: 45 degrees lie between two directions. People turn a hand by a few degrees
+//! rather than lift the elbow or fold the wrist. A hand whose arm is strained is turned about its reference point, as
+//! long as it keeps this orientation.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_sign::hamnosys::Motion;
+use chereme_sign::hamnosys::sites::HandPoint;
+
+use super::comfort::{Stance, lowest};
+use super::plan::{Planner, Who, acting};
+use super::tuned::tuned;
+
+/// The number of postures to evaluate: those that strain the arm most.
+const WEIGHED: usize = 3;
+
+impl Planner<'_> {
+    /// Turns hands by a few degrees to where their arms are comfortable, now and during `follows`, while they keep
+    /// their orientation. Hands that mirror each other turn alike; if they also meet, they only nod together.
+    pub(crate) fn lean(&mut self, named: Who, follows: Option<(&[Motion], Who)>) {
+        if self.trail.is_some() || self.aside > 0 {
+            return;
+        }
+        let strained = acting(named).any(|(n, _)| {
+            let stance = self.hands().stance(n);
+            self.signer.strain(n, &stance, DVec3::ZERO) > tuned().comfort.strained
+        });
+        if !strained {
+            return;
+        }
+        let alike = match named {
+            [Some(own), Some(other)] => own.mirrors(&other),
+            _ => false,
+        };
+        let flat = || {
+            acting(named).any(|(n, _)| {
+                let palm = self.hands().offset(n, &[HandPoint::Palm]);
+                self.state[n].offset.distance(palm) < 1e-9
+            })
+        };
+        if alike {
+            // Palms on each other stay as they are written: they would part at their fingertips.
+            if self.together.is_none() || !flat() {
+                self.lean_by(named, follows, self.together.is_some());
+            }
+        } else if self.together.is_none() {
+            for (n, frame) in acting(named) {
+                let mut only: Who = [None, None];
+                only[n] = Some(frame);
+                self.lean_by(only, follows, false);
+            }
+        }
+    }
+
+    fn lean_by(&mut self, named: Who, follows: Option<(&[Motion], Who)>, nods: bool) {
+        let begun = [0, 1].map(|n| self.state[n].rotation);
+        let same = |n: usize, stance: &Stance| {
+            named[n].is_some() && stance.rotation.angle_between(begun[n]) < 0.05
+        };
+        let mut seen = self.strained(named, follows, same);
+        seen.truncate(WEIGHED);
+        let stage = self.signer.stage;
+        let turn = |local: DVec3, n: usize| {
+            let axes = named[n].map_or(DVec3::ONE, |frame| frame.axes);
+            // An axis of rotation keeps its sign where a direction changes it.
+            let axis = stage.direction(local * axes * axes.element_product());
+            DQuat::from_scaled_axis(axis)
+        };
+        let most = tuned().comfort.most_leaned;
+        let across = if nods { 1e-4 } else { most };
+        let room = [DVec3::new(most, across, across); 2];
+        let cost = |local: DVec3, limit: f64| {
+            let mut sum = tuned().comfort.leaned * (local.length() / most).powi(2);
+            for (n, stance) in &seen {
+                let turned = Stance {
+                    rotation: turn(local, *n) * stance.rotation,
+                    ..*stance
+                };
+                sum += self.signer.strain(*n, &turned, DVec3::ZERO);
+                if sum > limit {
+                    return f64::INFINITY;
+                }
+            }
+            sum
+        };
+        let best = lowest(cost, room);
+        if best == DVec3::ZERO {
+            return;
+        }
+        for (n, _) in acting(named) {
+            self.state[n].rotation = (turn(best, n) * self.state[n].rotation).normalize();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_sign::Handedness;
+    use chereme_sign::hamnosys::{BodyLanguage, BodyLocation, HandClass};
+
+    use super::super::pace::Paces;
+    use super::super::stage::Stage;
+    use super::super::tests::{at, mirrored, posture, stage};
+    use super::*;
+    use crate::testing::Axes;
+
+    /// Plans a posture, and returns for each hand its rotation before and after it leans, and its strain before and
+    /// after.
+    fn leaned(along: &str, palm: &str, both: bool) -> [([DQuat; 2], [f64; 2]); 2] {
+        let material = stage(Axes::Plain);
+        let body = Stage::of(&material).expect("a body");
+        let paces = Paces::of(BodyLanguage::usual());
+        let language = (BodyLanguage::usual(), &paces);
+        let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
+        let who = match both {
+            true => planner.who(mirrored()),
+            false => [Some(planner.signer.own_frame()), None],
+        };
+        let place = at(BodyLocation::Chest, None);
+        let begun = posture(HandClass::Flat, along, palm, Some(place));
+        planner.assume(&begun, who, false);
+        let seen = |planner: &Planner<'_>| {
+            [0, 1].map(|n| {
+                let stance = planner.hands().stance(n);
+                let strain = planner.signer.strain(n, &stance, DVec3::ZERO);
+                (stance.rotation, strain)
+            })
+        };
+        let before = seen(&planner);
+        planner.lean(who, None);
+        let after = seen(&planner);
+        [0, 1].map(|n| {
+            let [(was, strained), (is, eased)] = [before[n], after[n]];
+            ([was, is], [strained, eased])
+        })
+    }
+
+    #[test]
+    fn a_strained_hand_turns_a_little_where_that_relieves_its_arm() {
+        let ([was, is], [strained, eased]) = leaned("d", "l", false)[0];
+        assert!(strained > tuned().comfort.strained, "{strained}");
+        assert!(eased < 0.9 * strained, "{strained} {eased}");
+        let angle = was.angle_between(is);
+        assert!(
+            angle > 0.02 && angle <= tuned().comfort.most_leaned + 1e-6,
+            "{angle}"
+        );
+    }
+
+    #[test]
+    fn a_hand_without_strain_keeps_the_written_orientation() {
+        let ([was, is], [strained, _]) = leaned("l", "d", false)[0];
+        assert!(strained < tuned().comfort.strained, "{strained}");
+        assert_eq!(was, is);
+    }
+
+    #[test]
+    fn hands_that_mirror_each_other_turn_alike() {
+        let both = leaned("d", "l", true);
+        let turns = both.map(|([was, is], _)| (is * was.inverse()).to_scaled_axis());
+        assert!(turns[0].length() > 0.02, "{turns:?}");
+        // A mirror to the left and right keeps the part of an axis of rotation across it and reverses the rest.
+        let mirror = turns[0] * DVec3::new(1.0, -1.0, -1.0);
+        assert!(mirror.distance(turns[1]) < 1e-6, "{turns:?}");
+    }
+}
