@@ -247,6 +247,7 @@ mod tests {
         let path = Goals {
             points: (0..=40).map(wrist).collect(),
             turns: vec![DQuat::IDENTITY; 41],
+            leans: vec![DQuat::IDENTITY; 41],
             offsets: vec![DVec3::ZERO; 41],
             wrist: vec![None; 41],
             transitions: Vec::new(),
@@ -273,6 +274,7 @@ mod tests {
         let path = Goals {
             points: vec![DVec3::ONE; 41],
             turns: vec![DQuat::IDENTITY; 41],
+            leans: vec![DQuat::IDENTITY; 41],
             offsets: vec![DVec3::ZERO; 41],
             wrist: vec![None; 41],
             transitions: Vec::new(),

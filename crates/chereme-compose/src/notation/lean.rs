@@ -9,7 +9,7 @@ use chereme_sign::hamnosys::Motion;
 use chereme_sign::hamnosys::sites::HandPoint;
 
 use super::comfort::{Stance, lowest};
-use super::plan::{Planner, Who, acting};
+use super::plan::{Frame, Planner, Who, acting};
 use super::tuned::tuned;
 
 /// The number of postures to evaluate: those that strain the arm most.
@@ -17,43 +17,52 @@ const WEIGHED: usize = 3;
 
 impl Planner<'_> {
     /// Turns hands by a few degrees to where their arms are comfortable, now and during `follows`, while they keep
-    /// their orientation. Hands that mirror each other turn alike; if they also meet, they only nod together.
+    /// their orientation. Only hands that strain their arm now turn. Hands that mirror each other turn alike; if they
+    /// also meet, they only nod together.
     pub(crate) fn lean(&mut self, named: Who, follows: Option<(&[Motion], Who)>) {
-        if self.trail.is_some() || self.aside > 0 {
+        if self.trail.is_some() || self.trials > 0 {
             return;
         }
-        let strained = acting(named).any(|(n, _)| {
-            let stance = self.hands().stance(n);
-            self.signer.strain(n, &stance, DVec3::ZERO) > tuned().comfort.strained
-        });
-        if !strained {
-            return;
+        let meet = self.together.is_some();
+        // Palms on each other or on the skin stay as they are: they would part at their fingertips.
+        let flat = |n: usize, frame: Frame| {
+            let palm = self.hands().offset(n, &[HandPoint::Palm]);
+            let on_palm = self.state[n].offset.distance(palm) < 1e-9;
+            on_palm && (meet || self.skin(n, frame).is_some())
+        };
+        let mut free: Who = [None, None];
+        for (n, frame) in acting(named) {
+            let written = self.state[n].leaned == DQuat::IDENTITY;
+            free[n] = Some(frame).filter(|frame| written && !flat(n, *frame));
         }
-        let alike = match named {
-            [Some(own), Some(other)] => own.mirrors(&other),
-            _ => false,
-        };
-        let flat = || {
-            acting(named).any(|(n, _)| {
-                let palm = self.hands().offset(n, &[HandPoint::Palm]);
-                self.state[n].offset.distance(palm) < 1e-9
-            })
-        };
-        if alike {
-            // Palms on each other stay as they are written: they would part at their fingertips.
-            if self.together.is_none() || !flat() {
-                self.lean_by(named, follows, self.together.is_some());
-            }
-        } else if self.together.is_none() {
-            for (n, frame) in acting(named) {
-                let mut only: Who = [None, None];
-                only[n] = Some(frame);
-                self.lean_by(only, follows, false);
+        match free {
+            [Some(own), Some(other)] if own.mirrors(&other) => self.lean_by(free, follows, meet),
+            _ if meet => {}
+            _ => {
+                for (n, frame) in acting(free) {
+                    let mut only: Who = [None, None];
+                    only[n] = Some(frame);
+                    self.lean_by(only, follows, false);
+                }
             }
         }
     }
 
+    /// Takes back the turn by which a hand leans: it has its written orientation again.
+    pub(crate) fn upright(&mut self, n: usize) {
+        let state = &mut self.state[n];
+        state.rotation = (state.rotation * state.leaned.inverse()).normalize();
+        state.leaned = DQuat::IDENTITY;
+    }
+
     fn lean_by(&mut self, named: Who, follows: Option<(&[Motion], Who)>, nods: bool) {
+        let strains = |n: usize| {
+            let stance = self.hands().stance(n);
+            self.signer.strain(n, &stance, DVec3::ZERO) > tuned().comfort.strained
+        };
+        if !acting(named).any(|(n, _)| strains(n)) {
+            return;
+        }
         let begun = [0, 1].map(|n| self.state[n].rotation);
         let same = |n: usize, stance: &Stance| {
             named[n].is_some() && stance.rotation.angle_between(begun[n]) < 0.05
@@ -89,7 +98,10 @@ impl Planner<'_> {
             return;
         }
         for (n, _) in acting(named) {
-            self.state[n].rotation = (turn(best, n) * self.state[n].rotation).normalize();
+            let state = &mut self.state[n];
+            let written = state.rotation;
+            state.rotation = (turn(best, n) * written).normalize();
+            state.leaned = (written.inverse() * state.rotation).normalize();
         }
     }
 }
@@ -97,11 +109,12 @@ impl Planner<'_> {
 #[cfg(test)]
 mod tests {
     use chereme_sign::Handedness;
-    use chereme_sign::hamnosys::{BodyLanguage, BodyLocation, HandClass};
+    use chereme_sign::hamnosys::{BodyLanguage, BodyLocation, HandClass, Posture};
 
-    use super::super::pace::Paces;
+    use super::super::pace::{Pace, Paces};
     use super::super::stage::Stage;
     use super::super::tests::{at, mirrored, posture, stage};
+    use super::super::track::goals;
     use super::*;
     use crate::testing::Axes;
 
@@ -146,6 +159,59 @@ mod tests {
             angle > 0.02 && angle <= tuned().comfort.most_leaned + 1e-6,
             "{angle}"
         );
+    }
+
+    #[test]
+    fn turns_do_not_add_up_from_one_place_to_the_next() {
+        let material = stage(Axes::Plain);
+        let body = Stage::of(&material).expect("a body");
+        let paces = Paces::of(BodyLanguage::usual());
+        let language = (BodyLanguage::usual(), &paces);
+        let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
+        let who = [Some(planner.signer.own_frame()), None];
+        let chest = Some(at(BodyLocation::Chest, None));
+        planner.assume(&posture(HandClass::Flat, "d", "l", chest), who, false);
+        let written = planner.state[0].rotation;
+        let mut leans = 0;
+        for place in [BodyLocation::Shoulders, BodyLocation::Chest].repeat(3) {
+            planner.lean(who, None);
+            planner.lean(who, None);
+            let angle = planner.state[0].rotation.angle_between(written);
+            assert!(angle <= tuned().comfort.most_leaned + 1e-6, "{angle}");
+            leans += usize::from(angle > 0.02);
+            let onwards = Posture {
+                place: Some(at(place, None)),
+                ..Posture::default()
+            };
+            planner.assume(&onwards, who, true);
+            assert!(planner.state[0].rotation.angle_between(written) < 1e-6);
+        }
+        assert!(leans > 2, "{leans}");
+    }
+
+    #[test]
+    fn the_written_orientation_is_known_in_every_frame() {
+        let material = stage(Axes::Plain);
+        let body = Stage::of(&material).expect("a body");
+        let paces = Paces::of(BodyLanguage::usual());
+        let language = (BodyLanguage::usual(), &paces);
+        let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
+        let who = [Some(planner.signer.own_frame()), None];
+        let before = planner.state.clone();
+        let chest = Some(at(BodyLocation::Chest, None));
+        planner.assume(&posture(HandClass::Flat, "d", "l", chest), who, false);
+        let written = planner.state[0].rotation;
+        planner.lean(who, None);
+        let goal = planner.state[0].clone();
+        assert!(goal.rotation.angle_between(written) > 0.02);
+        planner.state = before;
+        planner.travel(0, &goal, 0.0, 1.0, Pace::Linear);
+        let (start, events) = (&planner.plan.start[0], &planner.plan.events[0]);
+        let goals = goals(start, events, 60.0, 90, |_, share| share);
+        let known = goals.turns[80] * goals.leans[80].inverse();
+        assert!(known.angle_between(written) < 1e-6);
+        assert!(goals.turns[0].angle_between(start.rotation) < 1e-6);
+        assert_eq!(goals.leans[0], DQuat::IDENTITY);
     }
 
     #[test]

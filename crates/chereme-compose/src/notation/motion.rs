@@ -516,9 +516,9 @@ impl Planner<'_> {
         let contacts = [0, 1].map(|n| self.plan.contacts[n].len());
         let arrivals = [0, 1].map(|n| self.plan.arrivals[n].len());
         let at_body = self.at_body.clone();
-        self.aside += 1;
+        self.trials += 1;
         let end = plan(self);
-        self.aside -= 1;
+        self.trials -= 1;
         self.state = state;
         self.named = named;
         self.together = together;

@@ -214,7 +214,9 @@ fn held(
             let what = match (&event.act, component) {
                 (Act::Shape(shape), Component::Configuration) => *shape,
                 (Act::Turn(to) | Act::Follow { to, .. }, Component::Orientation) => {
-                    let same = |known: &chereme_motion::glam::DQuat| known.angle_between(*to) < 0.2;
+                    // One written orientation leans to two sides at most by this.
+                    let same =
+                        |known: &chereme_motion::glam::DQuat| known.angle_between(*to) < 0.25;
                     turns.iter().position(same).unwrap_or_else(|| {
                         turns.push(*to);
                         turns.len() - 1

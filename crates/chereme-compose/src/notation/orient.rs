@@ -21,6 +21,7 @@ impl Planner<'_> {
             .turned(self.signer.sides[n], direction, palm)
         {
             self.state[n].rotation = rotation;
+            self.state[n].leaned = DQuat::IDENTITY;
         }
     }
 

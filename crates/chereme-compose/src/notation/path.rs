@@ -253,6 +253,7 @@ mod tests {
         let start = HandState {
             point: DVec3::Y,
             rotation: turn(10.0),
+            leaned: DQuat::IDENTITY,
             offset: DVec3::Z * 0.1,
             shape: 0,
             handshape: Default::default(),
@@ -267,6 +268,7 @@ mod tests {
             event(1.0, 2.0, Act::Move(Path::Line(DVec3::X))),
             event(1.5, 2.0, Act::Move(Path::Line(DVec3::Z * 2.0))),
             event(0.0, 1.0, Act::Turn(turn(90.0))),
+            event(0.0, 1.0, Act::Lean(turn(6.0))),
             // The next turn begins before this one ends.
             event(2.0, 3.0, Act::Turn(turn(90.0))),
             event(
@@ -314,7 +316,12 @@ mod tests {
         ] {
             let is = goals.turns[(seconds * 100.0_f64).round() as usize];
             let off = is.angle_between(turn(degrees)).to_degrees();
-            assert!(off < 1e-6, "{off} degrees off after {seconds} s");
+            assert!(off < 1e-5, "{off} degrees off after {seconds} s");
+        }
+        for (seconds, degrees) in [(0.0, 0.0), (0.5, 3.0), (1.0, 6.0), (3.0, 6.0)] {
+            let is = goals.leans[(seconds * 100.0_f64).round() as usize];
+            let off = is.angle_between(turn(degrees)).to_degrees();
+            assert!(off < 1e-5, "{off} degrees off after {seconds} s");
         }
         for (seconds, offset) in [(0.5, 0.1), (1.0, 0.15), (1.5, 0.2), (4.0, 0.2)] {
             let is = goals.offsets[(seconds * 100.0) as usize];

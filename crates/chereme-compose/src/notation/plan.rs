@@ -40,6 +40,8 @@ pub(crate) enum Act {
     Move(Path),
     /// It rotates to an orientation in model space.
     Turn(DQuat),
+    /// It leans off its written orientation by this turn, in the hand's space; its rotation includes it.
+    Lean(DQuat),
     /// It turns with the tangent of `path`, after an immediate turn `corner`; `to` is its final
     /// orientation.
     Follow {
@@ -87,6 +89,8 @@ pub(crate) struct HandState {
     pub(crate) point: DVec3,
     /// Rotation of the hand in model space.
     pub(crate) rotation: DQuat,
+    /// The turn, in the hand's space, by which that rotation leans off the written one.
+    pub(crate) leaned: DQuat,
     /// The reference point in the hand's space.
     pub(crate) offset: DVec3,
     pub(crate) shape: usize,
@@ -228,7 +232,7 @@ pub(crate) struct Planner<'a> {
     /// Collects stances during a trial plan.
     pub(crate) trail: Option<super::comfort::Trail>,
     /// The number of trial plans, one within the other, that are being made.
-    pub(crate) aside: usize,
+    pub(crate) trials: usize,
     /// The last place of each hand at the body in this sign.
     pub(crate) at_body: [Option<BodyPlace>; 2],
     /// Indexes of shapes by handshape, for each hand.
@@ -277,7 +281,7 @@ impl<'a> Planner<'a> {
             begun: false,
             fixed: None,
             trail: None,
-            aside: 0,
+            trials: 0,
             at_body: [None, None],
             shaped: [Vec::new(), Vec::new()],
             speed: 1.0,
@@ -515,6 +519,7 @@ impl<'a> Planner<'a> {
     /// whose palm has the same letter before and after does not turn over between.
     pub(crate) fn assume(&mut self, posture: &Posture, named: Who, changes: bool) {
         for (n, frame) in acting(named) {
+            self.upright(n);
             let before = self.state[n].clone();
             self.state[n].used = true;
             if let Some(shape) = pick(&posture.shape, n) {

@@ -14,6 +14,7 @@ pub(crate) fn resting(stage: &Stage, side: Side) -> (HandState, Shape) {
     let mut state = HandState {
         point: DVec3::ZERO,
         rotation: DQuat::IDENTITY,
+        leaned: DQuat::IDENTITY,
         offset: DVec3::ZERO,
         shape: 0,
         handshape: Handshape::default(),

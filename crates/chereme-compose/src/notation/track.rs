@@ -97,6 +97,8 @@ pub(crate) struct Fit {
 pub(crate) struct Wanted<'a> {
     pub(crate) points: Vec<DVec3>,
     pub(crate) turns: Vec<DQuat>,
+    /// The turns, in the hand's space, by which those rotations lean off the written ones.
+    pub(crate) leans: Vec<DQuat>,
     pub(crate) offsets: Vec<DVec3>,
     /// Rotation of a movement about the wrist, if any.
     pub(crate) wrist: Vec<Option<DQuat>>,
@@ -128,6 +130,7 @@ impl Wanted<'_> {
             transitions: transitions.filter(|(range, _)| !range.is_empty()).collect(),
             points: kept(self.points, &span),
             turns: kept(self.turns, &span),
+            leans: kept(self.leans, &span),
             offsets: kept(self.offsets, &span),
             wrist: kept(self.wrist, &span),
             touch: kept(self.touch, &span),
@@ -207,7 +210,8 @@ impl<'a> SolvedFrames<'a> {
         for (frame, (got, row)) in got.iter().zip(&rows).enumerate() {
             let time = frame as f64 / timing.rate;
             let turned = fit.turned;
-            fit.take(got, row, !free[frame], plan, n, [time, 1.0 / timing.rate]);
+            let written = (row.turned * wanted.leans[frame].inverse(), !free[frame]);
+            fit.take(got, written, plan, n, [time, 1.0 / timing.rate]);
             if fit.turned > turned.max(REPORTED) {
                 fit.hindered = Some(solver.hindrance(row, got));
             }
@@ -341,8 +345,7 @@ impl Fit {
     fn take(
         &mut self,
         got: &Got,
-        row: &ArmFrame,
-        given: bool,
+        (written, given): (DQuat, bool),
         plan: &SignPlan,
         n: usize,
         [time, step]: [f64; 2],
@@ -351,7 +354,7 @@ impl Fit {
             self.pushed = self.pushed.max(got.pushed);
             self.residual = self.residual.max(got.residual);
             if given {
-                let apart = got.rotation.angle_between(row.turned);
+                let apart = got.rotation.angle_between(written);
                 self.turned = self.turned.max(apart);
             }
         }
@@ -393,6 +396,7 @@ pub(crate) fn wanted<'a>(
     Wanted {
         points: goals.points,
         turns: goals.turns,
+        leans: goals.leans,
         offsets: goals.offsets,
         wrist: goals.wrist,
         outlines: Outlines::of(stage, plan, n, timing),
@@ -406,6 +410,8 @@ pub(crate) fn wanted<'a>(
 pub(crate) struct Goals {
     pub(crate) points: Vec<DVec3>,
     pub(crate) turns: Vec<DQuat>,
+    /// The turns, in the hand's space, by which those rotations lean off the written ones.
+    pub(crate) leans: Vec<DQuat>,
     pub(crate) offsets: Vec<DVec3>,
     /// Rotation of a movement about the wrist, if any.
     pub(crate) wrist: Vec<Option<DQuat>>,
@@ -436,6 +442,7 @@ pub(crate) fn goals(
     let mut points = vec![DVec3::ZERO; total];
     let mut ends = vec![DVec3::ZERO; total + 1];
     let mut turns = Steps::new(start.rotation, total);
+    let mut leans = Steps::new(start.leaned, total);
     let mut offsets = Steps::new(start.offset, total);
     let mut wrist = vec![None; total];
     let mut transitions: Vec<(Range<usize>, Vec<f64>)> = Vec::new();
@@ -453,6 +460,7 @@ pub(crate) fn goals(
                 transitions.push((span.clone(), span.clone().map(done).collect()));
                 turns.go(span, *to, |from, to, s| from.slerp(to, s), done);
             }
+            Act::Lean(to) => leans.go(span, *to, |from, to, s| from.slerp(to, s), done),
             Act::Follow { path, corner, to } => turns.go(
                 span,
                 *to,
@@ -479,6 +487,7 @@ pub(crate) fn goals(
     Goals {
         points,
         turns: turns.done(),
+        leans: leans.done(),
         offsets: offsets.done(),
         wrist,
         transitions,

@@ -33,6 +33,9 @@ impl Planner<'_> {
         if was.rotation != goal.rotation {
             act(Act::Turn(goal.rotation));
         }
+        if was.leaned != goal.leaned {
+            act(Act::Lean(goal.leaned));
+        }
         if was.shape != goal.shape {
             act(Act::Shape(goal.shape));
         }
@@ -69,6 +72,9 @@ impl Planner<'_> {
         plan([from, leaves], Act::Move(Path::Line(to_wrist)));
         if was.rotation != goal.rotation {
             plan([leaves, comes], Act::Turn(goal.rotation));
+        }
+        if was.leaned != goal.leaned {
+            plan([leaves, comes], Act::Lean(goal.leaned));
         }
         if was.shape != goal.shape {
             plan([from, to], Act::Shape(goal.shape));

@@ -41,10 +41,10 @@ impl Planner<'_> {
             }
         }
         self.fixed = None;
+        self.lean(named, None);
         if motion.is_none() && posture.place.is_none() && !env.goes {
             self.about_wrist(&before, named);
         }
-        self.lean(named, None);
         let goal = self.state.clone();
         let contact = posture.place.as_ref().is_some_and(meets);
         let usual = if posture.place.is_some() {
@@ -262,7 +262,7 @@ fn rested(now: &HandState, raised: &HandState, start: &HandState) -> HandState {
     let mut own = now.clone();
     own.point += start.point - raised.point;
     if now.rotation == raised.rotation {
-        own.rotation = start.rotation;
+        (own.rotation, own.leaned) = (start.rotation, start.leaned);
     }
     if now.offset == raised.offset {
         own.offset = start.offset;
