@@ -1,5 +1,6 @@
 //! Plans motions as events: paths, turns of wrists, playing fingers; in sequence, simultaneous, repeated.
 
+pub(super) mod bend;
 mod relative;
 mod repeat;
 mod room;
@@ -172,6 +173,7 @@ impl Planner<'_> {
             },
             None => Path::Line(chord),
         };
+        let path = self.bent(path);
         let mut end = time + self.signer.timed(usual, path.length(), env);
         let mut pace = Pace::of(manner, Pace::Targetted);
         if directed.zigzag.is_some() {

@@ -233,6 +233,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) trail: Option<super::comfort::Trail>,
     /// The number of trial plans, one within the other, that are being made.
     pub(crate) trials: usize,
+    /// The bend of the movements of the current part.
+    pub(crate) bend: Option<super::motion::bend::Bend>,
     /// The last place of each hand at the body in this sign.
     pub(crate) at_body: [Option<BodyPlace>; 2],
     /// Indexes of shapes by handshape, for each hand.
@@ -282,6 +284,7 @@ impl<'a> Planner<'a> {
             fixed: None,
             trail: None,
             trials: 0,
+            bend: None,
             at_body: [None, None],
             shaped: [Vec::new(), Vec::new()],
             speed: 1.0,
@@ -349,6 +352,7 @@ impl<'a> Planner<'a> {
     /// part that follows. Returns the times at which the posture is reached and the part ends.
     fn part(&mut self, part: &Manual, next: Option<&Manual>, time: f64) -> (f64, f64) {
         let who = self.who(part.hands);
+        self.bend = None;
         self.symmetric = who[0].is_some() && who[1].is_some();
         let moves = !part.actions.is_empty();
         let named = self.addressed(&part.posture, who);
@@ -372,6 +376,7 @@ impl<'a> Planner<'a> {
             self.ease(place, named, Some((part.actions.as_slice(), who)));
         }
         self.lean(named, Some((part.actions.as_slice(), who)));
+        self.bend(part, who);
         let goal = self.state.clone();
         let drops = !part.holdover && self.lone(part);
         let dropped =
@@ -387,7 +392,7 @@ impl<'a> Planner<'a> {
         for (known, course) in self.plan.courses.iter_mut().zip(courses) {
             known.extend(course);
         }
-        let touching = touches(&posture);
+        let touching = super::touch::touches(&posture);
         let pace = match (moves, touching) {
             (true, _) => Pace::Calm,
             (false, true) => Pace::Contact,
@@ -661,20 +666,6 @@ fn split<T>(each: &Each<T>) -> [bool; 2] {
         Each::Split(a, b) => [a.is_some(), b.is_some()],
         _ => [false, false],
     }
-}
-
-fn touches(posture: &Posture) -> bool {
-    use chereme_sign::hamnosys::Contact;
-    fn touching(place: &Place) -> bool {
-        match place {
-            Place::Body(body) => body.contact == Some(Contact::Touch),
-            Place::Hand(_) => true,
-            Place::Hands(hands) => hands.contact.is_some_and(|c| c != Contact::Close),
-            Place::Split(a, b) => [a, b].into_iter().flatten().any(|place| touching(place)),
-            Place::Named(_) => false,
-        }
-    }
-    posture.place.as_ref().is_some_and(touching)
 }
 
 /// Returns the unit vector of an aim (left, up, forward).

@@ -2,6 +2,7 @@
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
+use chereme_sign::hamnosys::{Contact, Place, Posture};
 
 use super::plan::{Hands, Planner};
 use super::stage::FINGER_FLESH;
@@ -129,4 +130,18 @@ impl Hands<'_> {
         let mut tried = (0..=most).map(|n| STEP * f64::from(n));
         tried.find(|by| !inside(*by)).unwrap_or(0.0)
     }
+}
+
+/// Returns whether a posture asks for contact with the body or between the hands.
+pub(super) fn touches(posture: &Posture) -> bool {
+    fn touching(place: &Place) -> bool {
+        match place {
+            Place::Body(body) => body.contact == Some(Contact::Touch),
+            Place::Hand(_) => true,
+            Place::Hands(hands) => hands.contact.is_some_and(|c| c != Contact::Close),
+            Place::Split(a, b) => [a, b].into_iter().flatten().any(|place| touching(place)),
+            Place::Named(_) => false,
+        }
+    }
+    posture.place.as_ref().is_some_and(touching)
 }

@@ -36,6 +36,10 @@ tuned_numbers! {
         strained: f64,
         most_leaned: f64,
         leaned: f64,
+        most_bent: f64,
+        bent: f64,
+        most_shortened: f64,
+        shortened: f64,
         near: f64,
     }
     /// Numbers for contacts.

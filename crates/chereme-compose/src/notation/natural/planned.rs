@@ -3,9 +3,9 @@
 use super::super::plan;
 use super::*;
 
-/// Returns the plan of a sign of the right hand before the chest, given by the names of its movements' symbols.
+/// Returns the plan of a sign of a right hand without strain before the chest, given by the names of its movements' symbols.
 fn planned(body: &Stage, place: &str, movements: &str) -> plan::SignPlan {
-    let names = format!("hamflathand hamextfingeruo hampalml {place} {movements}");
+    let names = format!("hamflathand hamextfingeruo hampalmdl {place} {movements}");
     let text = chereme_sign::hamnosys::from_names(names.split_whitespace());
     let text = text.unwrap_or_else(|error| panic!("{movements}: {error}"));
     let read = chereme_sign::hamnosys::parse(&text);

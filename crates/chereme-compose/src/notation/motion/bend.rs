@@ -1,0 +1,187 @@
+//! Turns and shortens movements for the comfort of the arm.
+//!
+//! A movement that is notated towards the signer would often end so close to the trunk that the elbow stands behind the
+//! back. People end it earlier, or a little to the side. All straight and curved movements of a part are turned and
+//! shortened alike, so that their figure keeps its shape and a repetition returns to its start.
+
+use chereme_motion::glam::DQuat;
+use chereme_sign::hamnosys::Manual;
+
+use super::super::comfort::{Stance, lowest};
+use super::super::tuned::tuned;
+use super::*;
+
+/// The number of postures to evaluate: those that strain the arm most.
+const WEIGHED: usize = 4;
+
+/// A turn and a shortening of the movements of a part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Bend {
+    /// Its turn (left, up, forward).
+    turn: DQuat,
+    /// The factor on its length.
+    length: f64,
+}
+
+impl Bend {
+    /// Returns a bend from its shortening as a share, its turn (rad) about left and that about up.
+    fn of(at: DVec3) -> Self {
+        Self {
+            turn: DQuat::from_scaled_axis(DVec3::new(at.y, at.z, 0.0)),
+            length: 1.0 - at.x,
+        }
+    }
+
+    fn apply(&self, v: DVec3) -> DVec3 {
+        self.turn * v * self.length
+    }
+}
+
+impl Planner<'_> {
+    /// Returns a path (left, up, forward) as this part bends its movements.
+    pub(super) fn bent(&self, path: Path) -> Path {
+        match &self.bend {
+            Some(bend) => path.map(|v| bend.apply(v)),
+            None => path,
+        }
+    }
+
+    /// Finds out how to bend the movements of a part from the current state for the comfort of the arms. Hands that touch
+    /// something, stand together or turn with their path move as written.
+    pub(crate) fn bend(&mut self, part: &Manual, who: Who) {
+        let bound = |(n, frame)| self.skin(n, frame).is_some() || self.state[n].follows;
+        if part.actions.is_empty() || self.together.is_some() || acting(who).any(bound) {
+            return;
+        }
+        let begun = [0, 1].map(|n| self.state[n].point);
+        let strains = [0, 1].map(|n| {
+            let stance = self.hands().stance(n);
+            self.signer.strain(n, &stance, DVec3::ZERO)
+        });
+        let mut seen = self.strained(who, Some((&part.actions, who)), |n, _| who[n].is_some());
+        seen.truncate(WEIGHED);
+        // A strain that was there before is none of the movement.
+        let worse = |(n, stance): &(usize, Stance)| {
+            self.signer.strain(*n, stance, DVec3::ZERO) > strains[*n] + tuned().comfort.strained
+        };
+        if !seen.first().is_some_and(worse) {
+            return;
+        }
+        let stage = self.signer.stage;
+        let cost = |at: DVec3, limit: f64| {
+            let bend = Bend::of(at);
+            let l = &tuned().comfort;
+            let mut sum = l.shortened * (at.x / l.most_shortened).powi(2);
+            sum += l.bent * (at.y.powi(2) + at.z.powi(2)) / l.most_bent.powi(2);
+            for (n, stance) in &seen {
+                let axes = who[*n].map_or(DVec3::ONE, |frame| frame.axes);
+                let went = stance.point - begun[*n];
+                let went = DVec3::new(went.dot(stage.left), went.y, went.dot(stage.forward)) * axes;
+                let bent = Stance {
+                    point: begun[*n] + stage.direction(bend.apply(went) * axes),
+                    ..*stance
+                };
+                sum += self.signer.strain(*n, &bent, DVec3::ZERO);
+                if sum > limit {
+                    return f64::INFINITY;
+                }
+            }
+            sum
+        };
+        let l = &tuned().comfort;
+        let room = [
+            DVec3::new(1e-4, l.most_bent, l.most_bent),
+            DVec3::new(l.most_shortened, l.most_bent, l.most_bent),
+        ];
+        let best = lowest(cost, room);
+        self.bend = (best != DVec3::ZERO).then(|| Bend::of(best));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_sign::Handedness;
+    use chereme_sign::hamnosys::{BodyLanguage, BodyLocation, Contact, HandClass, HandsUsed};
+
+    use super::super::super::pace::Paces;
+    use super::super::super::stage::Stage;
+    use super::super::super::tests::{at, directed, mirrored, posture, stage};
+    use super::*;
+    use crate::testing::Axes;
+
+    /// Returns how each hand's movement is bent, as its end without and with the bend, and the strain of its arm there.
+    fn bent(
+        (along, direction): (&str, &str),
+        contact: Option<Contact>,
+        hands: HandsUsed,
+    ) -> [[(DVec3, f64); 2]; 2] {
+        let material = stage(Axes::Plain);
+        let body = Stage::of(&material).expect("a body");
+        let paces = Paces::of(BodyLanguage::usual());
+        let language = (BodyLanguage::usual(), &paces);
+        let mut planner = Planner::new(&body, language, Handedness::Right, 60.0);
+        let who = planner.who(hands);
+        let place = at(BodyLocation::Chest, contact);
+        let part = Manual {
+            hands,
+            posture: posture(HandClass::Flat, along, "l", Some(place)),
+            actions: vec![directed(direction)],
+            ..Manual::default()
+        };
+        planner.assume(&part.posture, who, false);
+        let begun = planner.state.clone();
+        let ends = |planner: &mut Planner<'_>| {
+            planner.state = begun.clone();
+            planner.motion(&part.actions[0], who, 0.0, &Env::default());
+            [0, 1].map(|n| {
+                let strain = planner
+                    .signer
+                    .strain(n, &planner.hands().stance(n), DVec3::ZERO);
+                (planner.state[n].point - begun[n].point, strain)
+            })
+        };
+        let written = ends(&mut planner);
+        planner.state = begun.clone();
+        planner.bend(&part, who);
+        let bent = ends(&mut planner);
+        [0, 1].map(|n| [written[n], bent[n]])
+    }
+
+    #[test]
+    fn movements_that_strain_the_arm_are_bent_a_little() {
+        let l = &tuned().comfort;
+        let mut changed = 0;
+        for along in ["o", "ol", "l", "ul", "u"] {
+            for direction in ["i", "di", "il", "dil"] {
+                let way = (along, direction);
+                let [(written, strained), (is, eased)] = bent(way, None, HandsUsed::Dominant)[0];
+                if is == written {
+                    continue;
+                }
+                changed += 1;
+                assert!(eased < strained, "{way:?}: {strained} {eased}");
+                assert!(is.angle_between(written) < l.most_bent + 1e-6, "{way:?}");
+                let share = is.length() / written.length();
+                let least = 1.0 - l.most_shortened - 1e-6;
+                assert!((least..1.0 + 1e-3).contains(&share), "{way:?}: {share}");
+            }
+        }
+        assert!(changed > 4, "{changed}");
+    }
+
+    #[test]
+    fn movements_from_the_skin_are_as_written() {
+        for direction in ["i", "di", "l", "o"] {
+            let touch = Some(Contact::Touch);
+            let [(written, _), (is, _)] = bent(("ul", direction), touch, HandsUsed::Dominant)[0];
+            assert_eq!(written, is, "{direction}");
+        }
+    }
+
+    #[test]
+    fn hands_that_mirror_each_other_are_bent_alike() {
+        let [[_, (right, _)], [_, (left, _)]] = bent(("o", "di"), None, mirrored());
+        let mirror = right * DVec3::new(-1.0, 1.0, 1.0);
+        assert!(mirror.distance(left) < 1e-9, "{right} {left}");
+    }
+}
