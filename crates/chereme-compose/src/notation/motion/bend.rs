@@ -153,17 +153,17 @@ mod tests {
         let mut changed = 0;
         for along in ["o", "ol", "l", "ul", "u"] {
             for direction in ["i", "di", "il", "dil"] {
-                let way = (along, direction);
-                let [(written, strained), (is, eased)] = bent(way, None, HandsUsed::Dominant)[0];
+                let case = (along, direction);
+                let [(written, strained), (is, eased)] = bent(case, None, HandsUsed::Dominant)[0];
                 if is == written {
                     continue;
                 }
                 changed += 1;
-                assert!(eased < strained, "{way:?}: {strained} {eased}");
-                assert!(is.angle_between(written) < l.most_bent + 1e-6, "{way:?}");
+                assert!(eased < strained, "{case:?}: {strained} {eased}");
+                assert!(is.angle_between(written) < l.most_bent + 1e-6, "{case:?}");
                 let share = is.length() / written.length();
                 let least = 1.0 - l.most_shortened - 1e-6;
-                assert!((least..1.0 + 1e-3).contains(&share), "{way:?}: {share}");
+                assert!((least..1.0 + 1e-3).contains(&share), "{case:?}: {share}");
             }
         }
         assert!(changed > 4, "{changed}");
