@@ -60,7 +60,7 @@ impl Planner<'_> {
         });
         let mut seen = self.strained(who, Some((&part.actions, who)), |n, _| who[n].is_some());
         seen.truncate(WEIGHED);
-        // A strain that was there before is none of the movement.
+        // The movement does not cause the strain that an arm has at its start.
         let worse = |(n, stance): &(usize, Stance)| {
             self.signer.strain(*n, stance, DVec3::ZERO) > strains[*n] + tuned().comfort.strained
         };
