@@ -31,8 +31,8 @@ impl ModelPose {
     #[must_use]
     pub fn of(skeleton: &Skeleton, pose: &Pose) -> Self {
         let mut model = Self {
-            positions: Vec::new(),
-            rotations: Vec::new(),
+            positions: Vec::with_capacity(skeleton.len()),
+            rotations: Vec::with_capacity(skeleton.len()),
         };
         model.set(skeleton, pose);
         model

@@ -274,7 +274,18 @@ impl Rig {
 
     /// Solves the arm for a position of the wrist.
     pub(crate) fn reach(&self, wrist: DVec3, bearing: Bearing, limits: &Limits) -> Posed {
-        let posed = self.line(wrist, limits).bent(bearing.plane);
+        self.reach_along(&self.line(wrist, limits), wrist, bearing, limits)
+    }
+
+    /// Does the same for a wrist whose line is known.
+    pub(crate) fn reach_along(
+        &self,
+        line: &Line,
+        wrist: DVec3,
+        bearing: Bearing,
+        limits: &Limits,
+    ) -> Posed {
+        let posed = line.bent(bearing.plane);
         if bearing.shrug == 0.0 {
             return posed;
         }

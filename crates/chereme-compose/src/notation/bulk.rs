@@ -4,7 +4,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 
 use super::hands_apart::Parted;
 use super::solve::eased;
-use super::stage::{FINGER_FLESH, Hand, Stage};
+use super::stage::{FINGER_FLESH, Hand, HandOutline, Stage};
 use super::track::Wanted;
 use super::tuned::tuned;
 
@@ -127,7 +127,9 @@ fn separation(
         return DVec3::ZERO;
     };
     let palms = a.at(MIDDLE_KNUCKLE) - b.at(MIDDLE_KNUCKLE);
-    if palms.length() > tuned().bulk.far * length {
+    let flesh = FLESH.into_iter().fold(0.0, f64::max) * length;
+    let near = a.may_touch(b.middle(), b.radius() + 2.0 * flesh);
+    if palms.length() > tuned().bulk.far * length || !near {
         return DVec3::ZERO;
     }
     let [a, b] = [a, b].map(|hand| tubes(&hand, length));
@@ -161,7 +163,7 @@ fn separation(
 pub(super) struct Placed<'a> {
     wrist: DVec3,
     turned: DQuat,
-    points: &'a [DVec3],
+    outline: &'a HandOutline,
 }
 
 impl<'a> Placed<'a> {
@@ -181,25 +183,41 @@ impl<'a> Placed<'a> {
         Some(Self {
             wrist: wanted.points[frame] - turned * offset,
             turned,
-            points: &outline.points,
+            outline,
         })
     }
 
     /// Returns the least distance of the outline from a plane through a point with a normal, in the normal's direction.
     pub(super) fn least(&self, (point, normal): (DVec3, DVec3)) -> f64 {
         let own = self.turned.inverse() * normal;
-        let least = self.points.iter().map(|at| at.dot(own)).fold(0.0, f64::min);
+        let points = self.outline.points.iter();
+        let least = points.map(|at| at.dot(own)).fold(0.0, f64::min);
         (self.wrist - point).dot(normal) + least
     }
 
     /// Returns the joints and tips of the fingers.
     pub(super) fn bones(&self) -> impl Iterator<Item = DVec3> {
-        (2..self.points.len()).map(|n| self.at(n))
+        (2..self.outline.points.len()).map(|n| self.at(n))
+    }
+
+    /// Returns whether a ball with this middle and radius may touch the outline or the wrist.
+    pub(super) fn may_touch(&self, middle: DVec3, radius: f64) -> bool {
+        self.middle().distance(middle) <= self.radius() + radius
+    }
+
+    /// Returns the middle of the smallest box around the outline.
+    fn middle(&self) -> DVec3 {
+        self.wrist + self.turned * self.outline.middle
+    }
+
+    /// Returns the radius of a ball about that middle that holds the outline and the wrist.
+    fn radius(&self) -> f64 {
+        self.outline.radius.max(self.outline.middle.length())
     }
 
     /// Returns the position of a point of the outline.
     fn at(&self, n: usize) -> DVec3 {
-        self.wrist + self.turned * self.points[n]
+        self.wrist + self.turned * self.outline.points[n]
     }
 }
 

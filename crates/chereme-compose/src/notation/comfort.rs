@@ -190,8 +190,9 @@ impl Planner<'_> {
             let shifted = tuned().comfort.shifted * share(local, room).powi(2);
             let mut sum = 0.0;
             for (n, stance) in &strained {
-                sum += self.signer.strain(*n, stance, by(local, *n));
-                if sum + shifted > most {
+                let left = most - shifted - sum;
+                sum += self.signer.strain_up_to(left, *n, stance, by(local, *n));
+                if sum + shifted >= most {
                     return f64::INFINITY;
                 }
             }
@@ -234,6 +235,11 @@ impl Signer<'_> {
 
     /// Returns the strain of an arm whose hand is shifted by an offset (m).
     pub(crate) fn strain(&self, n: usize, stance: &Stance, by: DVec3) -> f64 {
+        self.strain_up_to(f64::INFINITY, n, stance, by)
+    }
+
+    /// Returns the same; infinite if the strain is at least `most`.
+    pub(crate) fn strain_up_to(&self, most: f64, n: usize, stance: &Stance, by: DVec3) -> f64 {
         let Some(hand) = self.stage.hand(self.sides[n]) else {
             return 0.0;
         };
@@ -244,9 +250,16 @@ impl Signer<'_> {
             .offset_out(point, tuned().comfort.near)
             .length()
             / self.stage.arm;
+        let deep = 1.2e4 * deep * deep;
+        if deep >= most {
+            return f64::INFINITY;
+        }
         let wrist = point - stance.rotation * stance.offset;
         let arm = Arm::of(self.stage, hand, &self.limits);
-        arm.strain(wrist, stance.rotation) + 1.2e4 * deep * deep
+        match arm.strain(wrist, stance.rotation, most - deep) {
+            strain if strain < most - deep => deep + strain,
+            _ => f64::INFINITY,
+        }
     }
 }
 

@@ -65,8 +65,9 @@ impl Arm<'_> {
         refined(&choices, best(&choices))
     }
 
-    /// Returns the cost of the best posture for a position of the wrist and a rotation of the hand.
-    pub(crate) fn strain(&self, wrist: DVec3, turned: DQuat) -> f64 {
+    /// Returns the cost of the best posture for a position of the wrist and a rotation of the hand; costs of
+    /// at least `most` need not be exact.
+    pub(crate) fn strain(&self, wrist: DVec3, turned: DQuat, most: f64) -> f64 {
         let line = self.rig().line(wrist, self.limits);
         // Start with the rule's plane: planes whose deviation alone costs more than the best need no
         // evaluation.
@@ -76,23 +77,19 @@ impl Arm<'_> {
                 if 0.3 * off + shrugged >= least {
                     return least;
                 }
-                let posed = if shrug == 0.0 {
-                    line.bent(plane)
-                } else {
-                    let bearing = Bearing { plane, shrug };
-                    self.rig().reach(wrist, bearing, self.limits)
-                };
+                let bearing = Bearing { plane, shrug };
+                let posed = self.rig().reach_along(&line, wrist, bearing, self.limits);
                 let strained = self.strained((wrist, turned), &posed, off, least - shrugged);
                 least.min(strained + shrugged)
             })
         };
-        let still = least(0.0, f64::INFINITY);
+        let still = least(0.0, most.max(tuned().freedom.shrugs_above));
         if still < tuned().freedom.shrugs_above {
             return still;
         }
         SHRUGS
             .into_iter()
-            .fold(still, |known, shrug| least(shrug, known))
+            .fold(still.min(most), |known, shrug| least(shrug, known))
     }
 
     /// Returns the same as `strain`, for one posture whose plane costs `plane`; infinite if the cost surely exceeds
@@ -110,13 +107,19 @@ impl Arm<'_> {
             + tuned().freedom.raised * self.height(posed).max(0.0).powi(2)
             + self.flared(posed)
             + self.behind(posed)
-            + self.within(posed)
             + tuned().freedom.missed * missed * missed;
         if held > most {
             return f64::INFINITY;
         }
+        let held = held + self.within(posed);
+        if held > most {
+            return f64::INFINITY;
+        }
         let asked = rig.wrist(posed, turned, &self.held);
-        let bent = self.bent(&asked.allowed(&self.limits.wrist, false));
+        let held = held + self.bent(&asked.allowed(&self.limits.wrist, false));
+        if held > most {
+            return f64::INFINITY;
+        }
         let off = |high: bool| {
             let angles = asked.allowed(&self.limits.wrist, high);
             if angles == asked {
@@ -130,7 +133,7 @@ impl Arm<'_> {
         } else {
             off(false)
         };
-        held + bent + self.off(apart)
+        held + self.off(apart)
     }
 
     /// Returns the cost of a bent wrist: more if it is folded towards the palm or the back of the hand.
@@ -253,8 +256,9 @@ impl Arm<'_> {
         let line = self.rig().line(wrist, self.limits);
         let rule = line.bent(0.0);
         let usual = self.usual(wrist, &rule);
-        let rule = (Bearing::default(), rule);
-        let rule = self.choice(want, rule, (false, leeway), usual);
+        let bearing = Bearing::default();
+        let held = self.held(&rule, bearing, usual);
+        let rule = self.choice(want, (bearing, rule, held), (false, leeway), usual);
         for high in [false, true] {
             for (n, plane) in planes().enumerate() {
                 if high && !choices[n].over {
@@ -267,38 +271,44 @@ impl Arm<'_> {
                 }
                 let posed = line.bent(plane);
                 let held = self.held(&posed, bearing, usual);
-                choices.push(match held > rule.cost + tuned().freedom.untried {
+                choices.push(match held.0 > rule.cost + tuned().freedom.untried {
                     true => Choice {
                         bearing,
                         high,
                         over: false,
                         elbow: posed.elbow / self.rig().length(),
                         wrist: posed.wrist / self.rig().length(),
-                        cost: held,
+                        cost: held.0,
                         ..rule
                     },
-                    false => self.choice(want, (bearing, posed), (high, leeway), usual),
+                    false => self.choice(want, (bearing, posed, held), (high, leeway), usual),
                 });
             }
         }
         choices
     }
 
-    /// Returns the cost of a posture whatever the orientation of its hand.
-    fn held(&self, posed: &Posed, bearing: Bearing, usual: f64) -> f64 {
-        off_rule(bearing.plane.to_degrees())
+    /// Returns the cost of a posture whatever the orientation of its hand, and the part of it that stems from an upper
+    /// arm inside the trunk.
+    fn held(&self, posed: &Posed, bearing: Bearing, usual: f64) -> (f64, f64) {
+        let within = self.within(posed);
+        let shrugged = tuned().freedom.shrugged * bearing.shrug * bearing.shrug;
+        let cost = off_rule(bearing.plane.to_degrees())
             + self.raised(posed, usual)
             + self.flared(posed)
             + self.crossed(posed)
             + self.behind(posed)
-            + self.within(posed)
+            + shrugged
+            + within;
+        (cost, within)
     }
 
     /// Adds shrugged postures for the planes in which the hand suffers.
     fn shrug(&self, choices: &mut Vec<Choice>, want: &Want<'_>, leeway: Leeway) {
         let still = choices.clone();
         let wrist = want.wrist();
-        let reach = |bearing: Bearing| self.rig().reach(wrist, bearing, self.limits);
+        let line = self.rig().line(wrist, self.limits);
+        let reach = |bearing| self.rig().reach_along(&line, wrist, bearing, self.limits);
         let usual = self.usual(wrist, &reach(Bearing::default()));
         let least = choices[best(choices)].cost;
         // A shrug turns a forearm by about 20°, which cannot save a far worse candidate.
@@ -311,7 +321,9 @@ impl Arm<'_> {
                 let plane = choice.bearing.plane;
                 let bearing = Bearing { plane, shrug };
                 let posed = reach(bearing);
-                choices.push(self.choice(want, (bearing, posed), (choice.high, leeway), usual));
+                let held = self.held(&posed, bearing, usual);
+                let tried = (bearing, posed, held);
+                choices.push(self.choice(want, tried, (choice.high, leeway), usual));
             }
         }
     }
@@ -323,7 +335,7 @@ impl Arm<'_> {
     fn choice(
         &self,
         want: &Want<'_>,
-        (bearing, posed): (Bearing, Posed),
+        (bearing, posed, held): (Bearing, Posed, (f64, f64)),
         (high, leeway): (bool, Leeway),
         usual: f64,
     ) -> Choice {
@@ -344,12 +356,12 @@ impl Arm<'_> {
         let apart = hung.rotation.angle_between(want.turned);
         let missed = hung.residual / self.rig().length();
         let off = given * self.off(apart) + tuned().freedom.missed * missed * missed;
-        let cost = self.held(&hung.posed, bearing, usual)
-            + tuned().freedom.shrugged * bearing.shrug * bearing.shrug
-            + self.bent(&hung.angles)
-            + tuned().freedom.twisted.1 * twist * twist
-            + off;
-        let amiss = off + self.within(&hung.posed);
+        let (held, within) = match hung.posed.elbow == posed.elbow {
+            true => held,
+            false => self.held(&hung.posed, bearing, usual),
+        };
+        let cost = held + self.bent(&hung.angles) + tuned().freedom.twisted.1 * twist * twist + off;
+        let amiss = off + within;
         Choice {
             bearing,
             angles: hung.angles,
@@ -386,6 +398,7 @@ fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice>
     let mut came: Vec<Vec<usize>> = Vec::with_capacity(of.len());
     let mut last: &[Choice] = &[];
     let mut order: Vec<usize> = Vec::new();
+    let changes = Changes::within(dt);
     for &list in of {
         let choices = lists[list].1.as_slice();
         let mut next = Vec::with_capacity(choices.len());
@@ -400,7 +413,7 @@ fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice>
                 if sums[n] > least.1 {
                     break;
                 }
-                let Some(change) = change(&last[n], choice, dt, least.1 - sums[n]) else {
+                let Some(change) = changes.cost(&last[n], choice, least.1 - sums[n]) else {
                     continue;
                 };
                 let sum = sums[n] + change;
@@ -443,25 +456,59 @@ fn off_rule(degrees: f64) -> f64 {
     }
 }
 
-/// Returns the cost of a change from one candidate to another within `dt` seconds; `None` if it surely
-/// exceeds `most`.
-fn change(from: &Choice, to: &Choice, dt: f64, most: f64) -> Option<f64> {
-    let over = |speed: f64| (speed - 1.0).max(0.0).powi(2);
-    let swivel = (to.bearing.plane - from.bearing.plane).abs() / (tuned().freedom.swivel * dt);
-    let shrug = (to.bearing.shrug - from.bearing.shrug).abs() / (tuned().freedom.shrugging * dt);
-    let own = 0.6 * (swivel * swivel + shrug * shrug) + 60.0 * over(swivel);
-    if own > most * (1.0 + 1e-9) + 1e-9 {
-        return None;
+/// The costs of changes from one candidate to another within a given time.
+struct Changes {
+    /// Reciprocals of the usual changes in that time: of the plane and the wrist's angles (1/rad), the shrug, the
+    /// elbow, and the elbow beyond the wrist (1/arm length).
+    plane: f64,
+    bend: f64,
+    shrug: f64,
+    elbow: f64,
+    pumping: f64,
+    /// The cost of an elbow that moves farther than the wrist: within a sign, and away from it.
+    pumped: (f64, f64),
+}
+
+impl Changes {
+    /// Returns the costs for changes within `dt` seconds.
+    fn within(dt: f64) -> Self {
+        let freedom = &tuned().freedom;
+        Self {
+            plane: 1.0 / (freedom.swivel * dt),
+            bend: 1.0 / (0.6 * tuned().solve.bending * dt),
+            shrug: 1.0 / (freedom.shrugging * dt),
+            elbow: 1.0 / (freedom.elbow * dt),
+            pumping: 1.0 / (freedom.pumping * dt),
+            pumped: freedom.pumped,
+        }
     }
-    let bend = to.angles.apart(&from.angles) / (0.6 * tuned().solve.bending * dt);
-    let far = to.elbow.distance(from.elbow);
-    let elbow = far / (tuned().freedom.elbow * dt);
-    let pumps = (far - to.wrist.distance(from.wrist)).max(0.0) / (tuned().freedom.pumping * dt);
-    let pumped = match from.away && to.away {
-        true => tuned().freedom.pumped.1,
-        false => tuned().freedom.pumped.0,
-    };
-    Some(own + pumped * pumps * pumps + 150.0 * over(elbow) + 20.0 * over(shrug) + 6.0 * over(bend))
+
+    /// Returns the cost of a change; `None` if it surely exceeds `most`.
+    fn cost(&self, from: &Choice, to: &Choice, most: f64) -> Option<f64> {
+        let over = |speed: f64| {
+            let over = (speed - 1.0).max(0.0);
+            over * over
+        };
+        let most = most * (1.0 + 1e-9) + 1e-9;
+        let swivel = (to.bearing.plane - from.bearing.plane).abs() * self.plane;
+        let shrug = (to.bearing.shrug - from.bearing.shrug).abs() * self.shrug;
+        let own =
+            0.6 * (swivel * swivel + shrug * shrug) + 60.0 * over(swivel) + 20.0 * over(shrug);
+        if own > most {
+            return None;
+        }
+        let own = own + 6.0 * over(to.angles.apart(&from.angles) * self.bend);
+        if own > most {
+            return None;
+        }
+        let far = to.elbow.distance(from.elbow);
+        let pumps = (far - to.wrist.distance(from.wrist)).max(0.0) * self.pumping;
+        let pumped = match from.away && to.away {
+            true => self.pumped.1,
+            false => self.pumped.0,
+        };
+        Some(own + pumped * pumps * pumps + 150.0 * over(far * self.elbow))
+    }
 }
 
 fn best(choices: &[Choice]) -> usize {

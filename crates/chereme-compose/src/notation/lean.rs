@@ -86,8 +86,10 @@ impl Planner<'_> {
                     rotation: turn(local, *n) * stance.rotation,
                     ..*stance
                 };
-                sum += self.signer.strain(*n, &turned, DVec3::ZERO);
-                if sum > limit {
+                sum += self
+                    .signer
+                    .strain_up_to(limit - sum, *n, &turned, DVec3::ZERO);
+                if sum >= limit {
                     return f64::INFINITY;
                 }
             }

@@ -1,5 +1,7 @@
 //! Paces: the progress of a movement over time. The two-level controller of Kennaway, section 4.5, as tables.
 
+use std::sync::LazyLock;
+
 use super::tuned::tuned;
 use chereme_sign::hamnosys::{BodyLanguage, Manner};
 
@@ -61,6 +63,14 @@ pub(crate) struct Paces {
 
 impl Paces {
     pub(crate) fn of(language: &BodyLanguage) -> Self {
+        static USUAL: LazyLock<Paces> = LazyLock::new(|| Paces::computed(BodyLanguage::usual()));
+        match language == BodyLanguage::usual() {
+            true => USUAL.clone(),
+            false => Self::computed(language),
+        }
+    }
+
+    fn computed(language: &BodyLanguage) -> Self {
         let l = language;
         let ramp = linear(l.linear_ramp);
         let grown = |gain: f64, power: f64, ratio: f64| {

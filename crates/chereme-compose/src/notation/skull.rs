@@ -39,6 +39,11 @@ impl Skull {
         })
     }
 
+    /// Returns the radius of a ball about the head's middle that holds the head.
+    fn radius(&self) -> f64 {
+        self.half.into_iter().fold(0.0, f64::max)
+    }
+
     /// Returns the vector by which a point in the head leaves it, straight away from the head's middle.
     pub(crate) fn offset_out(&self, at: DVec3) -> DVec3 {
         let offset = at - self.middle;
@@ -63,6 +68,9 @@ pub(super) fn go_round(stage: &Stage, wanted: &mut Wanted<'_>, rate: f64) -> Opt
     let deepest = |frame: usize| {
         let free = 1.0 - wanted.touch[frame];
         let hand = Placed::of(wanted, frame).filter(|_| free > 0.0)?;
+        if !hand.may_touch(skull.middle, skull.radius()) {
+            return None;
+        }
         let offsets = hand.bones().map(|at| skull.offset_out(at));
         let most = offsets.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
         let over = most.length() - soft;
