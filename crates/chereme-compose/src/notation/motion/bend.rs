@@ -35,6 +35,18 @@ impl Bend {
     fn apply(&self, v: DVec3) -> DVec3 {
         self.turn * v * self.length
     }
+
+    /// Returns a remark about it; `None` if it changes movements by less than half a degree and half a per cent.
+    fn says(&self) -> Option<String> {
+        let turned = self.turn.angle_between(DQuat::IDENTITY).to_degrees();
+        let shortened = (1.0 - self.length) * 100.0;
+        let turned = (turned >= 0.5).then(|| format!("turned by {turned:.0}°"));
+        let shortened = (shortened >= 0.5).then(|| format!("shortened by {shortened:.0} %"));
+        let changed: Vec<String> = turned.into_iter().chain(shortened).collect();
+        let changed = changed.join(" and ");
+        let why = "so that the arm stays comfortable";
+        (!changed.is_empty()).then(|| format!("movements are {changed}, {why}"))
+    }
 }
 
 impl Planner<'_> {
@@ -81,8 +93,10 @@ impl Planner<'_> {
                     point: begun[*n] + stage.direction(bend.apply(went) * axes),
                     ..*stance
                 };
-                sum += self.signer.strain(*n, &bent, DVec3::ZERO);
-                if sum > limit {
+                sum += self
+                    .signer
+                    .strain_up_to(limit - sum, *n, &bent, DVec3::ZERO);
+                if sum >= limit {
                     return f64::INFINITY;
                 }
             }
@@ -94,7 +108,13 @@ impl Planner<'_> {
             DVec3::new(l.most_shortened, l.most_bent, l.most_bent),
         ];
         let best = lowest(cost, room);
-        self.bend = (best != DVec3::ZERO).then(|| Bend::of(best));
+        if best != DVec3::ZERO {
+            let bend = Bend::of(best);
+            if let Some(remark) = bend.says() {
+                self.remark(&remark);
+            }
+            self.bend = Some(bend);
+        }
     }
 }
 
@@ -167,6 +187,26 @@ mod tests {
             }
         }
         assert!(changed > 4, "{changed}");
+    }
+
+    #[test]
+    fn a_bend_is_reported_unless_it_is_tiny() {
+        let says = |x, y, z| Bend::of(DVec3::new(x, y, z)).says();
+        let turn = 10_f64.to_radians();
+        for (said, expected) in [
+            (
+                says(0.18, 0.0, turn),
+                Some("turned by 10° and shortened by 18 %"),
+            ),
+            (says(-1e-4, turn, 0.0), Some("turned by 10°")),
+            (says(0.07, 0.0, 0.0), Some("shortened by 7 %")),
+            (says(1e-4, 1e-4, 0.0), None),
+        ] {
+            let expected = expected.map(|changed| {
+                format!("movements are {changed}, so that the arm stays comfortable")
+            });
+            assert_eq!(said, expected);
+        }
     }
 
     #[test]
