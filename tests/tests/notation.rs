@@ -1,6 +1,6 @@
 //! Real notation on bodies: the conditions for every sign. Needs `CHEREME_SHARED_DATA`; the example `notation`
-//! prints the same for all of them.
-
+//! prints the same for all of them. And the words of the animator: what it reports has French.
+//! prints the same for all of them. And the words of the animator: its warnings exist in French.
 #[path = "../examples/notation/bodies.rs"]
 mod bodies;
 #[path = "../examples/notation/checks.rs"]
@@ -9,6 +9,8 @@ mod checks;
 use std::path::{Path, PathBuf};
 
 use chereme_compose::notation::{Settings, animate};
+use chereme_corpus::words::{Language, message};
+use chereme_tests::repository;
 
 /// The fastest that a wrist may go in metres a second, and joints of an arm in radians a second.
 const FASTEST: f64 = 6.0;
@@ -74,4 +76,31 @@ fn signs_keep_their_contacts_on_the_starter_body_and_a_captured_one() {
     holds_on(&starter, &folder, 0);
     let captured = data.join("motion/bvh/upf-gti-performs/NGT Thanks.bvh");
     holds_on(&captured, &folder, EVERY / 2);
+}
+
+#[test]
+fn what_the_animator_reports_has_french() {
+    let folder = repository::root().join("crates/chereme-compose/tests/goldens");
+    let mut reported = 0;
+    for entry in std::fs::read_dir(folder).expect("goldens") {
+        let entry = entry.expect("an entry");
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if !["notated", "varied"]
+            .iter()
+            .any(|made| name.starts_with(made))
+        {
+            continue;
+        }
+        let text = std::fs::read_to_string(entry.path()).expect("text");
+        let lists = text.lines().filter_map(|line| line.split_once("warnings "));
+        for (_, list) in lists {
+            let warnings: Vec<String> = serde_json::from_str(list).expect("a list of texts");
+            for warning in warnings {
+                let french = message(&warning, Language::French);
+                assert!(french.is_some_and(|it| it != warning), "{warning}");
+                reported += 1;
+            }
+        }
+    }
+    assert!(reported > 100, "{reported}");
 }

@@ -244,6 +244,22 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "les mains se traverseraient à {time} s : chacune s’écarte de {cm} cm",
     ),
     (
+        "the {side} hand would go through the head at {time} s: it moves {cm} cm aside",
+        "la main {side} traverserait la tête à {time} s : elle s’écarte de {cm} cm",
+    ),
+    (
+        "movements are turned by {angle} and shortened by {share} %, so that the arm stays comfortable",
+        "les mouvements sont tournés de {angle} et raccourcis de {share} %, pour que le bras reste à l’aise",
+    ),
+    (
+        "movements are turned by {angle}, so that the arm stays comfortable",
+        "les mouvements sont tournés de {angle}, pour que le bras reste à l’aise",
+    ),
+    (
+        "movements are shortened by {share} %, so that the arm stays comfortable",
+        "les mouvements sont raccourcis de {share} %, pour que le bras reste à l’aise",
+    ),
+    (
         "the {side} hand stays {cm} cm short of its contact",
         "il manque {cm} cm à la main {side} pour son contact",
     ),
