@@ -2,7 +2,7 @@
 
 mod arms;
 
-use arms::{behind, folded, lifted, pumping, raised, standing_out, wandering};
+use arms::{akimbo, behind, folded, lifted, pumping, raised, standing_out, wandering};
 use chereme_compose::notation::{Settings, animate};
 use chereme_compose::{About, Generated, Material};
 use chereme_motion::glam::DVec3;
@@ -18,7 +18,7 @@ use crate::walk::{each_motion, interlocked, places, with_motions};
 /// One fault: its name, and a function that reports whether a sign has it; `None` if it cannot occur in the sign.
 pub(crate) type Judge = (&'static str, fn(&Seen<'_>) -> Option<bool>);
 
-pub(crate) const FAULTS: [Judge; 24] = [
+pub(crate) const FAULTS: [Judge; 25] = [
     (
         "a thumb across lies more than 3 mm off its finger or palm",
         thumb_off,
@@ -39,6 +39,10 @@ pub(crate) const FAULTS: [Judge; 24] = [
     (
         "an elbow stands out by more than 60° with the hand low",
         standing_out,
+    ),
+    (
+        "an elbow stands out by more than 45° on the way from rest or back, with the hand low",
+        akimbo,
     ),
     ("an elbow is more than 3 cm above its shoulder", raised),
     (

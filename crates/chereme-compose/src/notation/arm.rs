@@ -372,6 +372,19 @@ impl Rig {
         }
     }
 
+    /// Returns the position of the wrist half-way between two postures if upper arm, elbow and the arm's plane turn evenly.
+    pub(crate) fn wrist_between(&self, ends: &[Posed; 2]) -> DVec3 {
+        let [upper, forearm] = self.lengths;
+        let uppers = ends.map(|posed| (posed.elbow - posed.shoulder).normalize_or(self.forward));
+        let bends = [0, 1].map(|n| uppers[n].angle_between(ends[n].wrist - ends[n].elbow));
+        let along = (uppers[0] + uppers[1]).normalize_or(uppers[0]);
+        let across = (ends[0].across + ends[1].across).reject_from_normalized(along);
+        let across = across.normalize_or(along.any_orthonormal_vector());
+        let bend = DQuat::from_axis_angle(across, -0.5 * (bends[0] + bends[1]));
+        let shoulder = ends[0].shoulder.midpoint(ends[1].shoulder);
+        shoulder + along * upper + bend * along * forearm
+    }
+
     /// Returns the position of the shoulder and the turn of the collar bone for a `shrug`: smaller
     /// downwards, and within the collar bone's limit.
     fn shrugged(&self, posed: &Posed, shrug: f64, limits: &Limits) -> (DVec3, DQuat) {

@@ -126,13 +126,43 @@ fn separation(
     let [Some(a), Some(b)] = [first, second].map(|wanted| Placed::of(wanted, frame)) else {
         return DVec3::ZERO;
     };
+    let Some((deepest, sum)) = overlap(length, [&a, &b]) else {
+        return DVec3::ZERO;
+    };
+    let palms = a.at(MIDDLE_KNUCKLE) - b.at(MIDDLE_KNUCKLE);
+    let usual = stage.forward * 0.8 + DVec3::Y * 0.6;
+    let direction = sum.try_normalize().or(palms.try_normalize());
+    direction.unwrap_or(usual) * (deepest - depth_left())
+}
+
+/// Returns whether two hands penetrate each other in a frame if each moves by half of `apart` (m), the first one along it.
+pub(super) fn penetrate(
+    length: f64,
+    [first, second]: [&Wanted<'_>; 2],
+    frame: usize,
+    apart: DVec3,
+) -> bool {
+    let hands = [(first, apart), (second, -apart)];
+    let [Some(a), Some(b)] = hands.map(|(wanted, by)| {
+        let hand = Placed::of(wanted, frame)?;
+        let wrist = hand.wrist + by * 0.5;
+        Some(Placed { wrist, ..hand })
+    }) else {
+        return false;
+    };
+    overlap(length, [&a, &b]).is_some()
+}
+
+/// Returns the depth (m) of the deepest place at which two hands penetrate each other, and the sum of the displacements of
+/// all places; `None` if the flesh gives way.
+fn overlap(length: f64, [a, b]: [&Placed<'_>; 2]) -> Option<(f64, DVec3)> {
     let palms = a.at(MIDDLE_KNUCKLE) - b.at(MIDDLE_KNUCKLE);
     let flesh = FLESH.into_iter().fold(0.0, f64::max) * length;
     let near = a.may_touch(b.middle(), b.radius() + 2.0 * flesh);
     if palms.length() > tuned().bulk.far * length || !near {
-        return DVec3::ZERO;
+        return None;
     }
-    let [a, b] = [a, b].map(|hand| tubes(&hand, length));
+    let [a, b] = [a, b].map(|hand| tubes(hand, length));
     let (mut sum, mut deepest) = (DVec3::ZERO, 0.0_f64);
     for one in &a {
         let middle = (one.ends[0] + one.ends[1]) * 0.5;
@@ -151,12 +181,7 @@ fn separation(
             }
         }
     }
-    if deepest <= tuned().bulk.soft {
-        return DVec3::ZERO;
-    }
-    let usual = stage.forward * 0.8 + DVec3::Y * 0.6;
-    let direction = sum.try_normalize().or(palms.try_normalize());
-    direction.unwrap_or(usual) * (deepest - depth_left())
+    (deepest > tuned().bulk.soft).then_some((deepest, sum))
 }
 
 /// A hand in its intended pose.

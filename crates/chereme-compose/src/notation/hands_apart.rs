@@ -4,12 +4,17 @@ use std::ops::Range;
 
 use chereme_motion::glam::DVec3;
 
+use super::bulk;
 use super::stage::{Hand, Stage};
 use super::track::Wanted;
 use super::tuned::tuned;
 
 /// The number of rounds of this correction.
 const TRIES: usize = 3;
+/// Step (hand lengths) by which hands move farther aside, until they do not penetrate each other.
+const STEP: f64 = 0.025;
+/// The largest number of such steps.
+const FARTHER: u32 = 10;
 /// Outline points that stand for a hand: palm, and joints and tips of index and middle finger.
 const BONES: [usize; 6] = [1, 6, 7, 8, 9, 10];
 
@@ -55,6 +60,20 @@ pub(crate) fn part(
             let by = 0.5 * (tuned().hands_apart.near * length * 1.1 - along).max(0.0);
             let frames = meeting.frames.start.saturating_sub(around)
                 ..(meeting.frames.end + around).min(total);
+            let touches = |frame: usize| first.touch[frame].max(second.touch[frame]) > 0.0;
+            let farthest = if frames.clone().any(touches) {
+                0
+            } else {
+                FARTHER
+            };
+            // Fists are thicker than palms.
+            let clear = |by: &f64| {
+                let mut frames = meeting.frames.clone();
+                let apart = aside * (2.0 * by);
+                !frames.any(|frame| bulk::penetrate(length, [first, second], frame, apart))
+            };
+            let farther = (0..=farthest).map(|n| by + STEP * f64::from(n) * length);
+            let by = farther.into_iter().find(clear).unwrap_or(by);
             for frame in frames {
                 let before = meeting.frames.start.saturating_sub(frame);
                 let after = (frame + 1).saturating_sub(meeting.frames.end);

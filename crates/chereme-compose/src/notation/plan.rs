@@ -141,6 +141,8 @@ pub(crate) struct SignPlan {
     pub(crate) courses: [Vec<Course>; 2],
     /// Time spans (s, as planned) in which each hand moves to a named place.
     pub(crate) arrivals: [Vec<(f64, f64)>; 2],
+    /// Time spans (s, as planned) in which each hand moves from rest or back.
+    pub(crate) away: [Vec<(f64, f64)>; 2],
     /// Time spans (s, as planned) in which the hands mirror each other.
     pub(crate) mirrored: Vec<(f64, f64)>,
     pub(crate) end: f64,
@@ -298,6 +300,7 @@ impl<'a> Planner<'a> {
                 contacts: [Vec::new(), Vec::new()],
                 courses: [Vec::new(), Vec::new()],
                 arrivals: [Vec::new(), Vec::new()],
+                away: [Vec::new(), Vec::new()],
                 mirrored: Vec::new(),
                 end: 0.0,
                 laced: false,
@@ -386,6 +389,7 @@ impl<'a> Planner<'a> {
             .map(|n| self.signer.length_between(&before[n], &goal[n], n))
             .fold(0.0, f64::max);
         let approach = self.approach(part, [who, named], [&before, &goal]);
+        let rested = [0, 1].map(|n| !before[n].used);
         self.state = before;
         let reached = self.signer.on_frame(time + length.max(approach.least));
         let courses = approach.courses(time, reached);
@@ -402,6 +406,9 @@ impl<'a> Planner<'a> {
             self.swing(n, &goal[n], time, reached, pace);
             self.travel(n, &goal[n], time, reached, pace);
             self.phase(n, PhaseKind::Transition, time, reached, "");
+            if rested[n] {
+                self.plan.away[n].push((time, reached));
+            }
             if part.posture.place.is_some() {
                 self.plan.arrivals[n].push((time, reached));
             }

@@ -211,7 +211,10 @@ impl<'a> SolvedFrames<'a> {
             let time = frame as f64 / timing.rate;
             let turned = fit.turned;
             let written = (row.turned * wanted.leans[frame].inverse(), !free[frame]);
-            fit.take(got, written, plan, n, [time, 1.0 / timing.rate]);
+            if !wanted.away[frame] {
+                fit.take(got, written);
+            }
+            fit.touch(got, &plan.contacts[n], [time, 1.0 / timing.rate]);
             if fit.turned > turned.max(REPORTED) {
                 fit.hindered = Some(solver.hindrance(row, got));
             }
@@ -341,26 +344,20 @@ impl<'a> SolvedFrames<'a> {
 }
 
 impl Fit {
-    /// Includes one frame; `given` if the hand's orientation is notated for it.
-    fn take(
-        &mut self,
-        got: &Got,
-        (written, given): (DQuat, bool),
-        plan: &SignPlan,
-        n: usize,
-        [time, step]: [f64; 2],
-    ) {
-        if signing(plan, time) {
-            self.pushed = self.pushed.max(got.pushed);
-            self.residual = self.residual.max(got.residual);
-            if given {
-                let apart = got.rotation.angle_between(written);
-                self.turned = self.turned.max(apart);
-            }
+    /// Includes a frame of a sign; `given` if the hand's orientation is notated for it.
+    fn take(&mut self, got: &Got, (written, given): (DQuat, bool)) {
+        self.pushed = self.pushed.max(got.pushed);
+        self.residual = self.residual.max(got.residual);
+        if given {
+            self.turned = self.turned.max(got.rotation.angle_between(written));
         }
+    }
+
+    /// Includes a frame at a time of `step` seconds, if the hand touches something in it.
+    fn touch(&mut self, got: &Got, contacts: &[(f64, f64)], [time, step]: [f64; 2]) {
         let touches =
             |&(from, to): &(f64, f64)| (from - 1e-9..=to.max(from + step) - 1e-9).contains(&time);
-        if plan.contacts[n].iter().any(touches) {
+        if contacts.iter().any(touches) {
             self.parted = self.parted.max(got.residual);
         }
     }
@@ -373,9 +370,13 @@ fn signing(plan: &SignPlan, time: f64) -> bool {
         .any(|sign| (sign.from..=sign.to).contains(&time))
 }
 
-/// Returns for each frame whether it is outside of signs.
-fn away(plan: &SignPlan, timing: &Timing<'_>) -> Vec<bool> {
-    let away = |frame: usize| !signing(plan, frame as f64 / timing.rate);
+/// Returns for each frame whether it is outside of signs, or the hand moves from rest or back.
+fn away(plan: &SignPlan, n: usize, timing: &Timing<'_>) -> Vec<bool> {
+    let away = |frame: usize| {
+        let time = frame as f64 / timing.rate;
+        let mut spans = plan.away[n].iter();
+        !signing(plan, time) || spans.any(|&(from, to)| (from..to).contains(&time))
+    };
     (0..timing.total).map(away).collect()
 }
 
@@ -401,7 +402,7 @@ pub(crate) fn wanted<'a>(
         wrist: goals.wrist,
         outlines: Outlines::of(stage, plan, n, timing),
         touch: touch(&plan.contacts[n], timing),
-        away: away(plan, timing),
+        away: away(plan, n, timing),
         transitions: goals.transitions,
     }
 }

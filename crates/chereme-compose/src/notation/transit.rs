@@ -98,6 +98,18 @@ impl Planner<'_> {
         let Some(along) = (end - start).try_normalize() else {
             return;
         };
+        if self.state[n].used != goal.used {
+            let out = self.signer.swung(&hand.rig, [start, end]);
+            let most = tuned().transit.swung * start.distance(end);
+            let out = out.reject_from_normalized(along).clamp_length_max(most);
+            self.plan.events[n].push(Event {
+                from,
+                to,
+                pace,
+                act: Act::Move(Path::Spring(out)),
+            });
+            return;
+        }
         let share = (shoulder - start).dot(along) / end.distance(start);
         let nearest = start.lerp(end, share.clamp(0.0, 1.0));
         let far = nearest.distance(shoulder);
@@ -144,6 +156,7 @@ impl Planner<'_> {
             self.swing(n, &rest, from, to, Pace::Lax);
             self.travel(n, &rest, from, to, Pace::Lax);
             self.phase(n, PhaseKind::Transition, from, to, "");
+            self.plan.away[n].push((from, to));
             end = end.max(to);
         }
         end
@@ -151,6 +164,16 @@ impl Planner<'_> {
 }
 
 impl Signer<'_> {
+    /// Returns the offset from the middle of a straight path between two wrists to where the wrist is when upper arm and
+    /// elbow have turned half-way, as they do when people raise a hand from rest.
+    fn swung(&self, rig: &Rig, ends: [DVec3; 2]) -> DVec3 {
+        let ends = ends.map(|wrist| rig.reach(wrist, Bearing::default(), &self.limits));
+        let middle = rig.wrist_between(&ends);
+        let out = middle - ends[0].wrist.midpoint(ends[1].wrist);
+        let outside = self.stage.left * rig.side.sign();
+        out - outside * ((1.0 - tuned().transit.outwards) * out.dot(outside).max(0.0))
+    }
+
     /// Returns by how much the middle of a straight path between two wrists must lie farther ahead so that the elbow does
     /// not go behind the trunk; `None` if it does not.
     fn ahead(&self, rig: &Rig, [start, end]: [DVec3; 2], along: DVec3) -> Option<DVec3> {
@@ -184,5 +207,81 @@ impl Signer<'_> {
         let far = a.wrist().distance(b.wrist()) / self.stage.arm;
         let turn = a.rotation.angle_between(b.rotation) / std::f64::consts::FRAC_PI_2;
         l.time_transition + l.time_transition_arm * far + l.time_turn * turn
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_sign::Handedness;
+    use chereme_sign::hamnosys::{BodyLanguage, BodyLocation, HandClass};
+
+    use super::super::pace::Paces;
+    use super::super::stage::Stage;
+    use super::super::tests::{at, mirrored, posture, stage};
+    use super::super::track::goals;
+    use super::*;
+    use crate::testing::Axes;
+
+    const RATE: f64 = 60.0;
+
+    /// Returns the paths of both wrists from rest to a place before the body, in one second.
+    fn raised(place: BodyLocation) -> [Vec<DVec3>; 2] {
+        let material = stage(Axes::Plain);
+        let body = Stage::of(&material).expect("a body");
+        let paces = Paces::of(BodyLanguage::usual());
+        let language = (BodyLanguage::usual(), &paces);
+        let mut planner = Planner::new(&body, language, Handedness::Right, RATE);
+        let who = planner.who(mirrored());
+        let rest = planner.state.clone();
+        let begun = posture(HandClass::Flat, "u", "l", Some(at(place, None)));
+        planner.assume(&begun, who, false);
+        let goal = planner.state.clone();
+        planner.state = rest;
+        for (n, goal) in goal.iter().enumerate() {
+            planner.swing(n, goal, 0.0, 1.0, Pace::Lax);
+            planner.travel(n, goal, 0.0, 1.0, Pace::Lax);
+        }
+        [0, 1].map(|n| {
+            let (start, events) = (&planner.plan.start[n], &planner.plan.events[n]);
+            let path = goals(start, events, RATE, RATE as usize + 2, |_, share| share);
+            let path: Vec<DVec3> = path.wrists().collect();
+            assert!(path[path.len() - 1].distance(goal[n].wrist()) < 1e-9);
+            path
+        })
+    }
+
+    #[test]
+    fn hands_rise_from_rest_before_the_body_as_an_elbow_bends() {
+        for place in [
+            BodyLocation::Chest,
+            BodyLocation::Chin,
+            BodyLocation::HeadTop,
+        ] {
+            let [right, left] = raised(place);
+            let (start, end) = (right[0], right[right.len() - 1]);
+            let middle = right[right.len() / 2];
+            let off = middle - start.midpoint(end);
+            let share = off.length() / start.distance(end);
+            assert!(off.z > 0.05, "{place:?}: {off}");
+            assert!(share < tuned().transit.swung + 0.01, "{place:?}: {share}");
+            for (right, left) in right.iter().zip(&left) {
+                let mirror = *right * DVec3::new(-1.0, 1.0, 1.0);
+                assert!(mirror.distance(*left) < 1e-9, "{place:?}: {right} {left}");
+            }
+        }
+    }
+
+    #[test]
+    fn between_equal_postures_the_wrist_stays() {
+        let material = stage(Axes::Plain);
+        let body = Stage::of(&material).expect("a body");
+        let limits = super::super::arm::Limits::of(BodyLanguage::usual());
+        let hand = body.hand(chereme_motion::Side::Right).expect("a hand");
+        for by in [DVec3::new(0.1, -0.2, 0.3), DVec3::new(-0.1, 0.2, 0.25)] {
+            let wrist = hand.rig.shoulder + by;
+            let posed = hand.rig.reach(wrist, Bearing::default(), &limits);
+            let middle = hand.rig.wrist_between(&[posed, posed]);
+            assert!(middle.distance(posed.wrist) < 1e-9, "{middle} {wrist}");
+        }
     }
 }

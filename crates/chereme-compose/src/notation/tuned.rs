@@ -170,6 +170,8 @@ tuned_numbers! {
         round: f64,
         behind: f64,
         placed: f64,
+        swung: f64,
+        outwards: f64,
     }
 }
 

@@ -31,21 +31,34 @@ pub(super) fn pumping(seen: &Seen<'_>) -> Option<bool> {
 
 pub(super) fn standing_out(seen: &Seen<'_>) -> Option<bool> {
     let (from, to) = seen.sign()?;
-    let frame = seen.made.anatomy.body_frame(&seen.models[0])?;
+    Some(stands_out(seen, &seen.models[from..=to], 60.0))
+}
+
+/// Returns whether an arm stands akimbo while it rises from rest or goes back.
+pub(super) fn akimbo(seen: &Seen<'_>) -> Option<bool> {
+    let (from, to) = seen.sign()?;
+    let [rising, falling] = [&seen.models[..from], &seen.models[to..]];
+    Some(stands_out(seen, rising, 45.0) || stands_out(seen, falling, 45.0))
+}
+
+/// Returns whether an elbow stands out by more than an angle (degrees) while the hand is low.
+fn stands_out(seen: &Seen<'_>, models: &[ModelPose], most: f64) -> bool {
+    let Some(frame) = seen.made.anatomy.body_frame(&seen.models[0]) else {
+        return false;
+    };
     let arms = Side::BOTH
         .into_iter()
         .filter_map(|side| Some((side, seen.made.anatomy.arm(side)?)));
-    let out = arms.into_iter().any(|(side, arm)| {
-        seen.models[from..=to].iter().any(|model| {
+    arms.into_iter().any(|(side, arm)| {
+        models.iter().any(|model| {
             let [shoulder, elbow, wrist] =
                 [arm.upper, arm.forearm, arm.hand].map(|j| model.position(j));
             let upper = elbow - shoulder;
             let low = shoulder.y - wrist.y > 0.4 * upper.length();
             let aside = upper.dot(frame.left) * side.sign();
-            low && aside.atan2(-upper.y) > 60_f64.to_radians()
+            low && aside.atan2(-upper.y) > most.to_radians()
         })
-    });
-    Some(out)
+    })
 }
 
 pub(super) fn raised(seen: &Seen<'_>) -> Option<bool> {
