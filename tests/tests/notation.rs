@@ -1,6 +1,6 @@
 //! Real notation on bodies: the conditions for every sign. Needs `CHEREME_SHARED_DATA`; the example `notation`
-//! prints the same for all of them. And the words of the animator: what it reports has French.
-//! prints the same for all of them. And the words of the animator: its warnings exist in French.
+//! prints the same for all of them. The warnings of the animator exist in French.
+
 #[path = "../examples/notation/bodies.rs"]
 mod bodies;
 #[path = "../examples/notation/checks.rs"]
@@ -79,7 +79,7 @@ fn signs_keep_their_contacts_on_the_starter_body_and_a_captured_one() {
 }
 
 #[test]
-fn what_the_animator_reports_has_french() {
+fn warnings_of_the_animator_exist_in_french() {
     let folder = repository::root().join("crates/chereme-compose/tests/goldens");
     let mut reported = 0;
     for entry in std::fs::read_dir(folder).expect("goldens") {
