@@ -165,10 +165,11 @@ fn the_animator_performs_the_notation_and_nothing_jumps() {
     let mut pulled = Vec::new();
     for (take, made) in MADE.iter() {
         let clip = &made.clip;
-        // Two warnings are expected: some letters point beyond the limits of the wrist, and hands that touch lie in each
-        // other by the thickness of a finger, or are moved apart.
+        // Three warnings are expected: some letters point beyond the limits of the wrist, hands that touch lie in each
+        // other by the thickness of a finger, or are moved apart, and letters that move are bent for the arm's comfort.
         let missed = |warning: &&String| {
-            !warning.contains("turned up to") && !warning.contains("each other")
+            let expected = ["turned up to", "each other", "stays comfortable"];
+            !expected.iter().any(|words| warning.contains(words))
         };
         let warnings: Vec<&String> = made.report.warnings.iter().filter(missed).collect();
         assert!(warnings.is_empty(), "{}: {warnings:?}", take.stem);
