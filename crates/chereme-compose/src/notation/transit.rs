@@ -87,60 +87,25 @@ impl Planner<'_> {
         self.state[n] = goal.clone();
     }
 
-    /// Leads a transition round the own shoulder if the forearm would have to fold up, and bends its path forward if the
-    /// elbow would go behind the trunk.
+    /// Bends the path of a transition, where the arm needs that.
     pub(super) fn swing(&mut self, n: usize, goal: &HandState, from: f64, to: f64, pace: Pace) {
         let Some(hand) = self.signer.stage.hand(self.signer.sides[n]) else {
             return;
         };
-        let (start, end) = (self.state[n].wrist(), goal.wrist());
-        let shoulder = hand.rig.shoulder;
-        let Some(along) = (end - start).try_normalize() else {
-            return;
+        let state = &self.state[n];
+        let ends = [state.wrist(), goal.wrist()];
+        let out = match state.used == goal.used {
+            true => self.signer.led_round(&hand.rig, ends),
+            false => self.signer.swung(&hand.rig, ends),
         };
-        if self.state[n].used != goal.used {
-            let out = self.signer.swung(&hand.rig, [start, end]);
-            let most = tuned().transit.swung * start.distance(end);
-            let out = out.reject_from_normalized(along).clamp_length_max(most);
+        if let Some(out) = out {
             self.plan.events[n].push(Event {
                 from,
                 to,
                 pace,
                 act: Act::Move(Path::Spring(out)),
             });
-            return;
         }
-        let share = (shoulder - start).dot(along) / end.distance(start);
-        let nearest = start.lerp(end, share.clamp(0.0, 1.0));
-        let far = nearest.distance(shoulder);
-        let ends = start.distance(shoulder).min(end.distance(shoulder));
-        let missing = (tuned().transit.round * self.signer.stage.arm).min(ends) - far;
-        if missing <= 0.0 || !(0.0..1.0).contains(&share) {
-            if let Some(out) = self.signer.ahead(&hand.rig, [start, end], along) {
-                self.plan.events[n].push(Event {
-                    from,
-                    to,
-                    pace,
-                    act: Act::Move(Path::Spring(out)),
-                });
-            }
-            return;
-        }
-        let outside = self.signer.stage.left * self.signer.sides[n].sign();
-        let out = (nearest - shoulder) / self.signer.stage.arm
-            + self.signer.stage.forward * 0.3
-            + outside * 0.1;
-        let Some(out) = out.reject_from_normalized(along).try_normalize() else {
-            return;
-        };
-        // A spring is farthest out half-way.
-        let there = (PI * share).sin().max(0.3);
-        self.plan.events[n].push(Event {
-            from,
-            to,
-            pace,
-            act: Act::Move(Path::Spring(out * (missing / there))),
-        });
     }
 
     /// Plans the return of hands to rest; returns its end.
@@ -164,14 +129,38 @@ impl Planner<'_> {
 }
 
 impl Signer<'_> {
-    /// Returns the offset from the middle of a straight path between two wrists to where the wrist is when upper arm and
-    /// elbow have turned half-way, as they do when people raise a hand from rest.
-    fn swung(&self, rig: &Rig, ends: [DVec3; 2]) -> DVec3 {
-        let ends = ends.map(|wrist| rig.reach(wrist, Bearing::default(), &self.limits));
+    /// Returns the offset from the middle of a straight path from rest, or back, to where the wrist is when upper arm and
+    /// elbow have turned half-way, as people turn them; limited by `transit.swung`.
+    fn swung(&self, rig: &Rig, [start, end]: [DVec3; 2]) -> Option<DVec3> {
+        let along = (end - start).try_normalize()?;
+        let ends = [start, end].map(|wrist| rig.reach(wrist, Bearing::default(), &self.limits));
         let middle = rig.wrist_between(&ends);
         let out = middle - ends[0].wrist.midpoint(ends[1].wrist);
         let outside = self.stage.left * rig.side.sign();
-        out - outside * ((1.0 - tuned().transit.outwards) * out.dot(outside).max(0.0))
+        let out = out - outside * ((1.0 - tuned().transit.outwards) * out.dot(outside).max(0.0));
+        let most = tuned().transit.swung * start.distance(end);
+        Some(out.reject_from_normalized(along).clamp_length_max(most))
+    }
+
+    /// Returns the offset from the middle of a straight path that leads it round the own shoulder, if the forearm would
+    /// have to fold up, or forward, if the elbow would go behind the trunk; `None` if neither is the case.
+    fn led_round(&self, rig: &Rig, [start, end]: [DVec3; 2]) -> Option<DVec3> {
+        let along = (end - start).try_normalize()?;
+        let shoulder = rig.shoulder;
+        let share = (shoulder - start).dot(along) / end.distance(start);
+        let nearest = start.lerp(end, share.clamp(0.0, 1.0));
+        let far = nearest.distance(shoulder);
+        let ends = start.distance(shoulder).min(end.distance(shoulder));
+        let missing = (tuned().transit.round * self.stage.arm).min(ends) - far;
+        if missing <= 0.0 || !(0.0..1.0).contains(&share) {
+            return self.ahead(rig, [start, end], along);
+        }
+        let outside = self.stage.left * rig.side.sign();
+        let out = (nearest - shoulder) / self.stage.arm + self.stage.forward * 0.3 + outside * 0.1;
+        let out = out.reject_from_normalized(along).try_normalize()?;
+        // A spring is farthest out half-way.
+        let there = (PI * share).sin().max(0.3);
+        Some(out * (missing / there))
     }
 
     /// Returns by how much the middle of a straight path between two wrists must lie farther ahead so that the elbow does
