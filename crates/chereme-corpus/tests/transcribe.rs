@@ -137,6 +137,40 @@ fn check_transcribed_locations(mut corpus: Corpus) {
     }
 }
 
+/// Constellations of hands that the animator keeps clear of each other: the parts that are close lie apart by the flesh
+/// of other parts.
+const CLOSE: [&str; 2] = [
+    "hamparbegin hamflathand hamextfingerl hampalml hamplus hamflathand hamextfingeror hampalmr hamparend \
+     hamparbegin hampinkyside hamplus hamthumbside hamparend hamclose hamshoulders hambetween hamchest hammoved",
+    "hamparbegin hamfinger2 hamextfingerl hampalmd hamplus hamfinger2 hamextfingeror hampalmd hamparend \
+     hamparbegin hamfingermidjoint hamindexfinger hampalm hamplus hamfingermidjoint hamindexfinger hamhandback \
+     hamparend hamtouch hamchest hammoveu",
+];
+
+#[test]
+fn constellations_of_hands_that_are_kept_clear_are_transcribed_as_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    for (n, names) in CLOSE.into_iter().enumerate() {
+        let (written, transcribed) = there_and_back(&mut corpus, n, names);
+        let hands = |sign: &Sign| match &sign.parts[0].posture.place {
+            Some(Place::Hands(hands)) => {
+                let at = hands.at.iter().flat_map(|at| [at.site, at.second]);
+                let mut at: Vec<_> = at.flatten().map(|site| site.at).collect();
+                at.sort();
+                (
+                    hands.dominant.clone(),
+                    hands.other.clone(),
+                    hands.contact,
+                    at,
+                )
+            }
+            other => panic!("{names}: {other:?}"),
+        };
+        assert_eq!(hands(&transcribed.sign), hands(&written), "{names}");
+    }
+}
+
 /// Signs whose places alone would be read differently: one is written without a place, and in one a hand stays still.
 const BEGINNINGS: [&str; 2] = [
     "hamflathand hamextfingero hampalmd hammovel",

@@ -298,12 +298,12 @@ pub trait Performs {
 /// Like [`transcribe`], for movement that was synthesised from notation: verifies hand placement by
 /// re-synthesis.
 ///
-/// The animator pushes a hand out of the trunk that should touch it, stops a hand at its joint limits, and
-/// lets a hand give way to its arm within the room of its place. Such a hand is not at its notated place,
-/// but re-synthesis of the right notation puts it exactly at the observed position. If the first reading
-/// misses it, alternative readings are synthesised, at most [`MOST_POSTURES`], and one that puts the hand
-/// within millimetres of the observed position is reported. Captured movement is never reproduced that
-/// exactly: use [`transcribe`] for it.
+/// The animator pushes a hand out of the trunk that should touch it, keeps it clear of the other hand, stops it at
+/// its joint limits, and lets it give way to its arm within the room of its place. Such a hand is not at its notated
+/// place, but re-synthesis of the right notation puts it exactly at the observed position. If the first reading
+/// misses it, alternative readings are synthesised, at most [`MOST_POSTURES`]. One that puts the hands within
+/// millimetres of their observed positions is reported; or, since a misread movement displaces them, one that misses
+/// them by much less than the first. Captured movement is never reproduced that exactly: use [`transcribe`] for it.
 ///
 /// # Errors
 ///

@@ -31,6 +31,8 @@ pub(super) struct Placed {
     pub(super) place: BodyPlace,
     /// Distance between the hand and the goal that the place gives it, in metres.
     pub(super) residual: f64,
+    /// The hand's position, less that goal, in metres.
+    pub(super) aside: DVec3,
     pub(super) runner_up: Option<(BodyPlace, f64)>,
     /// Its penalty against the simplest and exact reading, in nepers.
     pub(super) score: f64,
@@ -45,6 +47,7 @@ pub(super) struct Placed {
 }
 
 /// The body in one posture with both hands.
+#[derive(Clone)]
 pub(super) struct Body<'a> {
     scene: &'a Scene<'a>,
     axes: Axes,
@@ -62,6 +65,7 @@ struct Candidate<'c> {
     /// The parts of the hand that the notation must name.
     named_parts: Option<&'c [HandPoint]>,
     residual: f64,
+    aside: DVec3,
     /// Its penalty against the simplest and exact reading, in nepers.
     score: f64,
     /// The part of `score` that comes from the hand's position.
@@ -85,6 +89,7 @@ impl Candidate<'_> {
         Placed {
             place: self.place(),
             residual: self.residual,
+            aside: self.aside,
             runner_up: None,
             score: self.score,
             unlikely: self.unlikely,
@@ -132,6 +137,15 @@ impl<'a> Body<'a> {
             spread: Spread::of(scene),
             choices: Default::default(),
         })
+    }
+
+    /// Returns the body with each hand moved by an offset, in metres.
+    pub(super) fn shifted(&self, by: [DVec3; 2]) -> Self {
+        let mut body = self.clone();
+        for (n, by) in by.into_iter().enumerate() {
+            body.shift(n, by);
+        }
+        body
     }
 
     /// Moves hand `n` by an offset, in metres.
@@ -297,6 +311,7 @@ impl<'a> Body<'a> {
                     contact,
                     named_parts,
                     residual: if touching { distance } else { off.length() },
+                    aside: off,
                     score: unlikely + cost,
                     unlikely,
                     distance,

@@ -2,12 +2,13 @@
 //! its observed position is reported.
 //!
 //! The first reading comes from the hand's position alone. But the animator pushes a hand out of the trunk
-//! that should touch it, stops a hand at its joint limits, and lets a hand give way to its arm. The right
-//! notation, animated by the same rules, puts the hand within a fraction of a millimetre of the observed
-//! position, and few others do.
+//! that should touch it, keeps it clear of the other hand, stops it at its joint limits, and lets it give way to its
+//! arm. The right notation, animated by the same rules, puts the hand within a fraction of a millimetre of the observed
+//! position, and few others do. If the movement is misread, even the right place misses it by some millimetres.
+
+mod homing;
 
 use std::cell::Cell;
-use std::ops::Range;
 
 use chereme_motion::Clip;
 use chereme_sign::hamnosys::{Each, Sign};
@@ -19,13 +20,7 @@ use super::scene::Axes;
 use super::tree::{self, Begun, Picked, Sight, Stand};
 use super::{Performs, Transcription};
 use crate::transcribe::tuned::tuned;
-
-/// Returns the ranks of the candidate places of a hand that are tried in turn; the next range is tried only if no place
-/// of the one before fits.
-fn ranks() -> [Range<usize>; 3] {
-    let [few, more, most] = tuned().resynthesis.places;
-    [0..few, few..more, more..most]
-}
+use homing::Search;
 
 /// The most postures that are synthesised for one sign.
 pub const MOST_POSTURES: usize = 1000;
@@ -86,13 +81,24 @@ struct Trial {
 }
 
 /// A trial with the result of its re-synthesis.
+#[derive(Clone)]
 struct Tried {
     trial: Trial,
     /// Its penalty in nepers; the simplest reading, if exact, has none.
     total: f64,
+    /// How far it is from the observed hands, in nepers: as `total`, with a penalty that grows evenly with the error.
+    near: f64,
     /// The error of each hand: the distance between its observed and its re-synthesised position, in
     /// metres.
     off: [f64; 2],
+    /// The errors of the hands that have notation together, in metres.
+    error: f64,
+    /// The middle of each hand as observed, less its middle after re-synthesis, in metres.
+    aside: [DVec3; 2],
+    /// The part of `aside` that the whole sign adds to the first posture alone, or is expected to add, in metres.
+    drift: [DVec3; 2],
+    /// Whether the whole sign was synthesised.
+    whole: bool,
 }
 
 impl Trial {
@@ -201,65 +207,59 @@ impl Proof<'_, '_> {
             mirrored: false,
             still: false,
         };
-        let begun = self.off(&self.performs.begins(self.inferred)?)?;
-        if self.open(begun).is_empty() {
+        let begun = self.begun_as(first.clone())?;
+        if self.open(begun.off).is_empty() {
             return None;
         }
         if let Some(unsaid) = self.unsaid(&first) {
             return Some(unsaid);
         }
-        let mut best = self.tried(
-            first,
-            &self.performs.performs(self.inferred)?,
-            tuned().resynthesis.exact,
-        )?;
-        let first_off = best.off;
-        let mut near = self.moved(&mut best, &ranks());
-        for other in self.other_forms(&best.trial) {
-            if self.open(best.off).is_empty() {
-                break;
-            }
-            let Some(mut other) = self.begun_as(other) else {
-                continue;
-            };
-            let far = if matches!(other.trial.stand, Stand::Together(..)) {
-                1
-            } else {
-                2
-            };
-            self.moved(&mut other, &ranks()[..far]);
-            // A match of the other hand alone may be chance.
-            let [open, before] = [other.off, best.off].map(|off| self.open(off));
-            if open.len() < before.len() && !open.contains(&0) {
-                best = other;
-                near = Default::default();
-            }
-        }
-        for (n, near) in near.into_iter().enumerate() {
-            if self.amiss(&best).contains(&n) {
-                self.try_all(self.turned(near, n), &mut best);
-            }
-        }
-        if !self.open(best.off).is_empty() {
-            // A wrong reading of the actions may displace the hand.
-            let still = Trial {
-                still: true,
-                ..best.trial.clone()
-            };
-            let mut still = self.begun_as(still)?;
-            self.moved(&mut still, &ranks()[..2]);
-            if self.open(still.off).len() < self.open(best.off).len() {
-                best = still;
-            }
-        }
-        let fewer = |within: f64| {
-            let [best, first_off] = [best.off, first_off].map(|off| self.beyond(off, within).len());
-            best < first_off
-        };
-        if !fewer(tuned().resynthesis.nearly) && !fewer(tuned().resynthesis.almost) {
-            return Some((None, first_off));
+        let first = self.finished(&begun)?;
+        let best = self.searched(&first);
+        if !self.is_better(&best, &first) {
+            return Some((None, first.off));
         }
         Some(best.picked())
+    }
+
+    /// Searches for the reading that puts the hands where they were observed.
+    fn searched(&self, first: &Tried) -> Tried {
+        let [rounds, few] = tuned().resynthesis.rounds;
+        let mut search = Search::of(first.clone());
+        let others = self.other_forms(&first.trial).into_iter();
+        search.add(self.begin_all(others.map(Self::without_drift)));
+        self.home(&mut search, rounds);
+        if self.open(search.best.off).is_empty() {
+            return search.best;
+        }
+        self.widen(&mut search);
+        if self.open(search.best.off).is_empty() {
+            return search.best;
+        }
+        let turned: Vec<_> = (0..2).flat_map(|n| self.turned(&search, n)).collect();
+        let mut otherwise = search.only(self.begin_all(turned));
+        self.home(&mut otherwise, few);
+        // Orientations are measured well: only an exact match speaks against them.
+        if self.open(otherwise.best.off).is_empty() {
+            return otherwise.best;
+        }
+        // A wrong reading of the actions may displace the hand.
+        let still = Trial {
+            still: true,
+            ..search.best.trial.clone()
+        };
+        let mut still = search.only(self.begin_all([Self::without_drift(still)]));
+        self.home(&mut still, few);
+        still.best
+    }
+
+    /// Returns whether another reading should replace the first one: it must be likelier, and match, or miss the hands by
+    /// much less.
+    fn is_better(&self, other: &Tried, first: &Tried) -> bool {
+        let numbers = &tuned().resynthesis;
+        let matches = self.beyond(other.off, numbers.almost).is_empty();
+        other.total < first.total - numbers.rather
+            && (matches || other.error < numbers.less * first.error)
     }
 
     /// Returns the reading without any place, if re-synthesis of it puts the hands where they were
@@ -269,55 +269,24 @@ impl Proof<'_, '_> {
         if !self.open(begun.off).is_empty() {
             return None;
         }
-        let whole = self.performs.performs(&begun.trial.sign(self.inferred))?;
-        let whole = self.tried(begun.trial, &whole, tuned().resynthesis.exact)?;
+        let whole = self.finished(&begun)?;
         self.beyond(whole.off, tuned().resynthesis.exact)
             .is_empty()
             .then(|| whole.picked())
     }
 
     fn begun_as(&self, trial: Trial) -> Option<Tried> {
-        let clip = self.performs.begins(&trial.sign(self.inferred))?;
-        self.tried(trial, &clip, tuned().resynthesis.nearly)
+        self.begin_all([Self::without_drift(trial)]).pop()
     }
 
-    /// Tries other places for hands that miss their observed position, updates `best`, and returns the
-    /// trials of each hand.
-    fn moved(&self, best: &mut Tried, places: &[Range<usize>]) -> [Vec<Tried>; 2] {
-        let mut near: [Vec<Tried>; 2] = Default::default();
-        for (n, near) in near.iter_mut().enumerate() {
-            if !self.amiss(best).contains(&n) {
-                continue;
-            }
-            let all = self.places(&best.trial, n);
-            let some = places.iter();
-            let some = some.map(|some| all.get(some.start..some.end.min(all.len())));
-            for some in some.flatten() {
-                if self.amiss(best).contains(&n) {
-                    near.extend(self.try_all(some.to_vec(), best));
-                }
-            }
-        }
-        near
+    fn without_drift(trial: Trial) -> (Trial, [DVec3; 2]) {
+        (trial, [DVec3::ZERO; 2])
     }
 
     /// Returns the hands that miss their observed position: those whose error `off` is above
     /// `resynthesis.nearly`, both in metres.
     fn open(&self, off: [f64; 2]) -> Vec<usize> {
         self.beyond(off, tuned().resynthesis.nearly)
-    }
-
-    /// Returns the hands whose reading is responsible for a miss, of their own or of the hands that follow
-    /// them.
-    fn amiss(&self, tried: &Tried) -> Vec<usize> {
-        let open = self.open(tried.off);
-        match &tried.trial.stand {
-            Stand::Each(_) => open,
-            _ if open.is_empty() => open,
-            Stand::Unsaid => Vec::new(),
-            Stand::One(own, _) => vec![*own],
-            Stand::Together(..) => vec![0],
-        }
     }
 
     /// Returns the hands whose error is above `within` metres; a hand at rest, which has no notation, does
@@ -328,36 +297,6 @@ impl Proof<'_, '_> {
             _ => true,
         };
         (0..2).filter(counts).filter(|&n| off[n] > within).collect()
-    }
-
-    /// Returns trials with other places for hand `n`, or for both in a constellation, the likeliest first.
-    fn places(&self, from: &Trial, n: usize) -> Vec<Trial> {
-        let [.., last] = ranks();
-        let symmetric = self.begun.symmetric || from.mirrored;
-        match &from.stand {
-            Stand::One(own, _) if *own == n => {
-                let all = self.body.likeliest(n, symmetric, last.end);
-                let one = |placed| from.with(Stand::One(n, placed));
-                all.into_iter().map(one).collect()
-            }
-            Stand::Each(both) => {
-                let all = self.body.likeliest(n, symmetric, last.end);
-                let each = |placed| {
-                    let mut both = both.clone();
-                    both[n] = Some(placed);
-                    from.with(Stand::Each(both))
-                };
-                all.into_iter().map(each).collect()
-            }
-            Stand::Together(together, _) if n == 0 => {
-                let all = self
-                    .body
-                    .likeliest_shared(together, tuned().resynthesis.shared);
-                let both = |at| from.with(Stand::Together(together.clone(), at));
-                all.into_iter().map(both).collect()
-            }
-            Stand::One(..) | Stand::Together(..) | Stand::Unsaid => Vec::new(),
-        }
     }
 
     /// Returns trials with the other forms of notation for the places of two hands: as a constellation, or
@@ -380,12 +319,8 @@ impl Proof<'_, '_> {
             Stand::Together(..) => Some(Stand::Each([0, 1].map(likeliest))),
             _ => None,
         };
-        let pairs = self
-            .body
-            .likeliest_pairs()
-            .into_iter()
-            .take(tuned().resynthesis.pairs);
-        let together = pairs.filter_map(|together| {
+        let pairs = self.body.likeliest_pairs(tuned().resynthesis.pairs[0]);
+        let together = pairs.into_iter().filter_map(|together| {
             let at = self.body.likeliest_shared(&together, 1).pop()?;
             Some(Stand::Together(together, at))
         });
@@ -395,73 +330,75 @@ impl Proof<'_, '_> {
     }
 
     /// Returns trials with other orientations of hand `n`, at the places where it came nearest.
-    fn turned(&self, mut near: Vec<Tried>, n: usize) -> Vec<Trial> {
-        let Some(track) = self.sight.scene.hands[n]
-            .as_ref()
-            .filter(|track| track.faces)
-        else {
+    fn turned(&self, search: &Search, n: usize) -> Vec<(Trial, [DVec3; 2])> {
+        let track = self.sight.scene.hands[n].as_ref();
+        let Some(track) = track.filter(|track| track.faces) else {
             return Vec::new();
         };
-        near.sort_by(|a, b| {
-            let of = |tried: &Tried| {
-                tried.trial.cost() + 0.5 * tried.off[n] / tuned().resynthesis.nearly
-            };
-            of(a).total_cmp(&of(b))
-        });
-        near.truncate(tuned().resynthesis.turned_at);
+        if !self.open(search.best.off).contains(&n) {
+            return Vec::new();
+        }
         let turns = self
             .sight
             .turned(track, self.begun.frame, tuned().resynthesis.turns + 1);
-        let each = near.iter().flat_map(|tried| {
-            turns[1..].iter().map(|turned| {
+        let near = search.beam.iter().take(tuned().resynthesis.turned_at);
+        let each = near.flat_map(|tried| {
+            turns.iter().skip(1).map(|turned| {
                 let mut trial = tried.trial.clone();
                 trial.turned[n] = Some(turned.clone());
-                trial
+                (trial, tried.drift)
             })
         });
         each.collect()
     }
 
-    /// Synthesises the first posture of all trials and the whole sign of the nearest ones; updates `best`,
-    /// and returns the trials with their errors.
-    fn try_all(&self, trials: Vec<Trial>, best: &mut Tried) -> Vec<Tried> {
-        let likely = trials.into_iter().filter(|trial| trial.cost() < best.total);
-        let likely = likely.take_while(|_| {
+    /// Synthesises the first posture of trials, each with the offset (m) that the whole sign is expected to add to
+    /// its hands.
+    fn begin_all(&self, trials: impl IntoIterator<Item = (Trial, [DVec3; 2])>) -> Vec<Tried> {
+        let trials = trials.into_iter().take_while(|_| {
             let left = self.left.get();
             self.left.set(left.saturating_sub(1));
             left > 0
         });
-        let trials: Vec<Trial> = likely.collect();
-        let signs: Vec<Sign> = trials
-            .iter()
-            .map(|trial| trial.sign(self.inferred))
-            .collect();
-        let clips = self.performs.begin_all(&signs).into_iter();
+        let trials: Vec<_> = trials.collect();
+        let signs = trials.iter().map(|(trial, _)| trial.sign(self.inferred));
+        let clips = self.performs.begin_all(&signs.collect::<Vec<_>>());
         let begun = trials.into_iter().zip(clips);
         let begun =
-            begun.filter_map(|(trial, clip)| self.tried(trial, &clip?, tuned().resynthesis.nearly));
-        let mut all: Vec<Tried> = begun.collect();
-        all.sort_by(|a, b| a.total.total_cmp(&b.total));
-        for nearest in all.iter().take(tuned().resynthesis.finalists) {
-            if nearest.trial.cost() >= best.total {
-                continue;
-            }
-            let whole = self.performs.performs(&nearest.trial.sign(self.inferred));
-            let whole = whole.and_then(|clip| {
-                self.tried(nearest.trial.clone(), &clip, tuned().resynthesis.exact)
-            });
-            if let Some(whole) = whole.filter(|whole| whole.total < best.total) {
-                *best = whole;
-            }
-        }
-        all
+            begun.filter_map(|((trial, drift), clip)| self.tried(trial, &clip?, Some(drift)));
+        begun.collect()
     }
 
-    fn tried(&self, trial: Trial, clip: &Clip, exact: f64) -> Option<Tried> {
-        let off = self.off(clip)?;
+    /// Synthesises the whole sign of a trial.
+    fn finished(&self, begun: &Tried) -> Option<Tried> {
+        let whole = self.performs.performs(&begun.trial.sign(self.inferred))?;
+        let mut whole = self.tried(begun.trial.clone(), &whole, None)?;
+        for (n, drift) in whole.drift.iter_mut().enumerate() {
+            *drift = whole.aside[n] - (begun.aside[n] - begun.drift[n]);
+        }
+        Some(whole)
+    }
+
+    /// Compares the clip of a trial with the observed hands; `drift` is the offset that is expected of the whole sign
+    /// if the clip is of the first posture alone.
+    fn tried(&self, trial: Trial, clip: &Clip, drift: Option<[DVec3; 2]>) -> Option<Tried> {
+        let (mut off, mut aside) = self.apart(clip)?;
+        let exact = match drift {
+            Some(_) => tuned().resynthesis.nearly,
+            None => tuned().resynthesis.exact,
+        };
+        for (n, by) in drift.into_iter().flatten().enumerate() {
+            let turned = off[n] * off[n] - aside[n].length_squared();
+            aside[n] += by;
+            off[n] = (turned + aside[n].length_squared()).max(0.0).sqrt();
+        }
+        let numbers = &tuned().resynthesis;
         let otherwise = trial.otherwise();
         let of = |n: usize| {
-            (0.5 * (off[n] / exact).powi(2)).min(tuned().resynthesis.inexact + otherwise[n])
+            let matches = 0.5 * (off[n] / exact).powi(2);
+            let displaced = numbers.near + 0.5 * (off[n] / numbers.displaced).powi(2);
+            let misses = numbers.inexact + otherwise[n] + numbers.farther * 1e3 * off[n];
+            matches.min(displaced).min(misses)
         };
         let unlikely = match &trial.stand {
             Stand::One(n, _) if self.begun.alone => of(*n),
@@ -469,15 +406,29 @@ impl Proof<'_, '_> {
             Stand::Unsaid if self.begun.alone => of(self.sight.lead),
             Stand::One(..) | Stand::Together(..) | Stand::Unsaid => of(0).max(of(1)),
         };
+        let cost = trial.cost();
+        let counted = self.beyond(off, 0.0).into_iter();
+        let error: f64 = counted.map(|n| off[n]).sum();
         Some(Tried {
-            total: trial.cost() + unlikely,
+            total: cost + unlikely,
+            near: cost + numbers.per * 1e3 * error,
             trial,
             off,
+            error,
+            aside,
+            drift: drift.unwrap_or_default(),
+            whole: drift.is_none(),
         })
     }
 
     /// Returns the distance (m) between each hand in a clip's first frame and its observed position.
     fn off(&self, clip: &Clip) -> Option<[f64; 2]> {
+        Some(self.apart(clip)?.0)
+    }
+
+    /// Returns the distance between each hand in a clip's first frame and its observed position, and the middle of each
+    /// hand as observed, less that in the clip, all in metres.
+    fn apart(&self, clip: &Clip) -> Option<([f64; 2], [DVec3; 2])> {
         let scene = self.sight.scene;
         // If the observed clip begins within the sign, so does the synthesised one.
         let frame = if self.begun.first == 0 {
@@ -487,16 +438,18 @@ impl Proof<'_, '_> {
         };
         let model = clip.model_pose(0);
         let axes = Axes::of(scene.anatomy, scene.alone, &model, scene.dominant)?;
-        let off = scene.hands.each_ref().map(|track| {
+        let apart = scene.hands.each_ref().map(|track| {
             let track = track.as_ref()?;
             let hand = scene.anatomy.arm(track.side)?.hand;
             let along = scene.anatomy.hand_direction(track.side, &model)?;
             let ends = |wrist: DVec3, along: DVec3| [wrist, wrist + along * scene.hand];
             let own = ends(track.wrist[frame], track.along[frame]);
             let there = ends(axes.place(model.position(hand)), axes.direction(along));
-            let apart = own.iter().zip(there).map(|(a, b)| a.distance_squared(b));
-            Some((apart.sum::<f64>() / 2.0).sqrt())
+            let apart: Vec<DVec3> = own.iter().zip(there).map(|(a, b)| a - b).collect();
+            let squares: f64 = apart.iter().map(|it| it.length_squared()).sum();
+            Some(((squares / 2.0).sqrt(), (apart[0] + apart[1]) / 2.0))
         });
-        Some(off.map(|off| off.unwrap_or(0.0)))
+        let apart = apart.map(Option::unwrap_or_default);
+        Some((apart.map(|it| it.0), apart.map(|it| it.1)))
     }
 }

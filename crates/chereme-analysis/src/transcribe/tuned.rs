@@ -98,6 +98,7 @@ tuned_numbers! {
     /// Numbers for constellations of the two hands.
     together: TogetherNumbers {
         together: f64,
+        reach: f64,
         pairs: usize,
         rather: [f64; 2],
         parts: f64,
@@ -190,15 +191,24 @@ tuned_numbers! {
     /// Numbers for the check by re-synthesis.
     resynthesis: ResynthesisNumbers {
         shared: usize,
-        pairs: usize,
+        pairs: [usize; 2],
+        rounds: [usize; 2],
+        beam: [usize; 2],
+        neighbours: usize,
+        widely: usize,
         turns: usize,
         turned_at: usize,
         finalists: usize,
         exact: f64,
         nearly: f64,
         almost: f64,
+        displaced: f64,
+        near: f64,
+        rather: f64,
+        less: f64,
         inexact: f64,
-        places: [usize; 3],
+        farther: f64,
+        per: f64,
     }
 }
 

@@ -19,6 +19,7 @@ pub(super) struct Spotted {
 }
 
 /// A hand in one posture, in the signer's level axes (left, up, forward; metres).
+#[derive(Clone)]
 pub(super) struct Hand {
     pub(super) palm: DVec3,
     /// Unit vectors: along the hand, out of its palm, towards its thumb.

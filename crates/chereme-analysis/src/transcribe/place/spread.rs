@@ -6,6 +6,7 @@ use super::super::scene::Scene;
 use crate::transcribe::tuned::tuned;
 
 /// Distributions of a hand's offset from its intended place, as mixtures of normal distributions.
+#[derive(Clone)]
 pub(super) struct Spread {
     /// Standard deviation about the place, in metres.
     about: f64,

@@ -27,10 +27,10 @@ pub(in crate::transcribe) struct Together {
     /// The positions of the parts.
     pub(in crate::transcribe) at: [DVec3; 2],
     pub(in crate::transcribe) contact: Contact,
-    /// Distance (m) between the hands' positions and those that the contact implies.
-    off: f64,
+    /// The offset from the second part to the first one, less the offset that the contact implies, in metres.
+    pub(in crate::transcribe) aside: DVec3,
     /// The penalty (nepers) of that distance.
-    unlikely: f64,
+    pub(in crate::transcribe) unlikely: f64,
     /// Whether the parts differ from the implied ones, so that the notation must name them.
     stated: bool,
     /// Whether the notation names them.
@@ -54,15 +54,18 @@ impl Body<'_> {
     pub(in crate::transcribe) fn together(&self) -> Option<Together> {
         // Annotators name whole faces of the hand rather than points within them.
         let near = |it: &Together| it.distance + tuned().part.rank * self.scene.slack * ranks(it);
-        self.pairs(1, near).into_iter().next()
+        self.pairs(1, tuned().together.together, near)
+            .into_iter()
+            .next()
     }
 
-    /// Returns at most `most` pairs of near parts of the two hands, those with the lowest `penalty` first.
-    fn pairs(&self, most: usize, penalty: impl Fn(&Together) -> f64) -> Vec<Together> {
+    /// Returns at most `most` pairs of parts of the two hands within `reach` arm lengths, those with the lowest `penalty`
+    /// first.
+    fn pairs(&self, most: usize, reach: f64, penalty: impl Fn(&Together) -> f64) -> Vec<Together> {
         let [Some(dominant), Some(other)] = &self.hands else {
             return Vec::new();
         };
-        let reach = tuned().together.together * self.scene.arm;
+        let reach = reach * self.scene.arm;
         let mut all: Vec<(f64, Together)> = Vec::new();
         for own in &dominant.points {
             for other in &other.points {
@@ -81,7 +84,11 @@ impl Body<'_> {
     /// relative to the likeliest; those with a penalty of `most` or more are left out.
     pub(super) fn other_pairs(&self, n: usize, most: f64) -> Vec<(HandPoint, f64)> {
         let unlikely = |it: &Together| it.unlikely + tuned().together.step * ranks(it);
-        let all = self.pairs(4 * tuned().together.pairs, unlikely);
+        let all = self.pairs(
+            4 * tuned().together.pairs,
+            tuned().together.together,
+            unlikely,
+        );
         let best = all.first().map_or(0.0, unlikely);
         let others = all.iter().map(|it| (it.parts[n], unlikely(it) - best));
         others.filter(|(_, less)| *less < most).collect()
@@ -98,9 +105,9 @@ impl Body<'_> {
         let offsets = [DVec3::NEG_X, facing].map(|direction| apart - direction * near);
         let [aside, out] = offsets.map(|off| self.spread.together(off));
         let (close, off) = if aside < out {
-            (aside, offsets[0].length())
+            (aside, offsets[0])
         } else {
-            (out, offsets[1].length())
+            (out, offsets[1])
         };
         let touch = self.spread.together(apart);
         let touching = distance < tuned().place.touch[2] * arm && touch < close;
@@ -113,7 +120,7 @@ impl Body<'_> {
             } else {
                 Contact::Close
             },
-            off: if touching { distance } else { off },
+            aside: if touching { apart } else { off },
             unlikely: if touching { touch } else { close },
             stated: true,
             named: true,
@@ -121,8 +128,8 @@ impl Body<'_> {
     }
 
     /// Returns the pairs of parts that notation implies if it names no parts: the facing parts of mirrored
-    /// hands, and those of one hand upon the other.
-    fn meant_pairs(&self) -> Vec<Together> {
+    /// hands, and those of one hand upon the other, if they are within `reach` arm lengths.
+    fn meant_pairs(&self, reach: f64) -> Vec<Together> {
         let [Some(dominant), Some(other)] = &self.hands else {
             return Vec::new();
         };
@@ -133,7 +140,7 @@ impl Body<'_> {
         let below = other.meant(-direction, Region::Trunk);
         let region = Region::Arm(self.scene.dominant.other());
         let upon = [dominant.meant(below.out, region), below];
-        let reach = tuned().together.together * self.scene.arm;
+        let reach = reach * self.scene.arm;
         [mirrored, upon]
             .iter()
             .map(|[own, other]| Together {
@@ -147,8 +154,9 @@ impl Body<'_> {
     /// Returns the likeliest constellation of the two hands with the place they share; `None` if separate
     /// places, whose penalty is `apart` (nepers), are likelier by more than `together.rather`.
     pub(in crate::transcribe) fn constellation(&self, apart: f64) -> Option<(Together, Placed)> {
-        let mut all = self.meant_pairs();
-        all.extend(self.pairs(tuned().together.pairs, |it| {
+        let reach = tuned().together.together;
+        let mut all = self.meant_pairs(reach);
+        all.extend(self.pairs(tuned().together.pairs, reach, |it| {
             it.unlikely + tuned().together.step * ranks(it)
         }));
         let nearest = self.together();
@@ -162,7 +170,7 @@ impl Body<'_> {
                     Contact::Close if touch => tuned().together.touches,
                     _ => 0.0,
                 };
-                placed.residual = placed.residual.max(together.off);
+                placed.residual = placed.residual.max(together.aside.length());
                 Some((
                     placed.score + together.unlikely + together.cost() + merely_close,
                     together,
@@ -174,18 +182,19 @@ impl Body<'_> {
         (score < rather + apart).then_some((together, placed))
     }
 
-    /// Returns the candidate constellations, the likeliest first; the implied ones also as constellations
-    /// that the notation does not name.
-    pub(in crate::transcribe) fn likeliest_pairs(&self) -> Vec<Together> {
-        let mut all = self.meant_pairs();
+    /// Returns at most `most` candidate constellations of hands that the animator may have moved apart, the likeliest first;
+    /// and always those that notation implies, also as constellations that the notation does not name.
+    pub(in crate::transcribe) fn likeliest_pairs(&self, most: usize) -> Vec<Together> {
+        let reach = tuned().together.reach;
+        let penalty = |it: &Together| it.unlikely + tuned().together.step * ranks(it);
         let unnamed = |it: &Together| Together {
             named: false,
             ..it.clone()
         };
-        all.extend(all.iter().map(unnamed).collect::<Vec<_>>());
-        all.extend(self.pairs(tuned().together.pairs, |it| {
-            it.unlikely + tuned().together.step * ranks(it)
-        }));
+        let meant = self.meant_pairs(reach);
+        let mut all = self.pairs(most, reach, penalty);
+        all.extend(meant.iter().map(unnamed));
+        all.extend(meant);
         all.sort_by(|a, b| (a.cost() + a.unlikely).total_cmp(&(b.cost() + b.unlikely)));
         all
     }
@@ -226,6 +235,7 @@ impl Body<'_> {
             runner_up: Some((placed.place, placed.residual)),
             place: BodyPlace::default(),
             residual: off.length(),
+            aside: off,
             score,
             ..placed
         })

@@ -215,7 +215,11 @@ fn candidates(line: &mut impl FnMut(String), sight: &Sight<'_>, frame: usize, sy
     if let Some(it) = body.together() {
         line(format!("  together {}", together(&it)));
     }
-    for it in body.likeliest_pairs().into_iter().take(3) {
+    for it in body
+        .likeliest_pairs(tuned().resynthesis.pairs[1])
+        .into_iter()
+        .take(3)
+    {
         line(format!("  pair {}", together(&it)));
     }
     if let Some((it, at)) = body.constellation(0.0) {
