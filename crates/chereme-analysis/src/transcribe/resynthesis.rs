@@ -7,6 +7,8 @@
 //! position, and few others do. If the movement is misread, even the right place misses it by some millimetres.
 
 mod homing;
+#[cfg(test)]
+mod tests;
 
 use std::cell::Cell;
 

@@ -1,0 +1,194 @@
+//! Re-synthesis by an animator that displaces every hand from its place by a known offset.
+
+use chereme_sign::hamnosys::sites::{Face, HandPoint};
+use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Constellation, Contact, Digit};
+use chereme_sign::hamnosys::{HandClass, Place, Side, Site};
+
+use super::*;
+use crate::transcribe::place::{Together, named};
+use crate::transcribe::scene::Scene;
+use crate::transcribe::tests::{Held, before_chest, clip};
+use crate::transcribe::{Options, transcribe, transcribe_proven};
+
+type Hands = [Option<Held>; 2];
+
+/// Hands, with the places and constellations in their reach.
+struct Near {
+    hands: Hands,
+    /// The offset (m) from each hand to each place.
+    offsets: [Vec<(BodyPlace, DVec3)>; 2],
+    pairs: Vec<Together>,
+    /// The goal (m) that each place gives to the middle of two parts.
+    goals: Vec<(BodyPlace, DVec3)>,
+}
+
+impl Near {
+    fn of(hands: Hands) -> Self {
+        let both = hands[1].is_some();
+        let (offsets, pairs, goals) = seen(&hands, |body| {
+            let offsets = [0, 1].map(|n| {
+                let all = body.likeliest(n, both, usize::MAX).into_iter();
+                all.map(|placed| (placed.place, -placed.aside)).collect()
+            });
+            let pairs = body.likeliest_pairs(usize::MAX);
+            let goals = pairs.first().map_or_else(Vec::new, |first| {
+                let all = body.likeliest_shared(first, usize::MAX).into_iter();
+                all.map(|placed| (placed.place, middle(first) - placed.aside))
+                    .collect()
+            });
+            (offsets, pairs, goals)
+        });
+        Self {
+            hands,
+            offsets,
+            pairs,
+            goals,
+        }
+    }
+
+    /// Returns the hands exactly at a place; `None` if it is out of reach.
+    fn at(&self, place: &Place) -> Option<Hands> {
+        let offset = match place {
+            Place::Body(own) => {
+                let both = self.offsets.each_ref().map(|offsets| find(offsets, own));
+                [both[0]?, both[1].unwrap_or_default()]
+            }
+            Place::Hands(constellation) => self.together(constellation)?,
+            _ => return None,
+        };
+        Some(moved(&self.hands, offset))
+    }
+
+    fn together(&self, wanted: &Constellation) -> Option<[DVec3; 2]> {
+        let mut pairs = self.pairs.iter();
+        let together = pairs.find(|together| {
+            let parts = together
+                .parts
+                .map(|part| together.named.then(|| named(part)));
+            parts == [wanted.dominant.clone(), wanted.other.clone()]
+                && wanted.contact == Some(together.contact)
+        })?;
+        let goal = find(&self.goals, wanted.at.as_ref()?)?;
+        let offset = goal - middle(together);
+        let apart = together.aside / 2.0;
+        Some([offset - apart, offset + apart])
+    }
+}
+
+fn find(all: &[(BodyPlace, DVec3)], place: &BodyPlace) -> Option<DVec3> {
+    let mut all = all.iter();
+    all.find(|(it, _)| it == place).map(|it| it.1)
+}
+
+fn middle(together: &Together) -> DVec3 {
+    together.at[0].midpoint(together.at[1])
+}
+
+fn moved(hands: &Hands, by: [DVec3; 2]) -> Hands {
+    [0, 1].map(|n| hands[n].as_ref().map(|held| held.moved(by[n])))
+}
+
+/// Calls `look` with the body that holds its hands like this.
+fn seen<T>(hands: &Hands, look: impl FnOnce(&Body<'_>) -> T) -> T {
+    let (clip, anatomy) = clip(0.0, |_| hands.clone());
+    let options = Options::made();
+    let scene = Scene::of(&clip, &anatomy, &options).expect("a scene");
+    look(&Sight::new(&scene, &options).look(0).expect("a body"))
+}
+
+/// An animator that puts each hand `by` metres beside its place.
+struct Displaces {
+    near: [Near; 2],
+    by: [DVec3; 2],
+}
+
+impl Performs for Displaces {
+    fn begins(&self, sign: &Sign) -> Option<Clip> {
+        let place = sign.parts[0].posture.place.as_ref()?;
+        let ideal = self.near.iter().find_map(|near| near.at(place))?;
+        let hands = moved(&ideal, self.by);
+        Some(clip(0.0, |_| hands.clone()).0)
+    }
+
+    fn performs(&self, sign: &Sign) -> Option<Clip> {
+        self.begins(sign)
+    }
+}
+
+/// Transcribes hands that an animator put `by` metres beside their `place`, which is within reach of the hands `from`.
+/// Returns the place as it is read without re-synthesis, and with it.
+fn read(from: Hands, place: &Place, by: [DVec3; 2]) -> [Option<Place>; 2] {
+    let ideal = Near::of(from).at(place).expect("a place within reach");
+    let there = moved(&ideal, by);
+    let (clip, anatomy) = clip(0.0, |_| there.clone());
+    let displaces = Displaces {
+        near: [there, ideal].map(Near::of),
+        by,
+    };
+    let options = Options::made();
+    let alone = transcribe(&clip, &anatomy, &options).expect("a sign");
+    let proven = transcribe_proven(&clip, &anatomy, &options, &displaces).expect("a sign");
+    [alone, proven].map(|found| found.sign.parts[0].posture.place.clone())
+}
+
+fn site(at: BodyLocation, side: Option<Side>) -> Option<Site<BodyLocation>> {
+    let approx = false;
+    Some(Site { at, side, approx })
+}
+
+#[test]
+fn a_hand_that_is_displaced_by_centimetres_is_read_at_its_place() {
+    use BodyLocation::{Chest, Forehead, Shoulders, Stomach};
+    let right = Some(Side::RightAt);
+    let cases = [
+        (site(Chest, right), None, [0.0, 0.16, 0.0]),
+        (site(Shoulders, right), None, [0.09, -0.14, 0.08]),
+        (site(Stomach, None), None, [-0.14, 0.12, 0.0]),
+        (
+            site(Forehead, right),
+            Some(Contact::Close),
+            [-0.10, -0.12, 0.04],
+        ),
+    ];
+    for (site, contact, by) in cases {
+        let place = Place::Body(BodyPlace {
+            site,
+            contact,
+            ..BodyPlace::default()
+        });
+        let from = [Some(before_chest(HandClass::Flat)), None];
+        let [alone, proven] = read(from, &place, [by.into(), DVec3::ZERO]);
+        assert_ne!(alone.as_ref(), Some(&place), "it needs no re-synthesis");
+        assert_eq!(proven.as_ref(), Some(&place), "displaced by {by:?}");
+    }
+}
+
+#[test]
+fn hands_that_are_moved_apart_are_read_by_the_parts_that_were_to_meet() {
+    let own = Held::new([-0.03, -0.10, 0.30], "uo", "l", HandClass::Flat);
+    let other = Held::new([0.03, -0.12, 0.30], "ur", "d", HandClass::Finger2);
+    let from = [Some(own), Some(other)];
+    let flesh = [[-0.03, 0.02, 0.03], [0.01, -0.02, 0.02]].map(DVec3::from);
+    let base = HandPoint::Base(Digit::Index, Face::Palmar);
+    let cases = [
+        ([HandPoint::Palm, base], Contact::Touch),
+        ([HandPoint::Palm, HandPoint::Back], Contact::Close),
+        ([HandPoint::Ulnar, HandPoint::Palm], Contact::Close),
+    ];
+    for (parts, contact) in cases {
+        let [dominant, other] = parts.map(|part| Some(named(part)));
+        let place = Place::Hands(Constellation {
+            dominant,
+            other,
+            contact: Some(contact),
+            at: Some(BodyPlace {
+                site: site(BodyLocation::Chest, None),
+                ..BodyPlace::default()
+            }),
+            ..Constellation::default()
+        });
+        let [alone, proven] = read(from.clone(), &place, flesh);
+        assert_ne!(alone.as_ref(), Some(&place), "it needs no re-synthesis");
+        assert_eq!(proven.as_ref(), Some(&place), "{parts:?}");
+    }
+}
