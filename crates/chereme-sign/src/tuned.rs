@@ -58,6 +58,7 @@ macro_rules! tuned_numbers {
         const DOCUMENT: &str = include_str!($path);
 
         /// Returns the tuned numbers.
+        #[inline]
         pub(crate) fn tuned() -> &'static Tuned {
             static TUNED: ::std::sync::LazyLock<Tuned> = ::std::sync::LazyLock::new(|| {
                 $crate::tuned::read(DOCUMENT).expect("the program's own file has every number")
