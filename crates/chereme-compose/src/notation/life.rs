@@ -43,15 +43,17 @@ impl Alive {
         // A left-handed signer sways like the mirror image of a right-handed one.
         let side = -plan.sides[0].sign();
         let mirror = DVec3::new(1.0, side, side);
+        let waves = [1.0, 4.0]
+            .map(|first| [0.0, 1.0, 2.0].map(|n| Wave::of(language.life_seed + (first + n))));
         for (frame, bent) in bents.iter_mut().enumerate() {
             let time = frame as f64 / rate;
             let busy = busy[frame];
             let moves =
                 smooth(time / tuned().life.starts) * smooth((end - time) / tuned().life.starts);
-            let wave = |n: f64| wave(time / period, language.life_seed + n);
-            let waves = |n: f64| DVec3::new(wave(n), wave(n + 1.0), wave(n + 2.0)) * mirror;
-            let trunk = waves(1.0) * DVec3::from(tuned().life.sway) * (sway * moves);
-            let head = waves(4.0) * (tuned().life.nod * sway * moves);
+            let [trunk, head] =
+                waves.map(|waves| DVec3::from(waves.map(|wave| wave.at(time / period))) * mirror);
+            let trunk = trunk * DVec3::from(tuned().life.sway) * (sway * moves);
+            let head = head * (tuned().life.nod * sway * moves);
             bent.trunk += trunk * (1.0 - busy.trunk);
             let turned =
                 (after[frame] * language.life_head).clamp_length_max(tuned().life.after) * moves;
@@ -178,11 +180,28 @@ fn averaged(own: &[DVec3], near: usize) -> Vec<DVec3> {
     each.collect()
 }
 
-/// Returns a wave without a visible period, from -1 to 1; `turns` is the time in periods.
-fn wave(turns: f64, seed: f64) -> f64 {
-    let phase = |n: f64| (seed * 12.9898 + n * 78.233).sin() * 43_758.545_3;
-    let one = |speed: f64, n: f64| (TAU * (turns * speed + phase(n).fract())).sin();
-    0.6 * one(1.0, 1.0) + 0.3 * one(1.73, 2.0) + 0.1 * one(3.1, 3.0)
+/// A wave without a visible period.
+#[derive(Clone, Copy)]
+struct Wave {
+    /// The phases of its parts, in periods.
+    phases: [f64; 3],
+}
+
+impl Wave {
+    /// Returns the wave for a seed.
+    fn of(seed: f64) -> Self {
+        let phase = |n: f64| (seed * 12.9898 + n * 78.233).sin() * 43_758.545_3;
+        Self {
+            phases: [1.0, 2.0, 3.0].map(|n| phase(n).fract()),
+        }
+    }
+
+    /// Returns its value, from -1 to 1; `turns` is the time in periods.
+    fn at(&self, turns: f64) -> f64 {
+        let one = |speed: f64, phase: f64| (TAU * (turns * speed + phase)).sin();
+        let [slow, middle, fast] = self.phases;
+        0.6 * one(1.0, slow) + 0.3 * one(1.73, middle) + 0.1 * one(3.1, fast)
+    }
 }
 
 /// Returns the closure of the lids in each frame, from 0 to 1: they blink at the beginning and the end of each sign,
