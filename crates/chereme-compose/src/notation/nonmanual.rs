@@ -139,6 +139,7 @@ pub(crate) fn turn(
     let total = channels
         .first()
         .map_or(0, |channel| channel.rotations.len());
+    let joints = TurnedJoints::of(body);
     for frame in 0..total {
         let (n, share) = frames
             .get(frame)
@@ -148,9 +149,35 @@ pub(crate) fn turn(
         let at = |n: usize| bents.get(n).or(bents.last()).copied().unwrap_or_default();
         let bent = at(n).mix(&at(n + 1), share);
         if bent != Bent::default() {
-            bend(body, &bent, frame, channels);
+            joints.bend(body, &bent, frame, channels);
         }
     }
+}
+
+/// A joint with the rotation of its parent on the standing body, in model space.
+#[derive(Clone, Copy)]
+struct TurnedJoint {
+    joint: usize,
+    above: DQuat,
+}
+
+impl TurnedJoint {
+    fn of(body: &Stage, part: Part) -> Option<Self> {
+        let joint = body.anatomy.joint(part)?;
+        let above = body.skeleton.parent(joint);
+        let above = above.map_or(DQuat::IDENTITY, |above| body.model.rotation(above));
+        Some(Self { joint, above })
+    }
+}
+
+/// The joints of trunk, head and shoulders.
+struct TurnedJoints {
+    /// The lower and the upper joint of the trunk.
+    trunk: [Option<TurnedJoint>; 2],
+    neck: Option<TurnedJoint>,
+    head: Option<TurnedJoint>,
+    /// The collar bone and the upper arm of each side.
+    shoulders: [[Option<TurnedJoint>; 2]; 2],
 }
 
 impl Bent {
@@ -348,36 +375,49 @@ fn move_shoulders(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, share
     }
 }
 
-/// Rotates the joints of one frame.
-fn bend(body: &Stage, bent: &Bent, frame: usize, channels: &mut [Channel]) {
-    let joint = |part| body.anatomy.joint(part);
-    let axes = |v: DVec3| body.left * v.x + DVec3::Y * v.y + body.forward * v.z;
-    let mut turn = |joint: Option<usize>, by: DQuat| {
-        let Some(joint) = joint else { return };
-        let above = body.skeleton.parent(joint);
-        let above = above.map_or(DQuat::IDENTITY, |above| body.model.rotation(above));
-        let own = &mut channels[joint].rotations[frame];
-        *own = (above.inverse() * by * above * *own).normalize();
-    };
-    let trunk = axes(bent.trunk);
-    let lower = joint(Part::Spine);
-    let upper = joint(Part::Chest).filter(|upper| lower.is_some_and(|lower| lower != *upper));
-    let each = if upper.is_some() { 0.5 } else { 1.0 };
-    for part in [lower.or(joint(Part::Chest)), upper] {
-        turn(part, DQuat::from_scaled_axis(trunk * each));
-    }
-    turn(joint(Part::Neck), DQuat::from_scaled_axis(axes(bent.neck)));
-    turn(joint(Part::Head), DQuat::from_scaled_axis(axes(bent.head)));
-    for (n, side) in Side::BOTH.into_iter().enumerate() {
-        // The upper arm keeps its direction: the whole arm moves with the shoulder.
-        let up = body.forward * (bent.raised[n] * side.sign());
-        let ahead = DVec3::Y * (-bent.hunched[n] * side.sign());
-        let by = DQuat::from_scaled_axis(up + ahead);
-        if by == DQuat::IDENTITY || joint(Part::Clavicle(side)).is_none() {
-            continue;
+impl TurnedJoints {
+    fn of(body: &Stage) -> Self {
+        let joint = |part| TurnedJoint::of(body, part);
+        let (lower, chest) = (joint(Part::Spine), joint(Part::Chest));
+        let apart = |upper: &TurnedJoint| lower.is_some_and(|lower| lower.joint != upper.joint);
+        Self {
+            trunk: [lower.or(chest), chest.filter(apart)],
+            neck: joint(Part::Neck),
+            head: joint(Part::Head),
+            shoulders: Side::BOTH
+                .map(|side| [Part::Clavicle(side), Part::UpperArm(side)].map(joint)),
         }
-        turn(joint(Part::Clavicle(side)), by);
-        turn(joint(Part::UpperArm(side)), by.inverse());
+    }
+
+    /// Rotates the joints of one frame.
+    fn bend(&self, body: &Stage, bent: &Bent, frame: usize, channels: &mut [Channel]) {
+        let axes = |v: DVec3| body.left * v.x + DVec3::Y * v.y + body.forward * v.z;
+        let mut turn = |joint: Option<TurnedJoint>, by: DQuat| {
+            let Some(TurnedJoint { joint, above }) = joint else {
+                return;
+            };
+            let own = &mut channels[joint].rotations[frame];
+            *own = (above.inverse() * by * above * *own).normalize();
+        };
+        let each = if self.trunk[1].is_some() { 0.5 } else { 1.0 };
+        let trunk = DQuat::from_scaled_axis(axes(bent.trunk) * each);
+        for joint in self.trunk {
+            turn(joint, trunk);
+        }
+        turn(self.neck, DQuat::from_scaled_axis(axes(bent.neck)));
+        turn(self.head, DQuat::from_scaled_axis(axes(bent.head)));
+        for (n, side) in Side::BOTH.into_iter().enumerate() {
+            // The upper arm keeps its direction: the whole arm moves with the shoulder.
+            let up = body.forward * (bent.raised[n] * side.sign());
+            let ahead = DVec3::Y * (-bent.hunched[n] * side.sign());
+            let by = DQuat::from_scaled_axis(up + ahead);
+            let [clavicle, upper_arm] = self.shoulders[n];
+            if by == DQuat::IDENTITY || clavicle.is_none() {
+                continue;
+            }
+            turn(clavicle, by);
+            turn(upper_arm, by.inverse());
+        }
     }
 }
 
