@@ -33,7 +33,22 @@ const MIDDLE_KNUCKLE: usize = 8;
 #[derive(Debug, Clone, Copy)]
 struct Tube {
     ends: [DVec3; 2],
+    /// The point half-way between its ends.
+    middle: DVec3,
+    /// Half the distance of its ends, in metres.
+    half: f64,
     radius: f64,
+}
+
+impl Tube {
+    fn of(ends: [DVec3; 2], radius: f64) -> Self {
+        Self {
+            ends,
+            middle: (ends[0] + ends[1]) * 0.5,
+            half: ends[0].distance(ends[1]) * 0.5,
+            radius,
+        }
+    }
 }
 
 /// Moves the goals of two hands apart, each by half, wherever they would penetrate each other. While both hands touch
@@ -162,15 +177,13 @@ fn overlap(length: f64, [a, b]: [&Placed<'_>; 2]) -> Option<(f64, DVec3)> {
     if palms.length() > tuned().bulk.far * length || !near {
         return None;
     }
-    let [a, b] = [a, b].map(|hand| tubes(hand, length));
+    let (a, b) = (tubes(a, length), tubes(b, length));
     let (mut sum, mut deepest) = (DVec3::ZERO, 0.0_f64);
     for one in &a {
-        let middle = (one.ends[0] + one.ends[1]) * 0.5;
-        let half = one.ends[0].distance(one.ends[1]) * 0.5 + one.radius;
+        let half = one.half + one.radius;
         for other in &b {
-            let centre = (other.ends[0] + other.ends[1]) * 0.5;
-            let reach = half + other.ends[0].distance(other.ends[1]) * 0.5 + other.radius;
-            if middle.distance_squared(centre) > reach * reach {
+            let reach = half + other.half + other.radius;
+            if one.middle.distance_squared(other.middle) > reach * reach {
                 continue;
             }
             let gap = between(one.ends, other.ends);
@@ -256,10 +269,7 @@ fn tubes(hand: &Placed<'_>, length: f64) -> [Tube; 18] {
     let (wrist, at) = (hand.wrist, |n: usize| hand.at(n));
     let [finger, root, palm] = FLESH.map(|radius| radius * length);
     let knuckle = |digit: usize| at(2 + 3 * digit);
-    let tube = |a: DVec3, b: DVec3, radius: f64| Tube {
-        ends: [a, b],
-        radius,
-    };
+    let tube = |a: DVec3, b: DVec3, radius: f64| Tube::of([a, b], radius);
     let mut all = [tube(wrist, wrist, 0.0); 18];
     for (n, digit) in [2, 1, 4].into_iter().enumerate() {
         all[n] = tube(wrist.lerp(knuckle(digit), 0.3), knuckle(digit), palm);
