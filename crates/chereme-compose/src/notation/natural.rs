@@ -413,7 +413,8 @@ fn what_is_clear_of_the_trunk_is_not_pushed_out_of_it() {
         let part = |by: usize| ((n * by) % 997) as f64 / 996.0 - 0.5;
         let at = middle + DVec3::new(part(31) * 1.2, part(57) * 1.6 - 0.3, part(83));
         let around = 0.15 * (part(7) + 0.5);
-        if !body.torso.is_clear(at, around + 0.008) {
+        let seen = body.torso.seen_from(at, DQuat::from_rotation_y(part(19)));
+        if !seen.is_some_and(|seen| seen.is_clear(DVec3::ZERO, around + 0.008)) {
             continue;
         }
         clear += 1;

@@ -264,13 +264,15 @@ impl<'a> Arm<'a> {
             let amiss = posed.wrist - wrist;
             let mut about = rotation;
             let mut turn = |at: DVec3, by: DVec3, share: f64| {
+                if share <= 0.0 || by.length() <= 1e-4 {
+                    return false;
+                }
                 let lever = at - want.point;
                 let far = lever.length();
                 let across = by - lever * (by.dot(lever) / (far * far).max(1e-9));
-                let given = turned.angle_between(want.turned) < most;
                 // Turning does not help points behind the reference point.
                 let helps = across.length() > 0.5 * by.length() && far > 0.2 * self.hand.length();
-                if !given || share <= 0.0 || by.length() <= 1e-4 || !helps {
+                if !helps || turned.angle_between(want.turned) >= most {
                     return false;
                 }
                 let axis = lever.cross(across).normalize_or(self.stage.forward);
@@ -338,25 +340,32 @@ impl<'a> Arm<'a> {
         turned: DQuat,
         outlines: [&HandOutline; 2],
     ) -> (DVec3, DVec3) {
-        let torso = &self.stage.torso;
+        let (torso, margin) = (&self.stage.torso, tuned().solve.margin);
+        let mut most = (torso.offset_out(wrist, margin), wrist);
         let [a, b] = outlines;
         let count = if std::ptr::eq(a, b) { 1 } else { 2 };
-        let outlines = [a, b].into_iter().take(count);
-        let near = |outline: &&HandOutline| {
-            let middle = wrist + turned * outline.middle;
-            !torso.is_clear(middle, outline.radius + tuned().solve.margin)
+        if [a, b].iter().all(|outline| outline.points.is_empty()) {
+            return most;
+        }
+        let Some(seen) = torso.seen_from(wrist, turned) else {
+            return most;
         };
-        let points = outlines.filter(near).flat_map(|outline| &outline.points);
-        let own = (torso.offset_out(wrist, tuned().solve.margin), wrist);
-        points.fold(own, |most, &point| {
-            let at = wrist + turned * point;
-            let out = torso.offset_out(at, tuned().solve.margin);
-            if out.length_squared() > most.0.length_squared() {
-                (out, at)
-            } else {
-                most
+        for outline in [a, b].into_iter().take(count) {
+            if seen.is_clear(outline.middle, outline.radius + margin) {
+                continue;
             }
-        })
+            for &point in &outline.points {
+                if seen.is_clear(point, margin) {
+                    continue;
+                }
+                let at = wrist + turned * point;
+                let out = torso.offset_out(at, margin);
+                if out.length_squared() > most.0.length_squared() {
+                    most = (out, at);
+                }
+            }
+        }
+        most
     }
 
     /// Spreads sudden pushes over the time before and after, except in contact.

@@ -481,19 +481,23 @@ impl Torso {
         (along(body.left)? + along(body.up)? + along(body.forward)?).try_normalize()
     }
 
-    /// Returns whether everything within a distance of a position is surely outside the trunk: outside the box around
-    /// it.
-    pub(crate) fn is_clear(&self, at: DVec3, around: f64) -> bool {
-        let Some(body) = &self.body else {
-            return true;
-        };
-        let v = at - body.origin;
-        let outside = |at: f64, from: f64, to: f64| at < from - around || at > to + around;
+    /// Returns the box around the trunk in the space of a hand with this wrist and rotation; `None` without a trunk.
+    pub(crate) fn seen_from(&self, wrist: DVec3, turned: DQuat) -> Option<TrunkBox> {
+        let body = self.body.as_ref()?;
+        let (back, v) = (turned.inverse(), wrist - body.origin);
         let [top, bottom] = [OUTLINE[0].0, OUTLINE[OUTLINE.len() - 1].0].map(|y| y * self.trunk);
-        let [front, back, wide] = [FRONT, -BACK, WIDE].map(|share| share * body.scale);
-        outside(v.dot(body.forward), back, front)
-            || outside(v.dot(body.left), -wide, wide)
-            || outside(v.dot(body.up), bottom, top)
+        let [front, behind, wide] = [FRONT, -BACK, WIDE].map(|share| share * body.scale);
+        let sides = [
+            (body.forward, behind, front),
+            (body.left, -wide, wide),
+            (body.up, bottom, top),
+        ];
+        Some(TrunkBox {
+            sides: sides.map(|(axis, from, to)| {
+                let own = v.dot(axis);
+                (back * axis, from - own, to - own)
+            }),
+        })
     }
 
     /// Returns the offset by which an elbow nearer than `margin` metres to the trunk leaves it; sideways
@@ -568,6 +572,25 @@ impl Torso {
         let (dx, dz) = (dx * t.max(0.0), dz * t.max(0.0));
         let (more_x, more_z) = corner(x + dx, z + dz, wide, back).unwrap_or_default();
         (body.left * (dx + more_x) + body.forward * (dz + more_z)) * body.scale
+    }
+}
+
+/// The box around the trunk in the space of a hand.
+pub(crate) struct TrunkBox {
+    /// Its three axes, and the least and the greatest coordinate of the box on each, in metres.
+    sides: [(DVec3, f64, f64); 3],
+}
+
+impl TrunkBox {
+    /// Returns whether everything within a distance of a point is surely outside the trunk.
+    #[inline]
+    pub(crate) fn is_clear(&self, at: DVec3, around: f64) -> bool {
+        // Larger than any rounding error of the coordinates.
+        let around = around + 1e-9;
+        self.sides.iter().any(|&(axis, from, to)| {
+            let at = at.dot(axis);
+            at < from - around || at > to + around
+        })
     }
 }
 
