@@ -69,12 +69,12 @@ impl Arm<'_> {
                 }
                 rows = self.laid(wanted, &bearings, rate);
             }
+            if !turned && !pushed {
+                break;
+            }
             let outs = eased(&outs, near);
             for (more, by) in more.iter_mut().zip(&outs) {
                 *more += *by;
-            }
-            if !turned && !pushed {
-                break;
             }
             // Solving again discards all earlier pushes.
             let pushes = if turned { &more } else { &outs };
