@@ -274,18 +274,18 @@ impl Rig {
 
     /// Solves the arm for a position of the wrist.
     pub(crate) fn reach(&self, wrist: DVec3, bearing: Bearing, limits: &Limits) -> Posed {
-        self.reach_along(&self.line(wrist, limits), wrist, bearing, limits)
+        let posed = self.line(wrist, limits).bent(bearing.plane);
+        self.shrug(posed, wrist, bearing, limits)
     }
 
-    /// Does the same for a wrist whose line is known.
-    pub(crate) fn reach_along(
+    /// Does the same from the posture in the plane of this bearing without its shrug.
+    pub(crate) fn shrug(
         &self,
-        line: &Line,
+        posed: Posed,
         wrist: DVec3,
         bearing: Bearing,
         limits: &Limits,
     ) -> Posed {
-        let posed = line.bent(bearing.plane);
         if bearing.shrug == 0.0 {
             return posed;
         }
@@ -509,10 +509,9 @@ impl Rig {
         let palm = inner * cos + forearm.cross(inner) * sin;
         let straight = basis(forearm, palm) * held.level;
         let (sin, cos) = angles.flexion.sin_cos();
-        let across = angles.deviation.cos();
-        let in_hand = held.along * (across * cos)
-            - held.palm * (across * sin)
-            - held.radial * angles.deviation.sin();
+        let (aside, across) = angles.deviation.sin_cos();
+        let in_hand =
+            held.along * (across * cos) - held.palm * (across * sin) - held.radial * aside;
         (straight * arc(in_hand.normalize(), held.along)).normalize()
     }
 

@@ -69,19 +69,26 @@ impl Arm<'_> {
     /// at least `most` need not be exact.
     pub(crate) fn strain(&self, wrist: DVec3, turned: DQuat, most: f64) -> f64 {
         let line = self.rig().line(wrist, self.limits);
+        // The postures in the planes tried so far, without a shrug.
+        let mut known: Vec<Posed> = Vec::with_capacity(EASIEST.len());
         // Start with the rule's plane: planes whose deviation alone costs more than the best need no
         // evaluation.
-        let least = |shrug: f64, known: f64| {
+        let mut least = |shrug: f64, most: f64| {
             let shrugged = tuned().freedom.shrugged * shrug * shrug;
-            EASIEST.iter().fold(known, |least, &(plane, off)| {
+            let mut least = most;
+            for (n, &(plane, off)) in EASIEST.iter().enumerate() {
                 if 0.3 * off + shrugged >= least {
-                    return least;
+                    break;
+                }
+                if n == known.len() {
+                    known.push(line.bent(plane));
                 }
                 let bearing = Bearing { plane, shrug };
-                let posed = self.rig().reach_along(&line, wrist, bearing, self.limits);
+                let posed = self.rig().shrug(known[n], wrist, bearing, self.limits);
                 let strained = self.strained((wrist, turned), &posed, off, least - shrugged);
-                least.min(strained + shrugged)
-            })
+                least = least.min(strained + shrugged);
+            }
+            least
         };
         let still = least(0.0, most.max(tuned().freedom.shrugs_above));
         if still < tuned().freedom.shrugs_above {
@@ -116,12 +123,12 @@ impl Arm<'_> {
             return f64::INFINITY;
         }
         let asked = rig.wrist(posed, turned, &self.held);
-        let held = held + self.bent(&asked.allowed(&self.limits.wrist, false));
+        let low = asked.allowed(&self.limits.wrist, false);
+        let held = held + self.bent(&low);
         if held > most {
             return f64::INFINITY;
         }
-        let off = |high: bool| {
-            let angles = asked.allowed(&self.limits.wrist, high);
+        let off = |angles: WristAngles| {
             if angles == asked {
                 return 0.0;
             }
@@ -129,9 +136,9 @@ impl Arm<'_> {
         };
         let over = asked.turned(&self.limits.wrist) > 1.0;
         let apart = if over {
-            off(false).min(off(true))
+            off(low).min(off(asked.allowed(&self.limits.wrist, true)))
         } else {
-            off(false)
+            off(low)
         };
         held + self.off(apart)
     }
@@ -204,14 +211,12 @@ impl Arm<'_> {
 
     /// Returns the cost of an upper arm inside the trunk.
     fn within(&self, posed: &Posed) -> f64 {
-        [0.6, 1.0]
-            .map(|share| {
-                let at = posed.shoulder.lerp(posed.elbow, share);
-                let deep = self.stage.torso.offset_out(at, 0.035).length() / self.rig().length();
-                tuned().freedom.within * deep * deep
-            })
-            .iter()
-            .sum()
+        let cost = |share: f64| {
+            let at = posed.shoulder.lerp(posed.elbow, share);
+            let deep = self.stage.torso.offset_out(at, 0.035).length() / self.rig().length();
+            tuned().freedom.within * deep * deep
+        };
+        cost(0.6) + cost(1.0)
     }
 
     /// Returns the cheapest course of postures over time; shrugs are tried only around moments at which
@@ -259,18 +264,21 @@ impl Arm<'_> {
         let bearing = Bearing::default();
         let held = self.held(&rule, bearing, usual);
         let rule = self.choice(want, (bearing, rule, held), (false, leeway), usual);
+        let tried = planes().map(|plane| {
+            let bearing = Bearing { plane, shrug: 0.0 };
+            let posed = line.bent(plane);
+            (bearing, posed, self.held(&posed, bearing, usual))
+        });
+        let tried: Vec<_> = tried.collect();
         for high in [false, true] {
-            for (n, plane) in planes().enumerate() {
+            for (n, &(bearing, posed, held)) in tried.iter().enumerate() {
                 if high && !choices[n].over {
                     continue;
                 }
-                let bearing = Bearing { plane, shrug: 0.0 };
-                if plane == 0.0 && !high {
+                if bearing.plane == 0.0 && !high {
                     choices.push(rule);
                     continue;
                 }
-                let posed = line.bent(plane);
-                let held = self.held(&posed, bearing, usual);
                 choices.push(match held.0 > rule.cost + tuned().freedom.untried {
                     true => Choice {
                         bearing,
@@ -308,19 +316,22 @@ impl Arm<'_> {
         let still = choices.clone();
         let wrist = want.wrist();
         let line = self.rig().line(wrist, self.limits);
-        let reach = |bearing| self.rig().reach_along(&line, wrist, bearing, self.limits);
-        let usual = self.usual(wrist, &reach(Bearing::default()));
+        let usual = self.usual(wrist, &line.bent(0.0));
         let least = choices[best(choices)].cost;
         // A shrug turns a forearm by about 20°, which cannot save a far worse candidate.
         let hopeful = |choice: &&Choice| {
             choice.amiss > 0.2 * tuned().freedom.shrugs_above
                 && choice.cost < tuned().freedom.hopeless.0 * least + tuned().freedom.hopeless.1
         };
+        let hopeful = still.iter().filter(hopeful);
+        let hopeful: Vec<(&Choice, Posed)> = hopeful
+            .map(|choice| (choice, line.bent(choice.bearing.plane)))
+            .collect();
         for shrug in SHRUGS {
-            for choice in still.iter().filter(hopeful) {
+            for &(choice, posed) in &hopeful {
                 let plane = choice.bearing.plane;
                 let bearing = Bearing { plane, shrug };
-                let posed = reach(bearing);
+                let posed = self.rig().shrug(posed, wrist, bearing, self.limits);
                 let held = self.held(&posed, bearing, usual);
                 let tried = (bearing, posed, held);
                 choices.push(self.choice(want, tried, (choice.high, leeway), usual));
