@@ -124,7 +124,7 @@ impl Bearing {
 }
 
 /// One posture of an arm.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Posed {
     pub(crate) shoulder: DVec3,
     pub(crate) elbow: DVec3,
@@ -530,6 +530,11 @@ impl Rig {
     /// Returns the local rotations of [`joints`](Self::joints) for a posture and the hand's rotation
     /// in model space.
     pub(crate) fn rotations(&self, posed: &Posed, hand: DQuat) -> [DQuat; 4] {
+        self.local(posed, self.turned(posed, hand))
+    }
+
+    /// Returns the same from the [`turned`](Self::turned) bones of the posture.
+    pub(crate) fn local(&self, posed: &Posed, [upper, forearm, hand]: [DQuat; 3]) -> [DQuat; 4] {
         let (clavicle, above) = match &self.clavicle {
             Some(clavicle) => {
                 let turned = posed.help * clavicle.turned;
@@ -537,7 +542,6 @@ impl Rig {
             }
             None => (DQuat::IDENTITY, self.above),
         };
-        let [upper, forearm, hand] = self.turned(posed, hand);
         [
             clavicle.normalize(),
             (above.inverse() * upper).normalize(),

@@ -194,7 +194,7 @@ pub fn animate(
     });
     let arms: Vec<&track::SolvedFrames<'_>> = made.iter().flatten().collect();
     let moved: Vec<_> = arms.iter().map(|made| made.moved()).collect();
-    let mut solved = moved.iter().map(Vec::as_slice);
+    let mut solved = moved.iter().copied();
     let solved = [0, 1].map(|n| made[n].as_ref().and_then(|_| solved.next()));
     let longest = settings.language.time_approach_most;
     let least = approach::unhurried(&plan, solved, rate, longest);

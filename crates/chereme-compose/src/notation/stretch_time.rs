@@ -22,6 +22,13 @@ pub(crate) struct Moved {
     pub(crate) local: [DQuat; 4],
 }
 
+impl Moved {
+    /// Returns whether wrist and bones are the same in both frames.
+    fn stays(&self, next: &Self) -> bool {
+        self.wrist == next.wrist && self.turned == next.turned
+    }
+}
+
 /// A map of planned to stretched time: the time of each planned frame, in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Warp {
@@ -38,18 +45,22 @@ impl Warp {
     /// `anchors`, in ascending order, remain frames. `hasty(arm, frame)` returns the rotation (rad) of a joint and
     /// the distance (m) of a wrist until the next frame, extrapolated from the fastest part of the step.
     pub(crate) fn of(
-        arms: &[Vec<Moved>],
+        arms: &[impl AsRef<[Moved]>],
         rate: f64,
         fastest: &Fastest,
         (least, anchors): (Vec<f64>, &[usize]),
         hasty: impl Fn(usize, usize) -> [f64; 2],
     ) -> Self {
-        let total = arms.iter().map(Vec::len).max().unwrap_or(0);
+        let arms: Vec<&[Moved]> = arms.iter().map(AsRef::as_ref).collect();
+        let total = arms.iter().map(|arm| arm.len()).max().unwrap_or(0);
         let mut lasts = least;
         lasts.resize(total.saturating_sub(1), 1.0);
         for (which, arm) in arms.iter().enumerate() {
             for (n, pair) in arm.windows(2).enumerate() {
-                let [a, b] = [pair[0], pair[1]];
+                let [a, b] = [&pair[0], &pair[1]];
+                if a.stays(b) {
+                    continue;
+                }
                 let travel = a.wrist.distance(b.wrist) * rate / fastest.wrist;
                 let turn = a.turned.iter().zip(b.turned);
                 let turn = turn
@@ -84,6 +95,9 @@ impl Warp {
         let mut lasts = vec![1.0_f64; total.saturating_sub(1)];
         for arm in arms {
             for (last, pair) in lasts.iter_mut().zip(arm.windows(2)) {
+                if pair[0].stays(&pair[1]) {
+                    continue;
+                }
                 let travel = pair[0].wrist.distance(pair[1].wrist) * rate / fastest.wrist;
                 let turns = pair[0].turned.iter().zip(pair[1].turned);
                 let turns = turns.map(|(a, b)| a.angle_between(b));

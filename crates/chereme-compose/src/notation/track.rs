@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use chereme_motion::glam::{DQuat, DVec3};
 
-use super::arm::Limits;
+use super::arm::{Limits, Posed};
 use super::outlines::Outlines;
 use super::pace::{Pace, Paces};
 use super::plan::{Act, Event, HandState, SignPlan};
@@ -27,18 +27,23 @@ pub(crate) struct ArmTrack {
 impl ArmTrack {
     /// Returns the moving parts of the arm in each frame.
     pub(crate) fn moved(&self, hand: &Hand) -> Vec<Moved> {
-        let frames = 0..self.arm[0].len();
-        let each = frames.map(|n| {
+        let total = self.arm[0].len();
+        let mut all: Vec<Moved> = Vec::with_capacity(total);
+        for n in 0..total {
             let local = [0, 1, 2, 3].map(|joint| self.arm[joint][n]);
+            if let Some(&same) = all.last().filter(|last| last.local == local) {
+                all.push(same);
+                continue;
+            }
             let (posed, turned) = hand.rig.posed(local);
-            Moved {
+            all.push(Moved {
                 wrist: posed.wrist,
                 elbow: posed.elbow,
                 turned: hand.rig.turned(&posed, turned),
                 local,
-            }
-        });
-        each.collect()
+            });
+        }
+        all
     }
 
     /// Returns the track in stretched time; each joint is interpolated on its own.
@@ -181,7 +186,7 @@ pub(crate) struct SolvedFrames<'a> {
     solver: Arm<'a>,
     outlines: Outlines<'a>,
     rows: Vec<ArmFrame>,
-    arm: [Vec<DQuat>; 4],
+    moved: Vec<Moved>,
     fingers: Vec<Vec<DQuat>>,
     got: Vec<Got>,
     fit: Fit,
@@ -198,12 +203,24 @@ impl<'a> SolvedFrames<'a> {
     ) -> Self {
         let solver = Arm::of(stage, hand, limits);
         let (rows, got) = solver.over_time(&wanted, timing.rate);
-        let mut arm: [Vec<DQuat>; 4] = std::array::from_fn(|_| Vec::with_capacity(rows.len()));
-        for got in &got {
-            let rotations = hand.rig.rotations(&got.posed, got.rotation);
-            for (column, rotation) in arm.iter_mut().zip(rotations) {
-                column.push(rotation);
+        let mut moved: Vec<Moved> = Vec::with_capacity(rows.len());
+        let mut before: Option<(Posed, DQuat)> = None;
+        for &Got {
+            posed, rotation, ..
+        } in &got
+        {
+            let stays = before.replace((posed, rotation)) == Some((posed, rotation));
+            if let Some(&same) = moved.last().filter(|_| stays) {
+                moved.push(same);
+                continue;
             }
+            let turned = hand.rig.turned(&posed, rotation);
+            moved.push(Moved {
+                wrist: posed.wrist,
+                elbow: posed.elbow,
+                turned,
+                local: hand.rig.local(&posed, turned),
+            });
         }
         let free = wanted.free();
         let mut fit = Fit::default();
@@ -220,7 +237,7 @@ impl<'a> SolvedFrames<'a> {
             }
         }
         Self {
-            arm,
+            moved,
             fingers: fingers(stage, hand, plan, n, timing),
             solver,
             outlines: wanted.outlines,
@@ -231,23 +248,16 @@ impl<'a> SolvedFrames<'a> {
     }
 
     /// Returns the moving parts of the arm in each frame.
-    pub(crate) fn moved(&self) -> Vec<Moved> {
-        let rig = self.solver.rig();
-        let each = self.got.iter().enumerate();
-        each.map(|(n, got)| Moved {
-            wrist: got.posed.wrist,
-            elbow: got.posed.elbow,
-            turned: rig.turned(&got.posed, got.rotation),
-            local: [0, 1, 2, 3].map(|joint| self.arm[joint][n]),
-        })
-        .collect()
+    pub(crate) fn moved(&self) -> &[Moved] {
+        &self.moved
     }
 
     /// Returns the frames in stretched time.
     pub(crate) fn track(self, warp: &Warp) -> ArmTrack {
         if warp.is_none() {
             return ArmTrack {
-                arm: self.arm,
+                arm: [0, 1, 2, 3]
+                    .map(|joint| self.moved.iter().map(|at| at.local[joint]).collect()),
                 fingers: self.fingers,
                 fit: self.fit,
             };
@@ -275,7 +285,7 @@ impl<'a> SolvedFrames<'a> {
     /// Interpolates the arm's joints between a planned frame and the next: each on its own, or with the
     /// hand `carried`, so that the wrist stays within its limits.
     fn between(&self, n: usize, share: f64, carried: bool) -> [DQuat; 4] {
-        let here = [0, 1, 2, 3].map(|joint| self.arm[joint][n]);
+        let here = self.moved[n].local;
         let Some(next) = self.rows.get(n + 1).filter(|_| share > 0.0) else {
             return here;
         };
@@ -286,7 +296,7 @@ impl<'a> SolvedFrames<'a> {
             return self.solver.rig().rotations(&posed, rotation);
         }
         [0, 1, 2, 3].map(|joint| {
-            let (from, to) = (here[joint], self.arm[joint][n + 1]);
+            let (from, to) = (here[joint], self.moved[n + 1].local[joint]);
             match from == to {
                 true => from,
                 false => from.slerp(to, share).normalize(),
@@ -309,20 +319,10 @@ impl<'a> SolvedFrames<'a> {
             let (posed, rotation) = self.solver.carried(ends, bearing, share);
             (posed.wrist, rig.turned(&posed, rotation))
         };
-        let mut before = (
-            ends[0].posed.wrist,
-            rig.turned(&ends[0].posed, ends[0].rotation),
-        );
+        let [mut before, last] = [n, n + 1].map(|n| (self.moved[n].wrist, self.moved[n].turned));
         let mut most = [0.0_f64; 2];
         for part in 1..=PARTS {
-            let here = if part < PARTS {
-                at(part)
-            } else {
-                (
-                    ends[1].posed.wrist,
-                    rig.turned(&ends[1].posed, ends[1].rotation),
-                )
-            };
+            let here = if part < PARTS { at(part) } else { last };
             let turns = before.1.iter().zip(&here.1);
             let turn = turns.map(|(a, b)| a.angle_between(*b)).fold(0.0, f64::max);
             most[0] = most[0].max(turn * PARTS as f64);
@@ -338,7 +338,8 @@ impl<'a> SolvedFrames<'a> {
         if n + 1 >= self.rows.len() {
             return false;
         }
-        let turns = (0..4).map(|joint| self.arm[joint][n].angle_between(self.arm[joint][n + 1]));
+        let [here, next] = [n, n + 1].map(|n| self.moved[n].local);
+        let turns = here.into_iter().zip(next).map(|(a, b)| a.angle_between(b));
         turns.fold(0.0, f64::max) > LONG && warp.allows(n, self.hasty(n))
     }
 }
