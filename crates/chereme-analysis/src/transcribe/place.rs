@@ -227,10 +227,15 @@ impl<'a> Body<'a> {
     }
 
     fn likeliest_of(&self, n: usize, hand: &Hand, symmetric: bool, most: usize) -> Vec<Placed> {
-        let mut all = self.candidates(n, hand, symmetric, Wide::Yes);
-        all.sort_by(|a, b| a.score.total_cmp(&b.score));
-        all.truncate(most);
-        all.iter().map(Candidate::placed).collect()
+        let all = self.candidates(n, hand, symmetric, Wide::Yes);
+        let mut order: Vec<(f64, usize)> = (0..all.len()).map(|k| (all[k].score, k)).collect();
+        let lower = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        if most < order.len() {
+            order.select_nth_unstable_by(most, lower);
+            order.truncate(most);
+        }
+        order.sort_unstable_by(lower);
+        order.into_iter().map(|(_, k)| all[k].placed()).collect()
     }
 
     fn candidates<'c>(
