@@ -6,6 +6,7 @@
 //! arm. The right notation, animated by the same rules, puts the hand within a fraction of a millimetre of the observed
 //! position, and few others do. If the movement is misread, even the right place misses it by some millimetres.
 
+mod actions;
 mod homing;
 #[cfg(test)]
 mod tests;
@@ -13,13 +14,14 @@ mod tests;
 use std::cell::Cell;
 
 use chereme_motion::Clip;
-use chereme_sign::hamnosys::{Each, Sign};
+use chereme_sign::hamnosys::{Each, Motion, Sign, to_names};
 use glam::DVec3;
 
 use super::aim::Turned;
 use super::place::{Body, Placed};
 use super::scene::Axes;
 use super::tree::{self, Begun, Picked, Sight, Stand};
+use super::words;
 use super::{Performs, Transcription};
 use crate::transcribe::tuned::tuned;
 use homing::Search;
@@ -47,15 +49,23 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
         body,
         left: Cell::new(MOST_POSTURES),
     };
-    let Some((picked, mut off)) = proof.best() else {
+    let Some(best) = proof.best() else {
         return transcription;
     };
     let mut found = transcription.clone();
-    if let Some(picked) = picked {
+    let mut off = best.off;
+    if let Some(picked) = best.picked {
         found = tree::written(sight, picked).0;
         // The trial may have left out the actions or written them in other words.
         let whole = performs.performs(&found.sign);
         off = whole.and_then(|clip| proof.off(&clip)).unwrap_or(off);
+    }
+    if let Some(actions) = best.actions {
+        let text: String = actions.iter().map(words::motion).collect();
+        let names = to_names(&text).unwrap_or_default().join(" ");
+        found.findings.push(format!(
+            "re-synthesised, the hands begin at their observed places if the movement is {names}"
+        ));
     }
     let open = proof.open(off);
     let tracks = open
@@ -71,6 +81,16 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
     found
 }
 
+/// The best reading of the first posture.
+struct Best {
+    /// The readings that it fixes, if it replaces the first reading.
+    picked: Option<Picked>,
+    /// The error of each hand, in metres.
+    off: [f64; 2],
+    /// The actions with which it puts the hands where they were observed, if they are not the inferred ones.
+    actions: Option<Vec<Motion>>,
+}
+
 /// An alternative reading of the first posture.
 #[derive(Clone)]
 struct Trial {
@@ -78,8 +98,8 @@ struct Trial {
     turned: [Option<Turned>; 2],
     /// Whether the hands mirror each other at first, but act separately afterwards.
     mirrored: bool,
-    /// Whether to leave out the actions.
-    still: bool,
+    /// Another reading of the actions.
+    actions: Option<Vec<Motion>>,
 }
 
 /// A trial with the result of its re-synthesis.
@@ -109,6 +129,12 @@ impl Trial {
             stand,
             ..self.clone()
         }
+    }
+
+    /// Returns whether the places of both trials have the same form of notation.
+    fn has_form_of(&self, other: &Self) -> bool {
+        let form = |trial: &Self| (std::mem::discriminant(&trial.stand), trial.mirrored);
+        form(self) == form(other)
     }
 
     /// Returns the penalty (nepers) of the notation itself.
@@ -148,8 +174,8 @@ impl Trial {
         let mut sign = inferred.clone();
         for part in &mut sign.parts {
             part.posture.place = self.stand.place();
-            if self.still {
-                part.actions.clear();
+            if let Some(actions) = &self.actions {
+                part.actions.clone_from(actions);
             }
             if self.mirrored {
                 tree::mirror(part);
@@ -166,8 +192,8 @@ impl Trial {
 }
 
 impl Tried {
-    /// Returns the readings that the trial fixes, and the error of each hand (m).
-    fn picked(self) -> (Option<Picked>, [f64; 2]) {
+    /// Returns the reading that the trial fixes.
+    fn best(self) -> Best {
         let middle = |placed: &Placed| {
             let mut sites = placed.place.site.iter().chain(&placed.place.second);
             sites.all(|site| site.side.is_none())
@@ -185,7 +211,11 @@ impl Tried {
             turned: self.trial.turned,
             mirrored: self.trial.mirrored,
         };
-        (Some(picked), self.off)
+        Best {
+            picked: Some(picked),
+            off: self.off,
+            actions: self.trial.actions.filter(|actions| !actions.is_empty()),
+        }
     }
 }
 
@@ -200,14 +230,13 @@ struct Proof<'a, 'p> {
 }
 
 impl Proof<'_, '_> {
-    /// Returns a better reading, if any, and the error of each hand (m); `None` if the first reading is
-    /// already right, or cannot be synthesised.
-    fn best(&self) -> Option<(Option<Picked>, [f64; 2])> {
+    /// Returns the best reading; `None` if the first reading is already right, or cannot be synthesised.
+    fn best(&self) -> Option<Best> {
         let first = Trial {
             stand: self.begun.stand.clone(),
             turned: [None, None],
             mirrored: false,
-            still: false,
+            actions: None,
         };
         let begun = self.begun_as(first.clone())?;
         if self.open(begun.off).is_empty() {
@@ -219,9 +248,13 @@ impl Proof<'_, '_> {
         let first = self.finished(&begun)?;
         let best = self.searched(&first);
         if !self.is_better(&best, &first) {
-            return Some((None, first.off));
+            return Some(Best {
+                picked: None,
+                off: first.off,
+                actions: None,
+            });
         }
-        Some(best.picked())
+        Some(best.best())
     }
 
     /// Searches for the reading that puts the hands where they were observed.
@@ -238,6 +271,11 @@ impl Proof<'_, '_> {
         if self.open(search.best.off).is_empty() {
             return search.best;
         }
+        let mut others = search.only(self.other_actions(&search));
+        self.home(&mut others, few);
+        if self.open(others.best.off).is_empty() {
+            return others.best;
+        }
         let turned: Vec<_> = (0..2).flat_map(|n| self.turned(&search, n)).collect();
         let mut otherwise = search.only(self.begin_all(turned));
         self.home(&mut otherwise, few);
@@ -247,7 +285,7 @@ impl Proof<'_, '_> {
         }
         // A wrong reading of the actions may displace the hand.
         let still = Trial {
-            still: true,
+            actions: Some(Vec::new()),
             ..search.best.trial.clone()
         };
         let mut still = search.only(self.begin_all([Self::without_drift(still)]));
@@ -266,7 +304,7 @@ impl Proof<'_, '_> {
 
     /// Returns the reading without any place, if re-synthesis of it puts the hands where they were
     /// observed.
-    fn unsaid(&self, first: &Trial) -> Option<(Option<Picked>, [f64; 2])> {
+    fn unsaid(&self, first: &Trial) -> Option<Best> {
         let begun = self.begun_as(first.with(Stand::Unsaid))?;
         if !self.open(begun.off).is_empty() {
             return None;
@@ -274,7 +312,7 @@ impl Proof<'_, '_> {
         let whole = self.finished(&begun)?;
         self.beyond(whole.off, tuned().resynthesis.exact)
             .is_empty()
-            .then(|| whole.picked())
+            .then(|| whole.best())
     }
 
     fn begun_as(&self, trial: Trial) -> Option<Tried> {
@@ -329,6 +367,35 @@ impl Proof<'_, '_> {
         let all = apart.into_iter().chain(together);
         let all = all.map(|stand| from.with(stand));
         mirrored.into_iter().chain(all).collect()
+    }
+
+    /// Returns trials with similar readings of the actions, at the places where the hands came nearest; only those that
+    /// move the first posture.
+    fn other_actions(&self, search: &Search) -> Vec<Tried> {
+        let numbers = &tuned().resynthesis;
+        let [part] = self.inferred.parts.as_slice() else {
+            return Vec::new();
+        };
+        let similar = actions::similar(&part.actions);
+        let mut all = Vec::new();
+        for base in search.nearest(numbers.acted_at) {
+            let Some(base) = self.finished(&base) else {
+                continue;
+            };
+            let trials = similar.iter().map(|actions| {
+                Self::without_drift(Trial {
+                    actions: Some(actions.clone()),
+                    ..base.trial.clone()
+                })
+            });
+            let begun = self.begin_all(trials);
+            let mut whole: Vec<_> = begun.iter().filter_map(|it| self.finished(it)).collect();
+            whole.retain(|whole| {
+                (0..2).any(|n| whole.aside[n].distance(base.aside[n]) > numbers.exact)
+            });
+            all.extend(whole);
+        }
+        all
     }
 
     /// Returns trials with other orientations of hand `n`, at the places where it came nearest.

@@ -198,6 +198,7 @@ tuned_numbers! {
         widely: usize,
         turns: usize,
         turned_at: usize,
+        acted_at: usize,
         finalists: usize,
         exact: f64,
         nearly: f64,

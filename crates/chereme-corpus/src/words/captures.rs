@@ -396,6 +396,10 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
         "synthétisée de nouveau, la main {side} commence à {cm} cm de sa place observée",
     ),
     (
+        "re-synthesised, the hands begin at their observed places if the movement is {names}",
+        "synthétisées de nouveau, les mains commencent à leurs places observées si le mouvement est {names}",
+    ),
+    (
         "the clip is empty: it has no frame to draw",
         "le mouvement est vide : il n’a pas d’image à dessiner",
     ),

@@ -18,11 +18,13 @@ pub(super) struct Search {
     seen: Vec<Key>,
 }
 
-/// The properties in which the signs of two trials may differ: place, orientations, and whether they are mirrored and without actions.
+/// The properties in which the signs of two trials may differ: the place, the orientations, whether the hands mirror each
+/// other, and the actions.
 type Key = (
     Option<Place>,
     [Option<(Aim<Direction>, Aim<Compass>)>; 2],
-    [bool; 2],
+    bool,
+    Option<Vec<Motion>>,
 );
 
 impl Search {
@@ -45,6 +47,18 @@ impl Search {
         search
     }
 
+    /// Returns the nearest trials, at most `most`, and the nearest one of each other form of notation.
+    pub(super) fn nearest(&self, most: usize) -> Vec<Tried> {
+        let (first, rest) = self.beam.split_at(most.min(self.beam.len()));
+        let mut all = first.to_vec();
+        for tried in rest {
+            if !all.iter().any(|it| it.trial.has_form_of(&tried.trial)) {
+                all.push(tried.clone());
+            }
+        }
+        all
+    }
+
     /// Adds trials, the nearest first.
     pub(super) fn add(&mut self, trials: Vec<Tried>) {
         self.beam.extend(trials);
@@ -55,7 +69,12 @@ impl Search {
 fn key(trial: &Trial) -> Key {
     let turned = trial.turned.each_ref();
     let turned = turned.map(|it| it.as_ref().map(|it| (it.extended.best, it.palm.best)));
-    (trial.stand.place(), turned, [trial.mirrored, trial.still])
+    (
+        trial.stand.place(),
+        turned,
+        trial.mirrored,
+        trial.actions.clone(),
+    )
 }
 
 impl Proof<'_, '_> {
@@ -71,22 +90,24 @@ impl Proof<'_, '_> {
             }
             // At first the beam is wide enough for every form of notation.
             let beam = tuned().resynthesis.beam[usize::from(round > 0)];
-            self.correct(search, beam, tuned().resynthesis.neighbours);
+            let nearest = search.nearest(beam);
+            self.correct(search, nearest, tuned().resynthesis.neighbours);
         }
         self.finish(search);
     }
 
     /// Tries many more places with the aim of the nearest trial.
     pub(super) fn widen(&self, search: &mut Search) {
-        self.correct(search, 1, tuned().resynthesis.widely);
+        let nearest = search.beam.iter().take(1).cloned().collect();
+        self.correct(search, nearest, tuned().resynthesis.widely);
         self.finish(search);
     }
 
-    /// Corrects the aim of the nearest trials, at most `beam`, and tries at most `most` places with each.
-    fn correct(&self, search: &mut Search, beam: usize, most: usize) {
+    /// Corrects the aim of trials, and adds those of at most `most` places with each.
+    fn correct(&self, search: &mut Search, from: Vec<Tried>, most: usize) {
         let mut trials: Vec<(Trial, [DVec3; 2])> = Vec::new();
-        for tried in search.beam.iter().take(beam) {
-            for trial in self.neighbours(tried, most) {
+        for tried in from {
+            for trial in self.neighbours(&tried, most) {
                 let own = key(&trial);
                 if !search.seen.contains(&own) {
                     search.seen.push(own);

@@ -2,12 +2,12 @@
 
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Constellation, Contact, Digit};
-use chereme_sign::hamnosys::{HandClass, Place, Side, Site};
+use chereme_sign::hamnosys::{HandClass, Motion, MotionKind, Place, Side, Site, Size};
 
 use super::*;
 use crate::transcribe::place::{Together, named};
 use crate::transcribe::scene::Scene;
-use crate::transcribe::tests::{Held, before_chest, clip};
+use crate::transcribe::tests::{Held, before_chest, clip, ease};
 use crate::transcribe::{Options, transcribe, transcribe_proven};
 
 type Hands = [Option<Held>; 2];
@@ -96,17 +96,23 @@ fn seen<T>(hands: &Hands, look: impl FnOnce(&Body<'_>) -> T) -> T {
     look(&Sight::new(&scene, &options).look(0).expect("a body"))
 }
 
-/// An animator that puts each hand `by` metres beside its place.
+/// An animator that puts each hand `by` metres beside its place, and `more` metres if a movement is not big.
 struct Displaces {
     near: [Near; 2],
     by: [DVec3; 2],
+    more: DVec3,
 }
 
 impl Performs for Displaces {
     fn begins(&self, sign: &Sign) -> Option<Clip> {
         let place = sign.parts[0].posture.place.as_ref()?;
         let ideal = self.near.iter().find_map(|near| near.at(place))?;
-        let hands = moved(&ideal, self.by);
+        let is_big = |action: &Motion| matches!(&action.kind, MotionKind::Directed(path) if path.size.first == Some(Size::Big));
+        let more = match sign.parts[0].actions.iter().all(is_big) {
+            true => DVec3::ZERO,
+            false => self.more,
+        };
+        let hands = moved(&ideal, self.by.map(|by| by + more));
         Some(clip(0.0, |_| hands.clone()).0)
     }
 
@@ -124,6 +130,7 @@ fn read(from: Hands, place: &Place, by: [DVec3; 2]) -> [Option<Place>; 2] {
     let displaces = Displaces {
         near: [there, ideal].map(Near::of),
         by,
+        more: DVec3::ZERO,
     };
     let options = Options::made();
     let alone = transcribe(&clip, &anatomy, &options).expect("a sign");
@@ -161,6 +168,36 @@ fn a_hand_that_is_displaced_by_centimetres_is_read_at_its_place() {
         assert_ne!(alone.as_ref(), Some(&place), "it needs no re-synthesis");
         assert_eq!(proven.as_ref(), Some(&place), "displaced by {by:?}");
     }
+}
+
+#[test]
+fn a_place_is_confirmed_by_a_similar_movement_and_the_finding_names_it() {
+    let place = Place::Body(BodyPlace {
+        site: site(BodyLocation::Shoulders, Some(Side::RightAt)),
+        ..BodyPlace::default()
+    });
+    let ideal = Near::of([Some(before_chest(HandClass::Flat)), None]);
+    let ideal = ideal.at(&place).expect("a place within reach");
+    let by = [DVec3::new(0.05, -0.07, 0.04), DVec3::ZERO];
+    let there = moved(&ideal, by);
+    let (clip, anatomy) = clip(0.3, |time| {
+        moved(&there, [DVec3::NEG_Y * (0.13 * ease(time)), DVec3::ZERO])
+    });
+    let displaces = Displaces {
+        near: [there, ideal].map(Near::of),
+        by,
+        more: DVec3::new(0.012, 0.009, 0.0),
+    };
+    let options = Options::made();
+    let found = transcribe_proven(&clip, &anatomy, &options, &displaces).expect("a sign");
+    assert_eq!(found.sign.parts[0].posture.place.as_ref(), Some(&place));
+    let named = "re-synthesised, the hands begin at their observed places if the movement is hammoved \
+                 hamlargemod hamslow";
+    assert!(
+        found.findings.iter().any(|it| it == named),
+        "{:?}",
+        found.findings
+    );
 }
 
 #[test]
