@@ -303,7 +303,8 @@ pub trait Performs {
 /// place, but re-synthesis of the right notation puts it exactly at the observed position. If the first reading
 /// misses it, alternative readings are synthesised, at most [`MOST_POSTURES`]. One that puts the hands within
 /// millimetres of their observed positions is reported; or, since a misread movement displaces them, one that misses
-/// them by much less than the first. Captured movement is never reproduced that exactly: use [`transcribe`] for it.
+/// them by much less than the first. Similar movements are tried, too: if the hands match with one of them, a finding
+/// names it. Captured movement is never reproduced that exactly: use [`transcribe`] for it.
 ///
 /// # Errors
 ///

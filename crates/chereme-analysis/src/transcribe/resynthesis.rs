@@ -49,7 +49,7 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
         body,
         left: Cell::new(MOST_POSTURES),
     };
-    let Some(best) = proof.best() else {
+    let Some(best) = proof.verified() else {
         return transcription;
     };
     let mut found = transcription.clone();
@@ -62,9 +62,9 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
     }
     if let Some(actions) = best.actions {
         let text: String = actions.iter().map(words::motion).collect();
-        let names = to_names(&text).unwrap_or_default().join(" ");
+        let names = to_names(&text).map_or(text, |names| names.join(" "));
         found.findings.push(format!(
-            "re-synthesised, the hands begin at their observed places if the movement is {names}"
+            "re-synthesised, the sign begins where it was observed if its movement is {names}"
         ));
     }
     let open = proof.open(off);
@@ -81,8 +81,8 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
     found
 }
 
-/// The best reading of the first posture.
-struct Best {
+/// The reading of the first posture that re-synthesis prefers.
+struct Verified {
     /// The readings that it fixes, if it replaces the first reading.
     picked: Option<Picked>,
     /// The error of each hand, in metres.
@@ -193,7 +193,7 @@ impl Trial {
 
 impl Tried {
     /// Returns the reading that the trial fixes.
-    fn best(self) -> Best {
+    fn verified(self) -> Verified {
         let middle = |placed: &Placed| {
             let mut sites = placed.place.site.iter().chain(&placed.place.second);
             sites.all(|site| site.side.is_none())
@@ -211,7 +211,7 @@ impl Tried {
             turned: self.trial.turned,
             mirrored: self.trial.mirrored,
         };
-        Best {
+        Verified {
             picked: Some(picked),
             off: self.off,
             actions: self.trial.actions.filter(|actions| !actions.is_empty()),
@@ -230,8 +230,8 @@ struct Proof<'a, 'p> {
 }
 
 impl Proof<'_, '_> {
-    /// Returns the best reading; `None` if the first reading is already right, or cannot be synthesised.
-    fn best(&self) -> Option<Best> {
+    /// Returns the preferred reading; `None` if the first reading is already right, or cannot be synthesised.
+    fn verified(&self) -> Option<Verified> {
         let first = Trial {
             stand: self.begun.stand.clone(),
             turned: [None, None],
@@ -248,13 +248,13 @@ impl Proof<'_, '_> {
         let first = self.finished(&begun)?;
         let best = self.searched(&first);
         if !self.is_better(&best, &first) {
-            return Some(Best {
+            return Some(Verified {
                 picked: None,
                 off: first.off,
                 actions: None,
             });
         }
-        Some(best.best())
+        Some(best.verified())
     }
 
     /// Searches for the reading that puts the hands where they were observed.
@@ -304,7 +304,7 @@ impl Proof<'_, '_> {
 
     /// Returns the reading without any place, if re-synthesis of it puts the hands where they were
     /// observed.
-    fn unsaid(&self, first: &Trial) -> Option<Best> {
+    fn unsaid(&self, first: &Trial) -> Option<Verified> {
         let begun = self.begun_as(first.with(Stand::Unsaid))?;
         if !self.open(begun.off).is_empty() {
             return None;
@@ -312,7 +312,7 @@ impl Proof<'_, '_> {
         let whole = self.finished(&begun)?;
         self.beyond(whole.off, tuned().resynthesis.exact)
             .is_empty()
-            .then(|| whole.best())
+            .then(|| whole.verified())
     }
 
     fn begun_as(&self, trial: Trial) -> Option<Tried> {
@@ -379,7 +379,8 @@ impl Proof<'_, '_> {
         let similar = actions::similar(&part.actions);
         let mut all = Vec::new();
         for base in search.nearest(numbers.acted_at) {
-            let Some(base) = self.finished(&base) else {
+            let whole = base.whole.then(|| base.clone());
+            let Some(base) = whole.or_else(|| self.finished(&base)) else {
                 continue;
             };
             let trials = similar.iter().map(|actions| {

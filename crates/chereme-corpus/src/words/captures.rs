@@ -396,8 +396,8 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
         "synthétisée de nouveau, la main {side} commence à {cm} cm de sa place observée",
     ),
     (
-        "re-synthesised, the hands begin at their observed places if the movement is {names}",
-        "synthétisées de nouveau, les mains commencent à leurs places observées si le mouvement est {names}",
+        "re-synthesised, the sign begins where it was observed if its movement is {names}",
+        "synthétisé de nouveau, le signe commence où il a été observé si son mouvement est {names}",
     ),
     (
         "the clip is empty: it has no frame to draw",

@@ -30,12 +30,19 @@ pub(super) fn similar(actions: &[Motion]) -> Vec<Vec<Motion>> {
     unlike
 }
 
+/// Returns a copy after a change.
+fn changed<T: Clone>(of: &T, change: impl FnOnce(&mut T)) -> T {
+    let mut other = of.clone();
+    change(&mut other);
+    other
+}
+
 fn motions(of: &Motion) -> Vec<Motion> {
     let kinds = kinds(&of.kind).into_iter();
     let mut all: Vec<Motion> = kinds.map(|kind| Motion { kind, ..of.clone() }).collect();
-    let mut usual = of.clone();
-    (usual.manner.fast, usual.manner.slow) = (false, false);
-    all.push(usual);
+    all.push(changed(of, |usual| {
+        (usual.manner.fast, usual.manner.slow) = (false, false);
+    }));
     if let MotionKind::Repeated { motion, .. }
     | MotionKind::Target {
         motion: Some(motion),
@@ -52,9 +59,7 @@ fn kinds(of: &MotionKind) -> Vec<MotionKind> {
     match of {
         MotionKind::Directed(path) => {
             let mut add = |change: &dyn Fn(&mut Directed)| {
-                let mut other = path.clone();
-                change(&mut other);
-                all.push(MotionKind::Directed(other));
+                all.push(MotionKind::Directed(changed(path, change)));
             };
             for size in SIZES {
                 add(&|other| other.size.first = size);
@@ -64,9 +69,7 @@ fn kinds(of: &MotionKind) -> Vec<MotionKind> {
         }
         MotionKind::Circular(circle) => {
             let mut add = |change: &dyn Fn(&mut Circular)| {
-                let mut other = circle.clone();
-                change(&mut other);
-                all.push(MotionKind::Circular(other));
+                all.push(MotionKind::Circular(changed(circle, change)));
             };
             for size in SIZES {
                 add(&|other| other.size.first = size);

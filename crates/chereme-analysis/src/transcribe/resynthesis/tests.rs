@@ -191,7 +191,7 @@ fn a_place_is_confirmed_by_a_similar_movement_and_the_finding_names_it() {
     let options = Options::made();
     let found = transcribe_proven(&clip, &anatomy, &options, &displaces).expect("a sign");
     assert_eq!(found.sign.parts[0].posture.place.as_ref(), Some(&place));
-    let named = "re-synthesised, the hands begin at their observed places if the movement is hammoved \
+    let named = "re-synthesised, the sign begins where it was observed if its movement is hammoved \
                  hamlargemod hamslow";
     assert!(
         found.findings.iter().any(|it| it == named),
