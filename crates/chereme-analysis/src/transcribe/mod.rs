@@ -293,18 +293,27 @@ pub trait Performs {
     /// Returns the movement of a sign without the paths from and to rest; `None` if that cannot be
     /// synthesised.
     fn performs(&self, sign: &Sign) -> Option<Clip>;
+
+    /// Like [`performs`](Self::performs), for many signs; implementations may work on several at once.
+    fn perform_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
+        signs.iter().map(|sign| self.performs(sign)).collect()
+    }
 }
 
-/// Like [`transcribe`], for movement that was synthesised from notation: verifies hand placement by
+/// Like [`transcribe`], for movement that was synthesised from notation: verifies movements and places by
 /// re-synthesis.
+///
+/// Right notation, animated again, moves the hands exactly as observed. If the first reading does not, similar movements
+/// are animated, and properties are replaced one after the other while the hands come nearer. A movement that comes much
+/// nearer replaces the first one with its features, and a finding names both.
 ///
 /// The animator pushes a hand out of the trunk that should touch it, keeps it clear of the other hand, stops it at
 /// its joint limits, and lets it give way to its arm within the room of its place. Such a hand is not at its notated
-/// place, but re-synthesis of the right notation puts it exactly at the observed position. If the first reading
-/// misses it, alternative readings are synthesised, at most [`MOST_POSTURES`]. One that puts the hands within
-/// millimetres of their observed positions is reported; or, since a misread movement displaces them, one that misses
-/// them by much less than the first. Similar movements are tried, too: if the hands match with one of them, a finding
-/// names it. Captured movement is never reproduced that exactly: use [`transcribe`] for it.
+/// place, but the right place puts it exactly at the observed position. If the first reading misses it, alternative
+/// readings are synthesised, at most [`MOST_POSTURES`] in a search. One that puts the hands within millimetres of their
+/// observed positions is reported; or, since a misread movement displaces them, one that misses them by much less than
+/// the first. Findings report what is not explained. Captured movement is never reproduced that exactly: use
+/// [`transcribe`] for it.
 ///
 /// # Errors
 ///

@@ -4,91 +4,87 @@
 //! The first reading comes from the hand's position alone. But the animator pushes a hand out of the trunk
 //! that should touch it, keeps it clear of the other hand, stops it at its joint limits, and lets it give way to its
 //! arm. The right notation, animated by the same rules, puts the hand within a fraction of a millimetre of the observed
-//! position, and few others do. If the movement is misread, even the right place misses it by some millimetres.
+//! position, and few others do. If the movement is misread, even the right place misses it by some millimetres: so similar
+//! movements are animated first, and the one that moves the hands as observed is reported.
 
 mod actions;
 mod homing;
+mod movement;
+pub(super) mod replaced;
 #[cfg(test)]
 mod tests;
 
 use std::cell::Cell;
 
 use chereme_motion::Clip;
-use chereme_sign::hamnosys::{Each, Motion, Sign, to_names};
+use chereme_sign::hamnosys::{Each, Motion, Sign};
 use glam::DVec3;
 
 use super::aim::Turned;
 use super::place::{Body, Placed};
 use super::scene::Axes;
 use super::tree::{self, Begun, Picked, Sight, Stand};
-use super::words;
-use super::{Performs, Transcription};
+use super::{Performs, Stage, Transcription};
 use crate::transcribe::tuned::tuned;
 use homing::Search;
 
-/// The most postures that are synthesised for one sign.
+/// The most postures that are synthesised in one search for the places of a sign.
 pub const MOST_POSTURES: usize = 1000;
 
-/// Writes the notation of a scene; with `performs`, verifies the places by re-synthesis.
+/// The most searches for the places of a sign: a second one follows if the places of the first one explain the movement.
+const SEARCHES: usize = 2;
+
+/// Writes the notation of a scene; with `performs`, verifies movements and places by re-synthesis.
 pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>) -> Transcription {
-    let (transcription, begun) = tree::written(sight, Picked::default());
+    let (first, begun) = tree::written(sight, Picked::default());
     let (Some(begun), Some(performs)) = (begun, performs) else {
-        return transcription;
+        return first;
     };
     let Some(mut body) = sight.look(begun.frame) else {
-        return transcription;
+        return first;
     };
     if let Some(by) = begun.behind {
         body.shift(1, by);
     }
-    let proof = Proof {
+    let mut proof = Proof {
         sight,
         performs,
         begun: &begun,
-        inferred: &transcription.sign,
+        inferred: first.sign.clone(),
+        stages: &first.stages,
         body,
-        left: Cell::new(MOST_POSTURES),
+        postures: Cell::new(0),
+        movements: Cell::new(movement::MOST_MOVEMENTS),
     };
-    let Some(best) = proof.verified() else {
-        return transcription;
+    let mut best = Verified {
+        trial: proof.first_trial(),
+        picked: None,
+        off: [0.0; 2],
     };
-    let mut found = transcription.clone();
-    let mut off = best.off;
-    if let Some(picked) = best.picked {
-        found = tree::written(sight, picked).0;
-        // The trial may have left out the actions or written them in other words.
-        let whole = performs.performs(&found.sign);
-        off = whole.and_then(|clip| proof.off(&clip)).unwrap_or(off);
+    for search in 0..SEARCHES {
+        let moved = proof.moved(&best.trial);
+        let settled = search > 0 && (moved.is_none() || proof.open(best.off).is_empty());
+        if let Some(actions) = moved {
+            proof.inferred.parts[0].actions = actions;
+        }
+        if settled {
+            break;
+        }
+        let Some(verified) = proof.verified() else {
+            break;
+        };
+        best = verified;
     }
-    if let Some(actions) = best.actions {
-        let text: String = actions.iter().map(words::motion).collect();
-        let names = to_names(&text).map_or(text, |names| names.join(" "));
-        found.findings.push(format!(
-            "re-synthesised, the sign begins where it was observed if its movement is {names}"
-        ));
-    }
-    let open = proof.open(off);
-    let tracks = open
-        .iter()
-        .filter_map(|&n| Some((n, sight.scene.hands[n].as_ref()?)));
-    found.findings.extend(tracks.map(|(n, track)| {
-        format!(
-            "re-synthesised, the {} hand begins {:.1} cm from its observed place",
-            track.side.name(),
-            100.0 * off[n]
-        )
-    }));
-    found
+    proof.reported(first.clone(), best)
 }
 
 /// The reading of the first posture that re-synthesis prefers.
 struct Verified {
+    trial: Trial,
     /// The readings that it fixes, if it replaces the first reading.
     picked: Option<Picked>,
     /// The error of each hand, in metres.
     off: [f64; 2],
-    /// The actions with which it puts the hands where they were observed, if they are not the inferred ones.
-    actions: Option<Vec<Motion>>,
 }
 
 /// An alternative reading of the first posture.
@@ -98,8 +94,8 @@ struct Trial {
     turned: [Option<Turned>; 2],
     /// Whether the hands mirror each other at first, but act separately afterwards.
     mirrored: bool,
-    /// Another reading of the actions.
-    actions: Option<Vec<Motion>>,
+    /// Whether the actions are left out.
+    still: bool,
 }
 
 /// A trial with the result of its re-synthesis.
@@ -174,8 +170,8 @@ impl Trial {
         let mut sign = inferred.clone();
         for part in &mut sign.parts {
             part.posture.place = self.stand.place();
-            if let Some(actions) = &self.actions {
-                part.actions.clone_from(actions);
+            if self.still {
+                part.actions.clear();
             }
             if self.mirrored {
                 tree::mirror(part);
@@ -198,9 +194,13 @@ impl Tried {
             let mut sites = placed.place.site.iter().chain(&placed.place.second);
             sites.all(|site| site.side.is_none())
         };
-        let stand = match self.trial.stand {
+        let trial = Trial {
+            still: false,
+            ..self.trial
+        };
+        let stand = match trial.stand.clone() {
             Stand::Each([Some(own), Some(other)])
-                if self.trial.mirrored && own.place == other.place && middle(&own) =>
+                if trial.mirrored && own.place == other.place && middle(&own) =>
             {
                 Stand::One(0, own)
             }
@@ -208,13 +208,13 @@ impl Tried {
         };
         let picked = Picked {
             stand: Some(stand),
-            turned: self.trial.turned,
-            mirrored: self.trial.mirrored,
+            turned: trial.turned.clone(),
+            mirrored: trial.mirrored,
         };
         Verified {
+            trial,
             picked: Some(picked),
             off: self.off,
-            actions: self.trial.actions.filter(|actions| !actions.is_empty()),
         }
     }
 }
@@ -223,38 +223,49 @@ struct Proof<'a, 'p> {
     sight: &'a Sight<'a>,
     performs: &'p dyn Performs,
     begun: &'p Begun,
-    inferred: &'p Sign,
+    /// The first reading, with the movement that was found.
+    inferred: Sign,
+    /// The posture and the actions of the first reading, with their frames.
+    stages: &'p [Stage],
     body: Body<'a>,
     /// The number of postures that may still be synthesised.
-    left: Cell<usize>,
+    postures: Cell<usize>,
+    /// The number of whole signs that may still be synthesised in search of the movement.
+    movements: Cell<usize>,
 }
 
 impl Proof<'_, '_> {
-    /// Returns the preferred reading; `None` if the first reading is already right, or cannot be synthesised.
-    fn verified(&self) -> Option<Verified> {
-        let first = Trial {
+    fn first_trial(&self) -> Trial {
+        Trial {
             stand: self.begun.stand.clone(),
             turned: [None, None],
             mirrored: false,
-            actions: None,
+            still: false,
+        }
+    }
+
+    /// Returns the preferred reading; `None` if the first reading cannot be synthesised.
+    fn verified(&self) -> Option<Verified> {
+        self.postures.set(MOST_POSTURES);
+        let first = self.first_trial();
+        let kept = |off| Verified {
+            trial: first.clone(),
+            picked: None,
+            off,
         };
         let begun = self.begun_as(first.clone())?;
         if self.open(begun.off).is_empty() {
-            return None;
+            return Some(kept(begun.off));
         }
         if let Some(unsaid) = self.unsaid(&first) {
             return Some(unsaid);
         }
-        let first = self.finished(&begun)?;
-        let best = self.searched(&first);
-        if !self.is_better(&best, &first) {
-            return Some(Verified {
-                picked: None,
-                off: first.off,
-                actions: None,
-            });
-        }
-        Some(best.verified())
+        let whole = self.finished(&begun)?;
+        let best = self.searched(&whole);
+        Some(match self.is_better(&best, &whole) {
+            true => best.verified(),
+            false => kept(whole.off),
+        })
     }
 
     /// Searches for the reading that puts the hands where they were observed.
@@ -271,11 +282,6 @@ impl Proof<'_, '_> {
         if self.open(search.best.off).is_empty() {
             return search.best;
         }
-        let mut others = search.only(self.other_actions(&search));
-        self.home(&mut others, few);
-        if self.open(others.best.off).is_empty() {
-            return others.best;
-        }
         let turned: Vec<_> = (0..2).flat_map(|n| self.turned(&search, n)).collect();
         let mut otherwise = search.only(self.begin_all(turned));
         self.home(&mut otherwise, few);
@@ -285,7 +291,7 @@ impl Proof<'_, '_> {
         }
         // A wrong reading of the actions may displace the hand.
         let still = Trial {
-            actions: Some(Vec::new()),
+            still: true,
             ..search.best.trial.clone()
         };
         let mut still = search.only(self.begin_all([Self::without_drift(still)]));
@@ -369,36 +375,6 @@ impl Proof<'_, '_> {
         mirrored.into_iter().chain(all).collect()
     }
 
-    /// Returns trials with similar readings of the actions, at the places where the hands came nearest; only those that
-    /// move the first posture.
-    fn other_actions(&self, search: &Search) -> Vec<Tried> {
-        let numbers = &tuned().resynthesis;
-        let [part] = self.inferred.parts.as_slice() else {
-            return Vec::new();
-        };
-        let similar = actions::similar(&part.actions);
-        let mut all = Vec::new();
-        for base in search.nearest(numbers.acted_at) {
-            let whole = base.whole.then(|| base.clone());
-            let Some(base) = whole.or_else(|| self.finished(&base)) else {
-                continue;
-            };
-            let trials = similar.iter().map(|actions| {
-                Self::without_drift(Trial {
-                    actions: Some(actions.clone()),
-                    ..base.trial.clone()
-                })
-            });
-            let begun = self.begin_all(trials);
-            let mut whole: Vec<_> = begun.iter().filter_map(|it| self.finished(it)).collect();
-            whole.retain(|whole| {
-                (0..2).any(|n| whole.aside[n].distance(base.aside[n]) > numbers.exact)
-            });
-            all.extend(whole);
-        }
-        all
-    }
-
     /// Returns trials with other orientations of hand `n`, at the places where it came nearest.
     fn turned(&self, search: &Search, n: usize) -> Vec<(Trial, [DVec3; 2])> {
         let track = self.sight.scene.hands[n].as_ref();
@@ -426,12 +402,12 @@ impl Proof<'_, '_> {
     /// its hands.
     fn begin_all(&self, trials: impl IntoIterator<Item = (Trial, [DVec3; 2])>) -> Vec<Tried> {
         let trials = trials.into_iter().take_while(|_| {
-            let left = self.left.get();
-            self.left.set(left.saturating_sub(1));
+            let left = self.postures.get();
+            self.postures.set(left.saturating_sub(1));
             left > 0
         });
         let trials: Vec<_> = trials.collect();
-        let signs = trials.iter().map(|(trial, _)| trial.sign(self.inferred));
+        let signs = trials.iter().map(|(trial, _)| trial.sign(&self.inferred));
         let clips = self.performs.begin_all(&signs.collect::<Vec<_>>());
         let begun = trials.into_iter().zip(clips);
         let begun =
@@ -439,9 +415,57 @@ impl Proof<'_, '_> {
         begun.collect()
     }
 
+    /// Returns the transcription of a verified reading. Findings say what re-synthesis corrected and what it does not
+    /// explain.
+    fn reported(&self, first: Transcription, best: Verified) -> Transcription {
+        let actions = self.inferred.parts[0].actions.clone();
+        let inferred = first.sign.parts[0].actions.clone();
+        let mut found = match best.picked {
+            Some(picked) => tree::written(self.sight, picked).0,
+            None => first,
+        };
+        let read = found.sign.clone();
+        if actions != inferred {
+            let part = &mut found.sign.parts[0];
+            part.actions.clone_from(&actions);
+            if best.trial.mirrored {
+                tree::mirror(part);
+            }
+        }
+        // The trial may have left out the actions or written them in other words.
+        let performed = |sign: &Sign| {
+            let clip = self.performs.performs(sign)?;
+            Some((self.off(&clip)?, self.deviation(&clip)?))
+        };
+        let Some((off, after)) = performed(&found.sign) else {
+            found.sign = read;
+            return found;
+        };
+        if actions != inferred
+            && let Some((_, before)) = performed(&read)
+        {
+            replaced::replace(&mut found, [&inferred, &actions], [before, after]);
+        } else if after > tuned().resynthesis.nearly {
+            found.findings.push(format!(
+                "re-synthesised, the movement is {:.1} cm from the observed one",
+                100.0 * after
+            ));
+        }
+        for n in self.open(off) {
+            if let Some(track) = &self.sight.scene.hands[n] {
+                found.findings.push(format!(
+                    "re-synthesised, the {} hand begins {:.1} cm from its observed place",
+                    track.side.name(),
+                    100.0 * off[n]
+                ));
+            }
+        }
+        found
+    }
+
     /// Synthesises the whole sign of a trial.
     fn finished(&self, begun: &Tried) -> Option<Tried> {
-        let whole = self.performs.performs(&begun.trial.sign(self.inferred))?;
+        let whole = self.performs.performs(&begun.trial.sign(&self.inferred))?;
         let mut whole = self.tried(begun.trial.clone(), &whole, None)?;
         for (n, drift) in whole.drift.iter_mut().enumerate() {
             *drift = whole.aside[n] - (begun.aside[n] - begun.drift[n]);
@@ -496,16 +520,20 @@ impl Proof<'_, '_> {
         Some(self.apart(clip)?.0)
     }
 
+    /// Returns the frame of the observed clip that corresponds to the first frame of a synthesised one: if the observed
+    /// clip begins within the sign, so does the synthesised one.
+    fn compared_from(&self) -> usize {
+        match self.begun.first {
+            0 => 0,
+            _ => self.begun.frame,
+        }
+    }
+
     /// Returns the distance between each hand in a clip's first frame and its observed position, and the middle of each
     /// hand as observed, less that in the clip, all in metres.
     fn apart(&self, clip: &Clip) -> Option<([f64; 2], [DVec3; 2])> {
         let scene = self.sight.scene;
-        // If the observed clip begins within the sign, so does the synthesised one.
-        let frame = if self.begun.first == 0 {
-            0
-        } else {
-            self.begun.frame
-        };
+        let frame = self.compared_from();
         let model = clip.model_pose(0);
         let axes = Axes::of(scene.anatomy, scene.alone, &model, scene.dominant)?;
         let apart = scene.hands.each_ref().map(|track| {

@@ -15,6 +15,7 @@ use super::*;
 
 mod goldens;
 pub(crate) mod movements;
+mod restated;
 
 /// A hand's place in the signer's space, the directions of its axis and palm, and its shape.
 #[derive(Clone)]

@@ -28,8 +28,8 @@ use super::shape::Forms;
 use super::words;
 use super::{Feature, FeatureKind, Found, Options, RunnerUp, Stage, Transcription, Unit};
 use crate::transcribe::tuned::tuned;
-pub(super) use posture::Stand;
 use posture::behind;
+pub(super) use posture::{Stand, meeting};
 pub(super) use readings::Sight;
 
 /// The symmetry of hands that mirror each other.

@@ -2,11 +2,11 @@
 
 use std::fmt::Display;
 
-use chereme_sign::hamnosys::symbol::Kind;
+use chereme_sign::hamnosys::symbol::{Kind, Mark};
 use chereme_sign::hamnosys::{
     Aim, Bend, BodyPlace, Compass, Constellation, Contact, Digit, Digits, Direction, Each, Form,
-    HandSite, HandsUsed, Handshape, Manual, Motion, Place, Posture, Repeat, Side, Sign, Site, Size,
-    Symbol, text_of,
+    HandSite, HandsUsed, Handshape, Manner, Manual, Motion, Place, Posture, Repeat, Side, Sign,
+    Site, Size, Symbol, text_of,
 };
 
 /// A value in words and as HamNoSys, which is empty if the value is written by omission.
@@ -283,7 +283,21 @@ pub(super) fn repetition(times: usize, repeat: Repeat) -> WordsAndSymbols {
     WordsAndSymbols::marked(&format!("{times} times"), Some(Kind::Repeat(repeat)))
 }
 
-pub(super) fn manner(words: &str, marks: &[Kind]) -> WordsAndSymbols {
-    let symbols = marks.iter().filter_map(|mark| Symbol::of(*mark));
-    WordsAndSymbols::new(words, symbols.map(Symbol::char).collect::<String>())
+pub(super) fn manner(manner: &Manner) -> WordsAndSymbols {
+    let marks = [
+        (manner.fast, "fast", Mark::Fast),
+        (manner.slow, "slow", Mark::Slow),
+        (manner.tense, "tense", Mark::Tense),
+        (manner.halt, "sudden stop", Mark::Halt),
+        (manner.rest, "after a rest", Mark::Rest),
+    ];
+    let mut marks = marks.into_iter().filter(|it| it.0).peekable();
+    let usual = marks.peek().is_none_or(|it| it.2 == Mark::Rest);
+    let (mut words, mut text) = (Vec::new(), String::new());
+    words.extend(usual.then_some("usual"));
+    for (_, word, mark) in marks {
+        words.push(word);
+        text.extend(Symbol::of(Kind::Manner(mark)).map(Symbol::char));
+    }
+    WordsAndSymbols::new(words.join(", "), text)
 }

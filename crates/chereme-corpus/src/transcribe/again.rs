@@ -54,6 +54,34 @@ impl Proving<'_, '_> {
         !stopped
     }
 
+    /// Synthesises signs on all processors, each of them `at_once` between two reports of progress.
+    fn on_all_processors(
+        &self,
+        signs: &[Sign],
+        at_once: usize,
+        synthesises: impl Fn(&Sign) -> Option<Clip> + Sync,
+    ) -> Vec<Option<Clip>> {
+        let threads = available_parallelism().map_or(1, NonZero::get);
+        let (most, synthesises) = (at_once * threads, &synthesises);
+        let mut all = vec![None; signs.len()];
+        for (signs, clips) in signs.chunks(most).zip(all.chunks_mut(most)) {
+            if !self.goes_on(signs.len()) {
+                break;
+            }
+            let share = signs.len().div_ceil(threads);
+            scope(|scope| {
+                for (signs, clips) in signs.chunks(share).zip(clips.chunks_mut(share)) {
+                    scope.spawn(move || {
+                        for (sign, clip) in signs.iter().zip(clips) {
+                            *clip = synthesises(sign);
+                        }
+                    });
+                }
+            });
+        }
+        all
+    }
+
     /// Returns whether the work was asked to stop.
     pub(super) fn stopped(&self) -> bool {
         self.stopped.get()
@@ -67,31 +95,18 @@ impl Performs for Proving<'_, '_> {
     }
 
     fn begin_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
-        let threads = available_parallelism().map_or(1, NonZero::get);
-        let most = AT_ONCE * threads;
         let body = self.body;
-        let mut all = vec![None; signs.len()];
-        for (signs, clips) in signs.chunks(most).zip(all.chunks_mut(most)) {
-            if !self.goes_on(signs.len()) {
-                break;
-            }
-            let share = signs.len().div_ceil(threads);
-            scope(|scope| {
-                for (signs, clips) in signs.chunks(share).zip(clips.chunks_mut(share)) {
-                    scope.spawn(move || {
-                        for (sign, clip) in signs.iter().zip(clips) {
-                            *clip = body.begins(sign).ok();
-                        }
-                    });
-                }
-            });
-        }
-        all
+        self.on_all_processors(signs, AT_ONCE, |sign| body.begins(sign).ok())
     }
 
     fn performs(&self, sign: &Sign) -> Option<Clip> {
         let goes_on = self.goes_on(0);
         goes_on.then(|| self.body.performs(sign).ok()).flatten()
+    }
+
+    fn perform_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
+        let body = self.body;
+        self.on_all_processors(signs, 1, |sign| body.performs(sign).ok())
     }
 }
 

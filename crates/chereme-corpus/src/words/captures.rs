@@ -396,8 +396,12 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
         "synthétisée de nouveau, la main {side} commence à {cm} cm de sa place observée",
     ),
     (
-        "re-synthesised, the sign begins where it was observed if its movement is {names}",
-        "synthétisé de nouveau, le signe commence où il a été observé si son mouvement est {names}",
+        "re-synthesised, the movement is {cm} cm from the observed one",
+        "synthétisé de nouveau, le mouvement est à {cm} cm de celui qui a été observé",
+    ),
+    (
+        "re-synthesised, the movement {names} is {cm} cm from the observed one; {first}, which was read first, is {more} cm from it",
+        "synthétisé de nouveau, le mouvement {names} est à {cm} cm de celui qui a été observé ; {first}, lu d’abord, en est à {more} cm",
     ),
     (
         "the clip is empty: it has no frame to draw",

@@ -1,33 +1,104 @@
-//! Similar readings of the actions of a sign: each differs from the inferred one in one property that is often misread.
+//! Similar readings of the actions of a sign: each differs from another one in one property that is often misread.
 
 use chereme_sign::hamnosys::{
-    Circular, Curve, Directed, Motion, MotionKind, Posture, Repeat, Repetition, Size,
+    Aim, Circular, Compass, Curve, Directed, Direction, Each, Ellipse, Manner, Motion, MotionKind,
+    Place, Posture, Repeat, Repetition, Size, WristMotion,
 };
 
 const SIZES: [Option<Size>; 3] = [None, Some(Size::Small), Some(Size::Big)];
 
-/// Returns lists of actions that differ from `actions` in one property of one action, or lack one.
+const ELLIPSES: [Ellipse; 4] = [
+    Ellipse::Horizontal,
+    Ellipse::UpRight,
+    Ellipse::Vertical,
+    Ellipse::UpLeft,
+];
+
+const WRIST_MOTIONS: [WristMotion; 5] = [
+    WristMotion::Nodding,
+    WristMotion::Swinging,
+    WristMotion::Twisting,
+    WristMotion::StirCw,
+    WristMotion::StirCcw,
+];
+
+const REPEATS: [Repeat; 5] = [
+    Repeat::FromStart,
+    Repeat::FromStartSeveral,
+    Repeat::Continue,
+    Repeat::ContinueSeveral,
+    Repeat::Reverse,
+];
+
+/// The cosine of the greatest angle between similar directions: each is similar to those that share an edge or a corner
+/// with it.
+const NEAR: f64 = 0.57;
+
+/// Returns lists of actions that differ from `actions` in one property of one action.
 pub(super) fn similar(actions: &[Motion]) -> Vec<Vec<Motion>> {
-    let mut all = Vec::new();
-    for (k, action) in actions.iter().enumerate() {
-        for motion in motions(action) {
-            let mut other = actions.to_vec();
-            other[k] = motion;
-            all.push(other);
+    let mut all = others(actions, |action| {
+        let mut all = motions(action);
+        if !matches!(action.kind, MotionKind::Repeated { .. }) {
+            all.extend(REPEATS.map(|repeat| repeated(action, repeat)));
         }
-        if actions.len() > 1 {
-            let mut other = actions.to_vec();
-            other.remove(k);
-            all.push(other);
-        }
-    }
+        all
+    });
     let mut unlike: Vec<Vec<Motion>> = Vec::new();
-    for other in all {
-        if other != actions && !unlike.contains(&other) {
-            unlike.push(other);
+    all.retain(|other| {
+        let is_new = other != actions && !unlike.contains(other);
+        if is_new {
+            unlike.push(other.clone());
+        }
+        is_new
+    });
+    all
+}
+
+/// Returns an action that ends at `place`; `None` if it has no path.
+pub(super) fn targeting(action: &Motion, place: &Place) -> Option<Motion> {
+    let at = |posture: Posture| {
+        Box::new(Posture {
+            place: Some(place.clone()),
+            ..posture
+        })
+    };
+    Some(match &action.kind {
+        MotionKind::Directed(_) | MotionKind::Circular(_) | MotionKind::Parallel(_) => {
+            Motion::new(MotionKind::Target {
+                motion: Some(Box::new(action.clone())),
+                posture: at(Posture::default()),
+            })
+        }
+        MotionKind::Target { motion, posture } => changed(action, |other| {
+            other.kind = MotionKind::Target {
+                motion: motion.clone(),
+                posture: at(Posture::clone(posture)),
+            };
+        }),
+        MotionKind::Repeated { motion, repetition } => {
+            let motion = Box::new(targeting(motion, place)?);
+            changed(action, |other| {
+                other.kind = MotionKind::Repeated {
+                    motion,
+                    repetition: *repetition,
+                };
+            })
+        }
+        _ => return None,
+    })
+}
+
+/// Returns lists in which one motion is replaced by each of its `readings`.
+fn others(all: &[Motion], readings: impl Fn(&Motion) -> Vec<Motion>) -> Vec<Vec<Motion>> {
+    let mut found = Vec::new();
+    for (k, motion) in all.iter().enumerate() {
+        for reading in readings(motion) {
+            let mut other = all.to_vec();
+            other[k] = reading;
+            found.push(other);
         }
     }
-    unlike
+    found
 }
 
 /// Returns a copy after a change.
@@ -37,11 +108,36 @@ fn changed<T: Clone>(of: &T, change: impl FnOnce(&mut T)) -> T {
     other
 }
 
+fn repeated(action: &Motion, repeat: Repeat) -> Motion {
+    Motion::new(MotionKind::Repeated {
+        motion: Box::new(action.clone()),
+        repetition: Repetition {
+            repeat,
+            second: None,
+            growth: None,
+            shift: None,
+            shift_size: None,
+            shift_growth: None,
+            approx: false,
+        },
+    })
+}
+
+/// Returns the directions at most 55 degrees from a direction, itself included.
+fn near(direction: Direction) -> impl Iterator<Item = Direction> {
+    Direction::all().filter(move |other| {
+        let parts = direction.vector().into_iter().zip(other.vector());
+        parts.map(|(a, b)| a * b).sum::<f64>() > NEAR
+    })
+}
+
 fn motions(of: &Motion) -> Vec<Motion> {
     let kinds = kinds(&of.kind).into_iter();
     let mut all: Vec<Motion> = kinds.map(|kind| Motion { kind, ..of.clone() }).collect();
-    all.push(changed(of, |usual| {
-        (usual.manner.fast, usual.manner.slow) = (false, false);
+    let manners = manners(&of.manner).into_iter();
+    all.extend(manners.map(|manner| Motion {
+        manner,
+        ..of.clone()
     }));
     if let MotionKind::Repeated { motion, .. }
     | MotionKind::Target {
@@ -51,105 +147,187 @@ fn motions(of: &Motion) -> Vec<Motion> {
     {
         all.push(Motion::clone(motion));
     }
+    if let MotionKind::Parallel(both) = &of.kind {
+        all.extend(both.iter().cloned());
+    }
     all
 }
 
+fn manners(of: &Manner) -> [Manner; 6] {
+    let usual = Manner {
+        fast: false,
+        slow: false,
+        tense: false,
+        halt: false,
+        ..*of
+    };
+    [
+        usual,
+        changed(&usual, |other| other.fast = true),
+        changed(&usual, |other| other.slow = true),
+        changed(&usual, |other| other.tense = true),
+        changed(&usual, |other| other.halt = true),
+        changed(of, |other| other.rest = !of.rest),
+    ]
+}
+
 fn kinds(of: &MotionKind) -> Vec<MotionKind> {
-    let mut all = Vec::new();
     match of {
-        MotionKind::Directed(path) => {
-            let mut add = |change: &dyn Fn(&mut Directed)| {
-                all.push(MotionKind::Directed(changed(path, change)));
-            };
-            for size in SIZES {
-                add(&|other| other.size.first = size);
-                add(&|other| other.curve = other.curve.map(|curve| Curve { size, ..curve }));
-            }
-            add(&|other| other.curve = None);
-        }
-        MotionKind::Circular(circle) => {
-            let mut add = |change: &dyn Fn(&mut Circular)| {
-                all.push(MotionKind::Circular(changed(circle, change)));
-            };
-            for size in SIZES {
-                add(&|other| other.size.first = size);
-            }
-            add(&|other| (other.clock.start, other.clock.end) = (None, None));
-            add(&|other| other.ellipse = None);
-        }
-        MotionKind::Wrist { motion, .. } => {
-            let motion = *motion;
-            all.extend(SIZES.map(|size| MotionKind::Wrist { motion, size }));
+        MotionKind::Directed(path) => paths(path).into_iter().map(MotionKind::Directed).collect(),
+        MotionKind::Circular(circle) => circles(circle)
+            .into_iter()
+            .map(MotionKind::Circular)
+            .collect(),
+        MotionKind::Wrist { motion, size } => {
+            let sizes = SIZES.map(|size| MotionKind::Wrist {
+                motion: *motion,
+                size,
+            });
+            let motions = WRIST_MOTIONS.map(|motion| MotionKind::Wrist {
+                motion,
+                size: *size,
+            });
+            sizes.into_iter().chain(motions).collect()
         }
         MotionKind::Split(a, b) => {
-            for (n, side) in [a, b].into_iter().enumerate() {
-                for other in side.iter().flat_map(|side| motions(side)) {
-                    let mut both = [a.clone(), b.clone()];
-                    both[n] = Some(Box::new(other));
-                    let [a, b] = both;
-                    all.push(MotionKind::Split(a, b));
-                }
-            }
+            let (a, b) = (a.as_deref(), b.as_deref());
+            let split = |a: Option<&Motion>, b: Option<&Motion>| {
+                let boxed = |motion: &Motion| Box::new(motion.clone());
+                MotionKind::Split(a.map(boxed), b.map(boxed))
+            };
+            let own = a.into_iter().flat_map(motions);
+            let other = b.into_iter().flat_map(motions);
+            own.map(|a| split(Some(&a), b))
+                .chain(other.map(|b| split(a, Some(&b))))
+                .collect()
         }
         MotionKind::Sequence { motions, fused } => {
-            let fused = *fused;
-            let others = similar(motions).into_iter();
-            all.extend(others.map(|motions| MotionKind::Sequence { motions, fused }));
+            let sequence = |motions| MotionKind::Sequence {
+                motions,
+                fused: *fused,
+            };
+            similar(motions).into_iter().map(sequence).collect()
         }
-        MotionKind::Parallel(motions) => {
-            all.extend(similar(motions).into_iter().map(MotionKind::Parallel));
+        MotionKind::Parallel(all) => {
+            let found = others(all, motions).into_iter();
+            found.map(MotionKind::Parallel).collect()
         }
         MotionKind::Target { motion, posture } => {
-            if let Some(motion) = motion {
-                all.extend(
-                    motions(motion)
-                        .into_iter()
-                        .map(|motion| MotionKind::Target {
-                            motion: Some(Box::new(motion)),
-                            posture: posture.clone(),
-                        }),
-                );
-            }
-            if posture.place.is_some() {
-                let free = Posture {
-                    place: None,
-                    ..Posture::clone(posture)
-                };
-                if free != Posture::default() {
-                    all.push(MotionKind::Target {
-                        motion: motion.clone(),
-                        posture: Box::new(free),
-                    });
-                }
-            }
+            let targets = |motion: Option<&Motion>, posture: &Posture| MotionKind::Target {
+                motion: motion.cloned().map(Box::new),
+                posture: Box::new(posture.clone()),
+            };
+            let motion = motion.as_deref();
+            let moved = motion.into_iter().flat_map(motions);
+            moved
+                .map(|other| targets(Some(&other), posture))
+                .chain(ends(posture).iter().map(|end| targets(motion, end)))
+                .collect()
         }
         MotionKind::Repeated { motion, repetition } => {
-            all.extend(
-                motions(motion)
-                    .into_iter()
-                    .map(|motion| MotionKind::Repeated {
-                        motion: Box::new(motion),
-                        repetition: *repetition,
-                    }),
-            );
-            let repeat = match repetition.repeat {
-                Repeat::FromStart => Repeat::FromStartSeveral,
-                Repeat::FromStartSeveral => Repeat::FromStart,
-                other => other,
-            };
-            all.push(MotionKind::Repeated {
-                motion: motion.clone(),
+            let motions = motions(motion).into_iter();
+            let others = motions.map(|motion| (motion, repetition.repeat));
+            let repeats = REPEATS.map(|repeat| (Motion::clone(motion), repeat));
+            let all = others.chain(repeats);
+            all.map(|(motion, repeat)| MotionKind::Repeated {
+                motion: Box::new(motion),
                 repetition: Repetition {
                     repeat,
                     ..*repetition
                 },
-            });
+            })
+            .collect()
         }
         MotionKind::Cross { .. }
         | MotionKind::FingerPlay(_)
         | MotionKind::Still
-        | MotionKind::Body(_) => {}
+        | MotionKind::Body(_) => Vec::new(),
     }
+}
+
+fn paths(of: &Directed) -> Vec<Directed> {
+    let mut all = vec![
+        changed(of, |other| other.curve = None),
+        changed(of, |other| other.zigzag = None),
+        changed(of, |other| other.second = None),
+    ];
+    for size in SIZES {
+        all.push(changed(of, |other| other.size.first = size));
+        if let Some(curve) = of.curve {
+            all.push(changed(of, |other| {
+                other.curve = Some(Curve { size, ..curve });
+            }));
+        }
+    }
+    all.extend(
+        near(of.direction).map(|direction| changed(of, |other| other.direction = direction)),
+    );
+    let size = of.curve.map_or(Some(Size::Small), |curve| curve.size);
+    all.extend(Compass::ALL.map(|to| {
+        changed(of, |other| {
+            other.curve = Some(Curve { to, size });
+        })
+    }));
+    all
+}
+
+fn circles(of: &Circular) -> Vec<Circular> {
+    let mut all = vec![
+        changed(of, |other| {
+            (other.clock.start, other.clock.end) = (None, None)
+        }),
+        changed(of, |other| other.clock.end = None),
+        changed(of, |other| other.ellipse = None),
+    ];
+    for size in SIZES {
+        all.push(changed(of, |other| other.size.first = size));
+        if of.ellipse.is_some() {
+            all.push(changed(of, |other| other.ellipse_size = size));
+        }
+    }
+    all.extend(near(of.axis).map(|axis| changed(of, |other| other.axis = axis)));
+    all.extend(ELLIPSES.map(|ellipse| changed(of, |other| other.ellipse = Some(ellipse))));
+    for hour in Compass::ALL {
+        all.push(changed(of, |other| other.clock.start = Some(hour)));
+        if of.clock.end.is_some() {
+            all.push(changed(of, |other| other.clock.end = Some(hour)));
+        }
+    }
+    all
+}
+
+/// Returns postures at the end of a motion: each lacks one property of `of`, or has a similar direction or palm.
+fn ends(of: &Posture) -> Vec<Posture> {
+    let mut all = vec![
+        changed(of, |other| other.place = None),
+        changed(of, |other| other.shape = Each::Unset),
+        changed(of, |other| other.extended = Each::Unset),
+        changed(of, |other| other.palm = Each::Unset),
+    ];
+    if let Each::Shared(aim) = of.extended {
+        let pointing = |first| {
+            Each::Shared(Aim {
+                first,
+                second: None,
+                ..aim
+            })
+        };
+        let similar = near(aim.first).filter(|direction| direction.has_symbol());
+        all.extend(similar.map(|first| changed(of, |other| other.extended = pointing(first))));
+    }
+    if let Each::Shared(aim) = of.palm {
+        let eighth = std::f64::consts::FRAC_PI_4;
+        all.extend([-eighth, 0.0, eighth].map(|by| {
+            let first = Compass::nearest(aim.first.angle() + by);
+            let palm = Aim {
+                first,
+                second: None,
+                ..aim
+            };
+            changed(of, |other| other.palm = Each::Shared(palm))
+        }));
+    }
+    all.retain(|other| *other != Posture::default());
     all
 }
 
@@ -159,54 +337,116 @@ mod tests {
 
     use super::*;
 
-    /// Returns the symbols of all similar readings of a movement, without their first three letters.
-    fn readings(movement: &str) -> Vec<String> {
+    fn sign(movement: &str) -> Sign {
         let names: Vec<String> = movement.split(' ').map(|it| format!("ham{it}")).collect();
         let text = from_names(names.iter().map(String::as_str)).expect("symbols");
-        let sign = parse(&text).expect("a movement").sign;
-        let written = |actions: Vec<Motion>| {
-            let mut other: Sign = sign.clone();
-            other.parts[0].actions = actions;
-            let names = to_names(&text_of(&other)).expect("symbols").join(" ");
-            names.replace("ham", "")
-        };
-        let all = similar(&sign.parts[0].actions).into_iter();
-        all.map(written).collect()
+        parse(&text).expect("a movement").sign
+    }
+
+    /// Returns the symbols of actions, without their first three letters.
+    fn named(actions: Vec<Motion>) -> String {
+        let mut sign = Sign::default();
+        sign.parts.resize_with(1, Default::default);
+        sign.parts[0].actions = actions;
+        let names = to_names(&text_of(&sign)).expect("symbols").join(" ");
+        names.replace("ham", "")
     }
 
     #[test]
-    fn similar_readings_differ_in_size_curve_start_target_or_repetition() {
-        assert_eq!(readings("moveo"), ["moveo smallmod", "moveo largemod"]);
-        assert_eq!(
-            readings("moveo arcu"),
-            [
-                "moveo smallmod arcu",
-                "moveo arcu smallmod",
-                "moveo largemod arcu",
-                "moveo arcu largemod",
+    fn similar_readings_differ_in_one_property() {
+        let cases: [(&str, &[&str]); 6] = [
+            (
                 "moveo",
-            ]
-        );
-        assert_eq!(
-            readings("circleo smallmod clockul repeatfromstart"),
-            [
-                "circleo clockul repeatfromstart",
-                "circleo largemod clockul repeatfromstart",
-                "circleo smallmod repeatfromstart",
-                "circleo smallmod clockul repeatfromstartseveral",
-                "circleo smallmod clockul",
-            ]
-        );
-        assert_eq!(
-            readings("moveo smallmod fast chest touch"),
-            [
-                "moveo fast chest touch",
-                "moveo largemod fast chest touch",
-                "moveo smallmod chest touch",
-                "moveo smallmod fast",
-            ]
-        );
-        assert_eq!(readings("nodding moveo").len(), 2 + 1 + 2 + 1);
-        assert!(readings("nomotion").is_empty());
+                &[
+                    "moveo smallmod",
+                    "moveo largemod",
+                    "moveol",
+                    "moveo arcu smallmod",
+                    "moveo slow",
+                    "moveo repeatfromstart",
+                ],
+            ),
+            (
+                "moveo arcu",
+                &[
+                    "moveo",
+                    "moveo arcu smallmod",
+                    "moveo largemod arcu",
+                    "moveo arcu arcl",
+                ],
+            ),
+            (
+                "circleo smallmod clockul repeatfromstart",
+                &[
+                    "circleo clockul repeatfromstart",
+                    "circleo smallmod repeatfromstart",
+                    "circleo smallmod clocku repeatfromstart",
+                    "circleol smallmod clockul repeatfromstart",
+                    "circleo smallmod clockul repeatfromstartseveral",
+                    "circleo smallmod clockul",
+                ],
+            ),
+            (
+                "moveo smallmod fast chest touch",
+                &[
+                    "moveo fast chest touch",
+                    "moveo smallmod chest touch",
+                    "moveo smallmod fast",
+                ],
+            ),
+            (
+                "parbegin moveo replace extfingeru palml parend",
+                &[
+                    "parbegin moveo replace palml parend",
+                    "parbegin moveo replace extfingeru parend",
+                    "parbegin moveo replace extfingerul palml parend",
+                    "parbegin moveo replace extfingeru palmul parend",
+                    "replace extfingeru palml",
+                ],
+            ),
+            (
+                "nodding moveo",
+                &["swinging moveo", "nodding smallmod moveo", "nodding moveuo"],
+            ),
+        ];
+        for (movement, expected) in cases {
+            let of = sign(movement).parts.swap_remove(0).actions;
+            let all: Vec<String> = similar(&of).into_iter().map(named).collect();
+            for other in expected {
+                assert!(
+                    all.iter().any(|it| it == other),
+                    "{movement}: no {other} in {all:?}"
+                );
+            }
+            assert!(!all.iter().any(|it| it == movement), "{movement}: {all:?}");
+            let mut unlike = all.clone();
+            unlike.sort();
+            unlike.dedup();
+            assert_eq!(unlike.len(), all.len(), "{movement}: {all:?}");
+        }
+        assert_eq!(similar(&sign("nomotion").parts[0].actions).len(), 5 + 5);
+    }
+
+    #[test]
+    fn a_path_ends_at_another_place() {
+        let cases = [
+            ("moveo", "moveo chin touch"),
+            ("moveo chest touch", "moveo chin touch"),
+            (
+                "moveo smallmod repeatfromstart",
+                "moveo smallmod chin touch repeatfromstart",
+            ),
+        ];
+        let target = sign("moveo chin touch").parts.swap_remove(0).actions;
+        let MotionKind::Target { posture, .. } = &target[0].kind else {
+            panic!("{target:?}");
+        };
+        let place = posture.place.as_ref().expect("a place");
+        for (movement, expected) in cases {
+            let of = sign(movement).parts.swap_remove(0).actions;
+            let other = targeting(&of[0], place).expect("a path");
+            assert_eq!(named(vec![other]), expected);
+        }
+        assert_eq!(targeting(&sign("nodding").parts[0].actions[0], place), None);
     }
 }

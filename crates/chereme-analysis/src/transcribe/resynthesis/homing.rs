@@ -19,12 +19,12 @@ pub(super) struct Search {
 }
 
 /// The properties in which the signs of two trials may differ: the place, the orientations, whether the hands mirror each
-/// other, and the actions.
+/// other, and whether they stay still.
 type Key = (
     Option<Place>,
     [Option<(Aim<Direction>, Aim<Compass>)>; 2],
     bool,
-    Option<Vec<Motion>>,
+    bool,
 );
 
 impl Search {
@@ -69,12 +69,7 @@ impl Search {
 fn key(trial: &Trial) -> Key {
     let turned = trial.turned.each_ref();
     let turned = turned.map(|it| it.as_ref().map(|it| (it.extended.best, it.palm.best)));
-    (
-        trial.stand.place(),
-        turned,
-        trial.mirrored,
-        trial.actions.clone(),
-    )
+    (trial.stand.place(), turned, trial.mirrored, trial.still)
 }
 
 impl Proof<'_, '_> {

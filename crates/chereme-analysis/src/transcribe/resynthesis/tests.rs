@@ -2,13 +2,13 @@
 
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Constellation, Contact, Digit};
-use chereme_sign::hamnosys::{HandClass, Motion, MotionKind, Place, Side, Site, Size};
+use chereme_sign::hamnosys::{HandClass, MotionKind, Place, Side, Site, Size};
 
 use super::*;
 use crate::transcribe::place::{Together, named};
 use crate::transcribe::scene::Scene;
 use crate::transcribe::tests::{Held, before_chest, clip, ease};
-use crate::transcribe::{Options, transcribe, transcribe_proven};
+use crate::transcribe::{FeatureKind, Options, transcribe, transcribe_proven};
 
 type Hands = [Option<Held>; 2];
 
@@ -96,23 +96,17 @@ fn seen<T>(hands: &Hands, look: impl FnOnce(&Body<'_>) -> T) -> T {
     look(&Sight::new(&scene, &options).look(0).expect("a body"))
 }
 
-/// An animator that puts each hand `by` metres beside its place, and `more` metres if a movement is not big.
+/// An animator that puts each hand `by` metres beside its place.
 struct Displaces {
     near: [Near; 2],
     by: [DVec3; 2],
-    more: DVec3,
 }
 
 impl Performs for Displaces {
     fn begins(&self, sign: &Sign) -> Option<Clip> {
         let place = sign.parts[0].posture.place.as_ref()?;
         let ideal = self.near.iter().find_map(|near| near.at(place))?;
-        let is_big = |action: &Motion| matches!(&action.kind, MotionKind::Directed(path) if path.size.first == Some(Size::Big));
-        let more = match sign.parts[0].actions.iter().all(is_big) {
-            true => DVec3::ZERO,
-            false => self.more,
-        };
-        let hands = moved(&ideal, self.by.map(|by| by + more));
+        let hands = moved(&ideal, self.by);
         Some(clip(0.0, |_| hands.clone()).0)
     }
 
@@ -130,7 +124,6 @@ fn read(from: Hands, place: &Place, by: [DVec3; 2]) -> [Option<Place>; 2] {
     let displaces = Displaces {
         near: [there, ideal].map(Near::of),
         by,
-        more: DVec3::ZERO,
     };
     let options = Options::made();
     let alone = transcribe(&clip, &anatomy, &options).expect("a sign");
@@ -170,31 +163,75 @@ fn a_hand_that_is_displaced_by_centimetres_is_read_at_its_place() {
     }
 }
 
+/// An animator that moves a hand down in a third of a second, as far as the size says.
+struct Moves {
+    held: Held,
+    /// The length (m) of each size: small, usual and big.
+    lengths: [f64; 3],
+}
+
+impl Moves {
+    fn down(&self, length: f64) -> Clip {
+        let down = |time| self.held.moved(DVec3::NEG_Y * length * ease(time));
+        clip(0.3, |time| [Some(down(time)), None]).0
+    }
+}
+
+impl Performs for Moves {
+    fn begins(&self, _: &Sign) -> Option<Clip> {
+        Some(clip(0.0, |_| [Some(self.held.clone()), None]).0)
+    }
+
+    fn performs(&self, sign: &Sign) -> Option<Clip> {
+        let [small, usual, big] = self.lengths;
+        let action = sign.parts[0].actions.first()?;
+        let MotionKind::Directed(path) = &action.kind else {
+            return self.begins(sign);
+        };
+        Some(self.down(match path.size.first {
+            Some(Size::Small) => small,
+            None => usual,
+            Some(Size::Big) => big,
+        }))
+    }
+}
+
 #[test]
-fn a_place_is_confirmed_by_a_similar_movement_and_the_finding_names_it() {
-    let place = Place::Body(BodyPlace {
-        site: site(BodyLocation::Shoulders, Some(Side::RightAt)),
-        ..BodyPlace::default()
-    });
-    let ideal = Near::of([Some(before_chest(HandClass::Flat)), None]);
-    let ideal = ideal.at(&place).expect("a place within reach");
-    let by = [DVec3::new(0.05, -0.07, 0.04), DVec3::ZERO];
-    let there = moved(&ideal, by);
-    let (clip, anatomy) = clip(0.3, |time| {
-        moved(&there, [DVec3::NEG_Y * (0.13 * ease(time)), DVec3::ZERO])
-    });
-    let displaces = Displaces {
-        near: [there, ideal].map(Near::of),
-        by,
-        more: DVec3::new(0.012, 0.009, 0.0),
+fn a_movement_that_is_misread_is_replaced_with_its_features() {
+    let moves = Moves {
+        held: before_chest(HandClass::Flat),
+        lengths: [0.05, 0.09, 0.13],
     };
+    let observed = moves.down(0.13);
+    let anatomy = clip(0.0, |_| [Some(moves.held.clone()), None]).1;
     let options = Options::made();
-    let found = transcribe_proven(&clip, &anatomy, &options, &displaces).expect("a sign");
-    assert_eq!(found.sign.parts[0].posture.place.as_ref(), Some(&place));
-    let named = "re-synthesised, the sign begins where it was observed if its movement is hammoved \
-                 hamlargemod hamslow";
+    let size = |found: &Transcription| {
+        let mut features = found.features.iter();
+        let feature = features.find(|it| it.kind == FeatureKind::Size);
+        feature.expect("a size").clone()
+    };
+    let alone = transcribe(&observed, &anatomy, &options).expect("a sign");
+    let before = size(&alone);
+    assert_ne!(before.value, "big", "it needs no re-synthesis");
+    let found = transcribe_proven(&observed, &anatomy, &options, &moves).expect("a sign");
+    let after = size(&found);
+    assert_eq!(after.value, "big");
+    assert!(after.residual < 0.01, "{after:?}");
+    let next = after.runner_up.expect("the first reading");
+    assert_eq!(next.value, before.value);
+    assert!(next.residual > 1.0, "{next:?}");
+    let MotionKind::Directed(path) = &found.sign.parts[0].actions[0].kind else {
+        panic!("{:?}", found.sign);
+    };
+    assert_eq!(path.size.first, Some(Size::Big));
     assert!(
-        found.findings.iter().any(|it| it == named),
+        found.stages[1].text.contains(&after.text),
+        "{:?}",
+        found.stages
+    );
+    let mut findings = found.findings.iter();
+    assert!(
+        findings.any(|it| it.contains("which was read first")),
         "{:?}",
         found.findings
     );

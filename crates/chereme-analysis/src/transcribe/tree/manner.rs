@@ -1,6 +1,5 @@
 //! Manner of an act: its duration against the usual one, and its course over time.
 
-use chereme_sign::hamnosys::symbol::{Kind as Symbol, Mark};
 use chereme_sign::hamnosys::{BodyLanguage, Manner};
 
 use super::super::scene::Scene;
@@ -18,26 +17,20 @@ enum Tempo {
 }
 
 impl Tempo {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Usual => "usual",
-            Self::Fast => "fast",
-            Self::Slow => "slow",
-            Self::Tense => "tense",
-            Self::Halt => "sudden stop",
-        }
-    }
-
-    /// Returns its symbol.
-    fn mark(self) -> Option<Symbol> {
-        let mark = match self {
-            Self::Usual => return None,
-            Self::Fast => Mark::Fast,
-            Self::Slow => Mark::Slow,
-            Self::Tense => Mark::Tense,
-            Self::Halt => Mark::Halt,
+    /// Returns the manner in notation.
+    fn manner(self, rest: bool) -> Manner {
+        let mut manner = Manner {
+            rest,
+            ..Manner::default()
         };
-        Some(Symbol::Manner(mark))
+        match self {
+            Self::Usual => {}
+            Self::Fast => manner.fast = true,
+            Self::Slow => manner.slow = true,
+            Self::Tense => manner.tense = true,
+            Self::Halt => manner.halt = true,
+        }
+        manner
     }
 
     /// Returns its factor on the usual duration, and its penalty.
@@ -83,31 +76,14 @@ impl Writer<'_> {
     ) -> Manner {
         let scene = self.scene;
         let rest = scene.seconds(idle) > tuned().manner.rests * scene.language.time_rest;
-        let mut manner = Manner {
-            rest,
-            ..Manner::default()
-        };
         let Some(found) = tempo(scene, track, act, into_contact) else {
-            return manner;
+            return Tempo::Usual.manner(rest);
         };
         let first = *act.frames.start();
         self.record(FeatureKind::Manner, Some(track), first, &found, |tempo| {
-            let marks: Vec<Symbol> = tempo
-                .mark()
-                .into_iter()
-                .chain(rest.then_some(Symbol::Manner(Mark::Rest)))
-                .collect();
-            let rest = if rest { ", after a rest" } else { "" };
-            words::manner(&format!("{}{rest}", tempo.name()), &marks)
+            words::manner(&tempo.manner(rest))
         });
-        match found.best {
-            Tempo::Usual => {}
-            Tempo::Fast => manner.fast = true,
-            Tempo::Slow => manner.slow = true,
-            Tempo::Tense => manner.tense = true,
-            Tempo::Halt => manner.halt = true,
-        }
-        manner
+        found.best.manner(rest)
     }
 }
 

@@ -202,6 +202,14 @@ impl Stand {
 
 /// Converts a constellation to notation.
 fn constellation(together: &Together, at: &Placed) -> Constellation {
+    Constellation {
+        at: at.place.site.is_some().then_some(at.place.clone()),
+        ..meeting(together)
+    }
+}
+
+/// Converts a constellation to notation that says nothing of its place.
+pub(in crate::transcribe) fn meeting(together: &Together) -> Constellation {
     let [dominant, other] = together
         .parts
         .map(|part| together.named.then(|| named(part)));
@@ -209,7 +217,6 @@ fn constellation(together: &Together, at: &Placed) -> Constellation {
         dominant,
         other,
         contact: Some(together.contact),
-        at: at.place.site.is_some().then_some(at.place.clone()),
         ..Constellation::default()
     }
 }
