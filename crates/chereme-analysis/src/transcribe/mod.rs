@@ -170,7 +170,8 @@ pub struct Feature {
     pub value: String,
     /// Its HamNoSys; empty if the value is written by omission.
     pub text: String,
-    /// The distance between the movement and this value, in [`unit`](Self::unit).
+    /// The distance between the movement and this value, in [`unit`](Self::unit). If re-synthesis replaced the first value,
+    /// how far the re-synthesised hands are from the observed ones, on average; the first value is the runner-up.
     pub residual: f64,
     /// The unit of residuals.
     pub unit: Unit,

@@ -1,5 +1,5 @@
-//! Verifies hand placement by re-synthesis: candidates are animated, and the one that puts the hand at
-//! its observed position is reported.
+//! Verifies movements and places by re-synthesis: candidates are animated, and the one that puts the hands where they
+//! were observed is reported.
 //!
 //! The first reading comes from the hand's position alone. But the animator pushes a hand out of the trunk
 //! that should touch it, keeps it clear of the other hand, stops it at its joint limits, and lets it give way to its

@@ -82,6 +82,7 @@ fn restate(
         let all = all.iter().filter(|it| it.0 == kind);
         all.map(|it| it.1.clone()).collect()
     };
+    let hand = stage.hand.or(own.iter().find_map(|it| it.hand));
     let mut kinds: Vec<FeatureKind> = old.iter().chain(&new).map(|it| it.0).collect();
     kinds.sort();
     kinds.dedup();
@@ -114,7 +115,7 @@ fn restate(
         });
         own.extend(new.into_iter().skip(nth.max(old.len())).map(|is| Feature {
             kind,
-            hand: stage.hand,
+            hand,
             frame: stage.frames.0,
             frames: stage.frames,
             action: stage.action,
