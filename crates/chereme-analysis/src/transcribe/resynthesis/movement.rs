@@ -108,7 +108,7 @@ impl Proof<'_, '_> {
         };
         let last = end.min(track.wrist.len()).saturating_sub(1);
         let first = first.min(last);
-        // A repeated path ends where it is farthest from its start.
+        // The end of a repeated path is its farthest point from the start.
         let farther = |a: &usize, b: &usize| {
             let from = |frame: usize| track.wrist[frame].distance(track.wrist[first]);
             from(*a).total_cmp(&from(*b))

@@ -1,4 +1,4 @@
-//! What notation states about an act, against the features that were recorded of it.
+//! Compares the values that notation states about an act with its recorded features.
 
 use chereme_sign::hamnosys::{Sign, from_names, parse};
 
