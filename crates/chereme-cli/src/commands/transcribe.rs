@@ -17,8 +17,8 @@ use crate::words::Words;
 ///
 /// If a sign was generated from notation alone, the program animates its transcription as a check. If its hands move
 /// differently, it tries similar movements and other postures. Values that it replaces have two residuals in cm: how far
-/// the hands are from the observed ones with the new value and with the old one, on average. That takes up to half a
-/// minute; Ctrl-C stops it.
+/// the hands are from the observed ones with the new value and with the old one, on average. That takes up to a minute;
+/// Ctrl-C stops it.
 ///
 /// `--json` gives "gloss", "token", "recording", "start_us", "end_us", the whole as "hamnosys" and "symbols" and as the
 /// tree "sign"; "stages", the posture at the beginning and each action with "action", "hand", "start_us", "end_us",
@@ -138,8 +138,8 @@ pub(super) const WORDS: Words = Words {
             "L’écart est la distance du mouvement à sa transcription, et le second choix est la deuxième meilleure lecture. Seule une police HamNoSys montre les caractères ; leurs noms sont écrits en dessous, `--names` n’écrit rien d’autre, et `render TOKEN --to it.svg` dessine une notation enregistrée.",
         ),
         (
-            "If a sign was generated from notation alone, the program animates its transcription as a check. If its hands move differently, it tries similar movements and other postures. Values that it replaces have two residuals in cm: how far the hands are from the observed ones with the new value and with the old one, on average. That takes up to half a minute; Ctrl-C stops it.",
-            "Si un signe a été généré d’une notation seule, le programme anime sa transcription pour contrôle. Si les mains bougent autrement, il essaie des mouvements semblables et d’autres postures. Les valeurs qu’il remplace ont deux écarts en cm : la distance moyenne des mains à celles qui ont été observées, avec la nouvelle valeur et avec l’ancienne. Cela prend jusqu’à une demi-minute ; Ctrl-C l’arrête.",
+            "If a sign was generated from notation alone, the program animates its transcription as a check. If its hands move differently, it tries similar movements and other postures. Values that it replaces have two residuals in cm: how far the hands are from the observed ones with the new value and with the old one, on average. That takes up to a minute; Ctrl-C stops it.",
+            "Si un signe a été généré d’une notation seule, le programme anime sa transcription pour contrôle. Si les mains bougent autrement, il essaie des mouvements semblables et d’autres postures. Les valeurs qu’il remplace ont deux écarts en cm : la distance moyenne des mains à celles qui ont été observées, avec la nouvelle valeur et avec l’ancienne. Cela prend jusqu’à une minute ; Ctrl-C l’arrête.",
         ),
         (
             "`--json` gives \"gloss\", \"token\", \"recording\", \"start_us\", \"end_us\", the whole as \"hamnosys\" and \"symbols\" and as the tree \"sign\"; \"stages\", the posture at the beginning and each action with \"action\", \"hand\", \"start_us\", \"end_us\", \"hamnosys\", \"symbols\"; \"features\", each with \"feature\", \"hand\", \"action\" (null for the posture), \"at_us\", \"start_us\", \"end_us\", \"value\", \"hamnosys\", \"symbols\", \"residual\", \"unit\" (deg, cm or share) and \"runner_up\" (\"value\", \"hamnosys\", \"symbols\", \"residual\"; null if there is no second reading); \"findings\". Times are microseconds from the start of the recording.",
