@@ -400,16 +400,11 @@ impl<'a> Writer<'a> {
         Motion::new(MotionKind::Repeated {
             motion: Box::new(motion),
             repetition: Repetition {
-                repeat,
-                second: None,
                 growth: act.grows.map(|increasing| Growth {
                     increasing,
                     size: None,
                 }),
-                shift: None,
-                shift_size: None,
-                shift_growth: None,
-                approx: false,
+                ..Repetition::plain(repeat)
             },
         })
     }

@@ -160,15 +160,7 @@ fn the_founding_example_moves_both_hands_down_twice() {
     }
     let twice = Motion::new(MotionKind::Repeated {
         motion: Box::new(down),
-        repetition: Repetition {
-            repeat: Repeat::FromStart,
-            second: None,
-            growth: None,
-            shift: None,
-            shift_size: None,
-            shift_growth: None,
-            approx: false,
-        },
+        repetition: Repetition::plain(Repeat::FromStart),
     });
     let place = Some(at(BodyLocation::Stomach, None));
     let here = notated(

@@ -137,15 +137,7 @@ fn targets_and_replacements_are_final_values() {
         motion: None,
         posture: Box::new(target),
     });
-    let repetition = Repetition {
-        repeat: Repeat::FromStart,
-        second: None,
-        growth: None,
-        shift: None,
-        shift_size: None,
-        shift_growth: None,
-        approx: false,
-    };
+    let repetition = Repetition::plain(Repeat::FromStart);
     let part = Manual {
         posture: posture(
             flat(),

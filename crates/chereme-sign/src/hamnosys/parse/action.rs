@@ -525,15 +525,7 @@ impl Parser<'_> {
     }
 
     fn repetition(&mut self) -> Repetition {
-        let mut repetition = Repetition {
-            repeat: self.repeat(),
-            second: None,
-            growth: None,
-            shift: None,
-            shift_size: None,
-            shift_growth: None,
-            approx: false,
-        };
+        let mut repetition = Repetition::plain(self.repeat());
         if let Some(Kind::Repeat(_)) = self.peek() {
             repetition.second = Some(self.repeat());
         }

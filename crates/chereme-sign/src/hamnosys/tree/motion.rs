@@ -306,6 +306,22 @@ pub struct Repetition {
     pub approx: bool,
 }
 
+impl Repetition {
+    /// Returns a plain repetition, without growth or shift.
+    #[must_use]
+    pub const fn plain(repeat: Repeat) -> Self {
+        Self {
+            repeat,
+            second: None,
+            growth: None,
+            shift: None,
+            shift_size: None,
+            shift_growth: None,
+            approx: false,
+        }
+    }
+}
+
 /// A kind of repetition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
