@@ -47,7 +47,7 @@ use chereme_motion::{Anatomy, Clip, HandCorrection, Side};
 use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, Sign};
 use serde::Serialize;
 
-pub use resynthesis::MOST_POSTURES;
+pub use resynthesis::MOST_TRIALS;
 
 use tuned::tuned;
 
@@ -311,8 +311,8 @@ pub trait Performs {
 /// The animator pushes a hand out of the trunk that should touch it, keeps it clear of the other hand, stops it at
 /// its joint limits, and lets it give way to its arm within the room of its place. Such a hand is not at its notated
 /// place, but the right place puts it exactly at the observed position. If the first reading misses it, alternative
-/// readings are synthesised, at most [`MOST_POSTURES`] in a search. One that puts the hands within millimetres of their
-/// observed positions is reported; or, since a misread movement displaces them, one that misses them by much less than
+/// readings are synthesised, at most [`MOST_TRIALS`] of movements and places. One that puts the hands within millimetres
+/// of their observed positions is reported; or, since a misread movement displaces them, one that misses them by much less than
 /// the first. Findings report what is not explained. Captured movement is never reproduced that exactly: use
 /// [`transcribe`] for it.
 ///

@@ -29,10 +29,13 @@ use crate::transcribe::tuned::tuned;
 use homing::Search;
 
 /// The most postures that are synthesised in one search for the places of a sign.
-pub const MOST_POSTURES: usize = 1000;
+const MOST_POSTURES: usize = 1000;
 
 /// The most searches for the places of a sign: a second one follows if the places of the first one explain the movement.
 const SEARCHES: usize = 2;
+
+/// The most postures and movements that are synthesised for one sign.
+pub const MOST_TRIALS: usize = SEARCHES * MOST_POSTURES + movement::MOST_MOVEMENTS;
 
 /// Writes the notation of a scene; with `performs`, verifies movements and places by re-synthesis.
 pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>) -> Transcription {
@@ -444,7 +447,9 @@ impl Proof<'_, '_> {
         if actions != inferred
             && let Some((_, before)) = performed(&read)
         {
-            replaced::replace(&mut found, [&inferred, &actions], [before, after]);
+            let several = self.sight.scene.language.repeat_several;
+            let actions = [&*inferred, &*actions];
+            replaced::replace(&mut found, actions, [before, after], several);
         } else if after > tuned().resynthesis.nearly {
             found.findings.push(format!(
                 "re-synthesised, the movement is {:.1} cm from the observed one",

@@ -6,7 +6,7 @@ use std::num::NonZero;
 use std::ops::Range;
 use std::thread::{available_parallelism, scope};
 
-use chereme_analysis::transcribe::{MOST_POSTURES, Performs};
+use chereme_analysis::transcribe::{MOST_TRIALS, Performs};
 use chereme_compose::notation::{Performer, Settings};
 use chereme_compose::recipe::Node;
 use chereme_compose::{Input, MaterialInput, Recipe};
@@ -46,7 +46,7 @@ impl Proving<'_, '_> {
         let step = Step {
             task: "performing",
             done: self.done.get() as u64,
-            total: Some(MOST_POSTURES.max(self.done.get()) as u64),
+            total: Some(MOST_TRIALS.max(self.done.get()) as u64),
             unit: Unit::Items,
         };
         let stopped = self.stopped.get() || self.progress.borrow_mut().report(step).is_err();

@@ -30,8 +30,7 @@ const REPEATS: [Repeat; 5] = [
     Repeat::Reverse,
 ];
 
-/// The cosine of the greatest angle between similar directions: each is similar to those that share an edge or a corner
-/// with it.
+/// The cosine of 55 degrees, the greatest angle between similar directions.
 const NEAR: f64 = 0.57;
 
 /// Returns lists of actions that differ from `actions` in one property of one action.
@@ -111,15 +110,7 @@ fn changed<T: Clone>(of: &T, change: impl FnOnce(&mut T)) -> T {
 fn repeated(action: &Motion, repeat: Repeat) -> Motion {
     Motion::new(MotionKind::Repeated {
         motion: Box::new(action.clone()),
-        repetition: Repetition {
-            repeat,
-            second: None,
-            growth: None,
-            shift: None,
-            shift_size: None,
-            shift_growth: None,
-            approx: false,
-        },
+        repetition: Repetition::plain(repeat),
     })
 }
 

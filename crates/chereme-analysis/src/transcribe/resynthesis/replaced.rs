@@ -9,19 +9,18 @@ use super::super::words::{self, WordsAndSymbols};
 use super::super::{Feature, FeatureKind, RunnerUp, Unit};
 use super::*;
 
-/// The number of times that a movement is done if it is repeated several times.
-const SEVERAL: usize = 3;
-
 /// A value that notation states about an act.
 pub(in crate::transcribe) type Stated = (FeatureKind, WordsAndSymbols);
 
 /// Replaces the features and stages of actions in a transcription, `from` the inferred actions `to` others. `before` and
 /// `after` are the deviations (m) of both from the observed movement: they become the residuals of the features that
-/// change. A finding names both movements.
+/// change. A finding names both movements. `several` is the number
+/// of times that "several times" adds to the first one.
 pub(in crate::transcribe) fn replace(
     found: &mut Transcription,
     [from, to]: [&[Motion]; 2],
     [before, after]: [f64; 2],
+    several: f64,
 ) {
     let (old, new) = (acts(from), acts(to));
     let mut features = Vec::new();
@@ -35,7 +34,12 @@ pub(in crate::transcribe) fn replace(
             .collect();
         if **old != *new {
             stage.text = words::motion(new);
-            restate(&mut own, stage, (stated(old), stated(new)), [before, after]);
+            restate(
+                &mut own,
+                stage,
+                (stated(old, several), stated(new, several)),
+                [before, after],
+            );
         }
         features.extend(own);
     }
@@ -128,11 +132,12 @@ fn restate(
     }
 }
 
-/// Returns what the notation of an act states.
-pub(in crate::transcribe) fn stated(act: &Motion) -> Vec<Stated> {
+/// Returns the values that the notation of an act states; `several` is the number of times that "several times" adds to
+/// the first one.
+pub(in crate::transcribe) fn stated(act: &Motion, several: f64) -> Vec<Stated> {
     let mut all = Vec::new();
     let mut manner = Manner::default();
-    state(act, &mut all, &mut manner);
+    state(act, &mut all, &mut manner, several);
     if !all.iter().any(|it| it.0 == FeatureKind::Movement) {
         let replacement = WordsAndSymbols::new("replacement", "");
         all.insert(0, (FeatureKind::Movement, replacement));
@@ -141,7 +146,7 @@ pub(in crate::transcribe) fn stated(act: &Motion) -> Vec<Stated> {
     all
 }
 
-fn state(motion: &Motion, all: &mut Vec<Stated>, manner: &mut Manner) {
+fn state(motion: &Motion, all: &mut Vec<Stated>, manner: &mut Manner, several: f64) {
     let own = &motion.manner;
     manner.fast |= own.fast;
     manner.slow |= own.slow;
@@ -171,19 +176,19 @@ fn state(motion: &Motion, all: &mut Vec<Stated>, manner: &mut Manner) {
         MotionKind::FingerPlay(_) => say("fingerplay"),
         MotionKind::Parallel(motions) | MotionKind::Sequence { motions, .. } => {
             for motion in motions {
-                state(motion, all, manner);
+                state(motion, all, manner, several);
             }
         }
         MotionKind::Target { motion, posture } => {
             if let Some(motion) = motion {
-                state(motion, all, manner);
+                state(motion, all, manner, several);
             }
             state_end(posture, all);
         }
         MotionKind::Repeated { motion, repetition } => {
-            state(motion, all, manner);
+            state(motion, all, manner, several);
             let times = match repetition.repeat {
-                Repeat::FromStartSeveral | Repeat::ContinueSeveral => SEVERAL,
+                Repeat::FromStartSeveral | Repeat::ContinueSeveral => 1 + several as usize,
                 _ => 2,
             };
             let repetition = words::repetition(times, repetition.repeat);

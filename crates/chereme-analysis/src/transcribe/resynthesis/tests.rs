@@ -1,4 +1,5 @@
-//! Re-synthesis by an animator that displaces every hand from its place by a known offset.
+//! Re-synthesis by simple animators: one displaces every hand from its place by a known offset, another has sizes of its
+//! own.
 
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Constellation, Contact, Digit};

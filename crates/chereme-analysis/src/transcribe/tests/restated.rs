@@ -28,7 +28,7 @@ fn notation_states_the_features_that_are_recorded() {
                 .map(|it| (it.kind, value(it.kind, &it.value), it.text.clone()))
                 .collect();
             let has_manner = recorded.iter().any(|it| it.0 == FeatureKind::Manner);
-            let stated = stated(act)
+            let stated = stated(act, 2.0)
                 .into_iter()
                 .filter(|it| has_manner || it.0 != FeatureKind::Manner);
             let mut stated: Vec<_> = stated
@@ -99,7 +99,7 @@ fn features_follow_actions_that_are_replaced() {
         frames: (0, 21),
         findings: Vec::new(),
     };
-    replace(&mut found, [&from, &to], [0.021, 0.0004]);
+    replace(&mut found, [&from, &to], [0.021, 0.0004], 2.0);
     let words: Vec<String> = found
         .features
         .iter()
