@@ -42,6 +42,9 @@ const BENDS: [Option<Bend>; 7] = [
 ];
 const OPENINGS: [Option<Opening>; 3] = [None, Some(Opening::Tight), Some(Opening::Slack)];
 
+/// Postures that differ by less than this (degrees) look the same.
+const ALIKE: f64 = 1.0;
+
 /// An entry of the table: a form with its angles in degrees.
 #[derive(Debug)]
 struct FormAngles {
@@ -87,13 +90,23 @@ impl Forms {
             add(&mut entries, entry(bare(form), 0.0));
         }
         let forms: Vec<Form> = entries.iter().map(|entry| entry.shape.form).collect();
+        let plain_forms = entries.len();
         for (n, &first) in forms.iter().enumerate() {
             for &second in &forms[n + 1..] {
                 let shape = Handshape {
                     between: Some(second),
                     ..bare(first)
                 };
-                entries.push(entry(shape, tuned().shape.costs[0]));
+                let between = entry(shape, tuned().shape.costs[0]);
+                let looks_like = |plain: &FormAngles| {
+                    let form = plain.shape.form;
+                    form.thumb == first.thumb
+                        && [first.class, second.class].contains(&form.class)
+                        && same_fingers(plain, &between)
+                };
+                if first.thumb != second.thumb || !entries[..plain_forms].iter().any(looks_like) {
+                    entries.push(between);
+                }
             }
         }
         for form in plain() {
@@ -259,7 +272,7 @@ struct Tried {
 /// Returns whether two handshapes look the same to within a fraction of a degree.
 pub(super) fn is_same(a: &Handshape, b: &Handshape, language: &BodyLanguage) -> bool {
     let degrees = |shape| hand_angles(shape, language).to_array().map(f64::to_degrees);
-    apart(&degrees(a), &degrees(b)) < 1.0
+    apart(&degrees(a), &degrees(b)) < ALIKE
 }
 
 /// Returns whether two handshapes have a form in common.
@@ -333,6 +346,16 @@ fn add(entries: &mut Vec<FormAngles>, entry: FormAngles) {
     {
         entries.push(entry);
     }
+}
+
+/// Returns whether the fingers of two forms are the same, whatever their thumbs are.
+fn same_fingers(a: &FormAngles, b: &FormAngles) -> bool {
+    let fingers = |form: &FormAngles| -> [f64; HandAngles::LEN] {
+        let mut angles = form.angles;
+        angles[..5].fill(0.0);
+        angles
+    };
+    apart(&fingers(a), &fingers(b)) < ALIKE
 }
 
 /// Returns the root of the mean square of the differences.
@@ -455,6 +478,26 @@ mod tests {
                 found.residual
             );
         }
+    }
+
+    #[test]
+    fn a_thumb_that_lies_elsewhere_on_the_folded_fingers_does_not_add_a_form() {
+        let language = BodyLanguage::usual();
+        let (forms, known) = (Forms::of(language), Known::whole());
+        let across = |class, bend| Form {
+            class,
+            bend,
+            thumb: Some(ThumbPosition::Across),
+            ..Form::default()
+        };
+        let pointing = bare(across(HandClass::Finger2, Some(Bend::Round)));
+        let thumb = hand_angles(&bare(across(HandClass::Finger23, None)), language).to_array();
+        let mut hand = hand_angles(&pointing, language).to_array();
+        for (own, other) in hand[..5].iter_mut().zip(thumb) {
+            *own = (*own + other) / 2.0;
+        }
+        let found = forms.nearest(&HandAngles::from_array(hand), &known, 1.0);
+        assert_eq!(found.expect("found").best, pointing);
     }
 
     #[test]
