@@ -13,6 +13,7 @@ mod movement;
 pub(super) mod replaced;
 #[cfg(test)]
 mod tests;
+mod unrolled;
 
 use std::cell::Cell;
 

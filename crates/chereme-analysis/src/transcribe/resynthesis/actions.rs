@@ -87,6 +87,32 @@ pub(super) fn targeting(action: &Motion, place: &Place) -> Option<Motion> {
     })
 }
 
+/// Returns a motion without the place at its end.
+pub(super) fn untargeted(motion: &Motion) -> Motion {
+    changed(motion, |other| match &mut other.kind {
+        MotionKind::Target { motion, posture } => {
+            posture.place = None;
+            match motion {
+                Some(motion) if posture.is_empty() => *other = untargeted(motion),
+                Some(motion) => **motion = untargeted(motion),
+                None => {}
+            }
+        }
+        MotionKind::Repeated { motion, .. } => **motion = untargeted(motion),
+        MotionKind::Split(a, b) => {
+            for motion in [a, b].into_iter().flatten() {
+                **motion = untargeted(motion);
+            }
+        }
+        MotionKind::Sequence { motions, .. } | MotionKind::Parallel(motions) => {
+            for motion in motions {
+                *motion = untargeted(motion);
+            }
+        }
+        _ => {}
+    })
+}
+
 /// Returns lists in which one motion is replaced by each of its `readings`.
 fn others(all: &[Motion], readings: impl Fn(&Motion) -> Vec<Motion>) -> Vec<Vec<Motion>> {
     let mut found = Vec::new();
@@ -220,13 +246,25 @@ fn kinds(of: &MotionKind) -> Vec<MotionKind> {
             let others = motions.map(|motion| (motion, repetition.repeat));
             let repeats = REPEATS.map(|repeat| (Motion::clone(motion), repeat));
             let all = others.chain(repeats);
-            all.map(|(motion, repeat)| MotionKind::Repeated {
+            let all = all.map(|(motion, repeat)| MotionKind::Repeated {
                 motion: Box::new(motion),
                 repetition: Repetition {
                     repeat,
                     ..*repetition
                 },
-            })
+            });
+            // As many times once more.
+            let second = match repetition.second {
+                Some(_) => None,
+                None => Some(repetition.repeat),
+            };
+            all.chain([MotionKind::Repeated {
+                motion: motion.clone(),
+                repetition: Repetition {
+                    second,
+                    ..*repetition
+                },
+            }])
             .collect()
         }
         MotionKind::Cross { .. }
@@ -323,19 +361,19 @@ fn ends(of: &Posture) -> Vec<Posture> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use chereme_sign::hamnosys::{Sign, from_names, parse, text_of, to_names};
 
     use super::*;
 
-    fn sign(movement: &str) -> Sign {
+    pub(in super::super) fn sign(movement: &str) -> Sign {
         let names: Vec<String> = movement.split(' ').map(|it| format!("ham{it}")).collect();
         let text = from_names(names.iter().map(String::as_str)).expect("symbols");
         parse(&text).expect("a movement").sign
     }
 
     /// Returns the symbols of actions, without their first three letters.
-    fn named(actions: Vec<Motion>) -> String {
+    pub(in super::super) fn named(actions: Vec<Motion>) -> String {
         let mut sign = Sign::default();
         sign.parts.resize_with(1, Default::default);
         sign.parts[0].actions = actions;
@@ -438,6 +476,8 @@ mod tests {
             let other = targeting(&of[0], place).expect("a path");
             assert_eq!(named(vec![other]), expected);
         }
+        let free = target.iter().map(untargeted).collect();
+        assert_eq!(named(free), "moveo");
         assert_eq!(targeting(&sign("nodding").parts[0].actions[0], place), None);
     }
 }

@@ -5,9 +5,10 @@
 //! of observed and re-synthesised hands are compared from their first frames on.
 
 use chereme_motion::HandAngles;
-use chereme_sign::hamnosys::{MotionKind, Place};
+use chereme_sign::hamnosys::{MotionKind, Place, Posture};
 
 use super::actions::{self, similar};
+use super::unrolled::unrolled;
 use super::*;
 
 /// The most whole signs that are synthesised in search of the movement of one sign.
@@ -37,16 +38,39 @@ impl Proof<'_, '_> {
         let [part] = self.inferred.parts.as_slice() else {
             return None;
         };
-        let mut actions = part.actions.clone();
-        let inferred = self.deviations(at, vec![actions.clone()]);
+        let inferred = self.deviations(at, vec![part.actions.clone()]);
         let (first, _) = inferred.into_iter().next()?;
-        let mut least = first;
+        let mut best = self.nearest(at, (first, part.actions.clone()));
+        // If the hands begin elsewhere, a place at the end of a path leads them astray.
+        let free: Vec<Motion> = part.actions.iter().map(actions::untargeted).collect();
+        if best.0 >= numbers.exact && free != part.actions {
+            let from = self.deviations(at, vec![free]);
+            let others = from.into_iter().map(|from| self.nearest(at, from));
+            best = others.fold(
+                best,
+                |best, other| if other.0 < best.0 { other } else { best },
+            );
+        }
+        let (least, actions) = best;
+        (least < numbers.convincing * first).then_some(actions)
+    }
+
+    /// Replaces one property of actions after the other, as long as the hands come nearer: returns the actions found
+    /// and their deviation (m).
+    fn nearest(
+        &self,
+        at: &Trial,
+        (mut least, mut actions): (f64, Vec<Motion>),
+    ) -> (f64, Vec<Motion>) {
+        let numbers = &tuned().resynthesis;
+        let posture = at.sign(&self.inferred).parts.swap_remove(0).posture;
         for _ in 0..numbers.moved {
             if least < numbers.exact {
                 break;
             }
             let mut others = similar(&actions);
             others.extend(self.targeted(&actions));
+            others.extend(unrolled_in(&actions, &posture));
             let best = self.deviations(at, others).into_iter();
             let best = best.min_by(|a, b| a.0.total_cmp(&b.0));
             let Some(best) = best.filter(|it| it.0 < numbers.nearer * least) else {
@@ -54,7 +78,7 @@ impl Proof<'_, '_> {
             };
             (least, actions) = best;
         }
-        (least < numbers.convincing * first).then_some(actions)
+        (least, actions)
     }
 
     /// Synthesises a trial with each list of actions. Returns the deviations (m) of those that can be synthesised.
@@ -183,4 +207,17 @@ impl Proof<'_, '_> {
             Some((ends, angles.unwrap_or_default()))
         }))
     }
+}
+
+/// Returns lists of actions in which one repeated action is written there and back; `posture` is that before the first.
+fn unrolled_in(actions: &[Motion], posture: &Posture) -> Vec<Vec<Motion>> {
+    let each = actions.iter().enumerate();
+    each.flat_map(|(k, action)| {
+        unrolled(action, posture).into_iter().map(move |other| {
+            let mut all = actions.to_vec();
+            all[k] = other;
+            all
+        })
+    })
+    .collect()
 }
