@@ -170,7 +170,7 @@ pub(crate) fn up_of(markers: &[Marker]) -> Option<Direction> {
     let mean = |words: &[&str]| {
         let (mut sum, mut count) = (DVec3::ZERO, 0.0);
         for marker in markers {
-            let name = marker.name.to_uppercase();
+            let name = split_label(&marker.name).1.to_uppercase();
             if !words.iter().any(|word| name.contains(word)) {
                 continue;
             }
@@ -185,6 +185,11 @@ pub(crate) fn up_of(markers: &[Marker]) -> Option<Direction> {
     Some(Direction::nearest(mean(&high)? - mean(&low)?))
 }
 
+/// Splits a marker's name such as `Anna:LSHO` into the subject with its colon, which may be empty, and the label.
+fn split_label(name: &str) -> (&str, &str) {
+    name.split_at(name.rfind(':').map_or(0, |colon| colon + 1))
+}
+
 /// Returns the direction from right to left, from pairs of markers whose names differ by L and R. A name of a letter and
 /// a number does not count as one of a pair: L1 and R1 may be the little and the ring finger, or a vertebra.
 fn left_of(markers: &[Marker], up: Direction) -> Option<Direction> {
@@ -197,13 +202,14 @@ fn left_of(markers: &[Marker], up: Direction) -> Option<Direction> {
             ("Left", "Right"),
             ("left", "right"),
         ] {
-            let Some(rest) = left.name.strip_prefix(from) else {
+            let (subject, label) = split_label(&left.name);
+            let Some(rest) = label.strip_prefix(from) else {
                 continue;
             };
             if !rest.chars().any(char::is_alphabetic) {
                 continue;
             }
-            let other = format!("{to}{rest}");
+            let other = format!("{subject}{to}{rest}");
             let Some(right) = markers
                 .iter()
                 .find(|it| it.name == other && it.group == left.group)
@@ -242,6 +248,20 @@ mod tests {
             pair("l_wrist", "r_wrist"),
             Some("+Z".parse().expect("a direction"))
         );
+        assert_eq!(
+            pair("Anna:LSHO", "Anna:RSHO"),
+            Some("+Z".parse().expect("a direction"))
+        );
         assert_eq!(pair("L1", "R1"), None);
+        assert_eq!(pair("Lena:LSHO", "Rita:RSHO"), None);
+    }
+
+    #[test]
+    fn the_subject_of_a_label_does_not_show_which_direction_is_up() {
+        let markers = [
+            marker("HeeSho:LFHD", DVec3::Y),
+            marker("HeeSho:LTOE", DVec3::NEG_Y),
+        ];
+        assert_eq!(up_of(&markers), Some("+Y".parse().expect("a direction")));
     }
 }

@@ -309,7 +309,7 @@ fn markers_read_back_unchanged_from_c3d() {
     let many: Vec<Marker> = (0..300)
         .map(|n| marker(&format!("M{n}"), "", n as f32))
         .collect();
-    let some = vec![marker("LFIN", "Anna", 0.25), marker("RFIN", "Anna", 7.5)];
+    let some = vec![marker("LFIN", "Anna", 7.5), marker("RFIN", "Anna", 0.25)];
     for (points, metres_per_unit) in [(some, 0.001), (many, 1.0)] {
         let space = Space::World(Convention {
             metres_per_unit,
