@@ -14,6 +14,20 @@ use crate::error::{Error, Result};
 use crate::movement::{BLOCK_FRAMES, ChannelGroup, MotionTrack};
 use crate::progress::{Progress, Step, Unit};
 
+/// Returns a note if the movement of a whole recording does not begin with it: a BVH file begins with its movement.
+pub(crate) fn late_start(connection: &Connection, stretch: &Stretch) -> Result<Option<String>> {
+    let offset = MotionTrack::of(connection, stretch.recording.id)?
+        .row
+        .offset_us;
+    if stretch.token.is_some() || offset == 0 {
+        return Ok(None);
+    }
+    Ok(Some(format!(
+        "a BVH file does not say that its movement begins {} s after its recording; import it with --offset, or the annotations are beside it",
+        offset as f64 / 1e6
+    )))
+}
+
 /// Writes the movement of a stretch of a recording, and returns the number of frames.
 ///
 /// # Errors

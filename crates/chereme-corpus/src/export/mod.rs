@@ -346,6 +346,7 @@ fn write_file(
         }
         (Format::Bvh, _) => {
             let stretch = stretch(connection, what)?;
+            notes.extend(bvh::late_start(connection, &stretch)?);
             bvh::write(connection, &stretch, out, progress).map(|_| ())
         }
         (Format::Glb, _) => {

@@ -11,7 +11,7 @@ use super::*;
 use crate::db::signs::TokenValueRow;
 use crate::{
     AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, ImportOptions, ListFilter,
-    ListKind, NewTier, TierName, unheard,
+    ListKind, NewTier, TierName, TrackChange, unheard,
 };
 
 const EAF: &str = include_str!("tests.eaf");
@@ -532,6 +532,25 @@ fn places(corpus: &Corpus) -> (Vec<String>, Vec<Vec<chereme_motion::glam::DVec3>
     let names = clip.skeleton().joints().iter().map(|it| it.name.clone());
     let frames = (0..clip.frames()).map(|at| clip.model_pose(at).positions().to_vec());
     (names.collect(), frames.collect())
+}
+
+#[test]
+fn a_bvh_file_of_movement_that_begins_late_says_what_it_lacks() {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
+    let file = captures(&own, 1 << 20).swap_remove(0);
+    let mut place = Place::new();
+    let mut corpus = place.corpus(std::slice::from_ref(&file));
+    let take = Name::Number(1);
+    let name = corpus.tracks(&take).expect("tracks")[0].name.clone();
+    for (offset_us, expected) in [(0, None), (500_000, Some("begins 0.5 s after"))] {
+        let change = TrackChange::Offset(offset_us);
+        corpus.change_track(&take, &name, &change).expect("moved");
+        let to = place.path(&format!("{offset_us}.bvh"));
+        let report = export(&corpus, &address("recording:1"), &to).expect("a BVH");
+        let notes = report.notes.join("\n");
+        assert_eq!(notes.is_empty(), expected.is_none(), "{notes}");
+        assert!(notes.contains(expected.unwrap_or_default()), "{notes}");
+    }
 }
 
 #[test]
